@@ -1,0 +1,9 @@
+//! Leaves grown from biology, as data: outline, veins, blade, contents, optics.
+//!
+//! Lengths are millimetres, angles radians, numbers `f64`. The crate knows nothing of light
+//! paths or images.
+
+pub mod blade;
+pub mod optics;
+pub mod shape;
+pub mod venation;

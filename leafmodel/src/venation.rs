@@ -1,0 +1,3 @@
+//! Veins: networks drawn towards auxin, and their widths.
+
+pub mod network;
