@@ -4,6 +4,7 @@
 //! paths or images.
 
 pub mod blade;
+pub mod leaf;
 pub mod optics;
 pub mod shape;
 pub mod venation;

@@ -1,3 +1,4 @@
 //! The flat lamina: its margin, and how it comes to be.
 
+pub mod growth_shape;
 pub mod outline;

@@ -1,1 +1,3 @@
-//! (being built)
+//! From a scene file to the immutable scene that is traced.
+
+pub mod description;

@@ -1,0 +1,321 @@
+//! A scene with names resolved to indices and units to SI: plain data, nothing built yet.
+//!
+//! Both the tracer ([`super::world`]) and the exporters read this, so both programs get one input.
+
+use std::path::PathBuf;
+
+use glam::{DMat4, DVec3};
+use leafmodel::leaf::LeafPlan;
+
+/// A whole scene.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// The scene's name: stem of the default output files.
+    pub name: String,
+    /// The scene file as written, after overrides.
+    pub source: String,
+    /// What is recorded.
+    pub film: Film,
+    /// How the PNG is made from it.
+    pub picture: Picture,
+    /// Where it is seen from.
+    pub camera: Camera,
+    /// How light is followed.
+    pub integrator: Integrator,
+    /// Materials, in the file's order.
+    pub materials: Vec<Named<Material>>,
+    /// Meshes, in the file's order.
+    pub meshes: Vec<Named<Mesh>>,
+    /// Leaves that are grown, in the file's order.
+    pub leaves: Vec<Named<Leaf>>,
+    /// Lights, in the file's order.
+    pub lights: Vec<Named<Light>>,
+    /// What stands in the scene.
+    pub objects: Vec<Named<Object>>,
+}
+
+/// A block with the name it has in the file.
+#[derive(Clone, Debug)]
+pub struct Named<T> {
+    /// Name in the scene file.
+    pub name: String,
+    /// The block.
+    pub value: T,
+}
+
+/// A spectrum as written. What it means (reflectance, radiance …) is said where it is used.
+#[derive(Clone, Debug)]
+pub enum Spectrum {
+    /// The same value at every wavelength.
+    Constant(f64),
+    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values outside.
+    Table {
+        /// (nm, value) pairs.
+        points: Vec<(f64, f64)>,
+        /// Whether the end values hold outside the table.
+        extrapolate: bool,
+    },
+    /// CIE standard illuminant D65, relative, 1 at 560 nm, times a factor.
+    D65 {
+        /// Value at 560 nm.
+        scale: f64,
+    },
+    /// Planck's law, relative, 1 at 560 nm, times a factor.
+    Blackbody {
+        /// Temperature, K.
+        kelvin: f64,
+        /// Value at 560 nm.
+        scale: f64,
+    },
+}
+
+/// What is recorded, and how well.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Seed of every random number.
+    pub seed: u64,
+    /// Radius of the Gaussian reconstruction filter in pixels; 0 is a box of one pixel.
+    pub filter_radius: f64,
+    /// Colour or bands.
+    pub kind: FilmKind,
+}
+
+/// Colour or bands.
+#[derive(Clone, Debug)]
+pub enum FilmKind {
+    /// Linear sRGB through CIE 1931 2°, from wavelengths in this range (nm).
+    Rgb {
+        /// First and last wavelength, nm.
+        range_nm: [f64; 2],
+    },
+    /// Mean spectral radiance over each band.
+    Spectral {
+        /// The bands, 1 to 32.
+        bands: Vec<Band>,
+    },
+}
+
+/// A box-shaped band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Middle, nm.
+    pub center_nm: f64,
+    /// Full width, nm; 0 is a single wavelength.
+    pub width_nm: f64,
+}
+
+/// How the PNG is made from the film.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture {
+    /// Factor 2^EV on radiance.
+    pub exposure_ev: f64,
+    /// Curve before the sRGB encoding.
+    pub tone: Tone,
+}
+
+/// Curve before the sRGB encoding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// None: colours can be measured in the PNG.
+    Linear,
+    /// Highlights roll off as on film.
+    Filmic,
+}
+
+/// A perspective camera with a thin lens.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// Middle of the lens, m.
+    pub position: DVec3,
+    /// Point that comes to the middle of the picture, m.
+    pub look_at: DVec3,
+    /// Upward direction, any length.
+    pub up: DVec3,
+    /// Vertical field of view, rad.
+    pub vertical_fov: f64,
+    /// Radius of the lens, m; 0 is a pinhole.
+    pub lens_radius: f64,
+    /// Distance of the sharp plane along the axis, m.
+    pub focus_distance: f64,
+}
+
+/// How light is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Integrator {
+    /// Most scattering events of a path; `None` is no limit.
+    pub max_depth: Option<u32>,
+    /// Russian roulette starts below this throughput; 0 switches it off.
+    pub roulette_below: f64,
+}
+
+/// What a surface is made of.
+#[derive(Clone, Debug)]
+pub enum Material {
+    /// Lambertian.
+    Diffuse {
+        /// Reflectance, 0 to 1.
+        reflectance: Spectrum,
+    },
+    /// A smooth or rough (GGX) boundary of a transparent medium.
+    Dielectric {
+        /// Refractive index inside over outside.
+        eta: f64,
+        /// GGX roughness; 0 is smooth.
+        roughness: f64,
+    },
+    /// A leaf of uniform contents or measured spectra (grown leaves bring their own maps).
+    Leaf {
+        /// What decides R and T.
+        tissue: LeafTissue,
+        /// Abaxial over adaxial reflectance.
+        abaxial_ratio: Spectrum,
+        /// Adaxial and abaxial coat.
+        coats: [Coat; 2],
+    },
+}
+
+/// What decides a leaf's R and T.
+#[derive(Clone, Debug)]
+pub enum LeafTissue {
+    /// PROSPECT-D of these contents.
+    Contents {
+        /// The contents, everywhere the same.
+        contents: leafmodel::optics::Contents,
+        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+        extrapolate: bool,
+    },
+    /// PROSPECT-D of contents read from a map: an EXR with channels `structure`, `chlorophyll`, `carotenoids`,
+    /// `anthocyanins`, `brown`, `water`, `dry_matter`.
+    Map {
+        /// The map's file, resolved and inside the scene's folder.
+        file: PathBuf,
+        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+        extrapolate: bool,
+    },
+    /// Measured spectra.
+    Measured {
+        /// Directional–hemispherical reflectance, adaxial face.
+        reflectance: Spectrum,
+        /// Directional–hemispherical transmittance.
+        transmittance: Spectrum,
+    },
+}
+
+/// The rough dielectric coat of one face of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coat {
+    /// Refractive index.
+    pub eta: f64,
+    /// GGX roughness across the main vein.
+    pub alpha_across: f64,
+    /// GGX roughness along the main vein.
+    pub alpha_along: f64,
+}
+
+/// A shape.
+#[derive(Clone, Debug)]
+pub enum Mesh {
+    /// A rectangle in the xy plane around the origin, normal +z, uv from 0 to 1.
+    Rectangle {
+        /// Extent along x, m.
+        width: f64,
+        /// Extent along y, m.
+        height: f64,
+    },
+    /// A sphere around the origin, as triangles.
+    Sphere {
+        /// Radius, m.
+        radius: f64,
+        /// Triangles around the equator and half as many from pole to pole.
+        segments: u32,
+    },
+    /// A PLY or OBJ file, resolved and inside the scene's folder.
+    File {
+        /// The file.
+        file: PathBuf,
+        /// Metres per unit of the file.
+        scale: f64,
+    },
+}
+
+/// A grown leaf: mesh, content maps and coats.
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    /// What leafmodel grows.
+    pub plan: LeafPlan,
+    /// Abaxial over adaxial reflectance.
+    pub abaxial_ratio: Spectrum,
+    /// Adaxial and abaxial coat.
+    pub coats: [Coat; 2],
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub extrapolate: bool,
+}
+
+/// A light.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A disc at infinity, like the sun.
+    Distant {
+        /// Unit vector towards the light.
+        towards: DVec3,
+        /// Angle that the disc fills, rad, > 0.
+        angular_diameter: f64,
+        /// Irradiance on a surface facing it, W m⁻² nm⁻¹.
+        irradiance: Spectrum,
+    },
+    /// The same radiance from everywhere.
+    Constant {
+        /// W m⁻² sr⁻¹ nm⁻¹.
+        radiance: Spectrum,
+    },
+    /// A latitude–longitude picture at infinity, up is +z.
+    Environment {
+        /// EXR or PNG with RGB, resolved and inside the scene's folder.
+        file: PathBuf,
+        /// Factor on the picture.
+        scale: f64,
+        /// Turn about +z, rad.
+        rotation: f64,
+        /// Spectrum that RGB 1 1 1 stands for, W m⁻² sr⁻¹ nm⁻¹.
+        white: Spectrum,
+    },
+    /// An object whose surface shines to the side of its normal.
+    Area {
+        /// The object.
+        object: usize,
+        /// W m⁻² sr⁻¹ nm⁻¹.
+        radiance: Spectrum,
+    },
+}
+
+/// A mesh or leaf put into the scene.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// What it is.
+    pub shape: ObjectShape,
+    /// Local to world, metres, affine and invertible.
+    pub to_world: DMat4,
+}
+
+/// What an object is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObjectShape {
+    /// A mesh with a material.
+    Mesh {
+        /// Index into [`Description::meshes`].
+        mesh: usize,
+        /// Index into [`Description::materials`].
+        material: usize,
+    },
+    /// A grown leaf (base at the origin, midrib along +y, adaxial side +z).
+    Leaf {
+        /// Index into [`Description::leaves`].
+        leaf: usize,
+    },
+}
