@@ -1,6 +1,17 @@
 //! The lamina in space: mesh, relief, and what the tissue holds where.
 
+mod form;
+mod relief;
+mod sites;
+
+pub mod contents_map;
+pub mod frame;
+pub mod mesh;
+pub mod mottle;
 pub mod tissue;
+pub mod triangulate;
+pub mod vein_field;
+pub mod vein_profile;
 
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,4 +32,40 @@ pub struct BladeForm {
     pub max_edge_mm: f64,
     /// Veins at least this wide (radius, mm) are edges of the mesh and have relief.
     pub meshed_vein_radius_mm: f64,
+}
+
+impl BladeForm {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`mesh::BladeError::OutOfRange`] with the first one outside its range.
+    pub fn validate(&self) -> Result<(), mesh::BladeError> {
+        let checks = [
+            ("fold", self.fold, -1.4, 1.4),
+            ("curl", self.curl, -6.2, 6.2),
+            ("ruffle", self.ruffle, 0.0, 0.5),
+            ("ruffle_waves", self.ruffle_waves, 0.0, 100.0),
+            ("relief", self.relief, 0.0, 5.0),
+            ("thickness_mm", self.thickness_mm, 1e-3, 10.0),
+            ("max_edge_mm", self.max_edge_mm, 1e-3, 1e4),
+            (
+                "meshed_vein_radius_mm",
+                self.meshed_vein_radius_mm,
+                1e-4,
+                1e3,
+            ),
+        ];
+        for (field, value, least, most) in checks {
+            if !(least..=most).contains(&value) {
+                return Err(mesh::BladeError::OutOfRange {
+                    field,
+                    value,
+                    least,
+                    most,
+                });
+            }
+        }
+        Ok(())
+    }
 }

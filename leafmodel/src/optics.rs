@@ -1,20 +1,35 @@
-//! Leaf optics: from what a leaf contains to what it reflects and transmits.
+//! Leaf optics: from what a leaf contains to what it reflects and transmits (PROSPECT-D).
+//!
+//! The leaf is a pile of `N` identical absorbing plates with rough faces. [`constituents`] holds
+//! what one unit of each constituent absorbs, [`absorption`] turns contents into the absorption
+//! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
+//! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops.
+//!
+//! - **In**: [`Contents`] per leaf area, a wavelength in nm.
+//! - **Out**: [`ReflectanceTransmittance`], both in [0, 1], for light at near-normal incidence.
+//! - **Always true**: reflectance + transmittance ≤ 1, and = 1 where nothing absorbs.
+//! - **Left out**: fluorescence, the direction in which light leaves, faces that differ.
+//!
+//! ```
+//! use leafmodel::optics::{Contents, ProspectD};
+//!
+//! let green = Contents::new(1.5, 40.0, 8.0, 0.0, 0.0, 0.01, 0.009)?;
+//! let optics = ProspectD::coefficients(550.0)?.reflectance_transmittance(&green);
+//! assert!((optics.reflectance - 0.1512).abs() < 1e-4);
+//! assert!((optics.transmittance - 0.1503).abs() < 1e-4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-/// What a leaf holds per leaf area, and its structure: PROSPECT-D's inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contents {
-    /// `N`, number of plates, real, ≥ 1.
-    pub structure: f64,
-    /// Chlorophyll a + b, µg cm⁻², ≥ 0.
-    pub chlorophyll: f64,
-    /// Carotenoids, µg cm⁻², ≥ 0.
-    pub carotenoids: f64,
-    /// Anthocyanins, µg cm⁻², ≥ 0.
-    pub anthocyanins: f64,
-    /// Brown pigments, PROSPECT's arbitrary unit, ≥ 0.
-    pub brown: f64,
-    /// Water, cm (= g cm⁻²), ≥ 0.
-    pub water: f64,
-    /// Dry matter, g cm⁻², ≥ 0.
-    pub dry_matter: f64,
-}
+pub mod absorption;
+pub mod constituents;
+pub mod contents;
+pub mod fast;
+pub mod interface;
+pub mod pile;
+pub mod plate;
+
+pub use constituents::{Coefficients, OutsideTable, ProspectD, SpecificAbsorption};
+pub use contents::{Contents, ContentsError};
+pub use interface::Interface;
+pub use pile::ReflectanceTransmittance;
+pub use plate::layer_transmissivity;

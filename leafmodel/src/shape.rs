@@ -1,4 +1,8 @@
 //! The flat lamina: its margin, and how it comes to be.
 
+mod cell_rows;
+mod crossing;
 pub mod growth_shape;
+mod outer_boundary;
 pub mod outline;
+mod slabs;

@@ -1,6 +1,15 @@
 //! The graph that every venation algorithm builds.
+//!
+//! - **In**: positions of nodes and the edges between them, from older to younger tissue.
+//! - **Out**: nodes, edges with radius and order, segments in millimetres, counts.
+//! - **Always true**: see [`VenationNetwork::validate`].
+//!
+//! Numbers of nodes and edges are given in order of birth and never change while a network grows:
+//! the network of an earlier step is made of the first nodes of a later one (an edge may since have
+//! been subdivided).
 
 use glam::DVec2;
+use thiserror::Error;
 
 /// A piece of vein between two neighbouring nodes, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +20,214 @@ pub struct VeinSegment {
     pub to: DVec2,
     /// Radius of the vein at `from`, > 0.
     pub radius_from: f64,
-    /// Radius of the vein at `to`, > 0.
+    /// Radius of the vein at `to`, > 0, at most `radius_from`.
     pub radius_to: f64,
     /// Vein order: 1 for the midrib and other primaries, then upwards.
     pub order: u8,
+}
+
+/// A point of a vein.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VeinNode {
+    /// Where it is, mm, in the frame of the outline.
+    pub position: DVec2,
+    /// Step of the simulation that brought it.
+    pub born: u32,
+}
+
+/// A piece of vein by the numbers of its nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VeinEdge {
+    /// Node nearer to the petiole: the older tissue.
+    pub from: u32,
+    /// Node farther from the petiole.
+    pub to: u32,
+    /// Radius at `from`, mm, > 0.
+    pub radius_from: f64,
+    /// Radius at `to`, mm, > 0, at most `radius_from`.
+    pub radius_to: f64,
+    /// Vein order: 1 for the midrib and other primaries, then upwards.
+    pub order: u8,
+}
+
+/// How a simulation came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// No source was left that could still draw a vein.
+    Settled,
+    /// The pattern had not settled after far more steps than veins need to cross the leaf.
+    StepLimit,
+}
+
+/// The veins of one leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VenationNetwork {
+    pub(crate) nodes: Vec<VeinNode>,
+    pub(crate) edges: Vec<VeinEdge>,
+    pub(crate) steps: u32,
+    pub(crate) sources: u32,
+    pub(crate) segment_mm: f64,
+    pub(crate) ending: Ending,
+}
+
+/// What is wrong with a network. No network from [`super::grow`] has any of it.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum NetworkError {
+    /// An edge names a node that is not there, or one node twice.
+    #[error("edge {edge} does not join two nodes of the network")]
+    BadEdge {
+        /// Number of the edge.
+        edge: usize,
+    },
+    /// A position or a radius is not finite, or a radius not above 0 or growing away from the petiole.
+    #[error("edge {edge} has a bad position or radius")]
+    BadNumber {
+        /// Number of the edge.
+        edge: usize,
+    },
+    /// An edge has no length.
+    #[error("edge {edge} has no length")]
+    NoLength {
+        /// Number of the edge.
+        edge: usize,
+    },
+    /// The same two nodes are joined twice.
+    #[error("edge {edge} joins two nodes that are joined already")]
+    Twice {
+        /// Number of the second edge.
+        edge: usize,
+    },
+    /// Following edges away from the petiole leads back to where one came from.
+    #[error("the edges about node {node} run in a circle")]
+    Circle {
+        /// Number of a node on or behind the circle.
+        node: usize,
+    },
+    /// Order 0.
+    #[error("edge {edge} has order 0; orders start at 1")]
+    NoOrder {
+        /// Number of the edge.
+        edge: usize,
+    },
+}
+
+impl VenationNetwork {
+    /// The nodes, by number; the first are those the veins started from.
+    pub fn nodes(&self) -> &[VeinNode] {
+        &self.nodes
+    }
+
+    /// The edges, by number of the node they lead to.
+    pub fn edges(&self) -> &[VeinEdge] {
+        &self.edges
+    }
+
+    /// All pieces of vein, in the order of the edges.
+    pub fn segments(&self) -> impl Iterator<Item = VeinSegment> + '_ {
+        self.edges.iter().map(|edge| VeinSegment {
+            from: self.nodes[edge.from as usize].position,
+            to: self.nodes[edge.to as usize].position,
+            radius_from: edge.radius_from,
+            radius_to: edge.radius_to,
+            order: edge.order,
+        })
+    }
+
+    /// Steps that the simulation took.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// Auxin sources that appeared in the course of it.
+    pub fn sources(&self) -> u32 {
+        self.sources
+    }
+
+    /// Length `D` of a vein segment at the end of growth, mm.
+    pub fn segment_mm(&self) -> f64 {
+        self.segment_mm
+    }
+
+    /// How the simulation ended.
+    pub fn ending(&self) -> Ending {
+        self.ending
+    }
+
+    /// Connected pieces of the network, ≥ 1.
+    pub fn components(&self) -> usize {
+        let mut leaders: Vec<u32> = (0..self.nodes.len() as u32).collect();
+        let find = |leaders: &mut Vec<u32>, mut node: u32| {
+            while leaders[node as usize] != node {
+                let next = leaders[leaders[node as usize] as usize];
+                leaders[node as usize] = next;
+                node = next;
+            }
+            node
+        };
+        let mut components = self.nodes.len();
+        for edge in &self.edges {
+            let (from, to) = (find(&mut leaders, edge.from), find(&mut leaders, edge.to));
+            if from != to {
+                leaders[from.max(to) as usize] = from.min(to);
+                components -= 1;
+            }
+        }
+        components
+    }
+
+    /// Independent loops: edges − nodes + components. In a network whose veins do not cross these are its areoles.
+    pub fn loops(&self) -> usize {
+        self.edges.len() + self.components() - self.nodes.len()
+    }
+
+    /// Length of all veins, mm.
+    pub fn vein_length_mm(&self) -> f64 {
+        self.segments().map(|s| (s.to - s.from).length()).sum()
+    }
+
+    /// Checks what every network must satisfy: edges join two different nodes, never the same two
+    /// twice, never in a circle; every edge has a length, an order from 1, and radii that are finite, above 0
+    /// and do not grow away from the petiole.
+    ///
+    /// # Errors
+    ///
+    /// [`NetworkError`], the first found.
+    pub fn validate(&self) -> Result<(), NetworkError> {
+        let count = self.nodes.len();
+        for (edge, e) in self.edges.iter().enumerate() {
+            if e.from == e.to || e.from.max(e.to) as usize >= count {
+                return Err(NetworkError::BadEdge { edge });
+            }
+            let (from, to) = (self.nodes[e.from as usize], self.nodes[e.to as usize]);
+            let radii =
+                e.radius_from.is_finite() && e.radius_to > 0.0 && e.radius_from >= e.radius_to;
+            if !(radii && from.position.is_finite() && to.position.is_finite()) {
+                return Err(NetworkError::BadNumber { edge });
+            }
+            if from.position == to.position {
+                return Err(NetworkError::NoLength { edge });
+            }
+            if e.order == 0 {
+                return Err(NetworkError::NoOrder { edge });
+            }
+        }
+        let mut pairs: Vec<(u32, u32, usize)> = self
+            .edges
+            .iter()
+            .enumerate()
+            .map(|(edge, e)| (e.from.min(e.to), e.from.max(e.to), edge))
+            .collect();
+        pairs.sort_unstable();
+        if let Some(pair) = pairs
+            .windows(2)
+            .find(|p| (p[0].0, p[0].1) == (p[1].0, p[1].1))
+        {
+            return Err(NetworkError::Twice { edge: pair[1].2 });
+        }
+        let edges: Vec<[u32; 2]> = self.edges.iter().map(|e| [e.from, e.to]).collect();
+        match super::topology::Topology::new(count, &edges).base_to_tip() {
+            Ok(_) => Ok(()),
+            Err(node) => Err(NetworkError::Circle { node }),
+        }
+    }
 }

@@ -1,0 +1,158 @@
+//! Patches that differ a little: smooth noise over the lamina.
+
+use glam::DVec2;
+
+/// Gradient noise of two octaves with values in [−1, 1], mean 0, continuous with its second derivative.
+///
+/// Gradients sit on the corners of a square lattice (Perlin 1985), one of 16 directions each, taken from a hash
+/// of seed, octave and corner; between corners a quintic blends them (Perlin 2002). The second octave has half
+/// the size and half the height.
+///
+/// \[perlin1985\] ACM SIGGRAPH 19(3):287; \[perlin2002\] ACM TOG 21(3):681.
+#[derive(Clone, Copy, Debug)]
+pub struct Mottle {
+    seed: u64,
+    scale_mm: f64,
+}
+
+/// Cosines of 0, 22.5, 45, 67.5 and 90°.
+const COSINES: [f64; 5] = [
+    1.0,
+    0.923_879_532_511_286_7,
+    std::f64::consts::FRAC_1_SQRT_2,
+    0.382_683_432_365_089_8,
+    0.0,
+];
+
+impl Mottle {
+    /// Noise whose patches are about `scale_mm` (> 0) wide.
+    #[must_use]
+    pub fn new(seed: u64, scale_mm: f64) -> Self {
+        Self { seed, scale_mm }
+    }
+
+    /// The noise at a point given in millimetres, in [−1, 1].
+    #[must_use]
+    pub fn at(&self, point: DVec2) -> f64 {
+        // One lattice cell holds about half a wave.
+        let place = point / self.scale_mm;
+        let sum = (self.octave(0, place) + 0.5 * self.octave(1, 2.0 * place)) / 1.5;
+        // Gradient noise seldom comes near its bounds; this spreads it, with slope 3/2 at 0 and 0 at ±1.
+        let bounded = sum.clamp(-1.0, 1.0);
+        bounded * (1.5 - 0.5 * bounded * bounded)
+    }
+
+    /// One octave on the unit lattice, in [−1, 1].
+    fn octave(&self, octave: u64, place: DVec2) -> f64 {
+        let corner = place.floor();
+        let inside = place - corner;
+        let (column, row) = (corner.x as i64, corner.y as i64);
+        let pull = |i: i64, j: i64| {
+            let gradient =
+                direction(self.hash(octave, column.wrapping_add(i), row.wrapping_add(j)));
+            gradient.dot(inside - DVec2::new(i as f64, j as f64))
+        };
+        let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+        let (x, y) = (fade(inside.x), fade(inside.y));
+        let low = pull(0, 0) + x * (pull(1, 0) - pull(0, 0));
+        let high = pull(0, 1) + x * (pull(1, 1) - pull(0, 1));
+        // With unit gradients the bound is √½, reached in the middle of a cell.
+        std::f64::consts::SQRT_2 * (low + y * (high - low))
+    }
+
+    /// 64 well mixed bits for a corner: the finaliser of `SplitMix64` (Steele et al. 2014) over each number in turn.
+    fn hash(&self, octave: u64, column: i64, row: i64) -> u64 {
+        [octave, column as u64, row as u64]
+            .into_iter()
+            .fold(self.seed, |state, number| {
+                let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
+                z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+                z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+                z ^ (z >> 31)
+            })
+    }
+}
+
+/// One of 16 unit vectors, evenly around the circle.
+fn direction(bits: u64) -> DVec2 {
+    let step = (bits >> 60) as usize;
+    let (quarter, part) = (step / 4, step % 4);
+    let (c, s) = (COSINES[part], COSINES[4 - part]);
+    match quarter {
+        0 => DVec2::new(c, s),
+        1 => DVec2::new(-s, c),
+        2 => DVec2::new(-c, -s),
+        _ => DVec2::new(s, -c),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(mottle: Mottle) -> Vec<f64> {
+        (0..10_000)
+            .map(|i| {
+                let (column, row) = (i % 100, i / 100);
+                mottle.at(DVec2::new(
+                    f64::from(column) * 0.37 - 20.0,
+                    f64::from(row) * 0.41,
+                ))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn values_stay_in_bounds_average_to_nothing_and_vary() {
+        let values = samples(Mottle::new(5, 1.0));
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let variance = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
+        assert!(values.iter().all(|v| v.abs() <= 1.0));
+        // 10⁴ samples, of which about one a lattice cell (1500 cells) is independent.
+        assert!(mean.abs() < 4.0 * (variance / 1500.0).sqrt(), "{mean}");
+        assert!((0.2..0.6).contains(&variance.sqrt()), "{variance}");
+    }
+
+    #[test]
+    fn another_seed_is_another_pattern_and_the_same_seed_the_same_bits() {
+        let bits = |seed| -> Vec<u64> {
+            samples(Mottle::new(seed, 1.0))
+                .into_iter()
+                .map(f64::to_bits)
+                .collect()
+        };
+        assert_eq!(bits(7), bits(7));
+        let equal = bits(7)
+            .iter()
+            .zip(bits(8))
+            .filter(|(a, b)| **a == *b)
+            .count();
+        assert!(equal < 100, "{equal}");
+    }
+
+    #[test]
+    fn there_is_no_step_across_the_lattice() {
+        let mottle = Mottle::new(3, 2.0);
+        for i in 0..200 {
+            let along = f64::from(i) * 0.137;
+            for (low, high) in [
+                (DVec2::new(4.0 - 1e-9, along), DVec2::new(4.0 + 1e-9, along)),
+                (
+                    DVec2::new(along, -2.0 - 1e-9),
+                    DVec2::new(along, -2.0 + 1e-9),
+                ),
+            ] {
+                assert!((mottle.at(low) - mottle.at(high)).abs() < 1e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn gradients_have_length_one_in_sixteen_directions() {
+        let all: Vec<DVec2> = (0..16).map(|step| direction(step << 60)).collect();
+        for (i, one) in all.iter().enumerate() {
+            assert!((one.length() - 1.0).abs() < 1e-15);
+            assert!(all[..i].iter().all(|other| (*other - *one).length() > 0.3));
+        }
+    }
+}

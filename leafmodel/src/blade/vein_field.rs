@@ -1,0 +1,335 @@
+//! How far veins cover the lamina at any point of it.
+
+use glam::DVec2;
+
+use super::tissue::{Tissue, TissueError};
+use super::vein_profile::{Profile, strength};
+use crate::venation::network::VeinSegment;
+
+/// Share that veins have in the tissue at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VeinCover {
+    /// 0 between veins to 1 over a fully developed one; finer veins reach less.
+    pub weight: f64,
+    /// `r / r_full − 1` on the axis of a vein of radius `r > r_full`, falling to 0 at its edge; 0 elsewhere.
+    pub excess: f64,
+}
+
+impl VeinCover {
+    const NONE: Self = Self {
+        weight: 0.0,
+        excess: 0.0,
+    };
+
+    fn strongest(self, other: Self) -> Self {
+        Self {
+            weight: self.weight.max(other.weight),
+            excess: self.excess.max(other.excess),
+        }
+    }
+}
+
+/// The veins of a leaf, sorted into a uniform grid of cells that each know every segment within reach.
+///
+/// A query looks at one cell only and is exact: it gives what a search over all segments would, to the bit.
+#[derive(Clone, Debug)]
+pub struct VeinField {
+    profile: Profile,
+    full_radius: f64,
+    segments: Vec<Segment>,
+    origin: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Cell `i` holds `entries[starts[i]..starts[i + 1]]`.
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+}
+
+/// A vein segment made ready for many distances.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    from: DVec2,
+    along: DVec2,
+    /// `1 / |along|²`, or 0 for a segment without length.
+    inverse_square: f64,
+    radius_from: f64,
+    radius_growth: f64,
+    reach: f64,
+}
+
+impl Segment {
+    fn new(vein: &VeinSegment, profile: Profile, full_radius: f64) -> Self {
+        let along = vein.to - vein.from;
+        let square = along.length_squared();
+        let widest = vein.radius_from.max(vein.radius_to);
+        let mut reach = profile.reach(widest);
+        if widest > full_radius {
+            reach = reach.max(profile.excess_reach(widest));
+        }
+        Self {
+            from: vein.from,
+            along,
+            inverse_square: if square > 0.0 { 1.0 / square } else { 0.0 },
+            radius_from: vein.radius_from,
+            radius_growth: vein.radius_to - vein.radius_from,
+            reach,
+        }
+    }
+
+    /// Squared distance to the axis, and where along it the nearest point lies (0 to 1).
+    fn nearest(&self, point: DVec2) -> (f64, f64) {
+        let offset = point - self.from;
+        let t = (offset.dot(self.along) * self.inverse_square).clamp(0.0, 1.0);
+        ((offset - t * self.along).length_squared(), t)
+    }
+
+    fn cover(&self, point: DVec2, profile: Profile, full_radius: f64) -> VeinCover {
+        let (square, t) = self.nearest(point);
+        if square >= self.reach * self.reach {
+            return VeinCover::NONE;
+        }
+        let distance = square.sqrt();
+        let radius = self.radius_from + t * self.radius_growth;
+        VeinCover {
+            weight: strength(radius, full_radius) * profile.weight(distance, radius),
+            excess: profile.excess(distance, radius, full_radius),
+        }
+    }
+}
+
+impl VeinField {
+    /// Sorts the veins. With `texel_mm` > 0 the field is averaged over texels of that width, so that veins thinner
+    /// than a texel are neither lost nor broken; with 0 it is the field itself.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or a radius not
+    /// above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
+    pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
+        tissue.validate()?;
+        let valid = (0.0..=1e5).contains(&texel_mm);
+        TissueError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
+        veins.iter().try_for_each(check)?;
+        let profile = Profile {
+            sheath: tissue.sheath_width_mm,
+            texel: texel_mm,
+        };
+        let full_radius = tissue.full_vein_radius_mm;
+        let segments: Vec<Segment> = veins
+            .iter()
+            .map(|vein| Segment::new(vein, profile, full_radius))
+            .collect();
+        Ok(Self::sort(segments, profile, full_radius))
+    }
+
+    fn sort(segments: Vec<Segment>, profile: Profile, full_radius: f64) -> Self {
+        let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for segment in &segments {
+            let (low, high) = bounds(segment);
+            min = min.min(low);
+            max = max.max(high);
+        }
+        if segments.is_empty() {
+            (min, max) = (DVec2::ZERO, DVec2::ZERO);
+        }
+        let size = max - min;
+        // About a cell a segment, none much smaller than what the finest veins reach anyway, and never
+        // more than 4096 a side.
+        let even = (size.x * size.y / segments.len().max(1) as f64).sqrt();
+        let cell = even
+            .max(0.5 * (profile.sheath + profile.texel))
+            .max(size.max_element() / 4096.0);
+        let mut field = Self {
+            profile,
+            full_radius,
+            segments,
+            origin: min,
+            cell,
+            columns: (size.x / cell) as usize + 1,
+            rows: (size.y / cell) as usize + 1,
+            starts: Vec::new(),
+            entries: Vec::new(),
+        };
+        let mut starts = vec![0_u32; field.columns * field.rows + 1];
+        field.each_cell_in_reach(|_, cell| starts[cell + 1] += 1);
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut free = starts.clone();
+        let mut entries = vec![0; starts.last().map_or(0, |&count| count as usize)];
+        field.each_cell_in_reach(|segment, cell| {
+            entries[free[cell] as usize] = segment;
+            free[cell] += 1;
+        });
+        (field.starts, field.entries) = (starts, entries);
+        field
+    }
+
+    /// Calls `visit` with each segment's index and each cell that comes within the segment's reach.
+    fn each_cell_in_reach(&self, mut visit: impl FnMut(u32, usize)) {
+        // From a cell's centre to its corner, and a little for rounding.
+        let corner = self.cell * std::f64::consts::FRAC_1_SQRT_2 * (1.0 + 1e-9);
+        for (index, segment) in self.segments.iter().enumerate() {
+            let (low, high) = bounds(segment);
+            let (first, last) = (self.cell_of(low), self.cell_of(high));
+            let limit = segment.reach + corner;
+            for row in first.1..=last.1 {
+                for column in first.0..=last.0 {
+                    let centre =
+                        self.origin + self.cell * DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+                    if segment.nearest(centre).0 <= limit * limit {
+                        visit(index as u32, row * self.columns + column);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Column and row of the cell that holds a point; the nearest cell for points outside the grid.
+    fn cell_of(&self, point: DVec2) -> (usize, usize) {
+        // A float below 0 becomes the index 0.
+        let place = (point - self.origin) / self.cell;
+        (
+            (place.x as usize).min(self.columns - 1),
+            (place.y as usize).min(self.rows - 1),
+        )
+    }
+
+    /// How far veins cover the tissue at a point given in millimetres: the strongest of those nearby.
+    #[must_use]
+    pub fn cover(&self, point: DVec2) -> VeinCover {
+        // Outside the grid nothing reaches, and the nearest cell's segments say so themselves.
+        let (column, row) = self.cell_of(point);
+        let cell = row * self.columns + column;
+        let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
+        self.entries[start..end]
+            .iter()
+            .map(|&index| {
+                self.segments[index as usize].cover(point, self.profile, self.full_radius)
+            })
+            .fold(VeinCover::NONE, VeinCover::strongest)
+    }
+}
+
+/// The box that a segment and its reach fill.
+fn bounds(segment: &Segment) -> (DVec2, DVec2) {
+    let to = segment.from + segment.along;
+    (
+        segment.from.min(to) - segment.reach,
+        segment.from.max(to) + segment.reach,
+    )
+}
+
+fn check(vein: &VeinSegment) -> Result<(), TissueError> {
+    for value in [vein.from.x, vein.from.y, vein.to.x, vein.to.y] {
+        let valid = value.abs() <= 1e5;
+        TissueError::unless(valid, "vein coordinate", value, "within ±100000 mm")?;
+    }
+    for value in [vein.radius_from, vein.radius_to] {
+        let valid = value > 0.0 && value <= 1000.0;
+        TissueError::unless(valid, "vein radius", value, "above 0, to 1000 mm")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::tissue::tests::GREEN;
+    use super::*;
+
+    fn vein(from: [f64; 2], to: [f64; 2], radius_from: f64, radius_to: f64) -> VeinSegment {
+        VeinSegment {
+            from: DVec2::from(from),
+            to: DVec2::from(to),
+            radius_from,
+            radius_to,
+            order: 1,
+        }
+    }
+
+    fn over_all(field: &VeinField, point: DVec2) -> VeinCover {
+        field
+            .segments
+            .iter()
+            .map(|segment| segment.cover(point, field.profile, field.full_radius))
+            .fold(VeinCover::NONE, VeinCover::strongest)
+    }
+
+    fn any_vein() -> impl Strategy<Value = VeinSegment> {
+        let place = || [-10.0..10.0, -10.0..10.0];
+        let length = || [-3.0..3.0, -3.0..3.0];
+        let radius = || 0.01..0.8;
+        (place(), length(), radius(), radius()).prop_map(|(from, along, start, end)| {
+            vein(from, [from[0] + along[0], from[1] + along[1]], start, end)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn the_grid_gives_what_a_search_over_all_veins_gives(
+            veins in prop::collection::vec(any_vein(), 0..60),
+            points in prop::collection::vec([-14.0..14.0, -14.0..14.0], 100),
+            texel in prop::sample::select(vec![0.0, 0.05, 1.0]),
+        ) {
+            let field = VeinField::new(&veins, &GREEN, texel).expect("all in range");
+            // Ends of veins too: there the distance changes its formula.
+            let ends = veins.iter().flat_map(|vein| [vein.from, vein.to]);
+            for point in points.into_iter().map(DVec2::from).chain(ends) {
+                prop_assert_eq!(field.cover(point), over_all(&field, point));
+            }
+        }
+    }
+
+    #[test]
+    fn a_vein_covers_its_axis_by_its_strength_and_nothing_far_away() {
+        let veins = [
+            vein([0.0, 0.0], [0.0, 10.0], 0.5, 0.5),
+            vein([5.0, 0.0], [5.0, 10.0], 0.0625, 0.0625),
+        ];
+        let field = VeinField::new(&veins, &GREEN, 0.0).expect("all in range");
+        let at = |x| field.cover(DVec2::new(x, 5.0));
+        assert_eq!((at(0.0).weight, at(0.0).excess), (1.0, 1.0));
+        assert_eq!((at(5.0).weight, at(5.0).excess), (0.5, 0.0));
+        assert_eq!(at(2.0), VeinCover::NONE);
+        assert_eq!(at(1e4), VeinCover::NONE);
+    }
+
+    #[test]
+    fn a_tapering_vein_has_the_radius_of_the_nearest_point_of_its_axis() {
+        let veins = [vein([0.0, 0.0], [10.0, 0.0], 0.25, 1.25)];
+        let field = VeinField::new(&veins, &GREEN, 0.0).expect("all in range");
+        assert_eq!(field.cover(DVec2::new(5.0, 0.0)).excess, 2.0);
+        assert_eq!(field.cover(DVec2::new(5.0, 0.75)).weight, 1.0);
+    }
+
+    #[test]
+    fn a_vein_without_length_is_a_dot() {
+        let field = VeinField::new(&[vein([1.0, 1.0], [1.0, 1.0], 0.25, 0.25)], &GREEN, 0.0)
+            .expect("all in range");
+        assert_eq!(field.cover(DVec2::new(1.2, 1.0)).weight, 1.0);
+        assert_eq!(field.cover(DVec2::new(2.0, 1.0)), VeinCover::NONE);
+    }
+
+    #[test]
+    fn veins_out_of_range_are_refused() {
+        for (bad, field) in [
+            (
+                vein([f64::NAN, 0.0], [1.0, 0.0], 0.1, 0.1),
+                "vein coordinate",
+            ),
+            (vein([0.0, 0.0], [1.0, 1e6], 0.1, 0.1), "vein coordinate"),
+            (vein([0.0, 0.0], [1.0, 0.0], 0.0, 0.1), "vein radius"),
+            (
+                vein([0.0, 0.0], [1.0, 0.0], 0.1, f64::INFINITY),
+                "vein radius",
+            ),
+        ] {
+            let error = VeinField::new(&[bad], &GREEN, 0.0).expect_err("out of range");
+            assert_eq!(error.field, field);
+        }
+        assert!(VeinField::new(&[], &GREEN, f64::NAN).is_err());
+    }
+}

@@ -1,0 +1,116 @@
+//! Optical depth `−ln τ(K)` of a layer, from a table of polynomials.
+//!
+//! `g(K) = −ln τ(K) / K` falls from 2 (diffuse light without absorption travels twice the thickness)
+//! towards 1. It is smooth in `ln K`, so equal numbers of intervals go to each octave of `K`: the upper
+//! bits of the floating-point number are the interval's index.
+
+use std::sync::OnceLock;
+
+use crate::optics::plate::{layer_absorptance, layer_transmissivity};
+
+/// Lowest exponent of the table: below 2^−26 `g` is within 3e-7 of its limit 2.
+const FIRST_OCTAVE: i32 = -26;
+/// First exponent above the table: at 2^7 nothing measurable passes.
+const END_OCTAVE: i32 = 7;
+/// Intervals an octave, as a power of two.
+const SPLIT_BITS: u32 = 3;
+const SPLITS: usize = 1 << SPLIT_BITS;
+const INTERVALS: usize = (END_OCTAVE - FIRST_OCTAVE) as usize * SPLITS;
+const TERMS: usize = 6;
+
+/// Coefficients of `g` in rising powers of the place inside the interval, −1 to 1.
+type Interval = [f64; TERMS];
+
+/// `−ln τ(k)` for `k ≥ 0`, in `[k, 2k]`; relative error below 1e-9 for k in 1e-6 to 30.
+#[inline]
+pub(super) fn optical_depth(k: f64) -> f64 {
+    let inside = k.clamp(power_of_two(FIRST_OCTAVE), LAST);
+    let bits = inside.to_bits();
+    let shift = 52 - SPLIT_BITS;
+    let first = (((1023 + FIRST_OCTAVE) as u64) << SPLIT_BITS) as usize;
+    let index = ((bits >> shift) as usize - first).min(INTERVALS - 1);
+    // The remaining bits of the mantissa, read as a number from 1 to 1 + 1/SPLITS.
+    let rest = (bits & ((1 << shift) - 1)) | (1023 << 52);
+    let x = (f64::from_bits(rest) - 1.0) * (2 * SPLITS) as f64 - 1.0;
+    let [a, b, c, d, e, f] = table()[index];
+    let x2 = x * x;
+    let g = (a + b * x) + x2 * ((c + d * x) + x2 * (e + f * x));
+    k * g
+}
+
+/// Just below 2^7, the end of the table.
+const LAST: f64 = 127.999_999_999_999_98;
+
+const fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+fn table() -> &'static [Interval; INTERVALS] {
+    static TABLE: OnceLock<Box<[Interval; INTERVALS]>> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut table = Box::new([[0.0; TERMS]; INTERVALS]);
+        for (octave, intervals) in (FIRST_OCTAVE..END_OCTAVE).zip(table.chunks_exact_mut(SPLITS)) {
+            let width = power_of_two(octave) / SPLITS as f64;
+            for (split, interval) in intervals.iter_mut().enumerate() {
+                let low = width * (SPLITS + split) as f64;
+                *interval = fit(|x| relative_depth(low + width * (x + 1.0) / 2.0));
+            }
+        }
+        table
+    })
+}
+
+/// `−ln τ(k) / k`, exact.
+fn relative_depth(k: f64) -> f64 {
+    if k < 0.5 {
+        -libm::log1p(-layer_absorptance(k)) / k
+    } else {
+        -libm::log(layer_transmissivity(k)) / k
+    }
+}
+
+/// The polynomial of degree 5 through `f` at the six Chebyshev points of [−1, 1].
+fn fit(f: impl Fn(f64) -> f64) -> Interval {
+    let nodes: [f64; TERMS] =
+        std::array::from_fn(|j| libm::cos(std::f64::consts::PI * (j as f64 + 0.5) / TERMS as f64));
+    // Newton's divided differences, then expanded into powers.
+    let mut divided = nodes.map(f);
+    for level in 1..TERMS {
+        for j in (level..TERMS).rev() {
+            divided[j] = (divided[j] - divided[j - 1]) / (nodes[j] - nodes[j - level]);
+        }
+    }
+    let mut powers = [0.0; TERMS];
+    for j in (0..TERMS).rev() {
+        // powers ← powers · (x − node) + divided
+        for p in (1..TERMS).rev() {
+            powers[p] = powers[p - 1] - nodes[j] * powers[p];
+        }
+        powers[0] = divided[j] - nodes[j] * powers[0];
+    }
+    powers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_depth_is_the_logarithm_of_the_transmissivity() {
+        for step in 0..20_000 {
+            let k = 10f64.powf(-6.0 + 7.5 * f64::from(step) / 20_000.0);
+            let exact = relative_depth(k) * k;
+            let error = (optical_depth(k) - exact).abs() / exact;
+            assert!(error < 1e-9, "K = {k}: relative error {error}");
+        }
+    }
+
+    #[test]
+    fn the_ends_are_finite() {
+        assert_eq!(optical_depth(0.0), 0.0);
+        for k in [f64::MIN_POSITIVE, 1e-100, 127.999, 128.0, 129.0, 1e300] {
+            let ratio = optical_depth(k) / k;
+            assert!((1.0..=2.0).contains(&ratio), "K = {k}: {ratio}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Where edges of a polygon cross or touch.
+
+use glam::DVec2;
+
+use super::slabs::Slabs;
+
+/// Two edges of the closed polygon that cross or touch apart from the corner that neighbours
+/// share, or `None` for a simple polygon. Only edges of a common slab whose x-ranges overlap are
+/// compared: `O(n √n)` for a comb, about `n log n` for ordinary margins.
+pub(crate) fn first_crossing(points: &[DVec2], slabs: &Slabs) -> Option<(usize, usize)> {
+    let n = points.len();
+    let ends = |i: usize| (points[i], points[(i + 1) % n]);
+    let mut by_left: Vec<(f64, f64, usize)> = Vec::new();
+    for slab in 0..slabs.count() {
+        by_left.clear();
+        by_left.extend(slabs.edges(slab).iter().map(|&i| {
+            let (a, b) = ends(i as usize);
+            (a.x.min(b.x), a.x.max(b.x), i as usize)
+        }));
+        by_left.sort_unstable_by(|p, q| p.0.total_cmp(&q.0).then(p.2.cmp(&q.2)));
+        for (k, &(_, right, i)) in by_left.iter().enumerate() {
+            for &(left, _, j) in &by_left[k + 1..] {
+                if left > right {
+                    break;
+                }
+                let (first, second) = (i.min(j), i.max(j));
+                let wrong = if second == first + 1 {
+                    folds_back(points[first], points[second], points[(second + 1) % n])
+                } else if first == 0 && second == n - 1 {
+                    folds_back(points[second], points[0], points[1])
+                } else {
+                    meet(ends(first), ends(second))
+                };
+                if wrong {
+                    return Some((first, second));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Twice the signed area of a triangle: positive if it is counter-clockwise.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+/// Whether the path a → b → c returns upon itself at b.
+fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
+    turn(a, b, c) == 0.0 && (b - a).dot(c - b) < 0.0
+}
+
+/// Whether two closed segments have a point in common.
+fn meet((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
+    let (abc, abd) = (turn(a, b, c), turn(a, b, d));
+    let (cda, cdb) = (turn(c, d, a), turn(c, d, b));
+    let apart = |p: f64, q: f64| (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0);
+    if apart(abc, abd) || apart(cda, cdb) {
+        return false;
+    }
+    if abc == 0.0 && abd == 0.0 && cda == 0.0 && cdb == 0.0 {
+        // On one line: they meet if their boxes do.
+        let (low, high) = (a.min(b), a.max(b));
+        let (other_low, other_high) = (c.min(d), c.max(d));
+        return low.cmple(other_high).all() && other_low.cmple(high).all();
+    }
+    true
+}
+
+/// Where the segments a–b and c–d cross in their interiors, as shares of either.
+pub(crate) fn crossing(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<(f64, f64)> {
+    let opposite = |p: f64, q: f64| (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0);
+    let (abc, abd) = (turn(a, b, c), turn(a, b, d));
+    if !opposite(abc, abd) {
+        return None;
+    }
+    let (cda, cdb) = (turn(c, d, a), turn(c, d, b));
+    opposite(cda, cdb).then(|| (cda / (cda - cdb), abc / (abc - abd)))
+}

@@ -1,0 +1,171 @@
+//! Where auxin sources are put: dart throwing (section 3.3).
+//!
+//! Diffuse growth throws darts at the whole lamina in every step until it ends, and a lamina that does not
+//! grow gets darts in every step until there is no room left. Marginal growth
+//! brings new tissue at the margin only: its darts are thrown beforehand at the full-grown leaf,
+//! and each source appears when the margin passes over it.
+
+use glam::DVec2;
+
+use super::chance::{Use, uniform};
+use super::lamina_clock::LaminaClock;
+use super::plan::{Growth, VenationPlan};
+use super::point_tree::PointTree;
+use crate::shape::outline::Outline;
+
+/// Darts per square of the birth distance beyond which more of them find next to no room: the
+/// set is saturated.
+const SATURATION: f64 = 20.0;
+
+/// Where candidates for sources come from.
+pub(crate) enum Darts {
+    /// Thrown in each step.
+    Thrown {
+        /// Lower left corner of the target.
+        low: DVec2,
+        /// Size of the target: the rectangle around the blade.
+        size: DVec2,
+        /// Darts per unit area and step, `ρ`.
+        per_area: f64,
+        /// Darts that should have been thrown so far; their number is this, rounded down.
+        due: f64,
+        /// Number of the next dart.
+        next: u64,
+        /// The last step in which darts are thrown: none are once growth has ended.
+        until: u32,
+    },
+    /// Thrown beforehand: (step of appearance, place), by step.
+    Waiting(std::vec::IntoIter<(u32, DVec2)>),
+}
+
+impl Darts {
+    /// The darts of a plan for the margin `blade` (frame of [`super::lamina_clock`]).
+    pub(crate) fn new(
+        plan: &VenationPlan,
+        blade: &Outline,
+        clock: &LaminaClock,
+        seed: u64,
+    ) -> Self {
+        let (low, high) = blade.bounds();
+        let size = high - low;
+        match plan.growth {
+            Growth::None | Growth::Isogonic { .. } => Self::Thrown {
+                low,
+                size,
+                per_area: plan.darts_per_area,
+                due: 0.0,
+                next: 0,
+                until: match plan.growth {
+                    Growth::None => u32::MAX,
+                    Growth::Marginal { .. } | Growth::Isogonic { .. } => clock.last_growth_step(),
+                },
+            },
+            Growth::Marginal { .. } => {
+                let count = waiting_darts(plan, size, clock.last_growth_step());
+                let mut accepted = PointTree::new(low, high);
+                let mut waiting = Vec::new();
+                for number in 0..count as u64 {
+                    let dart = dart(seed, number, low, size);
+                    if accepted.any_within(dart, plan.source_birth_distance) {
+                        continue;
+                    }
+                    accepted.insert(number as u32, dart);
+                    if blade.contains(dart) {
+                        waiting.push((appearance(blade.points(), clock, dart), dart));
+                    }
+                }
+                // Stable: darts that appear together keep their order.
+                waiting.sort_by_key(|&(step, _)| step);
+                Self::Waiting(waiting.into_iter())
+            }
+        }
+    }
+
+    /// Candidates of one step, to be called once for every step in turn. Those of diffuse growth
+    /// have not been tested against each other, and may lie outside the margin.
+    pub(crate) fn of_step(&mut self, step: u32, unit: f64, seed: u64) -> Vec<DVec2> {
+        match self {
+            Self::Thrown {
+                low,
+                size,
+                per_area,
+                due,
+                next,
+                until,
+            } => {
+                if step > *until {
+                    return Vec::new();
+                }
+                let before = *due;
+                *due += *per_area * size.x * size.y / (unit * unit);
+                let count = due.floor() - before.floor();
+                let first = *next;
+                *next += count as u64;
+                (first..*next)
+                    .map(|number| dart(seed, number, *low, *size))
+                    .collect()
+            }
+            Self::Waiting(waiting) => {
+                let ready = waiting.as_slice().partition_point(|&(at, _)| at <= step);
+                waiting.take(ready).map(|(_, dart)| dart).collect()
+            }
+        }
+    }
+}
+
+/// How many darts a step of a full-grown lamina, or the whole growth at the margin, asks for.
+/// [`super::plan`] bounds it.
+pub(crate) fn waiting_darts(plan: &VenationPlan, size: DVec2, steps: u32) -> f64 {
+    let area = size.x * size.y;
+    let wanted = plan.darts_per_area * area * (f64::from(steps) + 1.0);
+    let spacing = plan.source_birth_distance;
+    wanted.min(SATURATION * area / (spacing * spacing)).ceil()
+}
+
+/// Where dart `number` of a run lands.
+pub(crate) fn dart(seed: u64, number: u64, low: DVec2, size: DVec2) -> DVec2 {
+    let u = DVec2::new(
+        uniform(seed, Use::DartX, number),
+        uniform(seed, Use::DartY, number),
+    );
+    low + u * size
+}
+
+/// The first step at which `p` is inside the margin, which grows by scaling about the origin.
+///
+/// Instead of the margin growing over `p`, let `p` move towards the base along its ray, from
+/// `p / σ_0` to `p`: it is inside between the first and the second crossing of the ray with the
+/// margin, counted from outside, between the third and the fourth, and so on.
+pub(crate) fn appearance(margin: &[DVec2], clock: &LaminaClock, p: DVec2) -> u32 {
+    let mut crossings: Vec<f64> = Vec::new();
+    for (i, &a) in margin.iter().enumerate() {
+        let b = margin[if i + 1 == margin.len() { 0 } else { i + 1 }];
+        if (p.perp_dot(a) > 0.0) != (p.perp_dot(b) > 0.0) {
+            crossings.push(a.perp_dot(b) / p.perp_dot(b - a));
+        }
+    }
+    crossings.sort_by(|a, b| b.total_cmp(a));
+    let last = clock.last_growth_step();
+    for inside in crossings.chunks(2) {
+        let step = first_step(last, |step| 1.0 / clock.size(step) < inside[0]);
+        let end = inside.get(1).copied().unwrap_or(0.0);
+        if step <= last && 1.0 / clock.size(step) > end {
+            return step;
+        }
+    }
+    last
+}
+
+/// The first step up to `last` for which `reached`, once true and then always, is true; `last + 1` if none is.
+fn first_step(last: u32, reached: impl Fn(u32) -> bool) -> u32 {
+    let (mut low, mut high) = (0, last + 1);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if reached(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low
+}

@@ -1,0 +1,56 @@
+//! Random numbers as a function of what they are for.
+//!
+//! No generator state: a number depends on the seed, on its use and on a counter only, so that
+//! results cannot depend on the order of work.
+
+/// What a random number decides. The discriminants keep the uses apart and never change.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Use {
+    /// Where a dart lands, across the leaf.
+    DartX = 1,
+    /// Where a dart lands, along the leaf.
+    DartY = 2,
+    /// Which of several equally near nodes a source drives.
+    Tie = 3,
+}
+
+/// 64 random bits for one use, number `counter` of its kind.
+///
+/// Two rounds of the output function of `SplitMix64` (\[steele2014\]), the second keyed by the
+/// first; the increment of the counter is that generator's.
+pub(crate) fn bits(seed: u64, purpose: Use, counter: u64) -> u64 {
+    let key = scramble(seed ^ (purpose as u64).wrapping_mul(0xd1b5_4a32_d192_ed03));
+    scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+}
+
+/// A uniform random number in [0, 1), a multiple of 2⁻⁵³.
+pub(crate) fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
+    (bits(seed, purpose, counter) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+fn scramble(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uses_and_seeds_give_unrelated_uniform_numbers() {
+        let n = 20_000;
+        for (seed, purpose) in [(0, Use::DartX), (1, Use::DartX), (0, Use::DartY)] {
+            let mean = (0..n).map(|i| uniform(seed, purpose, i)).sum::<f64>() / n as f64;
+            // Standard error of the mean of n uniform numbers: 1/√(12 n) = 0.002.
+            assert!((mean - 0.5).abs() < 0.008, "mean {mean}");
+        }
+        let covariance = (0..n)
+            .map(|i| (uniform(7, Use::DartX, i) - 0.5) * (uniform(7, Use::DartY, i) - 0.5))
+            .sum::<f64>()
+            / n as f64;
+        // Standard error 1/(12 √n) = 0.0006.
+        assert!(covariance.abs() < 0.0024, "covariance {covariance}");
+    }
+}

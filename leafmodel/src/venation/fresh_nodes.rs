@@ -1,0 +1,160 @@
+//! Nodes that came into being since everyone last looked.
+//!
+//! What a source knows of the veins can only change through new nodes near it. A step brings few
+//! of them, so they get a small tree of boxes of their own, built anew each time.
+
+use glam::DVec2;
+
+/// Nodes in a box that is not divided further.
+const CAPACITY: usize = 6;
+
+/// The nodes numbered from `first` on, in nested boxes.
+pub(crate) struct FreshNodes<'a> {
+    first: u32,
+    positions: &'a [DVec2],
+    /// Indices into `positions`; a box holds a range of them.
+    sorted: Vec<u32>,
+    /// Each box before those inside it.
+    boxes: Vec<NodeBox>,
+}
+
+/// The smallest upright rectangle around some nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodeBox {
+    low: DVec2,
+    high: DVec2,
+    from: u32,
+    to: u32,
+    /// Number of the next box that is not inside this one.
+    after: u32,
+    is_divided: bool,
+}
+
+impl NodeBox {
+    /// Squared distance from `p` to the nearest point of the box, 0 inside.
+    pub(crate) fn distance_squared(&self, p: DVec2) -> f64 {
+        (self.low - p)
+            .max(p - self.high)
+            .max(DVec2::ZERO)
+            .length_squared()
+    }
+}
+
+impl<'a> FreshNodes<'a> {
+    /// Those of `positions` whose number is `first` or above.
+    pub(crate) fn new(positions: &'a [DVec2], first: u32) -> Self {
+        let positions = &positions[first as usize..];
+        let mut fresh = Self {
+            first,
+            positions,
+            sorted: (0..positions.len() as u32).collect(),
+            boxes: Vec::with_capacity(positions.len() / 2),
+        };
+        if !positions.is_empty() {
+            fresh.divide(0, positions.len());
+        }
+        fresh
+    }
+
+    /// Boxes for the nodes in a range of `sorted`, halved across the longer side until few are left.
+    fn divide(&mut self, from: usize, to: usize) {
+        let positions = self.positions;
+        let range = &mut self.sorted[from..to];
+        let (low, high) = range
+            .iter()
+            .map(|&i| positions[i as usize])
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            });
+        let number = self.boxes.len();
+        let is_divided = to - from > CAPACITY;
+        self.boxes.push(NodeBox {
+            low,
+            high,
+            from: from as u32,
+            to: to as u32,
+            after: 0,
+            is_divided,
+        });
+        if is_divided {
+            let middle = (to - from) / 2;
+            let size = high - low;
+            let key = |i: u32| {
+                let p = positions[i as usize];
+                if size.x > size.y { p.x } else { p.y }
+            };
+            range
+                .select_nth_unstable_by(middle, |&i, &j| key(i).total_cmp(&key(j)).then(i.cmp(&j)));
+            self.divide(from, from + middle);
+            self.divide(from + middle, to);
+        }
+        self.boxes[number].after = self.boxes.len() as u32;
+    }
+
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Calls `visit` with number and position of every node in boxes that `matters` lets pass,
+    /// in no order to be relied on. A box that does not matter hides all boxes in it.
+    pub(crate) fn each(
+        &self,
+        matters: impl Fn(&NodeBox) -> bool,
+        mut visit: impl FnMut(u32, DVec2),
+    ) {
+        let mut next = 0;
+        while let Some(node_box) = self.boxes.get(next) {
+            if !matters(node_box) {
+                next = node_box.after as usize;
+                continue;
+            }
+            if !node_box.is_divided {
+                for &i in &self.sorted[node_box.from as usize..node_box.to as usize] {
+                    visit(self.first + i, self.positions[i as usize]);
+                }
+            }
+            next += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256)
+        })]
+
+        #[test]
+        fn boxes_within_reach_hold_all_nodes_within_reach(
+            points in proptest::collection::vec((0.0..9.0, 0.0..3.0), 0..120),
+            old in 0_usize..10, x in -3.0..12.0, y in -3.0..6.0, radius in 0.0..5.0,
+        ) {
+            let positions: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
+            let old = old.min(positions.len());
+            let centre = DVec2::new(x, y);
+            let squared = radius * radius;
+            let mut found = Vec::new();
+            let fresh = FreshNodes::new(&positions, old as u32);
+            fresh.each(
+                |node_box| node_box.distance_squared(centre) <= squared,
+                |id, p| {
+                    if (p - centre).length_squared() <= squared {
+                        found.push(id as usize);
+                    }
+                },
+            );
+            found.sort_unstable();
+            let expected: Vec<usize> = (old..positions.len())
+                .filter(|&i| (positions[i] - centre).length_squared() <= squared)
+                .collect();
+            prop_assert_eq!(found, expected);
+        }
+    }
+}

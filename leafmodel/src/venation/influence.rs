@@ -1,0 +1,47 @@
+//! What an auxin source does to the veins: the part in which open and closed patterns differ.
+
+use glam::DVec2;
+
+use super::fresh_nodes::FreshNodes;
+use super::point_tree::PointTree;
+use super::relative_neighbourhood::Workspace;
+
+/// What sources share while they look at the veins.
+pub(crate) struct Surroundings<'a> {
+    /// All vein nodes.
+    pub(crate) tree: &'a PointTree,
+    /// Room for the search of relative neighbours.
+    pub(crate) workspace: &'a mut Workspace,
+    /// Seed of the simulation, for ties.
+    pub(crate) seed: u64,
+}
+
+/// What becomes of a source at the end of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Fate {
+    /// It goes on drawing veins.
+    Stays,
+    /// It is used up; these veins have reached it and are to be joined.
+    UsedUp(Vec<u32>),
+}
+
+/// A source's relation to the veins around it.
+pub(crate) trait Influence: Sized {
+    /// The relation of a new source, number `id`, at `place`.
+    fn new(place: DVec2, id: u32, surroundings: &mut Surroundings) -> Self;
+
+    /// Takes in nodes that have come since the last call.
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings);
+
+    /// Calls `visit` with each node that this source drives.
+    fn each_driven(&self, visit: impl FnMut(u32));
+
+    /// Tells that `child` has grown from the driven node `parent`.
+    fn inherit(&mut self, parent: u32, child: u32);
+
+    /// Decides at the end of a step, all its nodes noticed, for kill distance `kill`.
+    fn judge(&mut self, kill: f64) -> Fate;
+
+    /// The veins that have reached the source so far, if it has to give up.
+    fn give_up(&mut self) -> Vec<u32>;
+}

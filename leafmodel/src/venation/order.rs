@@ -1,0 +1,304 @@
+//! Vein orders, by width at the origin and by branching (\[hickey1979\]).
+//!
+//! The rule, order by order from the midrib on:
+//!
+//! 1. Where a vein branches, it **continues** in the branch with the largest `r (1 + cos φ)`, `r` being the
+//!    branch's radius and `φ` the angle by which it departs from the vein's direction: the widest,
+//!    unless a slightly finer one goes straight on. Directions are taken over a few segments.
+//! 2. A branch **forks** if it is at least 3/4 as wide as the continuation and departs about as far from
+//!    the vein's direction (within 20°) on the other side: then both keep the order. So do, at the
+//!    leaf's base, all branches at least 3/4 as wide as the widest (primaries of actinodromous leaves).
+//! 3. All other branches are **laterals**. Those at least 1/4 as wide as the widest lateral of any vein of
+//!    their parent's order count one order more than it, those at least 1/16 as wide two, and so on. Thus a veinlet
+//!    that springs from the midrib is no secondary vein.
+//! 4. Where veins meet, the widest goes on, and the others end.
+
+use glam::DVec2;
+
+use super::topology::Topology;
+
+/// A branch this wide, compared to the continuation or the widest primary, can be of the same order.
+const ALIKE: f64 = 0.75;
+
+/// Each order finer starts where laterals are this much narrower than the widest of their kind.
+const NARROWER: f64 = 0.25;
+
+/// How unlike two prongs of a fork may depart from the vein's direction, radians (20°).
+const FORK_SKEW: f64 = 0.35;
+
+/// Segments over which directions are taken.
+const LOOK: usize = 4;
+
+/// The finest order there is; finer veins count as this.
+const FINEST: u8 = 12;
+
+/// Orders, and which edge continues the vein that enters each node.
+pub(crate) struct Orders {
+    /// Order of each edge, ≥ 1.
+    pub(crate) edges: Vec<u8>,
+    /// For each node the edge in which the vein goes on, if any does.
+    pub(crate) continuations: Vec<Option<u32>>,
+}
+
+/// Gives every edge its order, from the radius at which each starts.
+pub(crate) fn orders(
+    topology: &Topology,
+    positions: &[DVec2],
+    radii: &[f64],
+    base_to_tip: &[u32],
+) -> Orders {
+    let survey = Survey::new(topology, positions, radii, base_to_tip);
+    let mut edges = vec![0; topology.edge_count()];
+    // Edges where a vein of each order starts, found while coarser orders are followed.
+    let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
+    let mut laterals: Vec<u32> = Vec::new();
+    for &seed in base_to_tip
+        .iter()
+        .filter(|&&node| topology.entering(node).is_empty())
+    {
+        let out = topology.leaving(seed);
+        let widest = out.iter().map(|&e| radii[e as usize]).fold(0.0, f64::max);
+        let (primary, lateral): (Vec<u32>, Vec<u32>) = out
+            .iter()
+            .partition(|&&e| radii[e as usize] >= ALIKE * widest);
+        starts[1].extend(primary);
+        laterals.extend(lateral);
+    }
+    for order in 1..=FINEST {
+        let mut pending = std::mem::take(&mut starts[usize::from(order)]);
+        while let Some(edge) = pending.pop() {
+            edges[edge as usize] = order;
+            let node = topology.edge(edge)[1];
+            if survey.main_entry[node as usize] != Some(edge) {
+                continue; // It ends where it meets a wider vein.
+            }
+            for &branch in topology.leaving(node) {
+                if survey.continuations[node as usize] == Some(branch) || survey.forks(node, branch)
+                {
+                    pending.push(branch);
+                } else {
+                    laterals.push(branch);
+                }
+            }
+        }
+        let widest = laterals
+            .iter()
+            .map(|&e| radii[e as usize])
+            .fold(0.0, f64::max);
+        for edge in laterals.drain(..) {
+            let mut finer = order + 1;
+            let mut threshold = widest * NARROWER;
+            while radii[edge as usize] < threshold && finer < FINEST {
+                finer += 1;
+                threshold *= NARROWER;
+            }
+            starts[usize::from(finer.min(FINEST))].push(edge);
+        }
+        if order == FINEST {
+            // Laterals of the finest order are of the finest order too.
+            let mut pending = std::mem::take(&mut starts[usize::from(FINEST)]);
+            while let Some(edge) = pending.pop() {
+                edges[edge as usize] = FINEST;
+                let node = topology.edge(edge)[1];
+                if survey.main_entry[node as usize] == Some(edge) {
+                    pending.extend(topology.leaving(node));
+                }
+            }
+        }
+    }
+    Orders {
+        edges,
+        continuations: survey.continuations,
+    }
+}
+
+/// What is known of every node before orders are given.
+struct Survey<'a> {
+    topology: &'a Topology<'a>,
+    positions: &'a [DVec2],
+    radii: &'a [f64],
+    /// The widest edge into each node.
+    main_entry: Vec<Option<u32>>,
+    continuations: Vec<Option<u32>>,
+}
+
+impl<'a> Survey<'a> {
+    fn new(
+        topology: &'a Topology<'a>,
+        positions: &'a [DVec2],
+        radii: &'a [f64],
+        base_to_tip: &[u32],
+    ) -> Self {
+        let widest = |edges: &[u32]| {
+            edges
+                .iter()
+                .copied()
+                // `max_by` keeps the last of equals: reversed, the lowest number.
+                .rev()
+                .max_by(|&a, &b| radii[a as usize].total_cmp(&radii[b as usize]))
+        };
+        let nodes = topology.nodes() as u32;
+        let mut survey = Self {
+            topology,
+            positions,
+            radii,
+            main_entry: (0..nodes)
+                .map(|node| widest(topology.entering(node)))
+                .collect(),
+            // To begin with, the widest; directions look along these.
+            continuations: (0..nodes)
+                .map(|node| widest(topology.leaving(node)))
+                .collect(),
+        };
+        let refined: Vec<(u32, Option<u32>)> = base_to_tip
+            .iter()
+            .map(|&node| (node, survey.continuation(node)))
+            .collect();
+        for (node, edge) in refined {
+            survey.continuations[node as usize] = edge;
+        }
+        survey
+    }
+
+    fn continuation(&self, node: u32) -> Option<u32> {
+        let out = self.topology.leaving(node);
+        if out.len() < 2 {
+            return out.first().copied();
+        }
+        let arrival = self.arrival(node);
+        let score = |edge: u32| {
+            let departure = self.departure(edge);
+            self.radii[edge as usize] * (1.0 + arrival.dot(departure))
+        };
+        out.iter()
+            .copied()
+            .rev()
+            .max_by(|&a, &b| score(a).total_cmp(&score(b)))
+    }
+
+    /// Direction in which the vein comes to a node; zero at its start.
+    fn arrival(&self, node: u32) -> DVec2 {
+        let mut back = node;
+        for _ in 0..LOOK {
+            match self.main_entry[back as usize] {
+                Some(edge) => back = self.topology.edge(edge)[0],
+                None => break,
+            }
+        }
+        self.direction(back, node)
+    }
+
+    /// Direction in which the vein that starts with an edge leaves.
+    fn departure(&self, edge: u32) -> DVec2 {
+        let [from, mut ahead] = self.topology.edge(edge);
+        for _ in 1..LOOK {
+            match self.continuations[ahead as usize] {
+                Some(edge) => ahead = self.topology.edge(edge)[1],
+                None => break,
+            }
+        }
+        self.direction(from, ahead)
+    }
+
+    fn direction(&self, from: u32, to: u32) -> DVec2 {
+        (self.positions[to as usize] - self.positions[from as usize]).normalize_or_zero()
+    }
+
+    /// Whether the vein forks at `node` into its continuation and `branch`.
+    fn forks(&self, node: u32, branch: u32) -> bool {
+        let Some(main) = self.continuations[node as usize] else {
+            return false;
+        };
+        let arrival = self.arrival(node);
+        let angle = |edge: u32| {
+            let departure = self.departure(edge);
+            libm::atan2(arrival.perp_dot(departure), arrival.dot(departure))
+        };
+        let (ahead, aside) = (angle(main), angle(branch));
+        self.radii[branch as usize] >= ALIKE * self.radii[main as usize]
+            && ahead * aside < 0.0
+            && (ahead + aside).abs() <= FORK_SKEW
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::venation::width::{flows, radius};
+
+    fn orders_of(places: &[(f64, f64)], edges: &[[u32; 2]]) -> Vec<u8> {
+        let positions: Vec<DVec2> = places.iter().copied().map(DVec2::from).collect();
+        let topology = Topology::new(positions.len(), edges);
+        let order = topology.base_to_tip().expect("no circle");
+        let flows = flows(&topology, &order);
+        let radii: Vec<f64> = flows.edges.iter().map(|&q| radius(q, 0.01, 2.0)).collect();
+        orders(&topology, &positions, &radii, &order).edges
+    }
+
+    #[test]
+    fn a_straight_midrib_keeps_order_1_past_every_lateral() {
+        // A herringbone: six nodes up, a lateral of five nodes to either side at each.
+        let mut places = vec![(0.0, 0.0)];
+        let mut edges = Vec::new();
+        let mut expected = Vec::new();
+        let mut spine = 0;
+        for level in 1..=6 {
+            let next = places.len() as u32;
+            places.push((0.0, f64::from(level) * 4.0));
+            edges.push([spine, next]);
+            expected.push(1);
+            spine = next;
+            for side in [-1.0, 1.0] {
+                let mut tail = spine;
+                for reach in 1..=5 {
+                    let node = places.len() as u32;
+                    let reach = f64::from(reach);
+                    places.push((side * reach, f64::from(level) * 4.0 + 0.7 * reach));
+                    edges.push([tail, node]);
+                    expected.push(2);
+                    tail = node;
+                }
+            }
+        }
+        // The last pair, as wide as each other and nothing between, is a fork of the midrib.
+        let last = expected.len();
+        expected[last - 10..].fill(1);
+        assert_eq!(orders_of(&places, &edges), expected);
+    }
+
+    #[test]
+    fn a_veinlet_on_the_midrib_is_finer_than_a_secondary() {
+        let mut places = vec![(0.0, 0.0), (0.0, 1.0), (0.0, 2.0), (0.0, 3.0), (-1.0, 1.5)];
+        let mut edges = vec![[0, 1], [1, 2], [2, 3], [1, 4]];
+        // A lateral that carries 25 tips, and the midrib's own 40.
+        let fan = |hub: u32, tips: u32, places: &mut Vec<(f64, f64)>, edges: &mut Vec<[u32; 2]>| {
+            for i in 0..tips {
+                let node = places.len() as u32;
+                places.push((0.1 * f64::from(i) + 2.0 * f64::from(hub), 9.0));
+                edges.push([hub, node]);
+            }
+        };
+        places.push((1.5, 3.0));
+        edges.push([2, 5]);
+        fan(5, 25, &mut places, &mut edges);
+        fan(3, 40, &mut places, &mut edges);
+        let orders = orders_of(&places, &edges);
+        assert_eq!(orders[..5], [1, 1, 1, 3, 2]);
+    }
+
+    #[test]
+    fn dichotomy_keeps_the_order_in_both_prongs() {
+        let places = [
+            (0.0, 0.0),
+            (0.0, 1.0),
+            (-0.5, 2.0),
+            (0.5, 2.0),
+            (-0.8, 3.0),
+            (-0.2, 3.0),
+            (0.2, 3.0),
+            (0.8, 3.0),
+        ];
+        let edges = [[0, 1], [1, 2], [1, 3], [2, 4], [2, 5], [3, 6], [3, 7]];
+        assert_eq!(orders_of(&places, &edges)[..3], [1, 1, 1]);
+    }
+}

@@ -1,0 +1,314 @@
+//! The network while it grows: nodes, edges, and the index to find nodes by place.
+
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+
+use super::point_tree::PointTree;
+use crate::shape::outline::Outline;
+
+/// Stands for "no node".
+pub(crate) const NO_NODE: u32 = u32::MAX;
+
+/// Children nearer to a node than this, in segments, add nothing.
+pub(crate) const COINCIDENT: f64 = 0.05;
+
+/// Edges longer than this, in segments of the current step, are subdivided.
+const LONGEST_EDGE: f64 = 1.5;
+
+/// Veins farther from a used-up source than this, in segments, end in the open instead of being
+/// welded there: with a large kill distance veins do not meet (Fig. 9a–c).
+const WELDING_REACH: f64 = 2.0;
+
+/// Nodes and edges of a growing network; edges run from older to younger tissue.
+pub(crate) struct Veins {
+    /// Where each node is.
+    pub(crate) positions: Vec<DVec2>,
+    /// Step at which each node came into being.
+    pub(crate) births: Vec<u32>,
+    /// From, to.
+    pub(crate) edges: Vec<[u32; 2]>,
+    /// All nodes by place.
+    pub(crate) tree: PointTree,
+    /// The node each node grew from (the first, for a junction), or [`NO_NODE`].
+    parents: Vec<u32>,
+    /// The first node that grew from each node, or [`NO_NODE`].
+    first_children: Vec<u32>,
+    /// Edges by length, the longest on top: bits of the squared length, complement of the number.
+    by_length: BinaryHeap<(u64, u32)>,
+    /// Whether edges stretch in time.
+    stretching: bool,
+}
+
+impl Veins {
+    /// No veins yet, on a blade that fills the rectangle from `low` to `high`.
+    pub(crate) fn new(low: DVec2, high: DVec2, stretching: bool) -> Self {
+        Self {
+            positions: Vec::new(),
+            births: Vec::new(),
+            edges: Vec::new(),
+            tree: PointTree::new(low, high),
+            parents: Vec::new(),
+            first_children: Vec::new(),
+            by_length: BinaryHeap::new(),
+            stretching,
+        }
+    }
+
+    /// How many nodes there are; also the number of the next one.
+    pub(crate) fn count(&self) -> u32 {
+        self.positions.len() as u32
+    }
+
+    /// Adds a node that nothing leads to.
+    pub(crate) fn add_node(&mut self, position: DVec2, step: u32) -> u32 {
+        let node = self.count();
+        self.positions.push(position);
+        self.births.push(step);
+        self.parents.push(NO_NODE);
+        self.first_children.push(NO_NODE);
+        self.tree.insert(node, position);
+        node
+    }
+
+    /// Adds an edge between nodes.
+    pub(crate) fn add_edge(&mut self, from: u32, to: u32) {
+        let edge = self.edges.len() as u32;
+        self.edges.push([from, to]);
+        if self.parents[to as usize] == NO_NODE {
+            self.parents[to as usize] = from;
+        }
+        if self.first_children[from as usize] == NO_NODE {
+            self.first_children[from as usize] = to;
+        }
+        self.note_length(edge);
+    }
+
+    fn note_length(&mut self, edge: u32) {
+        if self.stretching {
+            let [from, to] = self.edges[edge as usize];
+            let ends = self.positions[to as usize] - self.positions[from as usize];
+            self.by_length
+                .push((ends.length_squared().to_bits(), !edge));
+        }
+    }
+
+    /// Cuts edges that have grown longer than one and a half segments, the longest first (among
+    /// equals, the oldest).
+    ///
+    /// Growth stretches old segments many times over; left alone, their gaps would let sources and
+    /// second veins appear on top of them. New nodes lie on a Catmull–Rom curve through the ends
+    /// and the nodes before and after, so that bends stay round.
+    pub(crate) fn subdivide(&mut self, unit: f64, blade: &Outline, step: u32) {
+        let longest = LONGEST_EDGE * unit;
+        while let Some(&(bits, complement)) = self.by_length.peek() {
+            let squared = f64::from_bits(bits);
+            if squared <= longest * longest {
+                break;
+            }
+            self.by_length.pop();
+            // At least two: the root may round down to the limit itself.
+            let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
+            self.cut(!complement, pieces, blade, step);
+        }
+    }
+
+    /// Cuts one edge into `pieces`. An edge that leaves the blade stays in one.
+    fn cut(&mut self, edge: u32, pieces: u32, blade: &Outline, step: u32) {
+        let [from, to] = self.edges[edge as usize];
+        let at = |node: u32| self.positions[node as usize];
+        let (p1, p2) = (at(from), at(to));
+        let before = self.parents[from as usize];
+        let after = self.first_children[to as usize];
+        // At an end, the curve goes on as it came.
+        let neighbour = |node: u32, mirrored: DVec2, of: DVec2| {
+            if node == NO_NODE || at(node) == of {
+                mirrored
+            } else {
+                at(node)
+            }
+        };
+        let p0 = neighbour(before, 2.0 * p1 - p2, p1);
+        let p3 = neighbour(after, 2.0 * p2 - p1, p2);
+        // Where the curve would leave the blade, the straight edge does not.
+        let stays = |places: &[DVec2]| {
+            let mut before = p1;
+            places.iter().chain([&p2]).all(|&p| {
+                let fine = can_reach(blade, before, p);
+                before = p;
+                fine
+            })
+        };
+        let at_shares = |curve: &dyn Fn(f64) -> DVec2| -> Vec<DVec2> {
+            (1..pieces)
+                .map(|i| curve(f64::from(i) / f64::from(pieces)))
+                .collect()
+        };
+        let curved = at_shares(&|u| catmull_rom([p0, p1, p2, p3], u));
+        let straight = at_shares(&|u| p1 + (p2 - p1) * u);
+        let Some(places) = [curved, straight].into_iter().find(|p| stays(p)) else {
+            return;
+        };
+        let mut tail = from;
+        let mut tail_edge = edge;
+        for place in places {
+            let node = self.add_node(place, step);
+            self.edges[tail_edge as usize] = [tail, node];
+            if self.first_children[tail as usize] == to {
+                self.first_children[tail as usize] = node;
+            }
+            self.parents[node as usize] = tail;
+            self.first_children[node as usize] = to;
+            if self.parents[to as usize] == tail {
+                self.parents[to as usize] = node;
+            }
+            let rest = self.edges.len() as u32;
+            self.edges.push([node, to]);
+            self.note_length(tail_edge);
+            (tail, tail_edge) = (node, rest);
+        }
+        self.note_length(tail_edge);
+    }
+
+    /// Joins veins that have arrived at a source by a junction node there (anastomosis). Fewer than
+    /// two veins near enough leave the network as it is.
+    pub(crate) fn weld(
+        &mut self,
+        source: DVec2,
+        arrivals: &[u32],
+        unit: f64,
+        blade: &Outline,
+        step: u32,
+    ) {
+        let reach = WELDING_REACH * unit;
+        let ends: Vec<u32> = arrivals
+            .iter()
+            .copied()
+            .filter(|&v| (self.positions[v as usize] - source).length_squared() <= reach * reach)
+            .collect();
+        if ends.len() < 2 {
+            return;
+        }
+        // A vein may end on the source itself; then they meet midway instead.
+        let sum: DVec2 = ends.iter().map(|&v| self.positions[v as usize]).sum();
+        let middle = sum / ends.len() as f64;
+        let free = |p: &DVec2| blade.contains(*p) && !self.tree.any_within(*p, COINCIDENT * unit);
+        let Some(place) = [source, middle].into_iter().find(free) else {
+            return;
+        };
+        let mut ends = ends;
+        ends.retain(|&v| can_reach(blade, self.positions[v as usize], place));
+        if ends.len() < 2 {
+            return;
+        }
+        let junction = self.add_node(place, step);
+        for end in ends {
+            self.add_edge(end, junction);
+        }
+    }
+}
+
+/// Whether a straight vein from a node at `from` to `to` stays on the blade. The base itself lies on the margin,
+/// on either side of it after rounding, so the first millionth of the way does not count.
+pub(crate) fn can_reach(blade: &Outline, from: DVec2, to: DVec2) -> bool {
+    blade.contains(to) && !blade.is_crossed_by(from + (to - from) * 1e-6, to)
+}
+
+/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord lengths for knots: old edges next
+/// to just subdivided ones are much longer than these, and even knots would bend the curve there.
+pub(crate) fn catmull_rom(p: [DVec2; 4], u: f64) -> DVec2 {
+    let chords = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
+    let [before, span, after] = chords.map(DVec2::length);
+    // Slope at a knot of the parabola through it and its neighbours.
+    let slope = |first: DVec2, d0: f64, second: DVec2, d1: f64| {
+        (first * (d1 / d0) + second * (d0 / d1)) / (d0 + d1)
+    };
+    let leaving = slope(chords[0], before, chords[1], span) * span;
+    let arriving = slope(chords[1], span, chords[2], after) * span;
+    // Cubic Hermite polynomial through both ends with these slopes.
+    let c = 3.0 * chords[1] - 2.0 * leaving - arriving;
+    let d = leaving + arriving - 2.0 * chords[1];
+    p[1] + (leaving + (c + d * u) * u) * u
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blade() -> Outline {
+        let corners = [(-50.0, 0.0), (50.0, 0.0), (50.0, 100.0), (-50.0, 100.0)];
+        let points = corners.map(DVec2::from).to_vec();
+        Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 100.0)).expect("a square")
+    }
+
+    /// A chain of nodes two apart, as tissue stretched to twice its size leaves it.
+    fn chain(places: &[(f64, f64)]) -> Veins {
+        let (low, high) = blade().bounds();
+        let mut veins = Veins::new(low, high, true);
+        for (i, &place) in places.iter().enumerate() {
+            let node = veins.add_node(DVec2::from(place), 0);
+            if i > 0 {
+                veins.add_edge(node - 1, node);
+            }
+        }
+        veins
+    }
+
+    #[test]
+    fn subdivision_leaves_no_long_edge_and_keeps_the_chain() {
+        let mut veins = chain(&[(0.0, 1.0), (0.0, 3.0), (1.0, 13.0), (2.0, 14.9)]);
+        veins.subdivide(1.0, &blade(), 5);
+        for &[from, to] in &veins.edges {
+            let ends = veins.positions[to as usize] - veins.positions[from as usize];
+            assert!(
+                ends.length() <= 1.5,
+                "{from}–{to} is {} long",
+                ends.length()
+            );
+        }
+        // Walking back from the tip meets every node once and ends at the seed.
+        let (mut node, mut met) = (3, 1);
+        while veins.parents[node] != NO_NODE {
+            let parent = veins.parents[node];
+            assert!(veins.edges.contains(&[parent, node as u32]));
+            assert_eq!(veins.first_children[parent as usize], node as u32);
+            node = parent as usize;
+            met += 1;
+        }
+        assert_eq!((node, met), (0, veins.positions.len()));
+    }
+
+    #[test]
+    fn a_bend_stays_round_when_it_is_subdivided() {
+        // On a circle of radius 10, midpoints of chords 2.6 long lie 0.085 inside it.
+        let places: Vec<(f64, f64)> = (0..8)
+            .map(|i| 0.26 * f64::from(i))
+            .map(|a| (10.0 * libm::cos(a), 30.0 + 10.0 * libm::sin(a)))
+            .collect();
+        let mut veins = chain(&places);
+        veins.subdivide(1.0, &blade(), 1);
+        let inner = veins.positions.iter().skip(8).filter(|p| {
+            let a = libm::atan2(p.y - 30.0, p.x);
+            (0.3..1.5).contains(&a)
+        });
+        for p in inner {
+            let radius = (*p - DVec2::new(0.0, 30.0)).length();
+            assert!((radius - 10.0).abs() < 0.01, "{radius}");
+        }
+    }
+
+    #[test]
+    fn two_veins_at_a_source_are_joined_there_and_one_is_not() {
+        let mut veins = chain(&[(0.0, 1.0), (0.0, 2.0)]);
+        let other = veins.add_node(DVec2::new(1.5, 2.5), 0);
+        let far = veins.add_node(DVec2::new(9.0, 2.5), 0);
+        let source = DVec2::new(0.8, 2.4);
+        veins.weld(source, &[1], 1.0, &blade(), 1);
+        veins.weld(source, &[1, far], 1.0, &blade(), 1);
+        assert_eq!(veins.count(), 4);
+        veins.weld(source, &[1, other], 1.0, &blade(), 1);
+        assert_eq!(veins.count(), 5);
+        assert_eq!(veins.positions[4], source);
+        assert_eq!(veins.edges[1..], [[1, 4], [other, 4]]);
+    }
+}

@@ -1,0 +1,85 @@
+//! How wide veins are: Murray's law from the tips to the base (sections 3.5 and 4).
+//!
+//! In units of a veinlet's `rⁿ`, a vein's `rⁿ` is a *flow* that adds up towards the base:
+//! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, what lies beyond
+//! it is divided among them equally ("all child veins entering a vein node contribute equally to the
+//! width of the parent nodes"), so that loops neither create nor swallow flow. No vein is finer than
+//! a veinlet: a share below 1 counts as 1.
+//!
+//! The paper walks from the veinlets to the base; with loops that is well defined since edges run from
+//! older to younger tissue: every node is dealt with after all those it leads to.
+
+use super::topology::Topology;
+
+/// Flows in units of a veinlet's `rⁿ`, all ≥ 1.
+pub(crate) struct Flows {
+    /// What enters each node.
+    pub(crate) nodes: Vec<f64>,
+    /// What each edge brings to the node it leads to.
+    pub(crate) edges: Vec<f64>,
+}
+
+/// Adds up flows over the whole network, given its nodes from base to tip.
+pub(crate) fn flows(topology: &Topology, base_to_tip: &[u32]) -> Flows {
+    let mut nodes = vec![0.0; topology.nodes()];
+    let mut edges = vec![1.0; topology.edge_count()];
+    for &node in base_to_tip.iter().rev() {
+        let beyond: f64 = topology
+            .leaving(node)
+            .iter()
+            .map(|&edge| edges[edge as usize])
+            .sum();
+        nodes[node as usize] = beyond.max(1.0);
+        let entering = topology.entering(node);
+        let share = (nodes[node as usize] / entering.len() as f64).max(1.0);
+        for &edge in entering {
+            edges[edge as usize] = share;
+        }
+    }
+    Flows { nodes, edges }
+}
+
+/// Radius of a vein that carries `flow`: `r = r_0 flow^{1/n}`, in the unit of the veinlet's radius `r_0`.
+pub(crate) fn radius(flow: f64, veinlet_radius: f64, exponent: f64) -> f64 {
+    veinlet_radius * libm::pow(flow, 1.0 / exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flows_of(count: usize, edges: &[[u32; 2]]) -> Flows {
+        let topology = Topology::new(count, edges);
+        let order = topology.base_to_tip().expect("no circle");
+        flows(&topology, &order)
+    }
+
+    #[test]
+    fn a_binary_tree_carries_its_number_of_tips_at_every_node() {
+        let edges: Vec<[u32; 2]> = (1..31).map(|i| [(i - 1) / 2, i]).collect();
+        let flows = flows_of(31, &edges);
+        for (depth, expected) in [(0, 16.0), (1, 8.0), (2, 4.0), (3, 2.0), (4, 1.0)] {
+            for node in (1 << depth) - 1..(1 << (depth + 1)) - 1 {
+                assert_eq!(flows.nodes[node], expected, "node {node}");
+            }
+        }
+        assert!((radius(16.0, 0.01, 2.0) - 0.04).abs() < 1e-15);
+        assert!((radius(8.0, 0.01, 3.0) - 0.02).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_loop_divides_what_lies_beyond_it_equally() {
+        // 0 forks to 1 and 2, which meet in 3; beyond are six tips.
+        let mut edges = vec![[0, 1], [0, 2], [1, 3], [2, 3]];
+        edges.extend((4..10).map(|tip| [3, tip]));
+        let flows = flows_of(10, &edges);
+        assert_eq!(flows.nodes[..4], [6.0, 3.0, 3.0, 6.0]);
+    }
+
+    #[test]
+    fn veins_that_merely_meet_are_no_finer_than_veinlets() {
+        let flows = flows_of(4, &[[0, 1], [0, 2], [1, 3], [2, 3]]);
+        assert_eq!(flows.edges, [1.0; 4]);
+        assert_eq!(flows.nodes, [2.0, 1.0, 1.0, 1.0]);
+    }
+}
