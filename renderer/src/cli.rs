@@ -1,1 +1,128 @@
-//! (being built)
+//! The `lamina` command: parse, call the library, print reports.
+//!
+//! stdout carries the paths of what was written and nothing else; stderr the rest. Exit codes: 0 done, 1 the
+//! system failed us, 2 bad input, 130 interrupted with the work saved.
+
+pub mod arguments;
+mod check;
+mod export;
+mod grow;
+mod optics;
+mod pictures;
+mod progress;
+mod render;
+mod stats;
+
+use std::ffi::OsString;
+use std::io::{IsTerminal, Write as _};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::scene::load::{self, Loaded};
+use crate::scene::report::SceneErrors;
+use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
+
+/// Why a command did not do what it was asked to.
+#[derive(Debug)]
+enum Failure {
+    /// The person at the keyboard can mend it.
+    BadInput(String),
+    /// The system failed: disk full, folder read-only, …
+    System(String),
+    /// Broken off by Ctrl-C; what was rendered is saved.
+    Interrupted,
+}
+
+impl Failure {
+    fn bad(error: impl std::fmt::Display) -> Self {
+        Self::BadInput(format!("error: {error}\n"))
+    }
+
+    fn system(error: impl std::fmt::Display) -> Self {
+        Self::System(format!("error: {error}\n"))
+    }
+}
+
+impl From<SceneErrors> for Failure {
+    fn from(errors: SceneErrors) -> Self {
+        Self::BadInput(errors.render(std::io::stderr().is_terminal()))
+    }
+}
+
+/// Runs the command line `arguments` (the program's name first) and gives the exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are asked for, not errors; clap knows which stream is whose.
+            let code = if error.use_stderr() { 2 } else { 0 };
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let Some(command) = arguments.command else {
+        say(GREETING);
+        return ExitCode::SUCCESS;
+    };
+    let result = match &command {
+        Command::Render(render) => render::run(render),
+        Command::Check(scene) => check::run(scene),
+        Command::Optics(optics) => optics::run(optics),
+        Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
+        Command::Compare(compare) => pictures::compare(compare),
+        Command::Info(info) => pictures::info(info),
+        Command::Grow(grow) => grow::run(grow),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::BadInput(message)) => {
+            eprint!("{message}");
+            ExitCode::from(2)
+        }
+        Err(Failure::System(message)) => {
+            eprint!("{message}");
+            ExitCode::from(1)
+        }
+        Err(Failure::Interrupted) => ExitCode::from(130),
+    }
+}
+
+/// A result for stdout: a path, a table.
+fn say(text: impl std::fmt::Display) {
+    // Who closes the pipe early (`lamina info x.exr | head`) has seen enough.
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// Loads a scene and tells its warnings.
+fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
+    let loaded = load::load(&arguments.scene, &arguments.overrides)?;
+    let colour = std::io::stderr().is_terminal();
+    for warning in &loaded.warnings {
+        eprint!("{}", warning.render(colour));
+    }
+    Ok(loaded)
+}
+
+/// Fails if nothing could be written beside `path`, before any work is done.
+fn check_writable(path: &Path) -> Result<(), Failure> {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(Failure::bad(format!(
+            "the folder {} of {} does not exist: make it or write somewhere else",
+            folder.display(),
+            path.display()
+        )));
+    }
+    tempfile::NamedTempFile::new_in(folder).map_err(|error| {
+        Failure::system(format!(
+            "nothing can be written into {}: {error}",
+            folder.display()
+        ))
+    })?;
+    Ok(())
+}

@@ -1,1 +1,175 @@
-//! (being built)
+//! Pictures and their files: `OpenEXR` for data, PNG for looking at.
+//!
+//! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or bytes that are not trusted.
+//! - **Out**: files that are whole or not there, and the same bytes for the same picture; or a [`Picture`].
+//! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old one. A header that
+//!   claims more than 2²⁸ pixels or 4 GiB is refused before anything is allocated for it.
+//! - **Left out**: deep data, several parts (the first is read), mip levels (the largest is read).
+
+pub mod atomic;
+pub mod compare;
+pub mod openexr;
+pub mod portable_network;
+pub mod tone;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+pub use compare::{ChannelComparison, Comparison, compare};
+
+/// Pixels that a picture may have.
+pub const MOST_PIXELS: u64 = 1 << 28;
+
+/// Bytes that a picture may take in memory.
+pub const MOST_BYTES: u64 = 4 << 30;
+
+/// One channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// The whole channel name: `R`, `albedo.R`, `S0.550,000000nm`.
+    pub name: String,
+    /// Values by row, from the top, and column.
+    pub data: Vec<f32>,
+}
+
+/// Channels of one size, and what is known about them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Channels. Files hold them in the order of their names.
+    pub layers: Vec<Layer>,
+    /// Name and value of what is known besides. Files hold them in the order of their names.
+    pub attributes: Vec<(String, Attribute)>,
+}
+
+impl Picture {
+    /// The channel with a name.
+    pub fn layer(&self, name: &str) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.name == name)
+    }
+
+    /// The attribute with a name.
+    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, value)| value)
+    }
+}
+
+/// What is known about a picture besides its values.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attribute {
+    /// Text of any length.
+    Text(String),
+    /// A 32-bit number.
+    Float(f32),
+    /// A 64-bit number.
+    Double(f64),
+    /// A whole number.
+    Int(i32),
+    /// A 4 × 4 matrix, row by row, for row vectors (as `OpenEXR` has it).
+    Matrix4([f32; 16]),
+    /// CIE 1931 x, y of red, green, blue and white.
+    Chromaticities([[f32; 2]; 4]),
+}
+
+/// Rec. 709 primaries and D65: what linear sRGB means.
+pub const REC709: Attribute =
+    Attribute::Chromaticities([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]]);
+
+/// Why a picture could not be read or written.
+#[derive(Debug, Error)]
+pub enum ImageError {
+    /// The operating system refused.
+    #[error("{}: {source}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file was read but is not what it should be.
+    #[error("{}: {source}", .path.display())]
+    Contents {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<ImageError>,
+    },
+    /// The bytes are not such a picture, or a damaged one.
+    #[error("not a picture that can be read: {what}")]
+    Malformed {
+        /// What is wrong.
+        what: String,
+    },
+    /// More pixels or bytes than is sensible.
+    #[error(
+        "a picture of {width} × {height} pixels with {channels} channels; \
+         the most is {MOST_PIXELS} pixels and {MOST_BYTES} bytes"
+    )]
+    TooLarge {
+        /// Pixels across.
+        width: u64,
+        /// Pixels down.
+        height: u64,
+        /// Values a pixel.
+        channels: u64,
+    },
+    /// The picture contradicts itself.
+    #[error("the picture cannot be written: {what}")]
+    Inconsistent {
+        /// What is wrong.
+        what: String,
+    },
+}
+
+/// Refuses sizes beyond [`MOST_PIXELS`] or [`MOST_BYTES`], and pictures of nothing.
+fn check_size(
+    width: u64,
+    height: u64,
+    channels: u64,
+    bytes_a_pixel: u64,
+) -> Result<(), ImageError> {
+    if width == 0 || height == 0 || channels == 0 {
+        return Err(ImageError::Malformed {
+            what: format!("{width} × {height} pixels with {channels} channels hold nothing"),
+        });
+    }
+    let pixels = width.saturating_mul(height);
+    if pixels > MOST_PIXELS || pixels.saturating_mul(bytes_a_pixel) > MOST_BYTES {
+        return Err(ImageError::TooLarge {
+            width,
+            height,
+            channels,
+        });
+    }
+    Ok(())
+}
+
+/// Reads a file and hands its bytes to `decode`; errors get the path.
+fn read_file(
+    path: &Path,
+    decode: impl FnOnce(&[u8]) -> Result<Picture, ImageError>,
+) -> Result<Picture, ImageError> {
+    let refuse = |source| ImageError::File {
+        path: path.to_owned(),
+        source,
+    };
+    let length = std::fs::metadata(path).map_err(refuse)?.len();
+    if length > MOST_BYTES {
+        return Err(refuse(io::Error::other(format!(
+            "{length} bytes; the most is {MOST_BYTES}"
+        ))));
+    }
+    let bytes = std::fs::read(path).map_err(refuse)?;
+    decode(&bytes).map_err(|source| ImageError::Contents {
+        path: path.to_owned(),
+        source: Box::new(source),
+    })
+}

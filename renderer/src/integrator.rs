@@ -1,1 +1,7 @@
-//! (being built)
+//! Following light: one path, and all the paths of a picture.
+
+pub mod develop;
+pub mod features;
+pub mod mis;
+pub mod path;
+pub mod render;

@@ -1,1 +1,77 @@
-//! (being built)
+//! Where light comes from.
+//!
+//! - **In**: a point that is lit, random numbers.
+//! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its density over solid angle.
+//! - **Always true**: what [`Light::sample`] draws, [`Light::pdf`] knows; a light that says it is found by
+//!   bounces only is never sampled.
+
+use glam::{Vec2, Vec3};
+
+pub mod area;
+pub mod distant;
+pub mod environment;
+pub mod selection;
+
+use crate::spectrum::{Curve, Lanes, Wavelengths};
+use area::AreaLight;
+use distant::DistantLight;
+use environment::EnvironmentLight;
+
+/// The lights, a closed set.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A disc at infinity.
+    Distant(DistantLight),
+    /// The same radiance from every direction, W m⁻² sr⁻¹ nm⁻¹.
+    Constant(Curve),
+    /// A picture at infinity.
+    Environment(EnvironmentLight),
+    /// A surface that shines.
+    Area(AreaLight),
+}
+
+/// Light that may arrive at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample<const N: usize> {
+    /// Unit direction from the point to the light, world.
+    pub wi: Vec3,
+    /// Point on the light, or `None` at infinity.
+    pub point: Option<Vec3>,
+    /// Radiance if nothing is in between.
+    pub radiance: Lanes<N>,
+    /// Density over solid angle, sr⁻¹.
+    pub pdf: f32,
+}
+
+impl Light {
+    /// Draws light arriving at `position`; `choice` picks a part of the light, `u` a place on it.
+    pub fn sample<const N: usize>(
+        &self,
+        position: Vec3,
+        wavelengths: &Wavelengths<N>,
+        choice: f32,
+        u: Vec2,
+    ) -> Option<LightSample<N>> {
+        match self {
+            Self::Distant(light) => Some(light.sample(wavelengths, u)),
+            Self::Constant(_) => None,
+            Self::Environment(light) => light.sample(wavelengths, u),
+            Self::Area(light) => light.sample(position, wavelengths, choice, u),
+        }
+    }
+
+    /// Radiance from infinity along the unit direction `wi` (towards the light), and the density with which
+    /// [`Light::sample`] draws that direction; `None` if the light is not there.
+    pub fn at_infinity<const N: usize>(
+        &self,
+        wi: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<(Lanes<N>, f32)> {
+        match self {
+            Self::Distant(light) => light.towards(wi, wavelengths),
+            Self::Constant(radiance) => Some((radiance.lanes(wavelengths), 0.0)),
+            Self::Environment(light) => Some(light.towards(wi, wavelengths)),
+            Self::Area(_) => None,
+        }
+    }
+}

@@ -1,3 +1,7 @@
 //! The `lamina` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    renderer::cli::run(std::env::args_os())
+}

@@ -1,0 +1,158 @@
+//! The boundary of a transparent medium, smooth or rough.
+
+use glam::{Vec2, Vec3};
+
+use crate::bsdf::fresnel;
+use crate::bsdf::ggx::Ggx;
+
+/// Reflection and refraction at a boundary; the medium lies on the side −z.
+///
+/// Rough boundaries follow Walter et al. 2007 with the GGX distribution and their separable Smith shadowing
+/// (what is masked from one side says little about the other side of the surface). Radiance that enters the medium
+/// is compressed by the solid angle, so `f` is not reciprocal: `f(wo, wi) η_i² = f(wi, wo) η_o²`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dielectric {
+    /// Refractive index of the medium over that outside.
+    pub eta: f32,
+    /// GGX roughness; 0 is smooth.
+    pub alpha: f32,
+}
+
+/// A drawn direction; the weight is the same for all wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct DielectricSample {
+    /// Direction of the light, local.
+    pub wi: Vec3,
+    /// `f · |cos| / pdf`.
+    pub weight: f32,
+    /// Density over solid angle.
+    pub pdf: f32,
+    /// Whether the boundary is smooth.
+    pub specular: bool,
+}
+
+impl Dielectric {
+    /// Whether the boundary reflects and refracts into single directions.
+    pub fn is_smooth(self) -> bool {
+        self.alpha == 0.0
+    }
+
+    fn ggx(self) -> Ggx {
+        Ggx {
+            alpha_x: self.alpha,
+            alpha_y: self.alpha,
+        }
+    }
+
+    /// Index on the far side over that on the side of `wo`.
+    fn relative_eta(self, wo: Vec3) -> f32 {
+        if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
+    }
+
+    /// Micronormal on the side of +z that sends `wi` to `wo`, both seen with `wo` above.
+    fn half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<Vec3> {
+        let sum = if wi.z > 0.0 { wo + wi } else { wo + wi * eta };
+        let h = sum.try_normalize()?;
+        let h = if h.z < 0.0 { -h } else { h };
+        // A facet seen from behind scatters nothing.
+        (wo.dot(h) > 0.0 && wi.dot(h) * wi.z > 0.0).then_some(h)
+    }
+
+    /// `f(wo, wi)`, sr⁻¹; zero for a smooth boundary.
+    pub fn eval(self, wo: Vec3, wi: Vec3) -> f32 {
+        if self.is_smooth() || wo.z == 0.0 || wi.z == 0.0 {
+            return 0.0;
+        }
+        let eta = self.relative_eta(wo);
+        let (wo, wi) = flip(wo, wi);
+        let Some(h) = Self::half_vector(wo, wi, eta) else {
+            return 0.0;
+        };
+        let ggx = self.ggx();
+        let reflected = fresnel::dielectric(wo.dot(h), eta);
+        if wi.z > 0.0 {
+            return ggx.d(h) * ggx.g1(wo) * ggx.g1(wi) * reflected / (4.0 * wo.z * wi.z);
+        }
+        let denominator = wo.dot(h) + eta * wi.dot(h);
+        let jacobian =
+            wo.dot(h) * wi.dot(h).abs() / (wo.z * wi.z.abs() * denominator * denominator);
+        // η² of the density of normals and 1/η² of the radiance's compression cancel.
+        (1.0 - reflected) * ggx.d(h) * ggx.g1(wo) * ggx.g1(-wi) * jacobian
+    }
+
+    /// Density of [`Dielectric::sample`], sr⁻¹; zero for a smooth boundary.
+    pub fn pdf(self, wo: Vec3, wi: Vec3) -> f32 {
+        if self.is_smooth() || wo.z == 0.0 || wi.z == 0.0 {
+            return 0.0;
+        }
+        let eta = self.relative_eta(wo);
+        let (wo, wi) = flip(wo, wi);
+        let Some(h) = Self::half_vector(wo, wi, eta) else {
+            return 0.0;
+        };
+        let reflected = fresnel::dielectric(wo.dot(h), eta);
+        let visible = self.ggx().visible_density(wo, h);
+        if wi.z > 0.0 {
+            return reflected * visible / (4.0 * wo.dot(h));
+        }
+        let denominator = wo.dot(h) + eta * wi.dot(h);
+        (1.0 - reflected) * visible * eta * eta * wi.dot(h).abs() / (denominator * denominator)
+    }
+
+    /// Draws reflection or refraction by their Fresnel shares.
+    pub fn sample(self, wo: Vec3, lobe: f32, u: Vec2) -> Option<DielectricSample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let eta = self.relative_eta(wo);
+        let side = 1.0_f32.copysign(wo.z);
+        let above = Vec3::new(wo.x, wo.y, wo.z.abs());
+        let h = if self.is_smooth() {
+            Vec3::Z
+        } else {
+            self.ggx().sample_visible(above, u)
+        };
+        let cos = above.dot(h);
+        let reflected = fresnel::dielectric(cos, eta);
+        let (wi, smooth_weight) = if lobe < reflected {
+            let wi = 2.0 * cos * h - above;
+            if wi.z <= 0.0 {
+                return None;
+            }
+            (wi, 1.0)
+        } else {
+            let cos_t = fresnel::refracted_cosine(cos, eta)?;
+            let wi = -above / eta + (cos / eta - cos_t) * h;
+            if wi.z >= 0.0 {
+                return None;
+            }
+            (wi, 1.0 / (eta * eta))
+        };
+        let wi = Vec3::new(wi.x, wi.y, wi.z * side);
+        if self.is_smooth() {
+            return Some(DielectricSample {
+                wi,
+                weight: smooth_weight,
+                pdf: 1.0,
+                specular: true,
+            });
+        }
+        let wi = wi.normalize();
+        let pdf = self.pdf(wo, wi);
+        (pdf > 0.0).then(|| DielectricSample {
+            wi,
+            weight: self.eval(wo, wi) * wi.z.abs() / pdf,
+            pdf,
+            specular: false,
+        })
+    }
+}
+
+/// Mirrors both directions so that `wo` is above.
+fn flip(wo: Vec3, wi: Vec3) -> (Vec3, Vec3) {
+    if wo.z > 0.0 {
+        (wo, wi)
+    } else {
+        (Vec3::new(wo.x, wo.y, -wo.z), Vec3::new(wi.x, wi.y, -wi.z))
+    }
+}

@@ -1,0 +1,127 @@
+//! The GGX distribution of microfacet normals with height-correlated Smith shadowing.
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use crate::sampling::warp;
+
+/// Roughness along the two tangent axes; directions are on the side +z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ggx {
+    /// Roughness along local x.
+    pub alpha_x: f32,
+    /// Roughness along local y.
+    pub alpha_y: f32,
+}
+
+impl Ggx {
+    /// Density of microfacet normals, sr⁻¹ (Walter et al. 2007; Heitz 2014 for the anisotropic form).
+    pub fn d(&self, h: Vec3) -> f32 {
+        let x = h.x / self.alpha_x;
+        let y = h.y / self.alpha_y;
+        let stretched = x * x + y * y + h.z * h.z;
+        1.0 / (PI * self.alpha_x * self.alpha_y * stretched * stretched)
+    }
+
+    /// Smith's auxiliary function Λ.
+    pub fn lambda(&self, w: Vec3) -> f32 {
+        let x = self.alpha_x * w.x;
+        let y = self.alpha_y * w.y;
+        let tan2 = (x * x + y * y) / (w.z * w.z);
+        0.5 * ((1.0 + tan2).sqrt() - 1.0)
+    }
+
+    /// Masking from one direction.
+    pub fn g1(&self, w: Vec3) -> f32 {
+        1.0 / (1.0 + self.lambda(w))
+    }
+
+    /// Masking and shadowing of two directions on the same side, height-correlated.
+    pub fn g2(&self, wo: Vec3, wi: Vec3) -> f32 {
+        1.0 / (1.0 + self.lambda(wo) + self.lambda(wi))
+    }
+
+    /// A microfacet normal drawn from those visible from `wo` (Heitz, JCGT 7(4), 2018).
+    pub fn sample_visible(&self, wo: Vec3, u: Vec2) -> Vec3 {
+        let stretched = Vec3::new(self.alpha_x * wo.x, self.alpha_y * wo.y, wo.z).normalize();
+        let length2 = stretched.x * stretched.x + stretched.y * stretched.y;
+        let t1 = if length2 > 0.0 {
+            Vec3::new(-stretched.y, stretched.x, 0.0) / length2.sqrt()
+        } else {
+            Vec3::X
+        };
+        let t2 = stretched.cross(t1);
+        let point = warp::disc(u);
+        let lift = 0.5 * (1.0 + stretched.z);
+        let y = (1.0 - lift) * (1.0 - point.x * point.x).max(0.0).sqrt() + lift * point.y;
+        let z = (1.0 - point.x * point.x - y * y).max(0.0).sqrt();
+        let normal = point.x * t1 + y * t2 + z * stretched;
+        Vec3::new(
+            self.alpha_x * normal.x,
+            self.alpha_y * normal.y,
+            normal.z.max(1e-6),
+        )
+        .normalize()
+    }
+
+    /// Density of [`Ggx::sample_visible`] over solid angle of the normal, sr⁻¹.
+    pub fn visible_density(&self, wo: Vec3, h: Vec3) -> f32 {
+        self.g1(wo) * wo.dot(h).max(0.0) * self.d(h) / wo.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Integrates over the upper hemisphere with a rule that is even in cos² θ and φ.
+    fn over_hemisphere(f: impl Fn(Vec3) -> f32) -> f64 {
+        let (rings, spokes) = (2000, 256);
+        let mut sum = 0.0;
+        for i in 0..rings {
+            // Nodes crowd around the pole, where a sharp lobe lives.
+            let x = (i as f32 + 0.5) / rings as f32;
+            let theta = 0.5 * PI * x * x;
+            let weight = 0.5 * PI * 2.0 * x / rings as f32 * theta.sin();
+            for j in 0..spokes {
+                let phi = 2.0 * PI * (j as f32 + 0.5) / spokes as f32;
+                let w = Vec3::new(
+                    theta.sin() * phi.cos(),
+                    theta.sin() * phi.sin(),
+                    theta.cos(),
+                );
+                sum += f64::from(f(w) * weight) * f64::from(2.0 * PI) / f64::from(spokes);
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn facets_cover_the_surface_exactly_once() {
+        for (alpha_x, alpha_y) in [(0.1, 0.1), (0.2, 0.5), (1.0, 1.0)] {
+            let ggx = Ggx { alpha_x, alpha_y };
+            let covered = over_hemisphere(|h| ggx.d(h) * h.z);
+            assert!(
+                (covered - 1.0).abs() < 2e-3,
+                "{alpha_x} {alpha_y}: {covered}"
+            );
+        }
+    }
+
+    #[test]
+    fn visible_normals_have_a_density_that_integrates_to_one() {
+        let ggx = Ggx {
+            alpha_x: 0.3,
+            alpha_y: 0.15,
+        };
+        for wo in [
+            Vec3::Z,
+            Vec3::new(0.6, 0.0, 0.8),
+            Vec3::new(0.3, 0.9, 0.2).normalize(),
+        ] {
+            let total = over_hemisphere(|h| ggx.visible_density(wo, h));
+            assert!((total - 1.0).abs() < 5e-3, "{wo}: {total}");
+        }
+    }
+}

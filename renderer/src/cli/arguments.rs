@@ -1,0 +1,284 @@
+//! The command line as written: what can be asked for, and nothing of how it is done.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
+pub const GREETING: &str = "\
+Lamina renders leaves: grown from biology, lit by spectra, recorded as light.
+Render the first leaf:  lamina render scenes/first-leaf/scene.toml
+Check a scene file:     lamina check SCENE.toml
+All commands:           lamina help
+The guide starts at:    docs/src/guide.md";
+
+/// An offline spectral renderer of leaves.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "lamina", version, about, long_about = None)]
+pub struct Arguments {
+    /// What is to be done; without it the greeting is printed.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// The subcommands.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to STEM.exr and STEM.png
+    Render(RenderArguments),
+    /// Report every error of a scene file
+    Check(SceneArguments),
+    /// Write reflectance and transmittance of a leaf by PROSPECT-D
+    Optics(OpticsArguments),
+    /// Hand a scene to another renderer
+    #[command(subcommand)]
+    Export(ExportCommand),
+    /// Compare two pictures number by number
+    Compare(CompareArguments),
+    /// Print what an EXR file holds
+    Info(InfoArguments),
+    /// Grow a leaf and write its veins, mesh and contents
+    Grow(GrowArguments),
+}
+
+/// A scene file with overrides.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct SceneArguments {
+    /// The scene file
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Override a value, written as in the file: -D film.rgb.spp=16
+    #[arg(short = 'D', value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// `lamina render`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct RenderArguments {
+    /// Scene and overrides.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Stem of the files that are written; the default is the scene's name in this folder
+    #[arg(long, value_name = "STEM")]
+    pub out: Option<PathBuf>,
+    /// Samples a pixel, instead of the scene's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    pub spp: Option<u32>,
+    /// Seed of every random number, instead of the scene's
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; the default is one for each processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Write times, memory and speed as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+}
+
+/// `lamina optics`: PROSPECT-D's inputs.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct OpticsArguments {
+    /// Structure N, number of plates, at least 1
+    #[arg(long, default_value_t = 1.5, value_parser = at_least_one)]
+    pub n: f64,
+    /// Chlorophyll a + b, µg/cm²
+    #[arg(long, default_value_t = 40.0, value_parser = at_least_zero)]
+    pub cab: f64,
+    /// Carotenoids, µg/cm²
+    #[arg(long, default_value_t = 8.0, value_parser = at_least_zero)]
+    pub car: f64,
+    /// Anthocyanins, µg/cm²
+    #[arg(long, default_value_t = 0.0, value_parser = at_least_zero)]
+    pub ant: f64,
+    /// Brown pigments, PROSPECT's unit
+    #[arg(long, default_value_t = 0.0, value_parser = at_least_zero)]
+    pub brown: f64,
+    /// Water, cm
+    #[arg(long, default_value_t = 0.01, value_parser = at_least_zero)]
+    pub cw: f64,
+    /// Dry matter, g/cm²
+    #[arg(long, default_value_t = 0.009, value_parser = at_least_zero)]
+    pub cm: f64,
+    /// Table to write: `wavelength_nm,R,T`
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: PathBuf,
+}
+
+/// `lamina export`.
+#[derive(Clone, Debug, Subcommand)]
+pub enum ExportCommand {
+    /// XML, meshes, maps and spectra for Mitsuba 3
+    Mitsuba(MitsubaArguments),
+}
+
+/// `lamina export mitsuba`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct MitsubaArguments {
+    /// Scene and overrides.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Folder to write into
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// `lamina compare`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct CompareArguments {
+    /// One picture
+    #[arg(value_name = "A.exr")]
+    pub first: PathBuf,
+    /// The other
+    #[arg(value_name = "B.exr")]
+    pub second: PathBuf,
+}
+
+/// `lamina info`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct InfoArguments {
+    /// The picture
+    #[arg(value_name = "FILE.exr")]
+    pub picture: PathBuf,
+}
+
+/// `lamina grow`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct GrowArguments {
+    /// A file with leaves or a scene, and which leaf if there are several: scene.toml#beech
+    #[arg(value_name = "FILE.toml[#LEAF]")]
+    pub leaf: String,
+    /// Override a value, written as in the file: -D leaves.beech.seed=3
+    #[arg(short = 'D', value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Files to write, their kind by their ending: svg, ply, obj
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub out: Vec<PathBuf>,
+    /// Write the maps of contents into a folder
+    #[arg(long, value_name = "DIR")]
+    pub contents: Option<PathBuf>,
+    /// Write times and counts as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// Seed, instead of the leaf's
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; the default is one for each processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+impl GrowArguments {
+    /// The file, and the leaf in it if one is named behind `#`.
+    pub fn file_and_leaf(&self) -> (PathBuf, Option<&str>) {
+        match self.leaf.rsplit_once('#') {
+            // A folder may have `#` in its name; what is behind a leaf's is never a path.
+            Some((file, leaf)) if !leaf.contains(['/', '\\']) => (PathBuf::from(file), Some(leaf)),
+            Some(_) | None => (PathBuf::from(&self.leaf), None),
+        }
+    }
+}
+
+fn at_least_zero(text: &str) -> Result<f64, String> {
+    at_least(0.0, text)
+}
+
+fn at_least_one(text: &str) -> Result<f64, String> {
+    at_least(1.0, text)
+}
+
+fn at_least(least: f64, text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value.is_finite() && value >= least {
+        Ok(value)
+    } else {
+        Err(format!("write a finite number of at least {least}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    fn parsed(line: &str) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from(line.split(' '))
+    }
+
+    #[test]
+    fn the_command_line_has_no_contradictions() {
+        Arguments::command().debug_assert();
+        assert_eq!(GREETING.lines().count(), 5);
+    }
+
+    #[test]
+    fn render_takes_all_its_options() {
+        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 -D x.y=1 -D z=2 --stats s.json";
+        let arguments = parsed(line).expect("the line is right");
+        let Some(Command::Render(render)) = arguments.command else {
+            panic!("{line} is no render");
+        };
+        assert_eq!(render.scene.overrides, ["x.y=1", "z=2"]);
+        assert_eq!(
+            (render.spp, render.threads, render.seed),
+            (Some(9), Some(2), Some(7))
+        );
+    }
+
+    #[test]
+    fn overrides_may_be_negative_and_hold_equals_signs() {
+        let arguments =
+            parsed("lamina check a.toml -Dpicture.exposure_ev=-1").expect("the line is right");
+        let Some(Command::Check(check)) = arguments.command else {
+            panic!("no check");
+        };
+        assert_eq!(check.overrides, ["picture.exposure_ev=-1"]);
+    }
+
+    #[test]
+    fn bad_arguments_end_with_code_2() {
+        for line in [
+            "lamina paint",
+            "lamina render",
+            "lamina render a.toml --spp 0",
+            "lamina render a.toml --spp 1099511627776",
+            "lamina render a.toml --threads 0",
+            "lamina optics --n 0.5 --out a.csv",
+            "lamina optics --cab nan --out a.csv",
+            "lamina optics --cab -1 --out a.csv",
+            "lamina export pbrt a.toml --out b",
+            "lamina compare a.exr",
+        ] {
+            let error = parsed(line).expect_err(line);
+            assert_eq!(error.exit_code(), 2, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_leaf_of_a_scene_is_named_behind_the_number_sign() {
+        for (line, file, leaf) in [
+            (
+                "lamina grow s.toml#beech --out a.svg",
+                "s.toml",
+                Some("beech"),
+            ),
+            ("lamina grow s.toml --out a.svg b.ply", "s.toml", None),
+            ("lamina grow a#b/s.toml --seed 3", "a#b/s.toml", None),
+        ] {
+            let Some(Command::Grow(grow)) = parsed(line).expect(line).command else {
+                panic!("{line} is no grow");
+            };
+            assert_eq!(grow.file_and_leaf(), (PathBuf::from(file), leaf));
+        }
+    }
+
+    #[test]
+    fn nothing_asked_is_nothing_to_do() {
+        assert!(
+            parsed("lamina")
+                .expect("the line is right")
+                .command
+                .is_none()
+        );
+    }
+}

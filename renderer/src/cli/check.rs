@@ -1,0 +1,26 @@
+//! `lamina check`: every error of a scene at once, and what it would build.
+
+use crate::cli::arguments::SceneArguments;
+use crate::cli::{Failure, load_scene, say};
+use crate::scene::world::World;
+
+pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
+    let loaded = load_scene(arguments)?;
+    let world = World::build(&loaded.description).map_err(Failure::bad)?;
+    for note in &world.notes {
+        eprintln!("note: {note}");
+    }
+    let (low, high) = world.geometry.bounds();
+    let size = high - low;
+    say(format!(
+        "{}: {} objects, {} lights, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
+        arguments.scene.display(),
+        world.objects.len(),
+        world.lights.len(),
+        size.x,
+        size.y,
+        size.z,
+        world.geometry.memory_bytes() as f64 / f64::from(1 << 20)
+    ));
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Times, memory and speed, for people and for scripts.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::cli::Failure;
+use crate::image::atomic;
+
+/// Greatest resident memory of this process so far, MiB; absent where the system does not tell.
+pub(super) fn peak_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kib / 1024.0)
+}
+
+/// Writes a JSON object, whole or not at all.
+pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
+    let text = format!("{stats:#}\n");
+    atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)
+}

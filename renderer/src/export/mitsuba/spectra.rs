@@ -1,0 +1,179 @@
+//! Spectra and bands as Mitsuba takes them.
+
+use crate::scene::description::{Band, Spectrum};
+use crate::spectrum::{cie, planck};
+
+/// Mitsuba's spectra are zero outside their points; ours hold their end values. So all are written over this range, nm,
+/// which holds every wavelength of a film.
+const RANGE_NM: [f64; 2] = [300.0, 2600.0];
+
+/// Spectra of more points than this get a file of their own.
+const MOST_INLINE: usize = 16;
+
+/// Intervals that a band's response is written with.
+const RESPONSE_INTERVALS: usize = 64;
+
+/// Width in nm of the box that stands for a single wavelength: Mitsuba's wavelengths are `f32`, with steps of up to
+/// 2.4e-4 nm.
+const SINGLE_WAVELENGTH_NM: f64 = 0.5;
+
+/// Writes spectra, and collects those that become files.
+#[derive(Debug, Default)]
+pub(super) struct Spectra {
+    /// Name in the folder `spectra`, and text.
+    pub(super) files: Vec<(String, String)>,
+}
+
+impl Spectra {
+    /// The element `<spectrum name=…>` of a spectrum times a factor, with a line end.
+    pub(super) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> String {
+        let points = points(spectrum, factor);
+        // Mitsuba refuses tables without any mass.
+        if points.iter().all(|point| point.1 == 0.0) {
+            return format!("<spectrum name=\"{name}\" value=\"0\"/>\n");
+        }
+        if points.len() <= MOST_INLINE {
+            let values: Vec<String> = points
+                .iter()
+                .map(|(nm, value)| format!("{nm}:{value}"))
+                .collect();
+            return format!(
+                "<spectrum name=\"{name}\" value=\"{}\"/>\n",
+                values.join(", ")
+            );
+        }
+        let lines: Vec<String> = points
+            .iter()
+            .map(|(nm, value)| format!("{nm} {value}"))
+            .collect();
+        let text = lines.join(
+            "
+",
+        ) + "
+";
+        let number = self
+            .files
+            .iter()
+            .position(|file| file.1 == text)
+            .unwrap_or_else(|| {
+                let file = format!("spectrum-{}.spd", self.files.len());
+                self.files.push((file, text));
+                self.files.len() - 1
+            });
+        let file = &self.files[number].0;
+        format!("<spectrum name=\"{name}\" filename=\"spectra/{file}\"/>\n")
+    }
+}
+
+/// The points between which a spectrum is linear, over the whole range.
+fn points(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
+    let [first, last] = RANGE_NM;
+    let mut points: Vec<(f64, f64)> = match spectrum {
+        Spectrum::Constant(value) => vec![(first, *value), (last, *value)],
+        Spectrum::Table { points, .. } => points.clone(),
+        Spectrum::D65 { scale } => (0..=530)
+            .map(|i| 300.0 + f64::from(i))
+            .map(|nm| (nm, scale * cie::d65(nm) / cie::d65(560.0)))
+            .collect(),
+        Spectrum::Blackbody { kelvin, scale } => {
+            let reference = planck::radiance(560.0, *kelvin);
+            (0..=2300)
+                .map(|i| 300.0 + f64::from(i))
+                .map(|nm| (nm, scale * planck::radiance(nm, *kelvin) / reference))
+                .collect()
+        }
+    };
+    if let Some(&(nm, value)) = points.first()
+        && nm > first
+    {
+        points.insert(0, (first, value));
+    }
+    if let Some(&(nm, value)) = points.last()
+        && nm < last
+    {
+        points.push((last, value));
+    }
+    for point in &mut points {
+        point.1 *= factor;
+    }
+    points
+}
+
+/// A band of a `specfilm`, whose channel is the integral of radiance times this response: a box of area 1, so that the
+/// channel is the band's mean radiance.
+///
+/// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any of them. Written
+/// with two points only, a narrow band could fall between the points of that resampling.
+pub(super) fn response(number: usize, band: &Band) -> String {
+    let width = if band.width_nm > 0.0 {
+        band.width_nm
+    } else {
+        SINGLE_WAVELENGTH_NM
+    };
+    let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
+    let values = vec![(1.0 / width).to_string(); RESPONSE_INTERVALS + 1].join(", ");
+    format!(
+        "    <spectrum type=\"regular\" name=\"band_{number:02}\">\n      \
+         <float name=\"wavelength_min\" value=\"{low}\"/>\n      \
+         <float name=\"wavelength_max\" value=\"{high}\"/>\n      \
+         <string name=\"values\" value=\"{values}\"/>\n    </spectrum>\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spectrum_covers_the_range_with_its_end_values() {
+        let table = Spectrum::Table {
+            points: vec![(400.0, 0.25), (700.0, 0.5)],
+            extrapolate: true,
+        };
+        let expected = [(300.0, 0.5), (400.0, 0.5), (700.0, 1.0), (2600.0, 1.0)];
+        assert_eq!(points(&table, 2.0), expected);
+    }
+
+    #[test]
+    fn a_long_spectrum_becomes_one_file_however_often_it_is_used() {
+        let mut spectra = Spectra::default();
+        let sun = Spectrum::Blackbody {
+            kelvin: 5800.0,
+            scale: 1.0,
+        };
+        let first = spectra.element("radiance", &sun, 2.0);
+        assert_eq!(first, spectra.element("radiance", &sun, 2.0));
+        assert_eq!(
+            first,
+            "<spectrum name=\"radiance\" filename=\"spectra/spectrum-0.spd\"/>\n"
+        );
+        assert_eq!(spectra.files.len(), 1);
+        assert_eq!(spectra.files[0].1.lines().count(), 2301);
+        assert!(
+            spectra.files[0].1.contains("\n560 2\n"),
+            "twice 1 at 560 nm"
+        );
+    }
+
+    #[test]
+    fn black_is_written_as_a_number_since_mitsuba_refuses_empty_tables() {
+        let mut spectra = Spectra::default();
+        let black = spectra.element("reflectance", &Spectrum::Constant(0.0), 1.0);
+        assert_eq!(black, "<spectrum name=\"reflectance\" value=\"0\"/>\n");
+    }
+
+    #[test]
+    fn a_response_has_area_one() {
+        let text = response(
+            3,
+            &Band {
+                center_nm: 550.0,
+                width_nm: 10.0,
+            },
+        );
+        assert!(text.contains("name=\"band_03\""));
+        assert!(text.contains("\"wavelength_min\" value=\"545\""));
+        assert!(text.contains("\"wavelength_max\" value=\"555\""));
+        assert_eq!(text.matches("0.1").count(), RESPONSE_INTERVALS + 1);
+    }
+}

@@ -1,0 +1,406 @@
+//! Meshes, placed by instances: what rays are traced against.
+
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::bounds::Bounds;
+use super::instance::Instance;
+use super::mesh::TriangleMesh;
+use super::ray::Ray;
+use super::slab::SlabRay;
+use super::surface::SurfacePoint;
+use super::triangle::{ShearRay, TriangleBlock};
+use super::wide_tree::WideTree;
+
+/// Placed meshes with their trees. Immutable, shared by every thread.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    meshes: Vec<TracedMesh>,
+    placements: Vec<Placement>,
+    tree: WideTree,
+    /// Instance of each leaf of `tree`.
+    order: Vec<u32>,
+}
+
+/// Where a ray meets the geometry first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance in lengths of the ray's direction.
+    pub t: f32,
+    /// Number of the instance.
+    pub instance: u32,
+    /// Number of the triangle in the instance's mesh.
+    pub triangle: u32,
+    /// Weight of the triangle's second vertex.
+    pub b1: f32,
+    /// Weight of the triangle's third vertex.
+    pub b2: f32,
+}
+
+/// Why meshes and instances were refused.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum GeometryError {
+    /// An instance names a mesh that is not there.
+    #[error(
+        "instance {instance} names mesh {mesh}, but there are {meshes} meshes (counted from 0)"
+    )]
+    NoSuchMesh {
+        /// Number of the instance.
+        instance: usize,
+        /// The mesh it names.
+        mesh: u32,
+        /// Meshes there are.
+        meshes: usize,
+    },
+    /// A transform is not finite, flattens the mesh, or takes it beyond what `f32` can hold.
+    #[error("the transform of instance {instance} {what}")]
+    Transform {
+        /// Number of the instance.
+        instance: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// More instances than can be numbered.
+    #[error("there are {given} instances; the most is {MOST_INSTANCES}")]
+    TooManyInstances {
+        /// How many there are.
+        given: usize,
+    },
+}
+
+/// Instances and tree nodes share 32 bits.
+const MOST_INSTANCES: usize = 1 << 29;
+
+/// A mesh with its tree, in the mesh's frame moved so that the middle of its bounds is the origin: a leaf far away in
+/// its own file keeps its detail.
+#[derive(Clone, Debug)]
+struct TracedMesh {
+    mesh: TriangleMesh,
+    center: Vec3,
+    tree: WideTree,
+    blocks: Vec<TriangleBlock>,
+}
+
+/// An instance with what is computed from it. "Local" is the frame in which its mesh is traced.
+#[derive(Clone, Debug)]
+pub(super) struct Placement {
+    instance: Instance,
+    /// Local to world.
+    pub(super) linear: DMat3,
+    pub(super) offset: DVec3,
+    /// Takes normals to the world.
+    pub(super) normals: DMat3,
+    /// World to local, as rays are carried.
+    local_linear: Mat3,
+    local_offset: Vec3,
+}
+
+impl Placement {
+    fn new(number: usize, instance: Instance, center: Vec3) -> Result<Self, GeometryError> {
+        let refuse = |what| GeometryError::Transform {
+            instance: number,
+            what,
+        };
+        let to_world = DAffine3 {
+            matrix3: DMat3::from_cols(
+                Vec3::from(instance.to_world.matrix3.x_axis).as_dvec3(),
+                Vec3::from(instance.to_world.matrix3.y_axis).as_dvec3(),
+                Vec3::from(instance.to_world.matrix3.z_axis).as_dvec3(),
+            ),
+            translation: Vec3::from(instance.to_world.translation).as_dvec3(),
+        };
+        let linear = to_world.matrix3;
+        let offset = to_world.transform_point3(center.as_dvec3());
+        if !linear.is_finite() || !offset.is_finite() {
+            return Err(refuse("is not finite"));
+        }
+        let size = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
+        // Relative to its axes: below this, rounding in f32 decides where the mesh is.
+        if linear.determinant().abs() <= size * 1e-6 || size == 0.0 {
+            return Err(refuse(
+                "flattens the mesh: it has no inverse that 32-bit numbers can hold",
+            ));
+        }
+        let inverse = linear.inverse();
+        let local_linear = inverse.as_mat3();
+        let local_offset = (-(inverse * offset)).as_vec3();
+        if !local_linear.is_finite() || !local_offset.is_finite() {
+            return Err(refuse("has an inverse beyond 32-bit numbers"));
+        }
+        Ok(Self {
+            instance,
+            linear,
+            offset,
+            normals: inverse.transpose(),
+            local_linear,
+            local_offset,
+        })
+    }
+
+    /// The ray in the local frame, with the same `t`.
+    #[inline]
+    fn carry(&self, ray: &Ray) -> (Vec3, Vec3) {
+        (
+            self.local_linear * ray.origin + self.local_offset,
+            self.local_linear * ray.direction,
+        )
+    }
+
+    /// Sum of the magnitudes that are added up when a world point is carried into the local frame, by coordinate.
+    pub(super) fn to_local_size(&self, world: DVec3) -> DVec3 {
+        let columns = self.local_linear;
+        columns.x_axis.abs().as_dvec3() * world.x.abs()
+            + columns.y_axis.abs().as_dvec3() * world.y.abs()
+            + columns.z_axis.abs().as_dvec3() * world.z.abs()
+            + self.local_offset.abs().as_dvec3()
+    }
+
+    fn world_bounds(&self, local: &Bounds) -> Bounds {
+        local.transformed(&DAffine3 {
+            matrix3: self.linear,
+            translation: self.offset,
+        })
+    }
+}
+
+impl TracedMesh {
+    fn build(mesh: TriangleMesh) -> Self {
+        let (min, max) = mesh.bounds();
+        let center = Bounds { min, max }.center();
+        let corners = |triangle: u32| {
+            // In f64: the difference of two f32 numbers may need more digits before it is rounded once.
+            mesh.corners(triangle)
+                .map(|corner| (corner.as_dvec3() - center.as_dvec3()).as_vec3())
+        };
+        let count = mesh.triangles().len() as u32;
+        let boxes: Vec<_> = (0..count)
+            .map(|triangle| Bounds::around(corners(triangle)))
+            .collect();
+        let (tree, leaves) = WideTree::build(&boxes, 8);
+        let blocks = leaves
+            .iter()
+            .map(|leaf| {
+                TriangleBlock::new(&leaf.iter().map(|&id| (id, corners(id))).collect::<Vec<_>>())
+            })
+            .collect();
+        Self {
+            mesh,
+            center,
+            tree,
+            blocks,
+        }
+    }
+
+    /// Calls `found(triangle, hit)` for the triangles that the ray may meet no later than `limit`; it gives the new
+    /// limit.
+    #[inline]
+    fn walk<const NEAREST_FIRST: bool>(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        t_min: f32,
+        limit: f32,
+        mut found: impl FnMut(u32, super::triangle::TriangleHit, f32) -> f32,
+    ) {
+        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest number.
+        if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
+            return;
+        }
+        let slab = SlabRay::new(origin, direction, t_min, self.tree.bounds());
+        let shear = ShearRay::new(origin, direction, t_min);
+        self.tree
+            .walk::<NEAREST_FIRST>(&slab, limit, |leaf, _, mut limit| {
+                let block = &self.blocks[leaf as usize];
+                let mut candidates = block.candidates(&shear);
+                while candidates != 0 {
+                    let lane = candidates.trailing_zeros() as usize;
+                    candidates &= candidates - 1;
+                    if let Some(hit) = block.hit(lane, &shear, &slab) {
+                        limit = found(block.id(lane), hit, limit);
+                    }
+                }
+                limit
+            });
+    }
+}
+
+impl Geometry {
+    /// Builds the trees. No instances at all is a geometry that nothing hits.
+    ///
+    /// # Errors
+    ///
+    /// [`GeometryError`]: an instance of a mesh that is not there, or with a transform that cannot be inverted.
+    pub fn build(
+        meshes: Vec<TriangleMesh>,
+        instances: Vec<Instance>,
+    ) -> Result<Self, GeometryError> {
+        if instances.len() > MOST_INSTANCES {
+            return Err(GeometryError::TooManyInstances {
+                given: instances.len(),
+            });
+        }
+        for (number, instance) in instances.iter().enumerate() {
+            if instance.mesh as usize >= meshes.len() {
+                return Err(GeometryError::NoSuchMesh {
+                    instance: number,
+                    mesh: instance.mesh,
+                    meshes: meshes.len(),
+                });
+            }
+        }
+        let meshes: Vec<_> = meshes.into_par_iter().map(TracedMesh::build).collect();
+        let placements = instances
+            .into_iter()
+            .enumerate()
+            .map(|(number, instance)| {
+                Placement::new(number, instance, meshes[instance.mesh as usize].center)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let boxes: Vec<_> = placements
+            .iter()
+            .map(|placement| {
+                placement.world_bounds(meshes[placement.instance.mesh as usize].tree.bounds())
+            })
+            .collect();
+        for (number, bounds) in boxes.iter().enumerate() {
+            if !bounds.min.is_finite() || !bounds.max.is_finite() {
+                return Err(GeometryError::Transform {
+                    instance: number,
+                    what: "takes the mesh beyond 32-bit numbers",
+                });
+            }
+        }
+        let (tree, leaves) = WideTree::build(&boxes, 1);
+        Ok(Self {
+            meshes,
+            placements,
+            tree,
+            order: leaves.into_iter().flatten().collect(),
+        })
+    }
+
+    /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance, triangle).
+    ///
+    /// `None` also for a ray that is not finite or has no direction.
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        self.walk::<true>(ray, |hit, limit| {
+            let nearer = |best: Hit| {
+                hit.t < best.t
+                    || hit.t == best.t
+                        && (hit.instance, hit.triangle) < (best.instance, best.triangle)
+            };
+            if hit.t <= limit && best.is_none_or(nearer) {
+                best = Some(hit);
+                hit.t
+            } else {
+                limit
+            }
+        });
+        best
+    }
+
+    /// Whether anything is hit with `t_min ≤ t ≤ t_max`: [`Geometry::intersect`] gives something.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        let mut occluded = false;
+        self.walk::<false>(ray, |hit, limit| {
+            if hit.t <= limit {
+                occluded = true;
+                f32::NEG_INFINITY
+            } else {
+                limit
+            }
+        });
+        occluded
+    }
+
+    /// Calls `found(hit, limit)` for hits that may be no farther than the limit; it gives the new limit.
+    #[inline]
+    fn walk<const NEAREST_FIRST: bool>(&self, ray: &Ray, mut found: impl FnMut(Hit, f32) -> f32) {
+        if !ray.is_proper() {
+            return;
+        }
+        let slab = SlabRay::new(ray.origin, ray.direction, ray.t_min, self.tree.bounds());
+        self.tree
+            .walk::<NEAREST_FIRST>(&slab, ray.t_max, |leaf, enter, mut limit| {
+                let instance = self.order[leaf as usize];
+                let placement = &self.placements[instance as usize];
+                let (origin, direction) = placement.carry(ray);
+                let mesh = &self.meshes[placement.instance.mesh as usize];
+                mesh.walk::<NEAREST_FIRST>(
+                    origin,
+                    direction,
+                    ray.t_min,
+                    limit,
+                    |triangle, hit, _| {
+                        // Rounding may find a hit before the instance's own box; the box's word keeps culling by it exact.
+                        let t = hit.t.max(enter);
+                        limit = found(
+                            Hit {
+                                t,
+                                instance,
+                                triangle,
+                                b1: hit.b1,
+                                b2: hit.b2,
+                            },
+                            limit,
+                        );
+                        limit
+                    },
+                );
+                limit
+            });
+    }
+
+    /// The surface at a hit. The ray is the one that found it.
+    pub fn surface(&self, _ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let placement = &self.placements[hit.instance as usize];
+        let mesh = &self.meshes[placement.instance.mesh as usize];
+        SurfacePoint::at(hit, &mesh.mesh, mesh.center, placement)
+    }
+
+    /// Smallest and largest coordinates of all instances' boxes, m; twice the origin if there are none.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let bounds = self.tree.bounds();
+        if bounds.is_empty() {
+            return (Vec3::ZERO, Vec3::ZERO);
+        }
+        (bounds.min, bounds.max)
+    }
+
+    /// Memory of meshes and trees.
+    pub fn memory_bytes(&self) -> usize {
+        let meshes: usize = self
+            .meshes
+            .iter()
+            .map(|traced| {
+                traced.mesh.memory_bytes()
+                    + traced.tree.memory_bytes()
+                    + traced.blocks.capacity() * size_of::<TriangleBlock>()
+            })
+            .sum();
+        meshes
+            + self.tree.memory_bytes()
+            + self.placements.capacity() * size_of::<Placement>()
+            + self.order.capacity() * size_of::<u32>()
+    }
+
+    /// A mesh by number.
+    pub fn mesh(&self, i: u32) -> &TriangleMesh {
+        &self.meshes[i as usize].mesh
+    }
+
+    /// An instance by number.
+    pub fn instance(&self, i: u32) -> &Instance {
+        &self.placements[i as usize].instance
+    }
+
+    /// How many instances there are.
+    pub fn instance_count(&self) -> usize {
+        self.placements.len()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,376 @@
+use glam::{Affine3A, DVec3, Vec3};
+use proptest::prelude::*;
+
+use super::super::slab::SlabRay;
+use super::super::testing::{Numbers, alone, blade, fixed, placed, ray_through, soup};
+use super::super::triangle::ShearRay;
+use super::super::{Instance, Ray, TriangleMesh};
+use super::{Geometry, GeometryError, Hit};
+
+/// The nearest hit found by testing every triangle of every instance with the tracer's own test: no tree at all.
+fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
+    let mut hits = Vec::new();
+    let world = SlabRay::new(ray.origin, ray.direction, ray.t_min, geometry.tree.bounds());
+    for (instance, placement) in (0_u32..).zip(&geometry.placements) {
+        let mesh = &geometry.meshes[placement.instance.mesh as usize];
+        let bounds = placement.world_bounds(mesh.tree.bounds());
+        let Some(enter) = world.one(bounds.min.to_array(), bounds.max.to_array()) else {
+            continue;
+        };
+        let (origin, direction) = placement.carry(ray);
+        let slab = SlabRay::new(origin, direction, ray.t_min, mesh.tree.bounds());
+        let shear = ShearRay::new(origin, direction, ray.t_min);
+        for block in &mesh.blocks {
+            for lane in 0..8 {
+                if let Some(hit) = block.hit(lane, &shear, &slab) {
+                    let (t, triangle) = (hit.t.max(enter), block.id(lane));
+                    if t <= ray.t_max {
+                        hits.push(Hit {
+                            t,
+                            instance,
+                            triangle,
+                            b1: hit.b1,
+                            b2: hit.b2,
+                        });
+                    }
+                }
+            }
+        }
+    }
+    hits.into_iter().min_by(|a, b| {
+        let key = |hit: &Hit| (hit.instance, hit.triangle);
+        a.t.total_cmp(&b.t).then(key(a).cmp(&key(b)))
+    })
+}
+
+/// The nearest hit by Möller and Trumbore's test in `f64` on world positions, and how far (in barycentrics) any
+/// triangle's edge is from deciding otherwise.
+fn in_doubles(geometry: &Geometry, ray: &Ray) -> (Option<f64>, f64) {
+    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    let (mut nearest, mut margin): (Option<f64>, f64) = (None, f64::INFINITY);
+    for placement in &geometry.placements {
+        let mesh = &geometry.meshes[placement.instance.mesh as usize];
+        for triangle in 0..mesh.mesh.triangles().len() as u32 {
+            let corners = mesh.mesh.corners(triangle);
+            let [a, b, c] = corners.map(|p| {
+                placement.linear * (p.as_dvec3() - mesh.center.as_dvec3()) + placement.offset
+            });
+            let (e1, e2) = (b - a, c - a);
+            let p = direction.cross(e2);
+            let determinant = e1.dot(p);
+            let s = origin - a;
+            let q = s.cross(e1);
+            let (u, v) = (s.dot(p) / determinant, direction.dot(q) / determinant);
+            let t = e2.dot(q) / determinant;
+            let inside = u.min(v).min(1.0 - u - v);
+            // Seen edge-on, single precision may decide either way.
+            let edge_on = determinant.abs() / (e1.cross(e2).length() * direction.length());
+            margin = margin
+                .min(inside.abs())
+                .min(if inside > -0.1 { edge_on } else { 1.0 });
+            if inside >= 0.0 && t >= 0.0 {
+                margin = margin.min(t * direction.length());
+                nearest = Some(nearest.map_or(t, |nearest| nearest.min(t)));
+            }
+        }
+    }
+    (nearest, margin)
+}
+
+#[test]
+fn the_trees_find_what_testing_every_triangle_finds() {
+    let mut found = 0;
+    for (seed, scale) in (0..).zip([1e-4, 1e-2, 1.0, 30.0, 1e3]) {
+        let mut numbers = Numbers::new(seed);
+        let meshes = vec![
+            soup(seed + 10, 150, scale, Vec3::ZERO),
+            soup(seed + 20, 40, scale, Vec3::splat(3.0 * scale)),
+            blade(9, 7, scale, scale, Vec3::ZERO),
+        ];
+        let instances: Vec<_> = (0..12)
+            .map(|i| (i % 3, numbers.affine(scale)))
+            .chain([(2, Affine3A::IDENTITY), (2, Affine3A::IDENTITY)])
+            .collect();
+        let geometry = placed(meshes, &instances);
+        for _ in 0..600 {
+            let mut ray = ray_through(&mut numbers, &geometry);
+            if numbers.unit() < 0.5 {
+                // At a triangle, so that not all of them pass between.
+                let instance = geometry.instance(numbers.below(instances.len()) as u32);
+                let corners = geometry
+                    .mesh(instance.mesh)
+                    .corners(numbers.below(40) as u32);
+                let target = instance
+                    .to_world
+                    .transform_point3((corners[0] + corners[1] + corners[2]) / 3.0);
+                ray.direction = target - ray.origin;
+            }
+            if numbers.unit() < 0.3 {
+                ray.t_min = numbers.unit();
+                ray.t_max = ray.t_min + numbers.unit();
+            }
+            let hit = geometry.intersect(&ray);
+            assert_eq!(
+                hit,
+                every_triangle(&geometry, &ray),
+                "scale {scale}, {ray:?}"
+            );
+            assert_eq!(
+                hit.is_some(),
+                geometry.occluded(&ray),
+                "scale {scale}, {ray:?}"
+            );
+            found += usize::from(hit.is_some());
+        }
+    }
+    assert!(found > 1000, "only {found} of 3000 rays hit anything");
+}
+
+#[test]
+fn hits_agree_with_double_precision_away_from_edges() {
+    let mut compared = 0;
+    for (seed, scale) in (0..).zip([1e-4_f32, 1.0, 1e3]) {
+        let mut numbers = Numbers::new(seed + 70);
+        let instances: Vec<_> = (0..6).map(|_| (0, numbers.affine(3.0 * scale))).collect();
+        let geometry = placed(
+            vec![soup(seed + 90, 60, scale, Vec3::ONE * scale)],
+            &instances,
+        );
+        for _ in 0..700 {
+            let ray = ray_through(&mut numbers, &geometry);
+            let (expected, margin) = in_doubles(&geometry, &ray);
+            // Distances in units of the scene, so that the margin is comparable at every scale.
+            if margin / f64::from(scale).min(1.0) < 1e-3 {
+                continue;
+            }
+            compared += 1;
+            let hit = geometry.intersect(&ray).map(|hit| f64::from(hit.t));
+            match (hit, expected) {
+                (Some(hit), Some(expected)) => {
+                    assert!(
+                        (hit - expected).abs() < 2e-3 * expected,
+                        "{hit} is not {expected}: {ray:?}"
+                    );
+                }
+                (hit, expected) => assert_eq!(hit, expected, "{ray:?}"),
+            }
+        }
+    }
+    assert!(
+        compared > 500,
+        "only {compared} rays were clear enough to compare"
+    );
+}
+
+#[test]
+fn a_leaf_in_metres_loses_no_ray() {
+    // 5 cm × 3 cm, 20 000 triangles, seen from half a metre, from 2 mm, and far from the origin.
+    for center in [
+        Vec3::ZERO,
+        Vec3::new(0.3, -2.0, 1.1),
+        Vec3::new(40.0, 70.0, 2.0),
+    ] {
+        let geometry = alone(blade(125, 80, 0.05, 0.03, center));
+        let mut numbers = Numbers::new(5);
+        for _ in 0..20_000 {
+            let inner = Vec3::new(
+                0.0249 * (2.0 * numbers.unit() - 1.0),
+                0.0149 * (2.0 * numbers.unit() - 1.0),
+                0.0,
+            );
+            let lean = Vec3::new(numbers.unit() - 0.5, numbers.unit() - 0.5, 0.0) * 0.001;
+            let height = if numbers.unit() < 0.5 { 0.5 } else { 0.004 };
+            let origin = center + inner * 0.9 + lean + Vec3::Z * height;
+            let ray = Ray::new(origin, center + inner * 0.9 - Vec3::Z * 0.01 - origin);
+            assert!(geometry.intersect(&ray).is_some(), "{ray:?} slips through");
+            assert!(geometry.occluded(&ray), "{ray:?} is not blocked");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(fixed(128))]
+
+    #[test]
+    fn no_ray_slips_through_an_edge_or_a_corner(seed in 0_u64..1 << 40, scale in -4_i32..4, turned in any::<bool>()) {
+        let scale = libm::powf(10.0, scale as f32);
+        let mut numbers = Numbers::new(seed);
+        let mesh = blade(12, 12, scale, scale, Vec3::ZERO);
+        let to_world = if turned { numbers.affine(scale) } else { Affine3A::IDENTITY };
+        let (vertices, triangles) = (mesh.positions().to_vec(), mesh.triangles().to_vec());
+        let geometry = placed(vec![mesh], &[(0, to_world)]);
+        for _ in 0..40 {
+            let triangle = triangles[numbers.below(triangles.len())];
+            let [a, b] = [triangle[0], triangle[1 + numbers.below(2)]].map(|i| vertices[i as usize]);
+            let inner = |p: Vec3| p.x.abs() < 0.49 * scale && p.y.abs() < 0.49 * scale;
+            if !inner(a) || !inner(b) {
+                continue;
+            }
+            // A corner, the middle of an edge, or anywhere along it.
+            let along = [0.0, 0.5, numbers.unit()][numbers.below(3)];
+            let target = to_world.transform_point3(a + (b - a) * along);
+            let lean = Vec3::new(numbers.unit() - 0.5, numbers.unit() - 0.5, 2.0) * 2.0;
+            // Half of them straight down: rays along an axis have zeros in their direction.
+            let lean = if numbers.unit() < 0.5 { Vec3::Z * 2.0 } else { lean };
+            let origin = target + to_world.transform_vector3(lean * scale);
+            let ray = Ray::new(origin, target - origin);
+            prop_assert!(geometry.intersect(&ray).is_some(), "{ray:?} slips through");
+            prop_assert!(geometry.occluded(&ray));
+        }
+    }
+
+    #[test]
+    fn scaling_by_a_power_of_two_scales_every_hit_exactly(seed in 0_u64..1 << 40, power in -12_i32..12) {
+        let factor = libm::exp2f(power as f32);
+        let [one, other] = [1.0, factor].map(|scale| alone(soup(seed, 50, scale, Vec3::ZERO)));
+        let mut numbers = Numbers::new(seed);
+        for _ in 0..20 {
+            let ray = ray_through(&mut numbers, &one);
+            let scaled = Ray { origin: ray.origin * factor, direction: ray.direction * factor, ..ray };
+            prop_assert_eq!(one.intersect(&ray), other.intersect(&scaled));
+        }
+    }
+}
+
+#[test]
+fn equal_distances_go_to_the_smaller_instance_and_triangle() {
+    let mesh = blade(3, 3, 1.0, 1.0, Vec3::ZERO);
+    let geometry = placed(
+        vec![mesh.clone(), mesh],
+        &[(1, Affine3A::IDENTITY), (0, Affine3A::IDENTITY)],
+    );
+    let mut numbers = Numbers::new(1);
+    for _ in 0..200 {
+        let ray = Ray::new(
+            Vec3::new(numbers.unit() - 0.5, numbers.unit() - 0.5, 2.0),
+            Vec3::NEG_Z,
+        );
+        assert_eq!(geometry.intersect(&ray).map(|hit| hit.instance), Some(0));
+    }
+}
+
+#[test]
+fn an_interval_bounds_what_is_hit() {
+    let geometry = alone(blade(1, 1, 1.0, 1.0, Vec3::ZERO));
+    let ray = Ray::new(Vec3::new(0.1, 0.2, 4.0), Vec3::NEG_Z * 2.0);
+    let t = geometry
+        .intersect(&ray)
+        .expect("the ray points at the blade")
+        .t;
+    for (t_min, t_max, hit) in [
+        (0.0, t, true),
+        (t, t, true),
+        (0.0, t.next_down(), false),
+        (t.next_up(), f32::INFINITY, false),
+        (3.0, 1.0, false),
+    ] {
+        let ray = Ray {
+            t_min,
+            t_max,
+            ..ray
+        };
+        assert_eq!(geometry.intersect(&ray).is_some(), hit, "{t_min}..{t_max}");
+        assert_eq!(geometry.occluded(&ray), hit, "{t_min}..{t_max}");
+    }
+}
+
+#[test]
+fn rays_that_are_none_hit_nothing() {
+    let geometry = alone(blade(2, 2, 1.0, 1.0, Vec3::ZERO));
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert_eq!(
+            geometry.intersect(&Ray::new(Vec3::new(0.0, 0.0, bad), Vec3::NEG_Z)),
+            None
+        );
+        assert_eq!(
+            geometry.intersect(&Ray::new(Vec3::Z, Vec3::new(0.0, bad, -1.0))),
+            None
+        );
+    }
+    assert_eq!(geometry.intersect(&Ray::new(Vec3::Z, Vec3::ZERO)), None);
+    let nothing = Geometry::build(Vec::new(), Vec::new()).expect("nothing can be built");
+    assert_eq!(nothing.intersect(&Ray::new(Vec3::Z, Vec3::NEG_Z)), None);
+    assert_eq!(nothing.bounds(), (Vec3::ZERO, Vec3::ZERO));
+}
+
+#[test]
+fn bad_instances_are_refused() {
+    let build = |mesh, to_world| {
+        let instance = Instance { mesh, to_world };
+        Geometry::build(vec![blade(1, 1, 1.0, 1.0, Vec3::ZERO)], vec![instance])
+    };
+    let refused = build(3, Affine3A::IDENTITY).expect_err("there is no mesh 3");
+    assert_eq!(
+        refused,
+        GeometryError::NoSuchMesh {
+            instance: 0,
+            mesh: 3,
+            meshes: 1
+        }
+    );
+    for to_world in [
+        Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0)),
+        Affine3A::from_translation(Vec3::new(f32::NAN, 0.0, 0.0)),
+        Affine3A::from_scale(Vec3::splat(f32::INFINITY)),
+        Affine3A::from_scale(Vec3::splat(1e-39)),
+        Affine3A::ZERO,
+    ] {
+        let refused = build(0, to_world)
+            .map(|_| ())
+            .expect_err("this transform has no inverse");
+        assert!(
+            matches!(refused, GeometryError::Transform { instance: 0, .. }),
+            "{refused}"
+        );
+    }
+}
+
+/// Sheets that the builder's clustering would take quadratic time for, or that make deep trees.
+#[test]
+fn many_equal_or_nested_boxes_are_built_in_time_and_traced_right() {
+    let fan = |radius: fn(f32) -> f32| {
+        let mut positions = Vec::new();
+        for i in 0..10_000 {
+            // Turned about the z axis and tilted: different triangles about one centroid.
+            let turn = DVec3::new(libm::cos(f64::from(i)), libm::sin(f64::from(i)), 0.0).as_vec3();
+            let radius = radius(i as f32 / 10_000.0);
+            positions.extend([
+                (turn + Vec3::Z) * radius,
+                (Vec3::new(-turn.y, turn.x, 0.0) - Vec3::Z * 0.5) * radius,
+                -(turn + Vec3::new(-turn.y, turn.x, 0.5)) * radius,
+            ]);
+        }
+        positions
+    };
+    let strip: Vec<_> = (0..60_000_u16)
+        .flat_map(|i| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|corner| corner + Vec3::X * f32::from(i)))
+        .collect();
+    for positions in [
+        fan(|_| 1.0),
+        fan(|i| 1.0 + i),
+        fan(|i| libm::expf(60.0 * (i - 1.0))),
+        strip,
+    ] {
+        let triangles = (0..positions.len() as u32 / 3)
+            .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+            .collect();
+        let mesh =
+            TriangleMesh::new(positions, None, None, triangles).expect("no two are the same");
+        let start = std::time::Instant::now();
+        let geometry = alone(mesh);
+        assert!(
+            start.elapsed().as_secs_f32() < 2.0,
+            "the build took {:?}",
+            start.elapsed()
+        );
+        let mut numbers = Numbers::new(3);
+        for _ in 0..20 {
+            let ray = ray_through(&mut numbers, &geometry);
+            assert_eq!(
+                geometry.intersect(&ray),
+                every_triangle(&geometry, &ray),
+                "{ray:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The values of a PLY file, one after the other.
+
+use super::super::ImportError;
+use super::header::{Body, Format, Scalar};
+
+/// A place in the values of a file.
+#[derive(Debug)]
+pub(super) struct Values<'a> {
+    format: Format,
+    bytes: &'a [u8],
+    byte: usize,
+    line: usize,
+}
+
+impl<'a> Values<'a> {
+    pub(super) fn new(format: Format, bytes: &'a [u8], body: Body) -> Self {
+        Self {
+            format,
+            bytes,
+            byte: body.byte,
+            line: body.line,
+        }
+    }
+
+    /// An error at this place.
+    pub(super) fn wrong(&self, what: String) -> ImportError {
+        match self.format {
+            Format::Ascii => ImportError::Line {
+                line: self.line,
+                what,
+            },
+            Format::LittleEndian | Format::BigEndian => ImportError::Byte {
+                byte: self.byte,
+                what,
+            },
+        }
+    }
+
+    /// The next number.
+    pub(super) fn scalar(&mut self, scalar: Scalar) -> Result<f64, ImportError> {
+        if self.format == Format::Ascii {
+            let word = self.word()?;
+            let number: f64 = word
+                .parse()
+                .map_err(|_| self.wrong(format!("{word:?} is not a number")))?;
+            return Ok(number);
+        }
+        Ok(match scalar {
+            Scalar::I8 => f64::from(self.number(i8::from_le_bytes, i8::from_be_bytes)?),
+            Scalar::U8 => f64::from(self.number(u8::from_le_bytes, u8::from_be_bytes)?),
+            Scalar::I16 => f64::from(self.number(i16::from_le_bytes, i16::from_be_bytes)?),
+            Scalar::U16 => f64::from(self.number(u16::from_le_bytes, u16::from_be_bytes)?),
+            Scalar::I32 => f64::from(self.number(i32::from_le_bytes, i32::from_be_bytes)?),
+            Scalar::U32 => f64::from(self.number(u32::from_le_bytes, u32::from_be_bytes)?),
+            Scalar::F32 => f64::from(self.number(f32::from_le_bytes, f32::from_be_bytes)?),
+            Scalar::F64 => self.number(f64::from_le_bytes, f64::from_be_bytes)?,
+        })
+    }
+
+    /// A list: its length, then each of its numbers to `item`.
+    pub(super) fn list(
+        &mut self,
+        count: Scalar,
+        kind: Scalar,
+        mut item: impl FnMut(f64) -> Result<(), String>,
+    ) -> Result<(), ImportError> {
+        let length = self.scalar(count)?;
+        if length < 0.0 || length.fract() != 0.0 {
+            return Err(self.wrong(format!("{length} is not the length of a list")));
+        }
+        for _ in 0..length as u64 {
+            let value = self.scalar(kind)?;
+            item(value).map_err(|what| self.wrong(what))?;
+        }
+        Ok(())
+    }
+
+    /// Ends a vertex, a face …: in text that is the end of a line.
+    pub(super) fn end_of_item(&mut self) -> Result<(), ImportError> {
+        if self.format != Format::Ascii {
+            return Ok(());
+        }
+        while let Some(&byte) = self.bytes.get(self.byte) {
+            match byte {
+                b'\n' => {
+                    self.byte += 1;
+                    self.line += 1;
+                    return Ok(());
+                }
+                b' ' | b'\t' | b'\r' => self.byte += 1,
+                _ => return Err(self.wrong("more numbers than the header says".to_owned())),
+            }
+        }
+        Ok(())
+    }
+
+    /// The next word of this line; empty lines before it are passed over at the beginning of an item only, because
+    /// a line that ends too early must not borrow from the next.
+    fn word(&mut self) -> Result<&'a str, ImportError> {
+        let mut at_start = self.byte == 0 || self.bytes[self.byte - 1] == b'\n';
+        loop {
+            match self.bytes.get(self.byte) {
+                Some(b' ' | b'\t' | b'\r') => self.byte += 1,
+                Some(b'\n') if at_start => {
+                    self.byte += 1;
+                    self.line += 1;
+                    at_start = true;
+                }
+                Some(b'\n') => {
+                    return Err(self.wrong("fewer numbers than the header says".to_owned()));
+                }
+                None => {
+                    return Err(
+                        self.wrong("the file ends before all that its header claims".to_owned())
+                    );
+                }
+                Some(_) => break,
+            }
+        }
+        let rest = &self.bytes[self.byte..];
+        let length = rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(rest.len());
+        let word =
+            std::str::from_utf8(&rest[..length]).map_err(|_| self.wrong("not text".to_owned()))?;
+        self.byte += length;
+        Ok(word)
+    }
+
+    fn number<T, const N: usize>(
+        &mut self,
+        little: impl Fn([u8; N]) -> T,
+        big: impl Fn([u8; N]) -> T,
+    ) -> Result<T, ImportError> {
+        let Some(&bytes) = self.bytes[self.byte..].first_chunk::<N>() else {
+            return Err(self.wrong("the file ends before all that its header claims".to_owned()));
+        };
+        self.byte += N;
+        Ok(if self.format == Format::BigEndian {
+            big(bytes)
+        } else {
+            little(bytes)
+        })
+    }
+}

@@ -1,0 +1,227 @@
+use glam::{Vec2, Vec3};
+
+use super::super::mesh::MeshError;
+use super::super::scramble::scramble;
+use super::{ImportError, import};
+
+const SQUARE: &str = "ply
+format ascii 1.0
+comment a square with a colour that is passed over
+element vertex 4
+property float x
+property float y
+property double z
+property uchar red
+property float s
+property float t
+element face 1
+property list uchar int vertex_indices
+element edge 1
+property int a
+property int b
+end_header
+0 0 0.5 9 0 0
+2 0 0.5 9 1 0
+
+2 2 0.5 9 1 1
+0 2 0.5 9 0 1
+4 0 1 2 3
+0 1
+";
+
+/// The same square in binary, `big` end first or last.
+fn binary(big: bool) -> Vec<u8> {
+    let mut bytes = SQUARE
+        .split("end_header\n")
+        .next()
+        .unwrap_or_default()
+        .to_owned();
+    bytes.push_str("end_header\n");
+    let name = if big {
+        "binary_big_endian"
+    } else {
+        "binary_little_endian"
+    };
+    let mut bytes = bytes.replace("ascii", name).into_bytes();
+    let float = |x: f32| {
+        if big {
+            x.to_be_bytes()
+        } else {
+            x.to_le_bytes()
+        }
+    };
+    let int = |x: i32| {
+        if big {
+            x.to_be_bytes()
+        } else {
+            x.to_le_bytes()
+        }
+    };
+    for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0_f32]] {
+        bytes.extend(float(2.0 * u));
+        bytes.extend(float(2.0 * v));
+        bytes.extend(if big {
+            0.5_f64.to_be_bytes()
+        } else {
+            0.5_f64.to_le_bytes()
+        });
+        bytes.push(9);
+        bytes.extend(float(u));
+        bytes.extend(float(v));
+    }
+    bytes.push(4);
+    for corner in [0, 1, 2, 3, 0, 1] {
+        bytes.extend(int(corner));
+    }
+    bytes
+}
+
+const OBJ: &str = "# a square\r
+mtllib ../../secret.mtl\r
+v 0 0 0.5 1\r
+v 2 0 0.5\r
+v 2 2 0.5\r
+v 0 2 0.5\r
+vt 0 0\r
+vt 1 0\r
+vt 1 1\r
+vt 0 1\r
+vn 0 0 2\r
+g leaf\r
+f 1/1/1 2/2/1 -2/-2/-1 4/4/1\r
+";
+
+#[test]
+fn every_format_gives_the_same_square() {
+    let files = [
+        (SQUARE.as_bytes().to_vec(), "ply"),
+        (SQUARE.replace('\n', "\r\n").into_bytes(), "PLY"),
+        (binary(false), "ply"),
+        (binary(true), "ply"),
+        (OBJ.as_bytes().to_vec(), "obj"),
+    ];
+    for (bytes, extension) in files {
+        let mesh = import(&bytes, extension, 0.5).expect("the file is whole");
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let positions: Vec<_> = square.iter().map(|&[x, y]| Vec3::new(x, y, 0.25)).collect();
+        let uvs: Vec<_> = square.into_iter().map(Vec2::from).collect();
+        assert_eq!(mesh.positions(), positions);
+        assert_eq!(mesh.uvs(), Some(&uvs[..]));
+        assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+        let normals = (extension == "obj").then(|| vec![Vec3::Z * 2.0; 4]);
+        assert_eq!(mesh.normals(), normals.as_deref());
+    }
+}
+
+#[test]
+fn an_obj_without_some_uvs_has_none_and_without_some_normals_uses_those_of_faces() {
+    let text = OBJ.replace("2/2/1", "2");
+    let mesh = import(text.as_bytes(), "obj", 1.0).expect("the file is whole");
+    assert_eq!(mesh.uvs(), None);
+    assert_eq!(mesh.normals().map(|normals| normals[1]), Some(Vec3::ZERO));
+}
+
+#[test]
+fn errors_say_where() {
+    let line = |text: String, extension: &str| match import(text.as_bytes(), extension, 1.0) {
+        Err(ImportError::Line { line, what }) => (line, what),
+        other => panic!("{other:?} is not an error with a line"),
+    };
+    for (from, to, at, word) in [
+        ("4 0 1 2 3", "4 0 1 2", 22, "fewer"),
+        ("4 0 1 2 3", "4 0 1 2 3 4", 22, "more"),
+        ("4 0 1 2 3", "4 0 1 2 -3", 22, "vertex"),
+        ("4 0 1 2 3", "2 0 1", 22, "2 corners"),
+        ("4 0 1 2 3", "-1 0 1", 22, "length"),
+        ("2 2 0.5 9", "2 x 0.5 9", 20, "\"x\""),
+        ("property double z", "property double", 7, "property"),
+        ("property double z", "property quad z", 7, "quad"),
+        ("property double z", "property double w", 17, "x, y and z"),
+        ("vertex_indices", "corners", 22, "vertex_indices"),
+        ("format ascii 1.0", "format runes 1.0", 2, "runes"),
+        ("end_header", "end_heade", 16, "end_heade"),
+        ("ply", "plx", 1, "ply"),
+    ] {
+        let (line, what) = line(SQUARE.replacen(from, to, 1), "ply");
+        assert_eq!(line, at, "{what}");
+        assert!(what.contains(word), "{what:?} does not say {word:?}");
+    }
+    for (from, to, at, word) in [
+        ("2/2/1", "0/2/1", 13, "vertex 0"),
+        ("2/2/1", "5/2/1", 13, "vertex 5"),
+        ("2/2/1", "2/9/1", 13, "texture coordinate 9"),
+        ("2/2/1", "2/2/-2", 13, "normal -2"),
+        ("2/2/1", "2/2/1/1", 13, "more than"),
+        ("2/2/1", "two", 13, "\"two\""),
+        ("2/2/1 -2/-2/-1 4/4/1", "2", 13, "2 corners"),
+        ("v 2 2 0.5", "v 2 2", 5, "2 numbers"),
+        ("v 2 2 0.5", "v 2 2 y", 5, "\"y\""),
+    ] {
+        let (line, what) = line(OBJ.replacen(from, to, 1), "obj");
+        assert_eq!(line, at, "{what}");
+        assert!(what.contains(word), "{what:?} does not say {word:?}");
+    }
+    let unknown = import(b"", "stl", 1.0)
+        .map(|_| ())
+        .expect_err("stl is not read");
+    assert!(unknown.to_string().contains(".stl"));
+    assert!(matches!(
+        import(b"v 0 0 0", "obj", 1.0),
+        Err(ImportError::Mesh(MeshError::Empty { .. }))
+    ));
+}
+
+#[test]
+fn claims_without_bytes_are_refused_at_once() {
+    for (from, to) in [
+        ("element vertex 4", "element vertex 4000000000"),
+        ("element vertex 4", "element vertex 18446744073709551615"),
+        ("element face 1", "element face 4000000000"),
+        ("list uchar", "list uint"),
+    ] {
+        let whole = binary(false);
+        let split = whole.len() - (4 * 25 + 1 + 6 * 4);
+        let header = String::from_utf8(whole[..split].to_vec()).expect("the header is text");
+        let bytes = [header.replacen(from, to, 1).as_bytes(), &whole[split..]].concat();
+        let refused = import(&bytes, "ply", 1.0)
+            .map(|_| ())
+            .expect_err("the bytes are not there");
+        assert!(
+            matches!(refused, ImportError::Byte { .. }),
+            "{to}: {refused}"
+        );
+    }
+}
+
+#[test]
+fn damaged_files_give_a_mesh_or_an_error() {
+    let files = [
+        (SQUARE.as_bytes().to_vec(), "ply"),
+        (binary(false), "ply"),
+        (binary(true), "ply"),
+        (OBJ.as_bytes().to_vec(), "obj"),
+    ];
+    let (mut read, mut refused) = (0, 0);
+    for seed in 0..4000_u64 {
+        let (whole, extension) = &files[seed as usize % 4];
+        let mut bytes = whole.clone();
+        for change in 0..=seed % 5 {
+            let bits = scramble(seed << 8 | change);
+            let at = (bits >> 8) as usize % bytes.len();
+            match bits % 4 {
+                0 => bytes[at] = (bits >> 40) as u8,
+                1 => bytes[at] ^= 1 << (bits >> 40 & 7),
+                2 => bytes.truncate(at.max(1)),
+                _ => bytes.insert(at, b"0-/ 9\n"[(bits >> 40) as usize % 6]),
+            }
+        }
+        match import(&bytes, extension, 1.0) {
+            Ok(_) => read += 1,
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(
+        read > 200 && refused > 2000,
+        "{read} read, {refused} refused"
+    );
+}

@@ -1,0 +1,333 @@
+//! A triangle mesh that is fit to be traced.
+
+use glam::{DVec3, Vec2, Vec3};
+use thiserror::Error;
+
+use super::bounds::Bounds;
+use super::scramble::scramble;
+
+/// Coordinates beyond this (m) leave `f32` no detail worth rendering, and its squares come near overflow.
+const FARTHEST: f32 = 1e9;
+
+/// Face numbers and tree nodes share 32 bits.
+const MOST_FACES: usize = 1 << 29;
+
+/// Faces that a mesh may lose before it is refused, as a share.
+const MOST_DROPPED_PERCENT: usize = 1;
+
+/// Triangles over shared vertices, all finite, none without area, no two with the same three positions.
+#[derive(Clone, Debug)]
+pub struct TriangleMesh {
+    positions: Vec<Vec3>,
+    normals: Option<Vec<Vec3>>,
+    uvs: Option<Vec<Vec2>>,
+    triangles: Vec<[u32; 3]>,
+    dropped: DroppedFaces,
+    bounds: Bounds,
+}
+
+/// Why a face was left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DropCause {
+    /// A position or uv of it is NaN or infinite.
+    NotFinite,
+    /// Its three positions lie on a line.
+    Degenerate,
+    /// An earlier face has the same three positions, in whatever order.
+    Duplicate,
+}
+
+/// How many faces were left out of a mesh, and why.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DroppedFaces {
+    /// Faces with a NaN or infinite position or uv.
+    pub not_finite: usize,
+    /// Faces without area.
+    pub degenerate: usize,
+    /// Faces on the three positions of an earlier face.
+    pub duplicate: usize,
+    /// Number of the first face that was left out, in the order given, and why.
+    pub first: Option<(usize, DropCause)>,
+}
+
+impl DroppedFaces {
+    /// All of them.
+    pub fn total(&self) -> usize {
+        self.not_finite + self.degenerate + self.duplicate
+    }
+
+    fn record(&mut self, face: usize, cause: DropCause) {
+        match cause {
+            DropCause::NotFinite => self.not_finite += 1,
+            DropCause::Degenerate => self.degenerate += 1,
+            DropCause::Duplicate => self.duplicate += 1,
+        }
+        if self.first.is_none_or(|(first, _)| face < first) {
+            self.first = Some((face, cause));
+        }
+    }
+}
+
+/// Why a mesh was refused.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MeshError {
+    /// No faces, or none left.
+    #[error(
+        "the mesh has no face that can be rendered ({} given: {} not finite, {} without area, {} duplicate)",
+        .given, .dropped.not_finite, .dropped.degenerate, .dropped.duplicate
+    )]
+    Empty {
+        /// Faces that came in.
+        given: usize,
+        /// What became of them.
+        dropped: DroppedFaces,
+    },
+    /// More than 1 % of the faces cannot be rendered.
+    #[error(
+        "{} of {given} faces cannot be rendered, more than 1 % ({} not finite, {} without area, {} duplicate; \
+         the first is face {})",
+        .dropped.total(), .dropped.not_finite, .dropped.degenerate, .dropped.duplicate,
+        .dropped.first.map_or(0, |(face, _)| face)
+    )]
+    TooManyDropped {
+        /// Faces that came in.
+        given: usize,
+        /// What became of them.
+        dropped: DroppedFaces,
+    },
+    /// A face names a vertex that is not there.
+    #[error("face {face} names vertex {index}, but there are {vertices} vertices (counted from 0)")]
+    IndexOutOfRange {
+        /// Number of the face.
+        face: usize,
+        /// The vertex it names.
+        index: u32,
+        /// Vertices there are.
+        vertices: usize,
+    },
+    /// Normals or uvs are not one a vertex.
+    #[error("the mesh has {count} {attribute} for {vertices} vertices")]
+    AttributeCount {
+        /// "normals" or "uvs".
+        attribute: &'static str,
+        /// How many there are.
+        count: usize,
+        /// Vertices there are.
+        vertices: usize,
+    },
+    /// A face reaches beyond 10⁹ m.
+    #[error(
+        "face {face} reaches {reach:e} m from the origin; at most 1e9 m keeps detail in 32-bit numbers"
+    )]
+    TooFar {
+        /// Number of the face.
+        face: usize,
+        /// Largest coordinate in it.
+        reach: f32,
+    },
+    /// More faces than can be numbered.
+    #[error("the mesh has {given} faces; the most is {MOST_FACES}")]
+    TooLarge {
+        /// Faces that came in.
+        given: usize,
+    },
+}
+
+impl TriangleMesh {
+    /// Checks and cleans a mesh. Faces are counter-clockwise seen from their + side.
+    ///
+    /// Positions are in metres. Normals and uvs are one a vertex; normals need not be unit, and one that is zero or
+    /// not finite means "that of the face". Faces that are not finite, have no area or repeat an earlier face's three
+    /// positions are left out and counted in [`TriangleMesh::dropped`].
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError`]: an index out of range, attributes that do not match, more than 1 % of the faces left out, no
+    /// face left, coordinates beyond 10⁹ m, too many faces.
+    pub fn new(
+        positions: Vec<Vec3>,
+        normals: Option<Vec<Vec3>>,
+        uvs: Option<Vec<Vec2>>,
+        mut triangles: Vec<[u32; 3]>,
+    ) -> Result<Self, MeshError> {
+        let given = triangles.len();
+        let vertices = positions.len();
+        let counts = [
+            ("normals", normals.as_ref().map(Vec::len)),
+            ("uvs", uvs.as_ref().map(Vec::len)),
+        ];
+        for (attribute, count) in counts {
+            if let Some(count) = count.filter(|&count| count != vertices) {
+                return Err(MeshError::AttributeCount {
+                    attribute,
+                    count,
+                    vertices,
+                });
+            }
+        }
+        if given > MOST_FACES {
+            return Err(MeshError::TooLarge { given });
+        }
+
+        let mut dropped = DroppedFaces::default();
+        let mut kept = Vec::with_capacity(given);
+        for (face, triangle) in triangles.iter().enumerate() {
+            if let Some(&index) = triangle.iter().find(|&&index| index as usize >= vertices) {
+                return Err(MeshError::IndexOutOfRange {
+                    face,
+                    index,
+                    vertices,
+                });
+            }
+            let corners = triangle.map(|index| positions[index as usize]);
+            let uv_finite = |index: &u32| {
+                uvs.as_ref()
+                    .is_none_or(|uvs| uvs[*index as usize].is_finite())
+            };
+            if !corners.iter().all(|corner| corner.is_finite()) || !triangle.iter().all(uv_finite) {
+                dropped.record(face, DropCause::NotFinite);
+                continue;
+            }
+            let reach = corners
+                .iter()
+                .fold(0.0, |reach: f32, c| reach.max(c.abs().max_element()));
+            if reach > FARTHEST {
+                return Err(MeshError::TooFar { face, reach });
+            }
+            if double_area(corners) == 0.0 {
+                dropped.record(face, DropCause::Degenerate);
+                continue;
+            }
+            kept.push(face as u32);
+        }
+        let duplicates = duplicates(&kept, &triangles, &positions);
+        for &face in &duplicates {
+            dropped.record(face as usize, DropCause::Duplicate);
+        }
+        kept.retain(|face| duplicates.binary_search(face).is_err());
+
+        if kept.is_empty() {
+            return Err(MeshError::Empty { given, dropped });
+        }
+        if dropped.total() * 100 > given * MOST_DROPPED_PERCENT {
+            return Err(MeshError::TooManyDropped { given, dropped });
+        }
+        let mut faces = 0_u32..;
+        let mut kept = kept.into_iter().peekable();
+        triangles.retain(|_| {
+            faces
+                .next()
+                .is_some_and(|face| kept.next_if_eq(&face).is_some())
+        });
+        let bounds = Bounds::around(
+            triangles
+                .iter()
+                .flatten()
+                .map(|&index| positions[index as usize]),
+        );
+        Ok(Self {
+            positions,
+            normals,
+            uvs,
+            triangles,
+            dropped,
+            bounds,
+        })
+    }
+
+    /// Vertices, m. Those that no face names may be anything.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Normals as given, one a vertex, of any length; zero or not finite means "that of the face".
+    pub fn normals(&self) -> Option<&[Vec3]> {
+        self.normals.as_deref()
+    }
+
+    /// Surface coordinates, one a vertex.
+    pub fn uvs(&self) -> Option<&[Vec2]> {
+        self.uvs.as_deref()
+    }
+
+    /// Faces as vertex numbers, counter-clockwise seen from the + side.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Faces that were left out.
+    pub fn dropped(&self) -> DroppedFaces {
+        self.dropped
+    }
+
+    /// Smallest and largest coordinates of the faces, m.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        (self.bounds.min, self.bounds.max)
+    }
+
+    /// Positions of a face.
+    pub(super) fn corners(&self, triangle: u32) -> [Vec3; 3] {
+        self.triangles[triangle as usize].map(|index| self.positions[index as usize])
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.positions.capacity() * size_of::<Vec3>()
+            + self
+                .normals
+                .as_ref()
+                .map_or(0, |normals| normals.capacity() * size_of::<Vec3>())
+            + self
+                .uvs
+                .as_ref()
+                .map_or(0, |uvs| uvs.capacity() * size_of::<Vec2>())
+            + self.triangles.capacity() * size_of::<[u32; 3]>()
+    }
+}
+
+/// Twice the area of a triangle. Differences of `f32` numbers and their products are exact in `f64` unless the
+/// numbers are very unlike, so this is 0 for points on a line and for them only.
+fn double_area(corners: [Vec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    DVec3::cross(b - a, c - a).length()
+}
+
+/// Those of `faces` (rising) whose three positions an earlier one has too, rising.
+fn duplicates(faces: &[u32], triangles: &[[u32; 3]], positions: &[Vec3]) -> Vec<u32> {
+    // Adding 0 makes −0 and 0 the same bits.
+    let key = |face: u32| {
+        let mut corners = triangles[face as usize].map(|index| {
+            (positions[index as usize] + Vec3::ZERO)
+                .to_array()
+                .map(f32::to_bits)
+        });
+        corners.sort_unstable();
+        corners
+    };
+    let mut hashed: Vec<(u64, u32)> = faces
+        .iter()
+        .map(|&face| {
+            let words = key(face).into_iter().flatten();
+            (
+                words.fold(0, |hash, word| scramble(hash ^ u64::from(word))),
+                face,
+            )
+        })
+        .collect();
+    hashed.sort_unstable();
+    let mut found = Vec::new();
+    for run in hashed
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|run| run.len() > 1)
+    {
+        let mut keyed: Vec<_> = run.iter().map(|&(_, face)| (key(face), face)).collect();
+        keyed.sort_unstable();
+        for same in keyed.chunk_by(|a, b| a.0 == b.0) {
+            found.extend(same[1..].iter().map(|&(_, face)| face));
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+#[cfg(test)]
+mod tests;

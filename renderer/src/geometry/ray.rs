@@ -1,0 +1,41 @@
+//! The ray.
+
+use glam::Vec3;
+
+/// The points `origin + t · direction` with `t_min ≤ t ≤ t_max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where `t` is 0, m.
+    pub origin: Vec3,
+    /// Any length but 0; `t` counts in its units. Never normalised here.
+    pub direction: Vec3,
+    /// Smallest `t` that counts, ≥ 0.
+    pub t_min: f32,
+    /// Largest `t` that counts; may be infinite.
+    pub t_max: f32,
+}
+
+impl Ray {
+    /// The whole ray from `origin` on: `t` from 0 to infinity.
+    pub fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self {
+            origin,
+            direction,
+            t_min: 0.0,
+            t_max: f32::INFINITY,
+        }
+    }
+
+    /// The point at `t`.
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+
+    /// Whether the ray can hit anything: finite, with a direction, and an interval that is not empty.
+    pub(super) fn is_proper(&self) -> bool {
+        self.origin.is_finite()
+            && self.direction.is_finite()
+            && self.direction != Vec3::ZERO
+            && self.t_min <= self.t_max
+    }
+}

@@ -1,0 +1,134 @@
+//! Does a ray meet a box? Conservative: a box is never missed whose triangles the triangle test would accept.
+
+use glam::Vec3;
+
+use super::bounds::Bounds;
+
+/// Boxes that are tested together.
+pub(super) const LANES: usize = 8;
+
+/// Planes of boxes, by plane (min x, y, z, max x, y, z) and box.
+pub(super) type BoxPlanes = [[f32; LANES]; 6];
+
+/// How far the sheared triangle test may see a vertex from where it is, relative to its distances from the origin
+/// across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an error below (2 |x| + 4 |z|) · 2⁻²⁴
+/// to first order. 8 (|x| + |z|) leaves room for the rounding of the shifted origin and of `b − o` below.
+const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
+
+/// Covers the three roundings in each of the two distances that are compared, (b − o) · 1/d.
+const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
+
+/// A ray made ready for box tests in one tree.
+///
+/// # Source
+///
+/// \[ize2013\] (the factor on the far distance) and \[woop2013\] (origins moved apart by the error of the
+/// triangle test, so that boxes never cut off what that test accepts).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlabRay {
+    /// Origin for near planes and for far planes: shifted outwards by the error.
+    near_origin: [f32; 3],
+    far_origin: [f32; 3],
+    inverse: [f32; 3],
+    /// Rows of [`BoxPlanes`] that the ray meets first and last on each axis.
+    near_plane: [usize; 3],
+    far_plane: [usize; 3],
+    t_min: f32,
+}
+
+/// `a` if it is greater; `b` also when `a` is not a number, as the machine's `max` has it.
+#[inline]
+pub(super) fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// `a` if it is less; `b` also when `a` is not a number.
+#[inline]
+pub(super) fn less(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+impl SlabRay {
+    /// Prepares a ray for boxes inside `bounds`. The direction is finite and not zero.
+    #[inline]
+    pub(super) fn new(origin: Vec3, direction: Vec3, t_min: f32, bounds: &Bounds) -> Self {
+        let reach = (bounds.min - origin).abs().max((bounds.max - origin).abs());
+        let size = direction.abs();
+        // The axis that the triangle test shears along.
+        let along = if size.x > size.y && size.x > size.z {
+            reach.x
+        } else if size.y > size.z {
+            reach.y
+        } else {
+            reach.z
+        };
+        let error = (reach + along) * SHEAR_ERROR;
+        let inverse = direction.recip();
+        let mut near_plane = [0; 3];
+        let mut far_plane = [0; 3];
+        let mut near_origin = [0.0; 3];
+        let mut far_origin = [0.0; 3];
+        for axis in 0..3 {
+            // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
+            let down = inverse[axis].is_sign_negative();
+            near_plane[axis] = if down { axis + 3 } else { axis };
+            far_plane[axis] = if down { axis } else { axis + 3 };
+            let shift = if down { -error[axis] } else { error[axis] };
+            near_origin[axis] = origin[axis] + shift;
+            far_origin[axis] = origin[axis] - shift;
+        }
+        Self {
+            near_origin,
+            far_origin,
+            inverse: inverse.to_array(),
+            near_plane,
+            far_plane,
+            t_min: greater(t_min, 0.0),
+        }
+    }
+
+    /// Distances at which the ray enters and leaves eight boxes; a box is met if `enter ≤ leave`.
+    ///
+    /// Every operation is monotonic in the box, so a box inside another never enters earlier nor leaves later. A
+    /// plane that the ray runs in (0 · ∞) does not count, which errs to the safe side.
+    #[inline]
+    pub(super) fn eight(&self, planes: &BoxPlanes) -> ([f32; LANES], [f32; LANES]) {
+        let mut enter = [self.t_min; LANES];
+        let mut leave = [f32::INFINITY; LANES];
+        for axis in 0..3 {
+            let near = &planes[self.near_plane[axis]];
+            let far = &planes[self.far_plane[axis]];
+            for lane in 0..LANES {
+                enter[lane] = greater(
+                    (near[lane] - self.near_origin[axis]) * self.inverse[axis],
+                    enter[lane],
+                );
+                leave[lane] = less(
+                    (far[lane] - self.far_origin[axis]) * self.inverse[axis],
+                    leave[lane],
+                );
+            }
+        }
+        for distance in &mut leave {
+            *distance *= FAR_FACTOR;
+        }
+        (enter, leave)
+    }
+
+    /// As [`SlabRay::eight`], for one box, bit for bit; `None` if it is missed, else the distance of entry.
+    #[inline]
+    pub(super) fn one(&self, min: [f32; 3], max: [f32; 3]) -> Option<f32> {
+        let mut enter = self.t_min;
+        let mut leave = f32::INFINITY;
+        for axis in 0..3 {
+            let (near, far) = if self.near_plane[axis] == axis {
+                (min[axis], max[axis])
+            } else {
+                (max[axis], min[axis])
+            };
+            enter = greater((near - self.near_origin[axis]) * self.inverse[axis], enter);
+            leave = less((far - self.far_origin[axis]) * self.inverse[axis], leave);
+        }
+        (enter <= leave * FAR_FACTOR).then_some(enter)
+    }
+}

@@ -1,0 +1,172 @@
+//! The point of a surface that a ray hit, and rays that leave it.
+
+use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
+
+use super::assembly::{Hit, Placement};
+use super::mesh::TriangleMesh;
+use super::ray::Ray;
+
+/// Half the distance between 1 and the next `f32`: the relative error of one rounding.
+const ROUNDING: f64 = 1.0 / 16_777_216.0;
+
+/// Share of the way to its target that a ray of [`SurfacePoint::spawn_to`] leaves out at the far end.
+const SHADOW_GAP: f32 = 1e-4;
+
+/// A point of a surface, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// From the barycentrics, so on the triangle up to one rounding; m.
+    pub position: Vec3,
+    /// A point this far from `position` along the geometric normal is on that side of the triangle for every ray
+    /// test; m, > 0.
+    pub position_error: f32,
+    /// Unit. Counter-clockwise faces are seen from its side in the mesh's own frame; it then moves with the instance as
+    /// a normal does, so a mirrored closed mesh still has it outside.
+    pub geometric_normal: Vec3,
+    /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that normal itself
+    /// where the mesh has none.
+    pub shading_normal: Vec3,
+    /// Unit, at right angles to the shading normal: the direction in which v grows, or some fixed direction where the mesh
+    /// has no uvs or they do not span the triangle.
+    pub tangent: Vec3,
+    /// Interpolated; the weights of the second and third vertex if the mesh has none.
+    pub uv: Vec2,
+    /// Number of the instance.
+    pub instance: u32,
+    /// Number of the triangle in the instance's mesh.
+    pub triangle: u32,
+}
+
+impl SurfacePoint {
+    /// The ray that leaves this point in `direction` (any length), `t` from 0 to infinity. It starts beside the
+    /// surface, on the side that it goes to, and never meets its own triangle.
+    pub fn spawn(&self, direction: Vec3) -> Ray {
+        Ray::new(self.beside(direction), direction)
+    }
+
+    /// The ray from this point to `target`: `t` is 0 here and 1 there, and ends a ten-thousandth before it.
+    pub fn spawn_to(&self, target: Vec3) -> Ray {
+        let origin = self.beside(target - self.position);
+        Ray {
+            t_max: 1.0 - SHADOW_GAP,
+            ..Ray::new(origin, target - origin)
+        }
+    }
+
+    /// Where a ray in `direction` starts.
+    fn beside(&self, direction: Vec3) -> Vec3 {
+        let side = if direction.dot(self.geometric_normal) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        self.position + self.geometric_normal * (side * self.position_error)
+    }
+
+    /// The surface at a hit. `center` is the origin of the frame in which the placement's mesh is traced.
+    pub(super) fn at(hit: &Hit, mesh: &TriangleMesh, center: Vec3, placement: &Placement) -> Self {
+        let weights = {
+            let (b1, b2) = (f64::from(hit.b1), f64::from(hit.b2));
+            [1.0 - b1 - b2, b1, b2]
+        };
+        let vertices = mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
+        let corners = mesh
+            .corners(hit.triangle)
+            .map(|corner| corner.as_dvec3() - center.as_dvec3());
+        let [a, b, c] = corners;
+        let local = a * weights[0] + b * weights[1] + c * weights[2];
+        let world = placement.linear * local + placement.offset;
+
+        let cross = (b - a).cross(c - a);
+        let double_area = cross.length();
+        let normal_local = cross / double_area;
+        let normal_world = placement.normals * normal_local;
+        let stretch = normal_world.length();
+        let geometric = normal_world / stretch;
+
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let error = {
+            // Rounding `world` to f32, and then the sum that moves off the surface.
+            let rounding = geometric.abs().dot(world.abs()) * (2.0 * ROUNDING);
+            // The next ray's origin carried into the mesh's frame in f32: five roundings a coordinate, one of them in
+            // the matrix.
+            let carried = placement.to_local_size(world) * (6.0 * ROUNDING);
+            // The triangle test: vertices relative to the origin, the shear, and edge functions whose error counts
+            // the more the thinner the triangle is.
+            let tested = 16.0 * ROUNDING * longest * (1.0 + longest * longest / double_area);
+            rounding + (normal_local.abs().dot(carried) + tested) / stretch
+        };
+
+        let mut normal = geometric;
+        if let Some(normals) = mesh.normals() {
+            let [na, nb, nc] = vertices.map(|vertex| normals[vertex].as_dvec3());
+            let interpolated = na * weights[0] + nb * weights[1] + nc * weights[2];
+            if let Some(unit) = unit(placement.normals * interpolated) {
+                // The winding says which side is which; normals given for the other side mean the same surface.
+                normal = if unit.dot(geometric) < 0.0 {
+                    -unit
+                } else {
+                    unit
+                };
+            }
+        }
+
+        let mut uv = DVec2::new(weights[1], weights[2]);
+        let mut tangent = None;
+        if let Some(uvs) = mesh.uvs() {
+            let [ua, ub, uc] = vertices.map(|vertex| uvs[vertex].as_dvec2());
+            uv = ua * weights[0] + ub * weights[1] + uc * weights[2];
+            tangent = along_v([a, b, c], [ua, ub, uc], &placement.linear, normal);
+        }
+        Self {
+            position: world.as_vec3(),
+            position_error: (error as f32).max(f32::MIN_POSITIVE),
+            geometric_normal: geometric.as_vec3(),
+            shading_normal: normal.as_vec3(),
+            tangent: tangent.unwrap_or_else(|| any_tangent(normal)).as_vec3(),
+            uv: uv.as_vec2(),
+            instance: hit.instance,
+            triangle: hit.triangle,
+        }
+    }
+}
+
+/// The vector made unit; `None` if it is zero or not finite.
+fn unit(vector: DVec3) -> Option<DVec3> {
+    let length = vector.length();
+    (length.is_finite() && length > 0.0).then(|| vector / length)
+}
+
+/// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span the triangle.
+///
+/// With e = ∂p/∂u Δu + ∂p/∂v Δv on two edges: ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁) / (Δu₁ Δv₂ − Δu₂ Δv₁).
+fn along_v(corners: [DVec3; 3], uvs: [DVec2; 3], linear: &DMat3, normal: DVec3) -> Option<DVec3> {
+    let [a, b, c] = corners;
+    let (first, second) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+    let determinant = first.x * second.y - second.x * first.y;
+    let scale = first.length() * second.length();
+    // Below this the uvs' own rounding decides the direction.
+    if determinant.abs() <= scale * 1e-6 {
+        return None;
+    }
+    let derivative = ((c - a) * first.x - (b - a) * second.x) * determinant.signum();
+    let direction = unit(*linear * derivative)?;
+    let flat = direction - normal * normal.dot(direction);
+    // Nearly along the normal: what is left is rounding.
+    (flat.length() > 1e-6).then(|| flat / flat.length())
+}
+
+/// Some unit vector at right angles to a unit vector, without a branch that flips between neighbours except at z = 0.
+///
+/// # Source
+///
+/// \[duff2017\], the second vector of its basis.
+fn any_tangent(n: DVec3) -> DVec3 {
+    let sign = if n.z.is_sign_negative() { -1.0 } else { 1.0 };
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    DVec3::new(b, sign + n.y * n.y * a, -n.y)
+}
+
+#[cfg(test)]
+mod tests;

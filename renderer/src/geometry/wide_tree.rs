@@ -1,0 +1,342 @@
+//! A tree of boxes with eight children a node, and the walk of a ray through it.
+
+use super::bounds::Bounds;
+use super::bvh;
+use super::median;
+use super::slab::{BoxPlanes, LANES, SlabRay};
+
+/// Levels of nodes that a tree may have; deeper ones are built anew by halving.
+const MAX_DEPTH: usize = 18;
+
+/// A node leaves at most seven children on the stack while the walk goes into the eighth.
+const STACK: usize = MAX_DEPTH * (LANES - 1) + 1;
+
+/// Marks a child that is a leaf; the rest of the number says which.
+const LEAF: u32 = 1 << 31;
+
+/// Eight children: their boxes, and what they are. Places without a child have an empty box, which no ray meets.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+struct WideNode {
+    planes: BoxPlanes,
+    children: [u32; LANES],
+}
+
+impl WideNode {
+    fn empty() -> Self {
+        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        Self {
+            planes: [low, low, low, high, high, high],
+            children: [LEAF; LANES],
+        }
+    }
+
+    fn set(&mut self, lane: usize, bounds: &Bounds, child: u32) {
+        for axis in 0..3 {
+            self.planes[axis][lane] = bounds.min[axis];
+            self.planes[axis + 3][lane] = bounds.max[axis];
+        }
+        self.children[lane] = child;
+    }
+}
+
+/// A tree over boxes, up to `leaf_size` of them in a leaf.
+#[derive(Clone, Debug)]
+pub(super) struct WideTree {
+    nodes: Vec<WideNode>,
+    bounds: Bounds,
+}
+
+/// A node of the binary tree that a [`WideTree`] is made from. The root is node 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum BinaryNode {
+    /// One box of the input.
+    Leaf(u32),
+    /// Two nodes.
+    Inner([u32; 2]),
+}
+
+/// What the collapse has to know of a binary node.
+#[derive(Clone, Copy, Debug)]
+struct Summary {
+    bounds: Bounds,
+    count: u32,
+}
+
+impl WideTree {
+    /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
+    ///
+    /// Boxes must be finite and fewer than 2³⁰.
+    pub(super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<Vec<u32>>) {
+        if boxes.is_empty() {
+            let tree = Self {
+                nodes: Vec::new(),
+                bounds: Bounds::EMPTY,
+            };
+            return (tree, Vec::new());
+        }
+        Self::collapse(&bvh::binary_tree(boxes), boxes, leaf_size)
+            .or_else(|| Self::collapse(&median::binary_tree(boxes), boxes, leaf_size))
+            .expect("halving gives at most 30 binary levels, three of which make one level here")
+    }
+
+    /// Opens the widest binary nodes first until eight children are there; `None` if the tree gets too deep.
+    fn collapse(
+        binary: &[BinaryNode],
+        boxes: &[Bounds],
+        leaf_size: u32,
+    ) -> Option<(Self, Vec<Vec<u32>>)> {
+        let summaries = summarise(binary, boxes);
+        let is_leaf = |node: u32| summaries[node as usize].count <= leaf_size;
+        let mut nodes = vec![WideNode::empty()];
+        let mut leaves = Vec::new();
+        // (binary node, wide node, level)
+        let mut open = vec![(0_u32, 0_usize, 1_usize)];
+        while let Some((root, place, level)) = open.pop() {
+            if level > MAX_DEPTH {
+                return None;
+            }
+            let mut children = vec![root];
+            while children.len() < LANES {
+                let mut widest: Option<(usize, f32)> = None;
+                for (i, &child) in children.iter().enumerate() {
+                    let area = summaries[child as usize].bounds.half_area();
+                    if !is_leaf(child) && widest.is_none_or(|(_, most)| area > most) {
+                        widest = Some((i, area));
+                    }
+                }
+                let Some((i, _)) = widest else { break };
+                if let BinaryNode::Inner([left, right]) = binary[children[i] as usize] {
+                    children[i] = left;
+                    children.insert(i + 1, right);
+                }
+            }
+            for (lane, &child) in children.iter().enumerate() {
+                let code = if is_leaf(child) {
+                    leaves.push(members(binary, child));
+                    LEAF | (leaves.len() - 1) as u32
+                } else {
+                    nodes.push(WideNode::empty());
+                    open.push((child, nodes.len() - 1, level + 1));
+                    (nodes.len() - 1) as u32
+                };
+                nodes[place].set(lane, &summaries[child as usize].bounds, code);
+            }
+        }
+        let bounds = summaries[0].bounds;
+        Some((Self { nodes, bounds }, leaves))
+    }
+
+    /// The box around everything.
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<WideNode>()
+    }
+
+    /// Visits the leaves whose boxes the ray enters no later than `limit`.
+    ///
+    /// `visit(leaf, enter, limit)` gives the new limit; −∞ ends the walk. With `NEAREST_FIRST` leaves come in the
+    /// order of their boxes where that is known. Which leaves are visited beyond those within the final limit depends
+    /// on that order, so nothing but the limit may depend on it.
+    #[inline]
+    pub(super) fn walk<const NEAREST_FIRST: bool>(
+        &self,
+        ray: &SlabRay,
+        mut limit: f32,
+        mut visit: impl FnMut(u32, f32, f32) -> f32,
+    ) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut stack = [(0.0_f32, 0_u32); STACK];
+        let mut height = 1;
+        while height > 0 {
+            height -= 1;
+            let (enter, child) = stack[height];
+            if enter > limit {
+                continue;
+            }
+            if child & LEAF != 0 {
+                limit = visit(child & !LEAF, enter, limit);
+                if limit == f32::NEG_INFINITY {
+                    return;
+                }
+                continue;
+            }
+            let node = &self.nodes[child as usize];
+            let (enter, leave) = ray.eight(&node.planes);
+            let base = height;
+            for lane in 0..LANES {
+                if enter[lane] <= leave[lane] && enter[lane] <= limit {
+                    let mut place = height;
+                    if NEAREST_FIRST {
+                        while place > base && stack[place - 1].0 < enter[lane] {
+                            stack[place] = stack[place - 1];
+                            place -= 1;
+                        }
+                    }
+                    stack[place] = (enter[lane], node.children[lane]);
+                    height += 1;
+                }
+            }
+        }
+    }
+}
+
+/// Bounds and size of every binary node, from the boxes themselves: a builder may have worked with others.
+fn summarise(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Summary> {
+    let nothing = Summary {
+        bounds: Bounds::EMPTY,
+        count: 0,
+    };
+    let mut summaries = vec![nothing; binary.len()];
+    let mut order = Vec::with_capacity(binary.len());
+    let mut open = vec![0_u32];
+    while let Some(node) = open.pop() {
+        order.push(node);
+        if let BinaryNode::Inner(children) = binary[node as usize] {
+            open.extend(children);
+        }
+    }
+    for &node in order.iter().rev() {
+        summaries[node as usize] = match binary[node as usize] {
+            BinaryNode::Leaf(item) => Summary {
+                bounds: boxes[item as usize],
+                count: 1,
+            },
+            BinaryNode::Inner(children) => {
+                let [left, right] = children.map(|child| summaries[child as usize]);
+                Summary {
+                    bounds: left.bounds.union(right.bounds),
+                    count: left.count + right.count,
+                }
+            }
+        };
+    }
+    summaries
+}
+
+/// The boxes below a binary node, in rising order.
+fn members(binary: &[BinaryNode], root: u32) -> Vec<u32> {
+    let mut members = Vec::new();
+    let mut open = vec![root];
+    while let Some(node) = open.pop() {
+        match binary[node as usize] {
+            BinaryNode::Leaf(item) => members.push(item),
+            BinaryNode::Inner(children) => open.extend(children),
+        }
+    }
+    members.sort_unstable();
+    members
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::super::testing::Numbers;
+    use super::*;
+
+    fn boxes(count: usize) -> Vec<Bounds> {
+        let mut numbers = Numbers::new(count as u64);
+        (0..count)
+            .map(|_| {
+                let at = numbers.cube();
+                Bounds::around([at, at + numbers.cube() * 0.1])
+            })
+            .collect()
+    }
+
+    /// Visits every node and checks that it lies in the box that its parent has for it; gives the levels.
+    fn check(tree: &WideTree, leaves: &[Vec<u32>], boxes: &[Bounds]) -> usize {
+        let mut open = vec![(0_u32, tree.bounds, 1)];
+        let mut levels = 0;
+        let mut seen = vec![0; boxes.len()];
+        while let Some((node, bounds, level)) = open.pop() {
+            levels = levels.max(level);
+            let node = &tree.nodes[node as usize];
+            for lane in 0..LANES {
+                let corner = |first: usize| {
+                    Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + axis][lane]))
+                };
+                let child = Bounds {
+                    min: corner(0),
+                    max: corner(3),
+                };
+                if child.is_empty() {
+                    continue;
+                }
+                assert_eq!(
+                    bounds.union(child),
+                    bounds,
+                    "a child reaches out of its parent"
+                );
+                let code = node.children[lane];
+                if code & LEAF == 0 {
+                    open.push((code, child, level + 1));
+                    continue;
+                }
+                let members = &leaves[(code & !LEAF) as usize];
+                let around = members
+                    .iter()
+                    .fold(Bounds::EMPTY, |all, &item| all.union(boxes[item as usize]));
+                assert_eq!(around, child, "a leaf's box is not that of its members");
+                for &item in members {
+                    seen[item as usize] += 1;
+                }
+            }
+        }
+        assert!(
+            seen.iter().all(|&times| times == 1),
+            "not every box is in one leaf"
+        );
+        levels
+    }
+
+    #[test]
+    fn every_box_is_in_one_leaf_and_every_node_in_its_parent() {
+        for (count, leaf_size) in [
+            (1, 8),
+            (2, 1),
+            (8, 8),
+            (9, 8),
+            (100, 1),
+            (5000, 8),
+            (5000, 1),
+        ] {
+            let boxes = boxes(count);
+            let (tree, leaves) = WideTree::build(&boxes, leaf_size);
+            assert!(leaves.iter().all(|leaf| leaf.len() <= leaf_size as usize));
+            check(&tree, &leaves, &boxes);
+        }
+    }
+
+    #[test]
+    fn a_tree_too_deep_for_the_stack_is_not_taken_and_halving_is_shallow() {
+        let boxes = boxes(5000);
+        // A binary tree that is one long chain.
+        let mut chain = Vec::new();
+        for item in 0..4999_u32 {
+            chain.push(BinaryNode::Inner([2 * item + 1, 2 * item + 2]));
+            chain.push(BinaryNode::Leaf(item));
+        }
+        chain.push(BinaryNode::Leaf(4999));
+        assert!(WideTree::collapse(&chain, &boxes, 8).is_none());
+        let (tree, leaves) = WideTree::collapse(&median::binary_tree(&boxes), &boxes, 8)
+            .expect("halves are shallow");
+        assert!(
+            check(&tree, &leaves, &boxes) <= 5,
+            "5000 boxes, 8 a leaf, 8 a node"
+        );
+    }
+
+    #[test]
+    fn builds_are_the_same_every_time() {
+        let boxes = boxes(3000);
+        let ((one, _), (other, _)) = (WideTree::build(&boxes, 8), WideTree::build(&boxes, 8));
+        assert_eq!(format!("{one:?}"), format!("{other:?}"));
+    }
+}

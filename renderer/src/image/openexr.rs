@@ -1,0 +1,328 @@
+//! `OpenEXR`: 32-bit float channels with names and attributes.
+
+use std::any::Any;
+use std::io::{Cursor, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image};
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, Chromaticities, LineOrder, Text};
+use exr::meta::header::{Header, LayerAttributes};
+use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2, WritableImage};
+
+use super::{Attribute, ImageError, Layer, MOST_BYTES, Picture, atomic, check_size};
+
+/// Attributes that say how the file is built; they are not ours to set, and not reported.
+const STRUCTURAL: [&str; 15] = [
+    "channels",
+    "chunkCount",
+    "compression",
+    "dataWindow",
+    "displayWindow",
+    "dwaCompressionLevel",
+    "lineOrder",
+    "maxSamplesPerPixel",
+    "name",
+    "pixelAspectRatio",
+    "screenWindowCenter",
+    "screenWindowWidth",
+    "tiles",
+    "type",
+    "version",
+];
+
+/// Name of the channel that holds spectral radiance at a wavelength.
+///
+/// # Source
+///
+/// \[fichet2021\]: `S0.` for the unpolarised component, a comma as decimal mark, the unit.
+pub fn spectral_channel_name(nm: f64) -> String {
+    format!("S0.{}nm", format!("{nm:.6}").replace('.', ","))
+}
+
+/// The attributes that mark a file of spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
+///
+/// # Source
+///
+/// \[fichet2021\].
+pub fn spectral_attributes() -> [(String, Attribute); 2] {
+    [
+        ("spectralLayoutVersion", "1.0"),
+        ("emissiveUnits", "W.m^-2.sr^-1.nm^-1"),
+    ]
+    .map(|(name, value)| (name.to_owned(), Attribute::Text(value.to_owned())))
+}
+
+/// Writes a picture: one part, `f32` channels, ZIP over 16 rows. The same picture always gives the same bytes.
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] for a layer of another size, a name twice, empty or longer than 255 bytes, or an attribute
+/// that belongs to the file format; [`ImageError::TooLarge`]; [`ImageError::File`] if the file cannot be written, in which
+/// case an old one is untouched.
+pub fn write(picture: &Picture, path: &Path) -> Result<(), ImageError> {
+    let bytes = encode(picture)?;
+    atomic::replace(path, |file| file.write_all(&bytes))
+}
+
+/// The bytes of the file that [`write`] writes.
+///
+/// # Errors
+///
+/// As [`write`], but for the file.
+pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
+    check(picture)?;
+    let size = Vec2(picture.width as usize, picture.height as usize);
+    let channels = picture
+        .layers
+        .iter()
+        .map(|layer| AnyChannel::new(text(&layer.name), FlatSamples::F32(layer.data.clone())))
+        .collect();
+    let mut attributes = LayerAttributes::default();
+    let mut shared = exr::meta::header::ImageAttributes::with_size(size);
+    for (name, value) in &picture.attributes {
+        let value = match value {
+            Attribute::Text(words) => AttributeValue::Text(text(words)),
+            Attribute::Float(number) => AttributeValue::F32(*number),
+            Attribute::Double(number) => AttributeValue::F64(*number),
+            Attribute::Int(number) => AttributeValue::I32(*number),
+            Attribute::Matrix4(matrix) => AttributeValue::Matrix4x4(*matrix),
+            Attribute::Chromaticities([red, green, blue, white]) => {
+                let point = |[x, y]: [f32; 2]| Vec2(x, y);
+                AttributeValue::Chromaticities(Chromaticities {
+                    red: point(*red),
+                    green: point(*green),
+                    blue: point(*blue),
+                    white: point(*white),
+                })
+            }
+        };
+        attributes.other.insert(text(name), value);
+    }
+    shared.display_window.position = Vec2(0, 0);
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let layer = exr::image::Layer::new(size, attributes, encoding, AnyChannels::sort(channels));
+    let image = Image::new(shared, layer);
+    let mut bytes = Cursor::new(Vec::new());
+    // Our own check stands in for the crate's, which refuses standard attributes that it has fields for.
+    let written = guard(|| {
+        image
+            .write()
+            .skip_compatibility_checks()
+            .to_buffered(&mut bytes)
+    });
+    written.map_err(|what| ImageError::Inconsistent { what })?;
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    Ok(bytes)
+}
+
+/// Refuses what would not come back as it went in.
+fn check(picture: &Picture) -> Result<(), ImageError> {
+    let refuse = |what: String| Err(ImageError::Inconsistent { what });
+    let channels = picture.layers.len() as u64;
+    let (width, height) = (u64::from(picture.width), u64::from(picture.height));
+    check_size(width, height, channels, channels.saturating_mul(4))?;
+    let pixels = width * height;
+    for layer in &picture.layers {
+        if layer.data.len() as u64 != pixels {
+            let count = layer.data.len();
+            return refuse(format!(
+                "channel {:?} has {count} values for {pixels} pixels",
+                layer.name
+            ));
+        }
+    }
+    let mut channels: Vec<_> = picture
+        .layers
+        .iter()
+        .map(|layer| layer.name.as_str())
+        .collect();
+    let mut attributes: Vec<_> = picture
+        .attributes
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    for (kind, names) in [("channel", &mut channels), ("attribute", &mut attributes)] {
+        names.sort_unstable();
+        if let Some([twice, _]) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            return refuse(format!("the {kind} {twice:?} is there twice"));
+        }
+        if let Some(name) = names
+            .iter()
+            .find(|name| name.is_empty() || name.len() > 255 || name.contains('\0'))
+        {
+            return refuse(format!(
+                "{name:?} cannot name a {kind}: 1 to 255 bytes without a zero"
+            ));
+        }
+    }
+    if let Some(name) = attributes.iter().find(|name| STRUCTURAL.contains(name)) {
+        return refuse(format!("the attribute {name:?} belongs to the file format"));
+    }
+    Ok(())
+}
+
+fn text(words: &str) -> Text {
+    Text::from_slice_unchecked(words.as_bytes())
+}
+
+/// Puts the attributes of a single-part file into the order of their names: the crate writes them in the order of a
+/// hash map, which differs from run to run. Nothing else moves, so every offset in the file stays right.
+fn sort_attributes(file: &mut [u8]) {
+    // Magic number and version come first; then name 0, type 0, size, value for each, and 0 at the end.
+    let start = 8;
+    let mut records = Vec::new();
+    let mut at = start;
+    while file[at] != 0 {
+        let word = |from: usize| {
+            from + file[from..]
+                .iter()
+                .position(|&byte| byte == 0)
+                .expect("the crate ends words")
+        };
+        let name = word(at);
+        let kind = word(name + 1);
+        let size = file[kind + 1..kind + 5]
+            .try_into()
+            .map(u32::from_le_bytes)
+            .expect("four bytes");
+        let end = kind + 5 + size as usize;
+        records.push((file[at..name].to_vec(), file[at..end].to_vec()));
+        at = end;
+    }
+    records.sort();
+    let sorted: Vec<u8> = records.into_iter().flat_map(|(_, record)| record).collect();
+    file[start..at].copy_from_slice(&sorted);
+}
+
+/// Reads an `OpenEXR` file.
+///
+/// # Errors
+///
+/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than 4 GiB.
+pub fn read(path: &Path) -> Result<Picture, ImageError> {
+    super::read_file(path, decode)
+}
+
+/// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32` (16-bit floats exactly,
+/// whole numbers rounded), and the attributes of kinds that [`Attribute`] has.
+///
+/// # Errors
+///
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`] for everything else, also for what makes
+/// the decoder panic.
+pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let malformed = |what: String| ImageError::Malformed { what };
+    let meta =
+        guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
+    let mut total: u64 = 0;
+    for header in &meta.headers {
+        let size = header.layer_size;
+        let channels = header.channels.list.len() as u64;
+        // What the file holds, and what we make of it.
+        let bytes_a_pixel =
+            (header.channels.bytes_per_pixel as u64).max(channels.saturating_mul(4));
+        check_size(size.0 as u64, size.1 as u64, channels, bytes_a_pixel)?;
+        total = total.saturating_add((size.0 as u64 * size.1 as u64).saturating_mul(bytes_a_pixel));
+        if total > MOST_BYTES {
+            return Err(ImageError::TooLarge {
+                width: size.0 as u64,
+                height: size.1 as u64,
+                channels,
+            });
+        }
+    }
+
+    let image = guard(|| {
+        exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            // A panic in a thread of the decoder's own would be out of our reach.
+            .non_parallel()
+            .from_buffered(Cursor::new(bytes))
+    })
+    .map_err(malformed)?;
+    let layer = image.layer_data;
+    let pixels = layer.size.area();
+    let mut layers = Vec::new();
+    for channel in layer.channel_data.list {
+        let name = String::from_utf8_lossy(channel.name.as_slice()).into_owned();
+        if channel.sampling != Vec2(1, 1) || channel.sample_data.len() != pixels {
+            return Err(malformed(format!("channel {name:?} is subsampled")));
+        }
+        let data = match channel.sample_data {
+            FlatSamples::F32(data) => data,
+            FlatSamples::F16(data) => data.into_iter().map(exr::prelude::f16::to_f32).collect(),
+            FlatSamples::U32(data) => data.into_iter().map(|value| value as f32).collect(),
+        };
+        layers.push(Layer { name, data });
+    }
+    let header = meta.headers.iter().find(|header| !header.deep);
+    Ok(Picture {
+        width: layer.size.0 as u32,
+        height: layer.size.1 as u32,
+        layers,
+        attributes: header.map(attributes).unwrap_or_default(),
+    })
+}
+
+/// The attributes that are ours to report, by name.
+fn attributes(header: &Header) -> Vec<(String, Attribute)> {
+    let mut found: Vec<_> = header
+        .all_named_attributes()
+        .filter_map(|(name, value)| {
+            let name = String::from_utf8_lossy(name).into_owned();
+            if STRUCTURAL.contains(&name.as_str()) {
+                return None;
+            }
+            attribute(value).map(|value| (name, value))
+        })
+        .collect();
+    found.sort_by(|a, b| a.0.cmp(&b.0));
+    found
+}
+
+fn attribute(value: AttributeValue) -> Option<Attribute> {
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "the crate's list of kinds grows, and those that we have no use for are passed over"
+    )]
+    Some(match value {
+        AttributeValue::Text(words) => {
+            Attribute::Text(String::from_utf8_lossy(words.as_slice()).into_owned())
+        }
+        AttributeValue::F32(number) => Attribute::Float(number),
+        AttributeValue::F64(number) => Attribute::Double(number),
+        AttributeValue::I32(number) => Attribute::Int(number),
+        AttributeValue::Matrix4x4(matrix) => Attribute::Matrix4(matrix),
+        AttributeValue::Chromaticities(points) => Attribute::Chromaticities(
+            [points.red, points.green, points.blue, points.white].map(|p| [p.0, p.1]),
+        ),
+        _ => return None,
+    })
+}
+
+/// Runs the crate; an error or a panic becomes words.
+fn guard<T>(run: impl FnOnce() -> exr::error::Result<T>) -> Result<T, String> {
+    let words = |panic: Box<dyn Any + Send>| {
+        let text = panic.downcast_ref::<String>().cloned();
+        text.or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()))
+            .unwrap_or_default()
+    };
+    match catch_unwind(AssertUnwindSafe(run)) {
+        Ok(result) => result.map_err(|error| error.to_string()),
+        Err(panic) => Err(format!("the decoder gave up: {}", words(panic))),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,194 @@
+//! PNG: pictures to look at, and low-range textures.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
+
+use super::tone::from_srgb;
+use super::{ImageError, Layer, MOST_BYTES, Picture, REC709, atomic, check_size};
+
+/// The chunk that says "these are sRGB values" (rendering intent: perceptual), with length and checksum.
+const SRGB_CHUNK: [u8; 13] = [
+    0, 0, 0, 1, b's', b'R', b'G', b'B', 0, 0xae, 0xce, 0x1c, 0xe9,
+];
+
+/// Where the first chunk ends: signature 8, then the header chunk of 13 + 12 bytes.
+const AFTER_HEADER: usize = 8 + 25;
+
+/// Writes 8-bit sRGB values, interleaved, by row from the top.
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] unless there are 3 · width · height of them; [`ImageError::File`].
+pub fn write(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), ImageError> {
+    let bytes = encode(width, height, rgb, rgb.len(), ExtendedColorType::Rgb8)?;
+    atomic::replace(path, |file| file.write_all(&bytes))
+}
+
+/// Writes 16-bit sRGB values, interleaved, by row from the top.
+///
+/// # Errors
+///
+/// As [`write`].
+pub fn write_16(path: &Path, width: u32, height: u32, rgb: &[u16]) -> Result<(), ImageError> {
+    // The encoder takes the machine's byte order and writes the file's.
+    let native: Vec<u8> = rgb.iter().flat_map(|value| value.to_ne_bytes()).collect();
+    let bytes = encode(width, height, &native, rgb.len(), ExtendedColorType::Rgb16)?;
+    atomic::replace(path, |file| file.write_all(&bytes))
+}
+
+fn encode(
+    width: u32,
+    height: u32,
+    values: &[u8],
+    count: usize,
+    kind: ExtendedColorType,
+) -> Result<Vec<u8>, ImageError> {
+    let inconsistent = |what: String| ImageError::Inconsistent { what };
+    check_size(u64::from(width), u64::from(height), 3, 12)?;
+    if count as u64 != u64::from(width) * u64::from(height) * 3 {
+        return Err(inconsistent(format!(
+            "{count} values for {width} × {height} pixels of 3"
+        )));
+    }
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(values, width, height, kind)
+        .map_err(|error| inconsistent(error.to_string()))?;
+    bytes.splice(AFTER_HEADER..AFTER_HEADER, SRGB_CHUNK);
+    Ok(bytes)
+}
+
+/// Reads a PNG file as linear light.
+///
+/// # Errors
+///
+/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than 4 GiB.
+pub fn read(path: &Path) -> Result<Picture, ImageError> {
+    super::read_file(path, decode)
+}
+
+/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, taking the values for sRGB whatever
+/// colour chunks the file has. Grey becomes three equal layers; alpha is left out.
+///
+/// # Errors
+///
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
+pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+    let malformed = |error: image::ImageError| ImageError::Malformed {
+        what: error.to_string(),
+    };
+    let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let (width, height) = reader().into_dimensions().map_err(malformed)?;
+    check_size(u64::from(width), u64::from(height), 3, 12)?;
+    let mut reader = reader();
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let pixels = reader.decode().map_err(malformed)?.into_rgb16();
+
+    // 8-bit values arrive as 257 times themselves, so one table serves both.
+    let linear: Vec<f32> = (0..=u16::MAX)
+        .map(|value| from_srgb(f64::from(value) / 65535.0) as f32)
+        .collect();
+    let channel = |number: usize, name: &str| Layer {
+        name: name.to_owned(),
+        data: pixels
+            .pixels()
+            .map(|pixel| linear[pixel.0[number] as usize])
+            .collect(),
+    };
+    Ok(Picture {
+        width,
+        height,
+        layers: vec![channel(0, "R"), channel(1, "G"), channel(2, "B")],
+        attributes: vec![("chromaticities".to_owned(), REC709)],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tone;
+    use super::*;
+
+    #[test]
+    fn eight_bits_come_back_as_the_light_they_stand_for() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("picture.png");
+        let rgb: Vec<u8> = (0..=255)
+            .flat_map(|value: u8| [value, 255 - value, 7])
+            .collect();
+        write(&path, 32, 8, &rgb).expect("the folder can be written");
+        let picture = read(&path).expect("it was just written");
+        assert_eq!((picture.width, picture.height), (32, 8));
+        let light: Vec<f32> = (0..256)
+            .flat_map(|i| picture.layers.iter().map(move |layer| layer.data[i]))
+            .collect();
+        assert_eq!(
+            tone::to_bytes(&light, 0.0, crate::scene::description::Tone::Linear),
+            rgb
+        );
+        assert_eq!(picture.layers[0].data[255], 1.0);
+        // 188 is the well-known encoding of half the light.
+        assert!((picture.layers[0].data[188] - 0.5).abs() < 0.004);
+    }
+
+    #[test]
+    fn sixteen_bits_come_back_as_the_light_they_stand_for() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("picture.png");
+        let rgb = [0, 1, 258, 40_000, 65_534, 65_535];
+        write_16(&path, 2, 1, &rgb).expect("the folder can be written");
+        let picture = read(&path).expect("it was just written");
+        for (i, value) in rgb.into_iter().enumerate() {
+            let expected = from_srgb(f64::from(value) / 65535.0) as f32;
+            assert_eq!(picture.layers[i % 3].data[i / 3], expected);
+        }
+    }
+
+    #[test]
+    fn the_file_says_that_it_is_srgb_with_a_right_checksum() {
+        let bytes = encode(1, 1, &[1, 2, 3], 3, ExtendedColorType::Rgb8).expect("one pixel");
+        assert_eq!(&bytes[AFTER_HEADER + 4..AFTER_HEADER + 8], b"sRGB");
+        // CRC-32 as the PNG specification defines it, over name and data.
+        let mut crc = u32::MAX;
+        for &byte in &SRGB_CHUNK[4..9] {
+            crc ^= u32::from(byte);
+            for _ in 0..8 {
+                crc = crc >> 1 ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 };
+            }
+        }
+        assert_eq!(SRGB_CHUNK[9..], (!crc).to_be_bytes());
+        assert!(decode(&bytes).is_ok());
+    }
+
+    #[test]
+    fn a_header_that_claims_too_much_and_damaged_files_are_refused() {
+        let whole =
+            encode(8, 8, &[90; 192], 192, ExtendedColorType::Rgb8).expect("a small picture");
+        for size in [60_000_u32, 0x7fff_ffff] {
+            let mut bomb = whole.clone();
+            bomb[16..20].copy_from_slice(&size.to_be_bytes());
+            bomb[20..24].copy_from_slice(&size.to_be_bytes());
+            let error = decode(&bomb).map(|_| ()).expect_err("nobody wants that");
+            assert!(
+                matches!(
+                    error,
+                    ImageError::TooLarge { .. } | ImageError::Malformed { .. }
+                ),
+                "{error}"
+            );
+        }
+        for length in 0..whole.len() - 12 {
+            assert!(
+                decode(&whole[..length]).is_err(),
+                "{length} bytes of {}",
+                whole.len()
+            );
+        }
+        assert!(write(Path::new("never-written.png"), 8, 8, &[0; 191]).is_err());
+        assert!(!Path::new("never-written.png").exists());
+    }
+}

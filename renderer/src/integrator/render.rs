@@ -1,0 +1,148 @@
+//! All the paths of a picture, on all threads, pass by pass.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use glam::Vec2;
+
+use crate::film::{Accumulator, Film, FilmError};
+use crate::integrator::features::{self, Layout, MOST_CHANNELS};
+use crate::integrator::path;
+use crate::sampling::stream::Stream;
+use crate::scene::world::World;
+use crate::spectrum::Curve;
+
+/// Which samples of which picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Job {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Seed of every random number.
+    pub seed: u64,
+}
+
+/// What was rendered.
+#[derive(Debug)]
+pub struct Rendered {
+    /// The sums.
+    pub film: Film,
+    /// What its channels are.
+    pub layout: Layout,
+    /// Rays traced, shadow rays included.
+    pub rays: u64,
+    /// Whether it was broken off.
+    pub interrupted: bool,
+}
+
+/// How far a render is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Paths done.
+    pub paths: u64,
+    /// Paths in all.
+    pub total: u64,
+}
+
+/// Samples a pixel of the longest pass: short enough to stop soon, long enough to keep threads busy.
+const LONGEST_PASS: u32 = 16;
+
+/// Renders on the current thread pool.
+///
+/// After each pass and now and then within it `progress` is told; once `stop` is set, pixels that were not yet begun
+/// in this pass are left as they are, and what was rendered is returned.
+///
+/// # Errors
+///
+/// [`FilmError`] if the film would be too large.
+pub fn render(
+    world: &World,
+    job: &Job,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Rendered, FilmError> {
+    let layout = Layout::new(&world.wavelengths);
+    let mut film = Film::new(job.width, job.height, layout.channels())?;
+    let rays = AtomicU64::new(0);
+    let paths = AtomicU64::new(0);
+    let total = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
+    let white = features::white();
+    let mut first = 0;
+    while first < job.spp && !stop.load(Ordering::Relaxed) {
+        let pass = first.clamp(1, LONGEST_PASS).min(job.spp - first);
+        film.expose(|x, y, pixel| {
+            if stop.load(Ordering::Relaxed) {
+                return;
+            }
+            let samples = Samples {
+                world,
+                job,
+                layout,
+                white: &white,
+                x,
+                y,
+            };
+            let traced = match layout.beauty {
+                // Colour takes 8 lanes: 4 are noisier, 16 bring nothing more.
+                3 | 5..=8 => samples.add::<8>(first, first + pass, pixel),
+                0..=4 => samples.add::<4>(first, first + pass, pixel),
+                9..=16 => samples.add::<16>(first, first + pass, pixel),
+                _ => samples.add::<32>(first, first + pass, pixel),
+            };
+            rays.fetch_add(traced, Ordering::Relaxed);
+            let done = paths.fetch_add(u64::from(pass), Ordering::Relaxed) + u64::from(pass);
+            if x == 0 {
+                progress(Progress { paths: done, total });
+            }
+        });
+        first += pass;
+    }
+    progress(Progress {
+        paths: paths.load(Ordering::Relaxed),
+        total,
+    });
+    let interrupted = film.samples() + film.rejected() < total;
+    Ok(Rendered {
+        film,
+        layout,
+        rays: rays.into_inner(),
+        interrupted,
+    })
+}
+
+/// The samples of one pixel.
+struct Samples<'a> {
+    world: &'a World,
+    job: &'a Job,
+    layout: Layout,
+    white: &'a Curve,
+    x: u32,
+    y: u32,
+}
+
+impl Samples<'_> {
+    /// Adds samples number `first` to `end − 1`; gives the number of rays.
+    fn add<const N: usize>(&self, first: u32, end: u32, pixel: &mut Accumulator) -> u64 {
+        let mut rays = 0;
+        let mut values = [0.0; MOST_CHANNELS];
+        let values = &mut values[..self.layout.channels()];
+        for sample in first..end {
+            let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
+            let [film_x, film_y, lens_x, lens_y] = stream.next4();
+            let [wavelength, ..] = stream.next4();
+            let wavelengths = self.world.wavelengths.draw::<N>(wavelength);
+            let offset = self.world.filter.sample(Vec2::new(film_x, film_y));
+            let place = Vec2::new(self.x as f32, self.y as f32) + offset;
+            let ray = self.world.camera.ray(place, Vec2::new(lens_x, lens_y));
+            let found = path::trace(self.world, ray, wavelengths, &mut stream);
+            rays += u64::from(found.rays);
+            let sampler = &self.world.wavelengths;
+            self.layout
+                .fill(sampler, &wavelengths, &found, self.white, values);
+            pixel.add(values);
+        }
+        rays
+    }
+}

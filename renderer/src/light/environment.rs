@@ -1,0 +1,191 @@
+//! A latitude–longitude picture at infinity.
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use crate::light::LightSample;
+use crate::sampling::distribution::Piecewise2d;
+use crate::spectrum::rgb;
+use crate::spectrum::{Curve, Lanes, Wavelengths};
+
+/// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z) down.
+#[derive(Clone, Debug)]
+pub struct EnvironmentLight {
+    width: usize,
+    height: usize,
+    /// Linear sRGB, row by row from the zenith.
+    texels: Box<[[f32; 3]]>,
+    /// What RGB 1 1 1 stands for.
+    white: Curve,
+    /// Turn about +z, rad.
+    rotation: f32,
+    distribution: Piecewise2d,
+}
+
+impl EnvironmentLight {
+    /// From linear sRGB texels, each ≥ 0 and finite, `width` a row.
+    pub fn new(texels: Vec<[f32; 3]>, width: usize, white: Curve, rotation: f32) -> Self {
+        let height = texels.len() / width;
+        let brightness = |x: usize, y: usize| texels[y * width + x].iter().sum::<f32>();
+        // Lookup is bilinear, so a texel's light reaches half a texel into its neighbours.
+        let mut weights = Vec::with_capacity(texels.len());
+        for y in 0..height {
+            let sin = libm::sinf(PI * (y as f32 + 0.5) / height as f32);
+            for x in 0..width {
+                let mut sum = 0.0;
+                for dy in [y.saturating_sub(1), y, (y + 1).min(height - 1)] {
+                    for dx in [(x + width - 1) % width, x, (x + 1) % width] {
+                        let weight =
+                            if dy == y { 2.0 } else { 1.0 } * if dx == x { 2.0 } else { 1.0 };
+                        sum += weight * brightness(dx, dy);
+                    }
+                }
+                weights.push(sum * sin);
+            }
+        }
+        Self {
+            distribution: Piecewise2d::new(&weights, width),
+            width,
+            height,
+            texels: texels.into(),
+            white,
+            rotation,
+        }
+    }
+
+    /// Mean of the texels' red, green and blue over the sphere, times `white` where it matters: a rough size.
+    pub fn mean_brightness(&self) -> f32 {
+        let mut sum = 0.0;
+        let mut weight = 0.0;
+        for (row, texels) in self.texels.chunks(self.width).enumerate() {
+            let sin = libm::sinf(PI * (row as f32 + 0.5) / self.height as f32);
+            sum += sin * texels.iter().flatten().sum::<f32>() / (3 * self.width) as f32;
+            weight += sin;
+        }
+        sum / weight
+    }
+
+    /// Spectrum that RGB 1 1 1 stands for.
+    pub fn white(&self) -> &Curve {
+        &self.white
+    }
+
+    fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        let x = uv[0] * self.width as f32 - 0.5;
+        let y = (uv[1] * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
+        let (x0, y0) = (x.floor(), y.floor());
+        let (share_x, share_y) = (x - x0, y - y0);
+        let column =
+            |offset: usize| (x0 as i64 + offset as i64).rem_euclid(self.width as i64) as usize;
+        let row = |offset: usize| (y0 as usize + offset).min(self.height - 1);
+        let mut colour = [0.0; 3];
+        for (dy, weight_y) in [(0, 1.0 - share_y), (1, share_y)] {
+            for (dx, weight_x) in [(0, 1.0 - share_x), (1, share_x)] {
+                let texel = self.texels[row(dy) * self.width + column(dx)];
+                for (sum, value) in colour.iter_mut().zip(texel) {
+                    *sum += weight_x * weight_y * value;
+                }
+            }
+        }
+        let [red, green, blue] = rgb::basis(wavelengths);
+        (red * colour[0] + green * colour[1] + blue * colour[2]) * self.white.lanes(wavelengths)
+    }
+
+    fn uv_of(&self, wi: Vec3) -> [f32; 2] {
+        let azimuth = (libm::atan2f(wi.y, wi.x) - self.rotation) / (2.0 * PI);
+        // acos loses digits near the poles; atan2 does not.
+        let polar = libm::atan2f((wi.x * wi.x + wi.y * wi.y).sqrt(), wi.z) / PI;
+        [azimuth - azimuth.floor(), polar.min(1.0 - f32::EPSILON)]
+    }
+
+    /// A direction, about as often as it is bright.
+    pub fn sample<const N: usize>(
+        &self,
+        wavelengths: &Wavelengths<N>,
+        u: Vec2,
+    ) -> Option<LightSample<N>> {
+        let (uv, density) = self.distribution.sample([u.x, u.y]);
+        let (sin_theta, cos_theta) = libm::sincosf(PI * uv[1]);
+        let (sin_phi, cos_phi) = libm::sincosf(2.0 * PI * uv[0] + self.rotation);
+        (sin_theta > 0.0 && density > 0.0).then(|| LightSample {
+            wi: Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta),
+            point: None,
+            radiance: self.radiance(uv, wavelengths),
+            pdf: density / (2.0 * PI * PI * sin_theta),
+        })
+    }
+
+    /// Radiance and density along `wi`.
+    pub fn towards<const N: usize>(
+        &self,
+        wi: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> (Lanes<N>, f32) {
+        let uv = self.uv_of(wi);
+        let sin_theta = (wi.x * wi.x + wi.y * wi.y).sqrt();
+        let pdf = if sin_theta > 0.0 {
+            self.distribution.density(uv) / (2.0 * PI * PI * sin_theta)
+        } else {
+            0.0
+        };
+        (self.radiance(uv, wavelengths), pdf)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sky() -> EnvironmentLight {
+        let (width, height) = (32, 16);
+        let texels = (0..width * height)
+            .map(|i| {
+                let bright = if i == 5 * width + 7 { 50.0 } else { 0.2 };
+                [bright, 0.5 * bright, 0.1 + (i % width) as f32 * 0.01]
+            })
+            .collect();
+        EnvironmentLight::new(texels, width, Curve::Constant(1.0), 0.7)
+    }
+
+    const WAVELENGTHS: Wavelengths<8> = Wavelengths {
+        nm: [420.0, 460.0, 500.0, 540.0, 580.0, 620.0, 660.0, 700.0],
+        pdf: [1.0; 8],
+    };
+
+    #[test]
+    fn a_drawn_direction_has_the_density_and_radiance_that_are_told_of_it() {
+        let light = sky();
+        let mut across_a_border = 0;
+        for i in 0..2000 {
+            let u = Vec2::new((i as f32 * 0.618_034).fract(), (i as f32 + 0.5) / 2000.0);
+            let sample = light
+                .sample(&WAVELENGTHS, u)
+                .expect("the sky is bright everywhere");
+            let (radiance, pdf) = light.towards(sample.wi, &WAVELENGTHS);
+            across_a_border += usize::from((pdf / sample.pdf - 1.0).abs() > 1e-3);
+            assert!((radiance.0[3] / sample.radiance.0[3] - 1.0).abs() < 1e-2);
+        }
+        // Rounding may carry a direction at the edge of a cell into the next one.
+        assert!(across_a_border <= 4, "{across_a_border} densities differ");
+    }
+
+    #[test]
+    fn light_samples_and_even_directions_see_the_same_irradiance() {
+        let light = sky();
+        let (mut drawn, mut even) = (0.0_f64, 0.0_f64);
+        let side = 512;
+        for i in 0..side * side {
+            let u = Vec2::new((i % side) as f32 + 0.5, (i / side) as f32 + 0.5) / side as f32;
+            if let Some(sample) = light.sample(&WAVELENGTHS, u) {
+                drawn += f64::from(sample.radiance.0[6] / sample.pdf);
+            }
+            let z = 1.0 - 2.0 * u.y;
+            let (sin, cos) = libm::sincosf(2.0 * PI * u.x);
+            let radius = (1.0 - z * z).sqrt();
+            let wi = Vec3::new(radius * cos, radius * sin, z);
+            even += f64::from(light.towards(wi, &WAVELENGTHS).0.0[6] * 4.0 * PI);
+        }
+        assert!((drawn / even - 1.0).abs() < 2e-3, "{drawn} against {even}");
+    }
+}

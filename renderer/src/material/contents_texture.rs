@@ -1,0 +1,117 @@
+//! What a leaf holds at each point of it, as a float picture over uv.
+
+use glam::Vec2;
+use leafmodel::optics::Contents;
+
+/// Channels of a contents map, in the order of its texels.
+pub const CHANNELS: [&str; 7] = [
+    "structure",
+    "chlorophyll",
+    "carotenoids",
+    "anthocyanins",
+    "brown",
+    "water",
+    "dry_matter",
+];
+
+/// A contents map: bilinear between texel centres, clamped at the border; row 0 is at v = 0.
+#[derive(Clone, Debug)]
+pub struct ContentsTexture {
+    width: usize,
+    height: usize,
+    texels: Box<[[f32; 7]]>,
+}
+
+impl ContentsTexture {
+    /// From `width × height` texels, row by row.
+    ///
+    /// # Panics
+    ///
+    /// If the number of texels is another, or zero.
+    pub fn new(width: usize, height: usize, texels: Vec<[f32; 7]>) -> Self {
+        assert!(
+            !texels.is_empty() && texels.len() == width * height,
+            "a map fills its rectangle"
+        );
+        Self {
+            width,
+            height,
+            texels: texels.into(),
+        }
+    }
+
+    /// Texels across and up.
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// The texels, row by row from v = 0.
+    pub fn texels(&self) -> &[[f32; 7]] {
+        &self.texels
+    }
+
+    /// Mean contents over all texels.
+    pub fn mean(&self) -> Contents {
+        let mut sums = [0.0_f64; 7];
+        for texel in &self.texels {
+            for (sum, &value) in sums.iter_mut().zip(texel) {
+                *sum += f64::from(value);
+            }
+        }
+        contents_of(sums.map(|sum| sum / self.texels.len() as f64))
+    }
+
+    /// Contents at `uv`.
+    pub fn at(&self, uv: Vec2) -> Contents {
+        let x = (uv.x * self.width as f32 - 0.5).clamp(0.0, (self.width - 1) as f32);
+        let y = (uv.y * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
+        let (x0, y0) = (x as usize, y as usize);
+        let (x1, y1) = ((x0 + 1).min(self.width - 1), (y0 + 1).min(self.height - 1));
+        let (share_x, share_y) = (x - x0 as f32, y - y0 as f32);
+        let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
+        let (a, b, c, d) = (texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1));
+        let value = |i: usize| {
+            let below = a[i] * (1.0 - share_x) + b[i] * share_x;
+            let above = c[i] * (1.0 - share_x) + d[i] * share_x;
+            f64::from(below * (1.0 - share_y) + above * share_y)
+        };
+        contents_of(std::array::from_fn(value))
+    }
+}
+
+fn contents_of(values: [f64; 7]) -> Contents {
+    let [
+        structure,
+        chlorophyll,
+        carotenoids,
+        anthocyanins,
+        brown,
+        water,
+        dry_matter,
+    ] = values;
+    Contents {
+        structure,
+        chlorophyll,
+        carotenoids,
+        anthocyanins,
+        brown,
+        water,
+        dry_matter,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lookup_at_a_texel_centre_gives_the_texel_and_between_two_their_mean() {
+        let texel = |value: f32| [1.0 + value, value, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let map = ContentsTexture::new(2, 2, vec![texel(1.0), texel(2.0), texel(3.0), texel(4.0)]);
+        assert_eq!(map.at(Vec2::new(0.25, 0.25)).chlorophyll, 1.0);
+        assert_eq!(map.at(Vec2::new(0.75, 0.75)).chlorophyll, 4.0);
+        assert_eq!(map.at(Vec2::new(0.5, 0.25)).chlorophyll, 1.5);
+        assert_eq!(map.at(Vec2::new(0.5, 0.5)).structure, 3.5);
+        assert_eq!(map.at(Vec2::new(-1.0, 2.0)).chlorophyll, 3.0);
+    }
+}

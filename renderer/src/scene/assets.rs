@@ -1,0 +1,175 @@
+//! Files that a scene names: read once, checked before they are decoded.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::image::{ImageError, openexr, portable_network};
+use crate::material::contents_texture::{CHANNELS, ContentsTexture};
+
+/// Largest file that is read, bytes.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// Why a file is of no use.
+#[derive(Debug, Error)]
+pub enum AssetError {
+    /// It cannot be read.
+    #[error("{file} cannot be read: {source}")]
+    Read {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// It is too large.
+    #[error("{file} has {bytes} bytes, more than {MOST_BYTES}")]
+    TooLarge {
+        /// The file.
+        file: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// It is no picture.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// A channel is not there.
+    #[error("{file} has no channel \"{channel}\"")]
+    NoChannel {
+        /// The file.
+        file: PathBuf,
+        /// The channel.
+        channel: &'static str,
+    },
+    /// A value is out of range.
+    #[error("{file}: channel \"{channel}\" holds {value} at pixel ({x}, {y}), allowed is {range}")]
+    Value {
+        /// The file.
+        file: PathBuf,
+        /// The channel.
+        channel: &'static str,
+        /// What it holds.
+        value: f32,
+        /// Column.
+        x: usize,
+        /// Row.
+        y: usize,
+        /// What is allowed.
+        range: &'static str,
+    },
+}
+
+/// A picture as linear sRGB.
+#[derive(Debug)]
+pub struct RgbPicture {
+    /// Pixels across.
+    pub width: usize,
+    /// Row by row from the top.
+    pub texels: Vec<[f32; 3]>,
+}
+
+/// The bytes of a regular file.
+///
+/// # Errors
+///
+/// [`AssetError`] if it cannot be read or is too large.
+pub fn read(file: &Path) -> Result<Vec<u8>, AssetError> {
+    let failed = |source| AssetError::Read {
+        file: file.to_owned(),
+        source,
+    };
+    let bytes = fs::metadata(file).map_err(failed)?.len();
+    if bytes > MOST_BYTES {
+        return Err(AssetError::TooLarge {
+            file: file.to_owned(),
+            bytes,
+        });
+    }
+    fs::read(file).map_err(failed)
+}
+
+fn channel(
+    file: &Path,
+    picture: &crate::image::Picture,
+    name: &'static str,
+    least: f32,
+) -> Result<Vec<f32>, AssetError> {
+    let layer = picture
+        .layers
+        .iter()
+        .find(|layer| layer.name == name)
+        .ok_or_else(|| AssetError::NoChannel {
+            file: file.to_owned(),
+            channel: name,
+        })?;
+    if let Some(place) = layer
+        .data
+        .iter()
+        .position(|value| !value.is_finite() || *value < least)
+    {
+        let width = picture.width as usize;
+        return Err(AssetError::Value {
+            file: file.to_owned(),
+            channel: name,
+            value: layer.data[place],
+            x: place % width,
+            y: place / width,
+            range: if least > 0.0 {
+                "1 and above"
+            } else {
+                "0 and above"
+            },
+        });
+    }
+    Ok(layer.data.clone())
+}
+
+/// A contents map: an EXR with the channels of [`CHANNELS`]; its first row is v = 0.
+///
+/// # Errors
+///
+/// [`AssetError`] if a channel is missing or holds what no leaf holds.
+pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
+    let picture = openexr::read(file)?;
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let mut texels = vec![[0.0; 7]; width * height];
+    for (number, name) in CHANNELS.into_iter().enumerate() {
+        // N below 1 is no pile of plates.
+        let values = channel(file, &picture, name, if number == 0 { 1.0 } else { 0.0 })?;
+        for (row, line) in values.chunks(width).enumerate() {
+            for (column, value) in line.iter().enumerate() {
+                texels[row * width + column][number] = *value;
+            }
+        }
+    }
+    Ok(ContentsTexture::new(width, height, texels))
+}
+
+/// An environment picture: EXR with R, G, B or PNG (its sRGB values made linear).
+///
+/// # Errors
+///
+/// [`AssetError`] if it is no such picture or holds negative or non-finite values.
+pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
+    let is_png = file
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    let picture = if is_png {
+        portable_network::read(file)?
+    } else {
+        openexr::read(file)?
+    };
+    let red = channel(file, &picture, "R", 0.0)?;
+    let green = channel(file, &picture, "G", 0.0)?;
+    let blue = channel(file, &picture, "B", 0.0)?;
+    let texels = red
+        .into_iter()
+        .zip(green)
+        .zip(blue)
+        .map(|((r, g), b)| [r, g, b])
+        .collect();
+    Ok(RgbPicture {
+        width: picture.width as usize,
+        texels,
+    })
+}

@@ -1,0 +1,31 @@
+//! `contents`: what a leaf holds per leaf area, PROSPECT-D's inputs.
+
+use leafmodel::optics::Contents;
+
+use super::limits::Limits;
+use super::reader::Block;
+
+/// Number of plates.
+pub(crate) const STRUCTURE: Limits = Limits::closed(1.0, 10.0);
+
+/// Reads a block of contents.
+pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
+    const PIGMENT: Limits = Limits::closed(0.0, 1000.0);
+    let structure = block.number("structure", STRUCTURE);
+    let chlorophyll = block.number("chlorophyll_ug_per_cm2", PIGMENT);
+    let carotenoids = block.number("carotenoids_ug_per_cm2", PIGMENT);
+    let anthocyanins = block.number_or("anthocyanins_ug_per_cm2", PIGMENT, 0.0);
+    let brown = block.number_or("brown", Limits::closed(0.0, 100.0), 0.0);
+    let water = block.number("water_cm", Limits::closed(0.0, 1.0));
+    let dry_matter = block.number("dry_matter_g_per_cm2", Limits::closed(0.0, 1.0));
+    block.finish();
+    Some(Contents {
+        structure: structure?,
+        chlorophyll: chlorophyll?,
+        carotenoids: carotenoids?,
+        anthocyanins,
+        brown,
+        water: water?,
+        dry_matter: dry_matter?,
+    })
+}

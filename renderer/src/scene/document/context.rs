@@ -1,0 +1,105 @@
+//! What every block needs while it is read: the texts, the folder, and where errors go.
+
+use std::cell::{Cell, RefCell};
+use std::path::PathBuf;
+
+use super::tree::Node;
+use crate::scene::error::{LocatedError, SceneError};
+use crate::scene::source::{Place, Sources, escaped};
+
+/// Longest piece of the file that a message repeats, in characters.
+pub(crate) const QUOTED: usize = 60;
+
+/// Errors after which no more are kept, and entries among which suggestions are looked for: a
+/// file that was made to be slow must not be.
+pub(crate) const ENOUGH: usize = 1000;
+
+/// Something that is allowed and hardly meant.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Remark {
+    pub(crate) code: &'static str,
+    pub(crate) message: String,
+    pub(crate) help: String,
+    pub(crate) at: Option<Place>,
+}
+
+/// Shared by all blocks of one file.
+#[derive(Debug)]
+pub(crate) struct Context {
+    /// The folder that paths start at and must not leave.
+    pub(crate) folder: PathBuf,
+    /// Whether spectra go on with their end values outside their tables.
+    pub(crate) extrapolate: Cell<bool>,
+    /// First and last wavelength of the film, nm, once it is known.
+    pub(crate) range_nm: Cell<Option<[f64; 2]>>,
+    pub(crate) sources: RefCell<Sources>,
+    errors: RefCell<Vec<LocatedError>>,
+    error_count: Cell<usize>,
+    remarks: RefCell<Vec<Remark>>,
+}
+
+impl Context {
+    pub(crate) fn new(sources: Sources, folder: PathBuf) -> Self {
+        Self {
+            folder,
+            extrapolate: Cell::new(false),
+            range_nm: Cell::new(None),
+            sources: RefCell::new(sources),
+            errors: RefCell::default(),
+            error_count: Cell::new(0),
+            remarks: RefCell::default(),
+        }
+    }
+
+    /// Notes an error at a place.
+    pub(crate) fn error(&self, at: &Place, error: SceneError) {
+        self.keep(error, Some(at));
+    }
+
+    /// Notes an error of the file as a whole.
+    pub(crate) fn error_of_the_file(&self, error: SceneError) {
+        self.keep(error, None);
+    }
+
+    fn keep(&self, error: SceneError, at: Option<&Place>) {
+        if !self.is_full() {
+            let at = at.cloned();
+            self.errors.borrow_mut().push(LocatedError { error, at });
+        }
+        self.error_count.set(self.error_count.get() + 1);
+    }
+
+    /// Notes a warning.
+    pub(crate) fn warn(&self, at: &Place, code: &'static str, message: String, help: &str) {
+        self.remarks.borrow_mut().push(Remark {
+            code,
+            message,
+            help: help.to_owned(),
+            at: Some(at.clone()),
+        });
+    }
+
+    /// Whether so many errors were found that looking for more is a waste of time.
+    pub(crate) fn is_full(&self) -> bool {
+        self.error_count() >= ENOUGH
+    }
+
+    /// How many errors there are so far.
+    pub(crate) fn error_count(&self) -> usize {
+        self.error_count.get()
+    }
+
+    /// A value as it stands in the file, safe to print.
+    pub(crate) fn quoted(&self, node: &Node) -> String {
+        escaped(self.sources.borrow().slice(&node.at), QUOTED)
+    }
+
+    /// Hands out the texts, the errors and the warnings.
+    pub(crate) fn into_parts(self) -> (Sources, Vec<LocatedError>, Vec<Remark>) {
+        (
+            self.sources.into_inner(),
+            self.errors.into_inner(),
+            self.remarks.into_inner(),
+        )
+    }
+}

@@ -1,0 +1,146 @@
+//! `[leaves.NAME]`: a leaf that is grown.
+
+use leafmodel::blade::BladeForm;
+use leafmodel::blade::tissue::Tissue;
+use leafmodel::leaf::LeafPlan;
+use leafmodel::optics::Contents;
+
+use super::contents::read_contents;
+use super::limits::Limits;
+use super::material::{read_abaxial_ratio, read_coats};
+use super::outline::read_outline;
+use super::reader::Block;
+use super::spectrum::require_prospect;
+use super::venation::read_venation;
+use crate::scene::description::Leaf;
+
+/// Factors on the contents over a fully developed vein: pale, watery, dense (our choice within
+/// the ranges that `docs/src/format/leaf.md` names).
+const VEIN_FACTORS: Contents = Contents {
+    structure: 1.3,
+    chlorophyll: 0.1,
+    carotenoids: 0.12,
+    anthocyanins: 1.0,
+    brown: 1.0,
+    water: 2.0,
+    dry_matter: 2.5,
+};
+
+/// Reads one block of `[leaves]`.
+pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
+    require_prospect(block.cx, &block.at);
+    let length_mm = block.number("length_mm", Limits::closed(0.1, 10_000.0));
+    let seed = block.integer_or("seed", 0, u64::MAX, 0);
+    let map_size = block.integer_or("map_size", 16, 8192, 1024) as u32;
+    let outline = read_outline(block);
+    let venation = read_venation(block);
+    let contents = block
+        .block("contents", &[])
+        .and_then(|inner| read_contents(&inner));
+    let tissue = contents.map(|lamina| read_tissue(block, lamina));
+    if contents.is_none() {
+        // Its blocks are read all the same, so that their errors are found too.
+        read_tissue(block, VEIN_FACTORS);
+    }
+    let form = read_form(block, length_mm.unwrap_or(100.0));
+    let abaxial_ratio = read_abaxial_ratio(block);
+    let coats = read_coats(block);
+    block.finish();
+    Some(Leaf {
+        plan: LeafPlan {
+            length_mm: length_mm?,
+            seed,
+            outline: outline?,
+            venation: venation?,
+            tissue: tissue?,
+            form,
+            map_size,
+        },
+        abaxial_ratio: abaxial_ratio?,
+        coats,
+        extrapolate: block.cx.extrapolate.get(),
+    })
+}
+
+/// `veins` and `mottle`, both of which may be left out.
+fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
+    const FACTORS: Limits = Limits::closed(0.0, 100.0);
+    const WIDTHS_MM: Limits = Limits::above(0.0, 100.0);
+    let mut tissue = Tissue {
+        lamina,
+        vein_factors: VEIN_FACTORS,
+        full_vein_radius_mm: 0.06,
+        sheath_width_mm: 0.1,
+        mottle: 0.0,
+        mottle_scale_mm: 1.0,
+    };
+    if let Some(block) = leaf.optional_block("veins") {
+        let factors = &mut tissue.vein_factors;
+        for (key, factor) in [
+            ("structure", &mut factors.structure),
+            ("chlorophyll", &mut factors.chlorophyll),
+            ("carotenoids", &mut factors.carotenoids),
+            ("anthocyanins", &mut factors.anthocyanins),
+            ("brown", &mut factors.brown),
+            ("water", &mut factors.water),
+            ("dry_matter", &mut factors.dry_matter),
+        ] {
+            *factor = block.number_or(key, FACTORS, *factor);
+        }
+        tissue.full_vein_radius_mm =
+            block.number_or("full_radius_mm", WIDTHS_MM, tissue.full_vein_radius_mm);
+        tissue.sheath_width_mm =
+            block.number_or("sheath_width_mm", WIDTHS_MM, tissue.sheath_width_mm);
+        block.finish();
+    }
+    if let Some(block) = leaf.optional_block("mottle") {
+        tissue.mottle = block
+            .number("share", Limits::closed(0.0, 1.0))
+            .unwrap_or_default();
+        tissue.mottle_scale_mm = block.number_or("scale_mm", WIDTHS_MM, tissue.mottle_scale_mm);
+        block.finish();
+    }
+    tissue
+}
+
+/// `blade`, which may be left out: a leaf that is nearly flat.
+fn read_form(leaf: &Block<'_>, length_mm: f64) -> BladeForm {
+    let mut form = BladeForm {
+        fold: 0.0,
+        curl: 0.0,
+        ruffle: 0.0,
+        ruffle_waves: 3.0,
+        relief: 0.5,
+        thickness_mm: 0.2,
+        max_edge_mm: length_mm / 80.0,
+        meshed_vein_radius_mm: 0.1,
+    };
+    let Some(block) = leaf.optional_block("blade") else {
+        return form;
+    };
+    form.fold = block
+        .number_or("fold_deg", Limits::closed(-80.0, 80.0), 0.0)
+        .to_radians();
+    form.curl = block
+        .number_or("curl_deg", Limits::closed(-360.0, 360.0), 0.0)
+        .to_radians();
+    form.ruffle = block.number_or("ruffle", Limits::closed(0.0, 0.5), form.ruffle);
+    form.ruffle_waves = block.number_or(
+        "ruffle_waves",
+        Limits::closed(0.0, 100.0),
+        form.ruffle_waves,
+    );
+    form.relief = block.number_or("relief", Limits::closed(0.0, 5.0), form.relief);
+    form.thickness_mm =
+        block.number_or("thickness_mm", Limits::above(0.0, 100.0), form.thickness_mm);
+    // A finer mesh than this has more than some ten million triangles.
+    let edges = Limits::closed(length_mm / 2000.0, length_mm);
+    form.max_edge_mm = block.number_or("max_edge_mm", edges, form.max_edge_mm);
+    form.meshed_vein_radius_mm = block.number_or(
+        "meshed_vein_radius_mm",
+        Limits::above(0.0, 100.0),
+        form.meshed_vein_radius_mm,
+    );
+    block.finish();
+    form
+}

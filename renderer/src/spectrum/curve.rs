@@ -1,0 +1,171 @@
+//! A spectrum ready for evaluation along paths.
+
+use crate::scene::description;
+use crate::spectrum::cie;
+use crate::spectrum::lanes::Lanes;
+use crate::spectrum::planck;
+use crate::spectrum::wavelengths::Wavelengths;
+
+/// A function of wavelength: constant, or linear between points and constant outside them.
+///
+/// Whether the film's range is covered is checked when a scene is read; here the end values hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// The same at every wavelength.
+    Constant(f32),
+    /// Points at equal steps.
+    Uniform {
+        /// Wavelength of the first value, nm.
+        first_nm: f32,
+        /// One over the step, nm⁻¹.
+        per_nm: f32,
+        /// At least two values.
+        values: Box<[f32]>,
+    },
+    /// Points at wavelengths that rise strictly.
+    Points {
+        /// At least two wavelengths, nm.
+        nm: Box<[f32]>,
+        /// A value for each.
+        values: Box<[f32]>,
+    },
+}
+
+impl Curve {
+    /// The spectrum that a scene describes.
+    pub fn from_description(spectrum: &description::Spectrum) -> Self {
+        match spectrum {
+            description::Spectrum::Constant(value) => Self::Constant(*value as f32),
+            description::Spectrum::Table { points, .. } => Self::from_points(points),
+            description::Spectrum::D65 { scale } => {
+                Self::uniform(300.0, 1.0, 530, |nm| scale * cie::d65(nm) / cie::d65(560.0))
+            }
+            description::Spectrum::Blackbody { kelvin, scale } => {
+                let reference = planck::radiance(560.0, *kelvin);
+                Self::uniform(300.0, 1.0, 2300, |nm| {
+                    scale * planck::radiance(nm, *kelvin) / reference
+                })
+            }
+        }
+    }
+
+    /// Linear between `(nm, value)` points, which rise strictly in wavelength.
+    pub fn from_points(points: &[(f64, f64)]) -> Self {
+        match points {
+            [] => Self::Constant(0.0),
+            [(_, value)] => Self::Constant(*value as f32),
+            _ => Self::Points {
+                nm: points.iter().map(|point| point.0 as f32).collect(),
+                values: points.iter().map(|point| point.1 as f32).collect(),
+            },
+        }
+    }
+
+    /// `f` at `first_nm`, `first_nm + step_nm`, … with `intervals` intervals.
+    pub fn uniform(first_nm: f64, step_nm: f64, intervals: usize, f: impl Fn(f64) -> f64) -> Self {
+        Self::Uniform {
+            first_nm: first_nm as f32,
+            per_nm: (1.0 / step_nm) as f32,
+            values: (0..=intervals)
+                .map(|i| f(first_nm + i as f64 * step_nm) as f32)
+                .collect(),
+        }
+    }
+
+    /// Value at a wavelength in nm.
+    pub fn at(&self, nm: f32) -> f32 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Uniform {
+                first_nm,
+                per_nm,
+                values,
+            } => {
+                let place = ((nm - first_nm) * per_nm).clamp(0.0, (values.len() - 1) as f32);
+                let below = (place as usize).min(values.len() - 2);
+                let share = place - below as f32;
+                values[below] * (1.0 - share) + values[below + 1] * share
+            }
+            Self::Points { nm: places, values } => {
+                let above = places.partition_point(|&place| place <= nm);
+                if above == 0 {
+                    return values[0];
+                }
+                if above == places.len() {
+                    return values[above - 1];
+                }
+                let share = (nm - places[above - 1]) / (places[above] - places[above - 1]);
+                values[above - 1] * (1.0 - share) + values[above] * share
+            }
+        }
+    }
+
+    /// Values at a path's wavelengths.
+    pub fn lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        match self {
+            Self::Constant(value) => Lanes::splat(*value),
+            Self::Uniform { .. } | Self::Points { .. } => {
+                Lanes::from_fn(|i| self.at(wavelengths.nm[i]))
+            }
+        }
+    }
+
+    /// The curve times a factor.
+    #[must_use]
+    pub fn scaled(mut self, factor: f32) -> Self {
+        match &mut self {
+            Self::Constant(value) => *value *= factor,
+            Self::Uniform { values, .. } | Self::Points { values, .. } => {
+                values.iter_mut().for_each(|value| *value *= factor);
+            }
+        }
+        self
+    }
+
+    /// Mean over equal steps of a range in nm: a rough size, for choosing between lights.
+    pub fn mean_over(&self, range_nm: [f64; 2]) -> f32 {
+        const STEPS: usize = 32;
+        let at =
+            |i: usize| range_nm[0] + (range_nm[1] - range_nm[0]) * (i as f64 + 0.5) / STEPS as f64;
+        (0..STEPS).map(|i| self.at(at(i) as f32)).sum::<f32>() / STEPS as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_constant_outside() {
+        let curve = Curve::from_points(&[(400.0, 0.0), (500.0, 1.0), (520.0, 0.5)]);
+        let expected = [
+            (390.0, 0.0),
+            (400.0, 0.0),
+            (450.0, 0.5),
+            (510.0, 0.75),
+            (900.0, 0.5),
+        ];
+        for (nm, value) in expected {
+            assert!(
+                (curve.at(nm) - value).abs() < 1e-6,
+                "{nm} nm gives {}",
+                curve.at(nm)
+            );
+        }
+    }
+
+    #[test]
+    fn uniform_points_mean_the_same_as_a_table() {
+        let f = |nm: f64| (nm - 400.0) * (nm - 400.0);
+        let uniform = Curve::uniform(400.0, 5.0, 20, f);
+        let points: Vec<_> = (0..=20)
+            .map(|i| 400.0 + 5.0 * f64::from(i))
+            .map(|nm| (nm, f(nm)))
+            .collect();
+        let table = Curve::from_points(&points);
+        for i in 0..200 {
+            let nm = 395.0 + 0.6 * i as f32;
+            assert!((uniform.at(nm) - table.at(nm)).abs() < 1e-2, "{nm}");
+        }
+    }
+}
