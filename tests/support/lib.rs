@@ -1,1 +1,5 @@
-//! Shared machinery of the integration tests.
+//! What the integration tests share: statistics and quadrature.
+
+pub mod chi_square;
+pub mod directional;
+pub mod picture;

@@ -1,0 +1,63 @@
+//! The scene format: what is accepted means what the book says, what is refused is told in full.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use renderer::scene::load::{Loaded, load, parse};
+use renderer::scene::report::SceneErrors;
+use tempfile::TempDir;
+
+#[path = "format/accepted.rs"]
+mod accepted;
+#[path = "format/book.rs"]
+mod book;
+#[path = "format/mutations.rs"]
+mod mutations;
+#[path = "format/refused.rs"]
+mod refused;
+
+/// The folder of these tests' own files.
+fn own_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("format")
+}
+
+fn text_of(name: &str) -> String {
+    fs::read_to_string(own_folder().join(name)).expect("the test's own file is there")
+}
+
+/// A folder with the files that the scenes of these tests name. Meshes and pictures are only
+/// looked up, so they may be empty.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().expect("the system has a place for temporary files");
+    let write = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).expect("the folder was just made");
+    };
+    fs::create_dir(folder.path().join("maps")).expect("the folder was just made");
+    for name in ["maps/contents.exr", "pot.ply", "sky.exr"] {
+        write(name, "");
+    }
+    write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
+    write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
+    folder
+}
+
+fn parse_text(text: &str, name: &str, overrides: &[&str]) -> Result<Loaded, SceneErrors> {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    parse(text, name, folder().path(), &overrides)
+}
+
+fn accept(text: &str, name: &str, overrides: &[&str]) -> Loaded {
+    parse_text(text, name, overrides).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn refuse(text: &str, name: &str, overrides: &[&str]) -> SceneErrors {
+    match parse_text(text, name, overrides) {
+        Ok(_) => panic!("{name} was accepted"),
+        Err(errors) => errors,
+    }
+}
+
+fn codes(errors: &SceneErrors) -> Vec<&'static str> {
+    let errors = errors.errors().iter();
+    errors.map(|located| located.error.code()).collect()
+}

@@ -1,0 +1,347 @@
+//! What valid scenes mean: the values that they resolve to.
+
+use glam::{DMat4, DVec3};
+use leafmodel::venation::plan::{Growth, Pattern};
+use renderer::scene::description::{
+    Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
+};
+
+use renderer::scene::load::load_leaves;
+
+use super::{accept, codes, folder, load, text_of};
+
+/// The same up to the rounding of some dozen operations.
+fn assert_near(value: f64, expected: f64) {
+    assert!(
+        (value - expected).abs() <= 1e-14 * expected.abs().max(1.0),
+        "{value} is not {expected}"
+    );
+}
+
+#[test]
+fn a_scene_without_a_name_is_called_after_its_file_or_its_folder() {
+    let minimal = text_of("minimal.toml");
+    let loaded = accept(&minimal, "minimal.toml", &[]);
+    assert_eq!(loaded.description.name, "minimal");
+    assert!(loaded.warnings.is_empty());
+    let folder = folder();
+    let inside = folder.path().join("first leaf");
+    std::fs::create_dir(&inside).expect("the folder was just made");
+    std::fs::write(inside.join("scene.toml"), &minimal).expect("the folder was just made");
+    let loaded = load(&inside.join("scene.toml"), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(loaded.description.name, "first-leaf");
+    assert_eq!(loaded.description.source, minimal);
+}
+
+#[test]
+fn what_is_left_out_has_the_defaults_of_the_book() {
+    let scene = accept(&text_of("minimal.toml"), "minimal.toml", &[]).description;
+    assert_eq!(
+        (
+            scene.film.width,
+            scene.film.height,
+            scene.film.spp,
+            scene.film.seed
+        ),
+        (64, 48, 4, 0)
+    );
+    assert_near(scene.film.filter_radius, 1.5);
+    assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [400.0, 780.0]));
+    assert_eq!(
+        (scene.picture.exposure_ev, scene.picture.tone),
+        (0.0, Tone::Linear)
+    );
+    assert_eq!(
+        (scene.integrator.max_depth, scene.integrator.roulette_below),
+        (None, 0.25)
+    );
+    assert_eq!((scene.camera.up, scene.camera.lens_radius), (DVec3::Z, 0.0));
+    assert_near(scene.camera.focus_distance, 1.25_f64.sqrt());
+    assert_eq!(scene.objects[0].value.to_world, DMat4::IDENTITY);
+}
+
+#[test]
+fn film_and_camera_are_in_si_units() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    assert_eq!(scene.name, "whole-scene");
+    assert_eq!(scene.film.seed, u64::MAX);
+    assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [380.0, 800.0]));
+    assert_eq!(
+        (scene.picture.exposure_ev, scene.picture.tone),
+        (-1.5, Tone::Filmic)
+    );
+    assert_near(scene.camera.vertical_fov, std::f64::consts::FRAC_PI_2);
+    assert_near(scene.camera.lens_radius, 0.01);
+    assert_near(scene.camera.focus_distance, 2.0);
+    assert_eq!(
+        (scene.integrator.max_depth, scene.integrator.roulette_below),
+        (Some(12), 0.0)
+    );
+}
+
+#[test]
+fn a_spectral_film_has_its_bands_and_no_filter() {
+    let film = "film={spectral={size=[2,1],spp=1,bands_nm=[450,650.5],band_width_nm=0}}";
+    let scene = accept(&text_of("minimal.toml"), "minimal.toml", &[film]).description;
+    let band = |center_nm| Band {
+        center_nm,
+        width_nm: 0.0,
+    };
+    assert!(
+        matches!(scene.film.kind, FilmKind::Spectral { bands } if bands == [band(450.0), band(650.5)])
+    );
+    assert_near(scene.film.filter_radius, 0.0);
+}
+
+#[test]
+fn names_become_indices_in_the_order_of_the_file() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let names: Vec<&str> = scene
+        .materials
+        .iter()
+        .map(|material| material.name.as_str())
+        .collect();
+    assert_eq!(names, ["paper", "glass", "green", "mapped", "measured"]);
+    let shapes: Vec<ObjectShape> = scene
+        .objects
+        .iter()
+        .map(|object| object.value.shape)
+        .collect();
+    let mesh = |mesh, material| ObjectShape::Mesh { mesh, material };
+    let leaf = |leaf| ObjectShape::Leaf { leaf };
+    assert_eq!(
+        shapes,
+        [
+            mesh(0, 0),
+            mesh(1, 1),
+            leaf(0),
+            leaf(1),
+            mesh(2, 2),
+            mesh(0, 3),
+            mesh(0, 4)
+        ]
+    );
+    assert!(matches!(
+        scene.lights[4].value,
+        Light::Area { object: 0, .. }
+    ));
+    assert!(
+        matches!(&scene.meshes[2].value, Mesh::File { file, scale } if file.is_absolute() && *scale == 0.001)
+    );
+}
+
+#[test]
+fn objects_are_scaled_then_turned_about_x_y_z_then_moved() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let panel = scene.objects[0].value.to_world;
+    // Half as large; x = (1, 0, 0) stays under the half turn about x and becomes y about z.
+    assert_eq!(panel.transform_point3(DVec3::X), DVec3::new(0.0, 0.5, 2.0));
+    assert_eq!(panel.transform_point3(DVec3::Z), DVec3::new(0.0, 0.0, 1.5));
+    let bottle = scene.objects[1].value.to_world;
+    assert_eq!(
+        bottle.transform_point3(DVec3::ZERO),
+        DVec3::new(5.0, 6.0, 7.0)
+    );
+    assert_eq!(bottle.transform_vector3(DVec3::Y), DVec3::Z);
+    let turned = accept(
+        &text_of("minimal.toml"),
+        "minimal.toml",
+        &["objects.floor.rotate_deg=[90,90,0]"],
+    );
+    // About x first: z becomes −y, which a turn about y leaves alone.
+    let to_world = turned.description.objects[0].value.to_world;
+    assert_eq!(to_world.transform_vector3(DVec3::Z), DVec3::NEG_Y);
+}
+
+#[test]
+fn spectra_are_read_in_every_form() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Material::Diffuse {
+        reflectance: Spectrum::Table {
+            points,
+            extrapolate,
+        },
+    } = &scene.materials[0].value
+    else {
+        panic!("paper is {:?}", scene.materials[0].value);
+    };
+    assert!(*extrapolate && points.len() == 2);
+    assert_near(points[0].1, 0.7);
+    let Material::Leaf {
+        tissue: LeafTissue::Measured { transmittance, .. },
+        ..
+    } = &scene.materials[4].value
+    else {
+        panic!("measured is {:?}", scene.materials[4].value);
+    };
+    assert!(matches!(transmittance, Spectrum::Table { points, .. } if points[1] == (600.0, 0.3)));
+    let Light::Distant {
+        towards,
+        angular_diameter,
+        irradiance,
+    } = &scene.lights[0].value
+    else {
+        panic!("the sun is {:?}", scene.lights[0].value);
+    };
+    assert!(matches!(
+        irradiance,
+        Spectrum::Blackbody {
+            kelvin: 5800.0,
+            scale: 1.5
+        }
+    ));
+    assert!(
+        (*towards - DVec3::new(0.0, 0.75_f64.sqrt(), 0.5)).length() < 1e-15,
+        "{towards}"
+    );
+    assert_near(*angular_diameter, std::f64::consts::PI / 180.0);
+    assert!(matches!(
+        &scene.lights[2].value,
+        Light::Environment {
+            white: Spectrum::D65 { scale: 0.5 },
+            ..
+        }
+    ));
+}
+
+#[test]
+fn a_leaf_is_planned_as_written() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let beech = &scene.leaves[0].value;
+    let venation = &beech.plan.venation;
+    assert_eq!(
+        (venation.pattern, venation.final_length),
+        (Pattern::Closed, 350.0)
+    );
+    assert_eq!(
+        (venation.source_birth_distance, venation.vein_birth_distance),
+        (3.0, 4.0)
+    );
+    let isogonic = Growth::Isogonic {
+        initial_length: 11.5,
+        length_step: 0.9,
+    };
+    assert_eq!(venation.growth, isogonic);
+    assert_near(beech.plan.form.fold, std::f64::consts::PI / 20.0);
+    assert_eq!(beech.plan.tissue.vein_factors.dry_matter, 4.0);
+    assert_eq!(beech.plan.tissue.lamina.anthocyanins, 0.0);
+    let [adaxial, abaxial] = beech.coats;
+    assert_eq!(
+        (adaxial.eta, adaxial.alpha_across, adaxial.alpha_along),
+        (1.5, 0.2, 0.2)
+    );
+    assert_eq!((abaxial.alpha_across, abaxial.alpha_along), (0.45, 0.3));
+    let simple = &scene.leaves[1].value;
+    assert_eq!(simple.plan.venation.vein_birth_distance, 4.0);
+    let positions: Vec<f64> = simple
+        .plan
+        .outline
+        .veins
+        .iter()
+        .map(|vein| vein.position)
+        .collect();
+    assert_eq!(positions, [0.1, 0.3, 0.5, 0.7, 0.9]);
+    assert!(
+        matches!(&simple.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)
+    );
+}
+
+#[test]
+fn leaves_can_be_read_from_a_file_that_has_nothing_else() {
+    let whole = text_of("whole.toml");
+    let start = whole
+        .find("[leaves.beech]")
+        .expect("the scene has a beech leaf");
+    let end = whole.find("[lights.sun").expect("the scene has a sun");
+    let folder = folder();
+    let path = folder.path().join("leaf.toml");
+    let write = |text: &str| std::fs::write(&path, text).expect("the folder was just made");
+    write(&format!("format = 1\n{}", &whole[start..end]));
+    let overrides = ["leaves.beech.seed=9".to_owned()];
+    let leaves = load_leaves(&path, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!((leaves.len(), leaves[1].name.as_str()), (2, "simple"));
+    assert_eq!(leaves[0].value.plan.seed, 9);
+    write(&format!(
+        "format = 1\n{}",
+        whole[start..end].replace("rows = 100", "rows = 1")
+    ));
+    let errors = load_leaves(&path, &[]).expect_err("one row is no leaf");
+    assert_eq!(codes(&errors), ["scene::out_of_range"]);
+    write("format = 1\n");
+    let errors = load_leaves(&path, &[]).expect_err("there is no leaf");
+    assert_eq!(codes(&errors), ["scene::missing_key"]);
+}
+
+#[test]
+fn overrides_replace_and_add_values_and_are_recorded() {
+    let overrides = [
+        "film.rgb.spp=16",
+        "camera.perspective.vertical_fov_deg = 35",
+        "materials.grey.diffuse.reflectance={ table = [[300, 0.1], [900, 0.2]] }",
+        "picture.tone=\"filmic\"",
+        "name='other'",
+    ];
+    let scene = accept(&text_of("minimal.toml"), "minimal.toml", &overrides).description;
+    assert_eq!((scene.film.spp, scene.picture.tone), (16, Tone::Filmic));
+    assert_near(scene.camera.vertical_fov, 35.0_f64.to_radians());
+    // What is recorded is the same scene without any override.
+    let again = accept(&scene.source, "other.toml", &[]).description;
+    assert_eq!(
+        format!("{:?}", again.materials),
+        format!("{:?}", scene.materials)
+    );
+    assert_eq!(
+        (again.film.spp, again.name, again.source),
+        (16, scene.name, scene.source)
+    );
+}
+
+#[test]
+fn an_override_replaces_a_spectrum_whole() {
+    let sky = "lights.sky.constant.radiance_w_m2_sr_nm";
+    let overrides = [
+        format!("{sky}={{ table = [[300, 1], [900, 2]] }}"),
+        format!("{sky} = {{ d65 = 2 }}"),
+    ];
+    let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+    let scene = accept(&text_of("minimal.toml"), "minimal.toml", &overrides).description;
+    assert!(matches!(
+        &scene.lights[0].value,
+        Light::Constant {
+            radiance: Spectrum::D65 { scale: 2.0 }
+        }
+    ));
+}
+
+#[test]
+fn a_byte_order_mark_and_line_ends_of_other_systems_change_nothing() {
+    let minimal = text_of("minimal.toml");
+    let foreign = format!("\u{feff}{}", minimal.replace('\n', "\r\n"));
+    let [one, two] = [&minimal, &foreign].map(|text| accept(text, "minimal.toml", &[]).description);
+    assert_eq!(format!("{:?}", one.objects), format!("{:?}", two.objects));
+    assert_eq!(one.film.spp, two.film.spp);
+}
+
+#[test]
+fn what_nothing_uses_is_a_warning() {
+    let added =
+        "\n[meshes.ball.sphere]\nradius_m = 1\n[materials.red.diffuse]\nreflectance = 0.1\n";
+    let loaded = accept(&(text_of("minimal.toml") + added), "minimal.toml", &[]);
+    let messages: Vec<&str> = loaded
+        .warnings
+        .iter()
+        .map(renderer::scene::report::Warning::message)
+        .collect();
+    assert_eq!(
+        messages,
+        [
+            "no object uses the mesh `ball`",
+            "no object uses the material `red`"
+        ]
+    );
+    assert!(
+        loaded.warnings[0]
+            .to_string()
+            .contains("warning[scene::unused]")
+    );
+}

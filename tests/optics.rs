@@ -1,0 +1,58 @@
+//! PROSPECT-D against figures computed independently (33 sets of contents × 211 wavelengths).
+
+use leafmodel::optics::{Contents, ProspectD};
+
+const REFERENCE: &str = include_str!("data/prospect_d_reference.csv");
+const CASES: usize = 33;
+const WAVELENGTHS: usize = 211;
+
+/// A row of the reference.
+struct Row {
+    case: &'static str,
+    contents: Contents,
+    wavelength_nm: f64,
+    reflectance: f64,
+    transmittance: f64,
+}
+
+fn rows() -> Vec<Row> {
+    REFERENCE
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.starts_with("case,"))
+        .map(|line| {
+            let (case, figures) = line.split_once(',').expect("a row has a case");
+            let figures: Vec<f64> = figures
+                .split(',')
+                .map(|figure| figure.parse().expect("a figure is a number"))
+                .collect();
+            let contents = Contents::from_array(figures[..7].try_into().expect("seven contents"));
+            Row {
+                case,
+                contents: contents
+                    .checked()
+                    .expect("the reference holds valid leaves"),
+                wavelength_nm: figures[7],
+                reflectance: figures[8],
+                transmittance: figures[9],
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn the_reference_is_whole() {
+    assert_eq!(rows().len(), CASES * WAVELENGTHS);
+}
+
+#[test]
+fn reflectance_and_transmittance_agree_with_the_reference_to_1e_9() {
+    for row in rows() {
+        let at =
+            ProspectD::coefficients(row.wavelength_nm).expect("the wavelength is in the table");
+        let leaf = at.reflectance_transmittance(&row.contents);
+        let place = format!("{} at {} nm", row.case, row.wavelength_nm);
+        let (r, t) = (leaf.reflectance, leaf.transmittance);
+        assert!((r - row.reflectance).abs() < 1e-9, "{place}: R = {r}");
+        assert!((t - row.transmittance).abs() < 1e-9, "{place}: T = {t}");
+    }
+}

@@ -1,0 +1,226 @@
+//! Scenes whose radiance is known in closed form.
+
+use std::f64::consts::PI;
+
+use support::picture::{mean_and_error, mean_of, picture_of};
+
+/// A scene of two bands with a pinhole camera, to which blocks are added.
+fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
+    format!(
+        "format = 1\n\
+         [film.spectral]\nsize = [16, 16]\nspp = 64\nbands_nm = [550, 800]\nband_width_nm = 0\n\
+         [camera.perspective]\n{camera}\n[integrator]\n{integrator}\n{blocks}"
+    )
+}
+
+const FACING_THE_ORIGIN: &str =
+    "position_m = [0.3, -0.2, 1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 4";
+
+const GREY_FLOOR: &str = "
+[materials.grey.diffuse]
+reflectance = { table = [[550, 0.25], [800, 0.75]] }
+[meshes.floor.rectangle]
+width_m = 1
+height_m = 1
+[objects.floor]
+mesh = \"floor\"
+material = \"grey\"
+";
+
+/// A cube of edge 2 around the origin whose walls glow inward.
+fn glowing_room(reflectance: &str, radiance: f64) -> String {
+    let mut text = format!(
+        "[materials.wall.diffuse]\nreflectance = {reflectance}\n\
+         [meshes.wall.rectangle]\nwidth_m = 2\nheight_m = 2\n"
+    );
+    // Turned so that +z of each wall points to the middle, then moved out along −z of itself.
+    let walls = [
+        ("floor", [0, 0, 0], [0, 0, -1]),
+        ("ceiling", [180, 0, 0], [0, 0, 1]),
+        ("west", [0, 90, 0], [-1, 0, 0]),
+        ("east", [0, -90, 0], [1, 0, 0]),
+        ("north", [90, 0, 0], [0, 1, 0]),
+        ("south", [-90, 0, 0], [0, -1, 0]),
+    ];
+    for (name, turn, place) in walls {
+        text += &format!(
+            "[objects.{name}]\nmesh = \"wall\"\nmaterial = \"wall\"\nrotate_deg = {turn:?}\n\
+             position_m = {place:?}\n[lights.{name}.area]\nobject = \"{name}\"\n\
+             radiance_w_m2_sr_nm = {radiance}\n"
+        );
+    }
+    text
+}
+
+/// Asserts that a mean lies within four of its standard errors (and that those are small).
+fn assert_agrees(what: &str, found: (f64, f64), expected: f64) {
+    let (mean, error) = found;
+    eprintln!("{what}: {mean:.6} ± {error:.1e}, expected {expected:.6}");
+    assert!(
+        error < 5e-3 * expected,
+        "{what}: the error {error} hides what is to be seen"
+    );
+    // Rounding of single precision stays when there is no scatter at all.
+    let allowed = 4.0 * error + 2e-5 * expected;
+    assert!(
+        (mean - expected).abs() < allowed,
+        "{what}: {mean} ± {error}, not {expected}"
+    );
+}
+
+#[test]
+fn a_floor_under_the_sun_reflects_its_irradiance_times_the_cosine() {
+    let blocks = format!(
+        "{GREY_FLOOR}
+[lights.sun.distant]
+irradiance_w_m2_nm = 2
+elevation_deg = 30
+azimuth_deg = 40
+"
+    );
+    let text = scene(FACING_THE_ORIGIN, "", &blocks);
+    for (channel, reflectance) in [(0, 0.25), (1, 0.75)] {
+        let found = mean_and_error(&text, channel, 8);
+        assert_agrees("sun", found, reflectance / PI * 2.0 * 0.5);
+    }
+}
+
+#[test]
+fn a_floor_under_a_square_lamp_has_the_irradiance_of_its_form_factor() {
+    let blocks = format!(
+        "{GREY_FLOOR}
+[materials.black.diffuse]
+reflectance = 0
+[meshes.panel.rectangle]
+width_m = 1
+height_m = 1
+[objects.panel]
+mesh = \"panel\"
+material = \"black\"
+position_m = [0, 0, 0.5]
+rotate_deg = [180, 0, 0]
+[lights.panel.area]
+object = \"panel\"
+radiance_w_m2_sr_nm = 3
+"
+    );
+    let camera = "position_m = [0.6, 0, 0.1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 0.2";
+    let text = scene(camera, "", &blocks);
+    // Four quarters of a rectangle above the corner of each (Howell's catalogue, differential element to parallel rectangle).
+    let a = 0.5 / 0.5_f64;
+    let root = (1.0 + a * a).sqrt();
+    let quarter = 1.0 / (2.0 * PI) * 2.0 * (a / root) * (a / root).atan();
+    let irradiance = PI * 3.0 * 4.0 * quarter;
+    assert_agrees("lamp", mean_and_error(&text, 0, 16), 0.25 / PI * irradiance);
+}
+
+#[test]
+fn a_closed_glowing_room_has_the_radiance_of_the_geometric_series() {
+    let blocks = glowing_room("{ table = [[550, 0.5], [800, 0.9]] }", 0.1);
+    let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
+    let text = scene(camera, "", &blocks);
+    assert_agrees("room, 0.5", mean_and_error(&text, 0, 8), 0.1 / (1.0 - 0.5));
+    assert_agrees("room, 0.9", mean_and_error(&text, 1, 8), 0.1 / (1.0 - 0.9));
+}
+
+#[test]
+fn roulette_leaves_the_mean_as_it_is() {
+    let blocks = glowing_room("0.6", 0.4);
+    let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
+    for threshold in [
+        "roulette_below = 1",
+        "roulette_below = 0.25",
+        "roulette_below = 0.01",
+    ] {
+        let text = scene(camera, threshold, &blocks);
+        assert_agrees(threshold, mean_and_error(&text, 0, 8), 0.4 / (1.0 - 0.6));
+    }
+}
+
+#[test]
+fn a_lossless_leaf_in_a_white_furnace_cannot_be_seen() {
+    for alpha in [0.1, 0.3, 0.8] {
+        let blocks = format!(
+            "
+[materials.leaf.leaf]
+abaxial_ratio = 1
+adaxial = {{ eta = 1.45, alpha = {alpha} }}
+abaxial = {{ eta = 1.4, alpha = 0.5 }}
+[materials.leaf.leaf.measured]
+reflectance = {{ table = [[550, 0.3], [800, 0.5]] }}
+transmittance = {{ table = [[550, 0.7], [800, 0.5]] }}
+[meshes.ball.sphere]
+radius_m = 0.04
+segments = 64
+[objects.ball]
+mesh = \"ball\"
+material = \"leaf\"
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+"
+        );
+        let camera = "position_m = [0, -0.2, 0.05]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 26";
+        let text = scene(camera, "", &blocks).replace("spp = 64", "spp = 1024");
+        for channel in 0..2 {
+            let (mean, error) = mean_and_error(&text, channel, 8);
+            eprintln!("roughness {alpha}, band {channel}: {mean:.6} ± {error:.1e}");
+            assert!(error < 2.5e-4, "the error {error} hides what is to be seen");
+            assert!(
+                (mean - 1.0).abs() < 1e-3,
+                "roughness {alpha}: {mean} ± {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_leaf_between_sun_and_camera_glows_with_its_transmittance() {
+    // Lit at normal incidence and seen at normal incidence from behind: f = c(A,B) (1 − E_A)(1 − E_B) / π, which for two
+    // equal coats is T (1 − E) / ((1 − Ē) π).
+    let blocks = "
+[materials.leaf.leaf]
+abaxial_ratio = 1
+adaxial = { eta = 1.45, alpha = 0.3 }
+abaxial = { eta = 1.45, alpha = 0.3 }
+[materials.leaf.leaf.measured]
+reflectance = 0.3
+transmittance = 0.4
+[meshes.sheet.rectangle]
+width_m = 0.1
+height_m = 0.1
+[objects.sheet]
+mesh = \"sheet\"
+material = \"leaf\"
+[lights.sun.distant]
+irradiance_w_m2_nm = 1
+towards = [0, 0, 1]
+";
+    let camera =
+        "position_m = [0, 0, -1]\nlook_at_m = [0, 0, 0]\nup = [0, 1, 0]\nvertical_fov_deg = 1";
+    let coat = renderer::bsdf::leaf::Coat::new(1.45, 0.3, 0.3);
+    let albedo = coat.albedo();
+    let expected = 0.4 / PI * f64::from((1.0 - albedo.normal()) / (1.0 - albedo.mean()));
+    assert_agrees(
+        "backlit",
+        mean_and_error(&scene(camera, "", blocks), 0, 8),
+        expected,
+    );
+}
+
+#[test]
+fn a_pane_of_smooth_glass_in_a_furnace_is_invisible() {
+    let blocks = "
+[materials.glass.dielectric]
+eta = 1.5
+[meshes.ball.sphere]
+radius_m = 0.04
+[objects.ball]
+mesh = \"ball\"
+material = \"glass\"
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+";
+    let camera = "position_m = [0, -0.2, 0.05]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 24";
+    let mean = mean_of(&picture_of(&scene(camera, "", blocks), 1), 0);
+    assert!((mean - 1.0).abs() < 1e-4, "{mean}");
+}

@@ -1,0 +1,284 @@
+//! The BSDFs: drawn as their densities say, reciprocal, without gain or loss.
+
+use glam::{Vec2, Vec3};
+use renderer::bsdf::Bsdf;
+use renderer::bsdf::dielectric::Dielectric;
+use renderer::bsdf::leaf::{Coat, LeafBsdf};
+use renderer::sampling::stream::Stream;
+use renderer::spectrum::Lanes;
+use support::chi_square::{ChiSquare, sidak};
+use support::directional::{Scattered, directions, integrate};
+
+const POINTS: u32 = 1 << 15;
+
+fn coats(alpha: f32) -> [Coat; 2] {
+    [
+        Coat::new(1.45, alpha, alpha),
+        Coat::new(1.4, (1.5 * alpha).min(1.0), alpha),
+    ]
+}
+
+fn leaf(coats: &[Coat; 2], reflectance: f32, transmittance: f32) -> LeafBsdf<'_, 8> {
+    // Lanes differ, so that a lane that leaks into another one is seen.
+    let fade = Lanes::from_fn(|lane| 1.0 - 0.05 * lane as f32);
+    let r = fade * reflectance;
+    LeafBsdf::new(coats, r, fade * transmittance, Lanes::splat(1.3))
+}
+
+fn lossless(coats: &[Coat; 2]) -> LeafBsdf<'_, 8> {
+    LeafBsdf::new(coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE)
+}
+
+/// What a leaf scatters from `wo`, in one lane, with its values falsified by a factor.
+fn scattered(leaf: &LeafBsdf<'_, 8>, wo: Vec3, lane: usize, factor: f64) -> Scattered {
+    integrate(wo, POINTS, |lobe, u| {
+        let sample = leaf.sample(wo, lobe, u)?;
+        Some((sample.wi, factor * f64::from(sample.weight.0[lane])))
+    })
+}
+
+/// Greatest deviation of a lossless leaf from scattering everything, over directions of both sides.
+fn furnace_error(alpha: f32, factor: f64) -> f64 {
+    let coats = coats(alpha);
+    let leaf = lossless(&coats);
+    directions()
+        .into_iter()
+        .map(|wo| (scattered(&leaf, wo, 3, factor).total() - 1.0).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Greatest deviation of a leaf's R and T at normal incidence on the adaxial face from what it was made of.
+fn integrating_sphere_error(alpha: f32, factor: f64) -> f64 {
+    let coats = coats(alpha);
+    let mut worst = 0.0_f64;
+    for (reflectance, transmittance) in [(0.045, 0.005), (0.15, 0.15), (0.5, 0.45)] {
+        let leaf = leaf(&coats, reflectance, transmittance);
+        let found = scattered(&leaf, Vec3::Z, 0, factor);
+        worst = worst
+            .max((found.reflected - f64::from(reflectance)).abs())
+            .max((found.transmitted - f64::from(transmittance)).abs());
+    }
+    worst
+}
+
+#[test]
+fn a_lossless_leaf_in_a_white_furnace_is_invisible_at_every_angle() {
+    for alpha in [0.1, 0.3, 0.8] {
+        let error = furnace_error(alpha, 1.0);
+        eprintln!("roughness {alpha}: furnace error {error:.2e}");
+        assert!(error < 1e-3, "roughness {alpha}: {error}");
+    }
+}
+
+#[test]
+fn the_leaf_gives_back_prospects_reflectance_and_transmittance_at_any_roughness() {
+    for alpha in [0.05, 0.1, 0.3, 0.8] {
+        let error = integrating_sphere_error(alpha, 1.0);
+        eprintln!("roughness {alpha}: R and T within {error:.2e}");
+        assert!(error < 1e-3, "roughness {alpha}: {error}");
+    }
+}
+
+#[test]
+fn an_energy_error_of_one_percent_in_the_leaf_is_caught_by_both() {
+    assert!(furnace_error(0.3, 1.01) > 5e-3);
+    assert!(integrating_sphere_error(0.3, 1.01) > 3e-3);
+}
+
+#[test]
+fn the_furnace_holds_without_the_sampling_code() {
+    // Cosine-weighted directions and `eval` alone: what `sample` does cannot hide an error here.
+    let coats = coats(0.5);
+    let leaf = lossless(&coats);
+    for wo in directions().into_iter().filter(|wo| wo.z.abs() > 0.2) {
+        let found = integrate(wo, 1 << 16, |side, u| {
+            let up = renderer::sampling::warp::cosine_hemisphere(u);
+            let wi = if side < 0.5 {
+                up
+            } else {
+                Vec3::new(up.x, up.y, -up.z)
+            };
+            let value = f64::from(leaf.eval(wo, wi).0[0]);
+            Some((wi, 2.0 * std::f64::consts::PI * value))
+        });
+        assert!((found.total() - 1.0).abs() < 2e-3, "{wo}: {found:?}");
+    }
+}
+
+#[test]
+fn the_leaf_never_gives_more_than_it_gets() {
+    let coats = coats(0.2);
+    for (r, t) in [(0.02, 0.0), (0.9, 0.1), (0.0, 1.0), (1.0, 0.0), (0.05, 0.9)] {
+        let leaf = leaf(&coats, r, t);
+        for wo in directions() {
+            let total = scattered(&leaf, wo, 0, 1.0).total();
+            assert!(total < 1.0 + 1e-3, "R {r}, T {t}, {wo}: {total}");
+        }
+    }
+}
+
+#[test]
+fn the_leaf_is_reciprocal() {
+    let coats = coats(0.25);
+    let leaf = leaf(&coats, 0.3, 0.2);
+    for i in 0..5000 {
+        let [a, b, c, d] = Stream::new(3, 0, 0, i).next4();
+        let direction = |u: f32, v: f32| {
+            let z = 1.0 - 2.0 * u;
+            let phi = 2.0 * std::f32::consts::PI * v;
+            let radius = (1.0 - z * z).sqrt();
+            Vec3::new(radius * phi.cos(), radius * phi.sin(), z)
+        };
+        let (wo, wi) = (direction(a, b), direction(c, d));
+        let (there, back) = (leaf.eval(wo, wi).0[5], leaf.eval(wi, wo).0[5]);
+        assert!(
+            (there - back).abs() <= 1e-4 * there.max(back),
+            "{wo} {wi}: {there} {back}"
+        );
+    }
+}
+
+#[test]
+fn equal_faces_look_the_same_from_both_sides() {
+    let coat = Coat::new(1.45, 0.3, 0.2);
+    let coats = [coat.clone(), coat];
+    let leaf = LeafBsdf::<8>::new(&coats, Lanes::splat(0.3), Lanes::splat(0.2), Lanes::ONE);
+    for i in 0..1000 {
+        let [a, b, c, d] = Stream::new(4, 0, 0, i).next4();
+        let wo = renderer::sampling::warp::cosine_hemisphere(Vec2::new(a, b));
+        let wi = renderer::sampling::warp::cosine_hemisphere(Vec2::new(c, d));
+        let mirror = |w: Vec3| Vec3::new(w.x, w.y, -w.z);
+        let (up, down) = (
+            leaf.eval(wo, wi).0[0],
+            leaf.eval(mirror(wo), mirror(wi)).0[0],
+        );
+        assert!((up - down).abs() <= 1e-4 * up, "{up} {down}");
+        let (up, down) = (
+            leaf.eval(wo, mirror(wi)).0[0],
+            leaf.eval(mirror(wo), wi).0[0],
+        );
+        assert!((up - down).abs() <= 1e-4 * up, "{up} {down}");
+    }
+}
+
+const CHI_SQUARE: ChiSquare = ChiSquare {
+    rings: 20,
+    spokes: 40,
+    draws: 200_000,
+    midpoints: 24,
+};
+
+/// Independent draws: the chi-square law does not hold for low-discrepancy points.
+fn independent(seed: u32, draw: usize) -> [f32; 4] {
+    Stream::new(u64::from(seed), draw as u32, 0, 0).next4()
+}
+
+fn check_sampling(name: &str, bsdf: &Bsdf<'_, 8>, tests: usize, directions: &[Vec3]) {
+    let level = sidak(0.01, tests);
+    for (number, &wo) in directions.iter().enumerate() {
+        let outcome = CHI_SQUARE.run(
+            |draw| {
+                let [lobe, x, y, _] = independent(number as u32, draw);
+                bsdf.sample(wo, lobe, Vec2::new(x, y))
+                    .map(|sample| sample.wi)
+            },
+            |wi| bsdf.pdf(wo, wi),
+        );
+        assert!(outcome.p_value > level, "{name}, wo = {wo}: {outcome}");
+    }
+}
+
+const OBLIQUE: [Vec3; 4] = [
+    Vec3::new(0.0, 0.0, 1.0),
+    Vec3::new(0.36, 0.48, 0.8),
+    Vec3::new(-0.8, 0.36, 0.48),
+    Vec3::new(0.48, -0.6, -0.64),
+];
+
+#[test]
+fn every_bsdf_is_sampled_as_its_density_says() {
+    let glossy = [Coat::new(1.45, 0.15, 0.3), Coat::new(1.4, 0.5, 0.5)];
+    let matt = coats(0.6);
+    let cases: [(&str, Bsdf<'_, 8>); 5] = [
+        ("diffuse", Bsdf::Diffuse(Lanes::splat(0.5))),
+        ("glossy leaf", Bsdf::Leaf(leaf(&glossy, 0.1, 0.08))),
+        ("matt leaf", Bsdf::Leaf(leaf(&matt, 0.45, 0.45))),
+        (
+            "rough glass",
+            Bsdf::Dielectric(Dielectric {
+                eta: 1.5,
+                alpha: 0.3,
+            }),
+        ),
+        (
+            "rough dense glass",
+            Bsdf::Dielectric(Dielectric {
+                eta: 1.2,
+                alpha: 0.6,
+            }),
+        ),
+    ];
+    for (name, bsdf) in &cases {
+        check_sampling(name, bsdf, cases.len() * OBLIQUE.len(), &OBLIQUE);
+    }
+}
+
+#[test]
+fn a_wrong_density_of_the_leaf_is_found() {
+    let coats = coats(0.3);
+    let leaf = leaf(&coats, 0.3, 0.2);
+    let wo = OBLIQUE[1];
+    let outcome = CHI_SQUARE.run(
+        |draw| {
+            let [lobe, x, y, _] = independent(9, draw);
+            leaf.sample(wo, lobe, Vec2::new(x, y))
+                .map(|sample| sample.wi)
+        },
+        // Five per cent too little on the far side, about made up for on the near one.
+        |wi| leaf.pdf(wo, wi) * if wi.z < 0.0 { 0.95 } else { 1.03 },
+    );
+    assert!(outcome.p_value < 1e-4, "{outcome}");
+}
+
+#[test]
+fn a_rough_dielectric_obeys_the_reciprocity_of_refraction() {
+    let glass = Dielectric {
+        eta: 1.5,
+        alpha: 0.4,
+    };
+    for i in 0..2000 {
+        let [a, b, c, d] = Stream::new(5, 0, 0, i).next4();
+        let up = renderer::sampling::warp::cosine_hemisphere(Vec2::new(a, b));
+        let other = renderer::sampling::warp::cosine_hemisphere(Vec2::new(c, d));
+        let down = Vec3::new(other.x, other.y, -other.z);
+        let (there, back) = (glass.eval(up, down), glass.eval(down, up));
+        // f(wo, wi) η_i² = f(wi, wo) η_o², here with 1 above and 1.5 below.
+        // The half vector of nearly opposite directions is a small difference of them: single precision leaves 1 %.
+        assert!(
+            (there * 2.25 - back).abs() <= 1e-2 * back.abs().max(1e-6),
+            "{up} {down}: {there} {back}"
+        );
+    }
+}
+
+#[test]
+fn a_smooth_dielectric_splits_light_without_loss() {
+    let glass = Dielectric {
+        eta: 1.5,
+        alpha: 0.0,
+    };
+    for wo in directions() {
+        let found = integrate(wo, 1 << 12, |lobe, u| {
+            let sample = glass.sample(wo, lobe, u)?;
+            // Radiance is compressed by η² on its way in; power is not.
+            let eta = if wo.z > 0.0 { 1.5_f64 } else { 1.0 / 1.5 };
+            let spread = if sample.wi.z * wo.z < 0.0 {
+                eta * eta
+            } else {
+                1.0
+            };
+            Some((sample.wi, f64::from(sample.weight) * spread))
+        });
+        assert!((found.total() - 1.0).abs() < 1e-3, "{wo}: {found:?}");
+    }
+}

@@ -1,0 +1,54 @@
+//! Small pictures of scenes that are written in a test.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use renderer::integrator::render::{Job, Rendered, render};
+use renderer::scene::load::parse;
+use renderer::scene::world::World;
+
+/// Builds the scene of a text.
+///
+/// # Panics
+///
+/// If the scene is refused: it is the test's own.
+pub fn world_of(text: &str) -> (renderer::scene::description::Description, World) {
+    let loaded = parse(text, "test.toml", Path::new("."), &[]);
+    let description = match loaded {
+        Ok(loaded) => loaded.description,
+        Err(errors) => panic!("{errors}"),
+    };
+    let world = World::build(&description).expect("the test's own scene can be built");
+    (description, world)
+}
+
+/// Renders the scene of a text with its own sample count and the given seed.
+pub fn picture_of(text: &str, seed: u64) -> Rendered {
+    let (description, world) = world_of(text);
+    let job = Job {
+        width: description.film.width,
+        height: description.film.height,
+        spp: description.film.spp,
+        seed,
+    };
+    render(&world, &job, &AtomicBool::new(false), &|_| ()).expect("a small film fits")
+}
+
+/// Mean of one channel over all pixels.
+pub fn mean_of(rendered: &Rendered, channel: usize) -> f64 {
+    let pixels = rendered.film.pixels();
+    pixels.iter().map(|pixel| pixel.mean(channel)).sum::<f64>() / pixels.len() as f64
+}
+
+/// Mean of one channel over all pixels and seeds, and the standard error of that mean from the scatter over seeds.
+///
+/// Seeds are independent; samples within a picture are not, being of low discrepancy.
+pub fn mean_and_error(text: &str, channel: usize, seeds: u64) -> (f64, f64) {
+    let means: Vec<f64> = (0..seeds)
+        .map(|seed| mean_of(&picture_of(text, seed), channel))
+        .collect();
+    let count = means.len() as f64;
+    let mean = means.iter().sum::<f64>() / count;
+    let variance = means.iter().map(|m| (m - mean) * (m - mean)).sum::<f64>() / (count - 1.0);
+    (mean, (variance / count).sqrt())
+}
