@@ -1,0 +1,62 @@
+"""A spectral picture with the variance of its mean, and how ours is read."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+# Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised;
+# the decimal point is a comma.
+CHANNEL = re.compile(r"^(variance\.)?S0\.(\d+),(\d+)nm$")
+
+
+@dataclass
+class Picture:
+    """Mean radiance and the variance of that mean, `[height, width, bands]`."""
+
+    mean: Array
+    variance: Array
+    seconds: float = 0.0
+    spp: int = 0
+    # Independent passes that the variance was estimated from; 0: from very many samples.
+    passes: int = 0
+
+
+def read_lamina(file: Path) -> tuple[Picture, list[float]]:
+    """Reads a spectral film of the renderer; gives the bands' centres (nm), ascending."""
+    image = oiio.ImageInput.open(str(file))
+    if image is None:
+        raise RuntimeError(f"{file}: {oiio.geterror()}")
+    spec = image.spec()
+    pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
+    image.close()
+    means: dict[float, Array] = {}
+    variances: dict[float, Array] = {}
+    for number, name in enumerate(spec.channelnames):
+        found = CHANNEL.match(name)
+        if found:
+            target = variances if found[1] else means
+            target[float(f"{found[2]}.{found[3]}")] = pixels[:, :, number]
+    bands = sorted(means)
+    if not bands or sorted(variances) != bands:
+        raise RuntimeError(f"{file}: bands {bands} with variances for {sorted(variances)}")
+    picture = Picture(
+        np.stack([means[band] for band in bands], axis=2),
+        np.stack([variances[band] for band in bands], axis=2),
+    )
+    return picture, bands
+
+
+def mean_of(pictures: list[Array], seconds: float, spp: int) -> Picture:
+    """The mean of independent pictures, with the variance of that mean."""
+    stack = np.stack(pictures)
+    count = len(pictures)
+    variance = stack.var(axis=0, ddof=1) / count
+    return Picture(stack.mean(axis=0), variance, seconds, spp, count)

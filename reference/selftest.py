@@ -1,0 +1,303 @@
+#!/usr/bin/env python3
+"""Tests of the reference implementation itself: run with `.venv/bin/python reference/selftest.py`.
+
+They hold the Python BSDF to the document's promises before it is used to judge anything, and
+show that the comparison tells equal pictures from unequal ones. Seeds are fixed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+import itertools
+import math
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from lamina_reference import variant
+
+VARIANT = variant.choose()
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from lamina_reference import compare, leaf_bsdf, prospect, render
+from lamina_reference.coat import Coat, albedo
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
+GREEN = {
+    "structure": 1.5,
+    "chlorophyll": 40.0,
+    "carotenoids": 8.0,
+    "anthocyanins": 0.0,
+    "brown": 0.0,
+    "water": 0.01,
+    "dry_matter": 0.009,
+}
+# (eta, across, along) of both faces: equal, unequal, nearly smooth, strongly anisotropic, none.
+COATS = (
+    ((1.45, 0.3, 0.3), (1.45, 0.3, 0.3)),
+    ((1.45, 0.25, 0.12), (1.4, 0.45, 0.45)),
+    ((1.5, 0.05, 0.05), (1.35, 0.6, 0.3)),
+    ((1.5, 0.1, 0.5), (1.5, 0.1, 0.5)),
+    ((1.0, 0.3, 0.3), (1.0, 0.3, 0.3)),
+)
+VIEWS = tuple(
+    (math.sin(t) * math.cos(p), math.sin(t) * math.sin(p), side * math.cos(t))
+    for t, p, side in ((0.01, 0.0, 1), (0.7, 0.5, 1), (1.3, 2.2, 1), (0.3, 4.0, -1), (1.2, 1.0, -1))
+)
+WAVELENGTHS = (450.0, 550.0, 680.0, 800.0)
+
+
+def leaf(coats: tuple, **tissue: object) -> mi.BSDF:
+    """A leaf with these coats; green contents if nothing is said."""
+    spec: dict = {"type": "lamina_leaf", "tissue": "contents", "prospect": str(TABLE), **GREEN}
+    if tissue:
+        spec = {"type": "lamina_leaf", **tissue}
+    for face, values in zip(leaf_bsdf.FACES, coats, strict=True):
+        for name, value in zip(("eta", "alpha_across", "alpha_along"), values, strict=True):
+            spec[f"{face}_{name}"] = value
+    return mi.load_dict(spec)
+
+
+def spectrum(value: float) -> dict:
+    """A constant over every wavelength in use."""
+    return {"type": "regular", "wavelength_min": 300.0, "wavelength_max": 2600.0,
+            "values": f"{value},{value}"}  # fmt: skip
+
+
+def measured(coats: tuple, r: float, t: float, ratio: float = 1.0) -> mi.BSDF:
+    """A leaf of constant R and T."""
+    return leaf(
+        coats,
+        tissue="measured",
+        reflectance=spectrum(r),
+        transmittance=spectrum(t),
+        abaxial_ratio=spectrum(ratio),
+    )
+
+
+def hit(wi: object, along: object = (0.0, 1.0, 0.0)) -> mi.SurfaceInteraction3f:
+    """A hit seen from `wi`, on a plane whose v grows along `along`."""
+    si = dr.zeros(mi.SurfaceInteraction3f)
+    si.wi = mi.Vector3f(wi)
+    si.wavelengths = WAVELENGTHS
+    si.sh_frame = mi.Frame3f([0, 0, 1])
+    si.dp_dv = mi.Vector3f(along)
+    si.uv = [0.5, 0.5]
+    # Not literals: one compiled kernel then serves all directions.
+    dr.make_opaque(si)
+    return si
+
+
+def throughputs(bsdf: mi.BSDF, wi: object, side: int = 768) -> tuple[np.ndarray, np.ndarray]:
+    """Hemispherical reflectance and transmittance by sampling, with their standard errors.
+
+    Shape `[2, 4]` each: reflected, transmitted; four wavelengths.
+    """
+    n = side * side
+    i = dr.arange(mi.UInt32, n)
+    rng = mi.PCG32(size=n)
+    u = (mi.Float(i % side) + rng.next_float32()) / side
+    v = (mi.Float(i // side) + rng.next_float32()) / side
+    bs, weight = bsdf.sample(mi.BSDFContext(), hit(wi), rng.next_float32(), mi.Point2f(u, v))
+    weight = np.array(weight)
+    same = np.array(bs.wo.z * wi[2] > 0.0)
+    parts = np.stack([np.where(same, weight, 0.0), np.where(same, 0.0, weight)])
+    return parts.mean(axis=2), parts.std(axis=2) / np.sqrt(n)
+
+
+def test_prospect_gives_the_reference_spectra() -> None:
+    lines = (ROOT / "tests" / "data" / "prospect_d_reference.csv").read_text().splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    kind = dr.float64_array_t(mi.Float)
+
+    def column(name: str) -> object:
+        return kind(np.array([float(row[name]) for row in rows]))
+
+    model = prospect.Prospect(TABLE, kind, False)
+    names = ("N", "Cab", "Car", "Ant", "Cbrown", "Cw", "Cm")
+    contents = {ours: column(theirs) for ours, theirs in zip(prospect.CONTENTS, names, strict=True)}
+    r, t = model.spectra(column("wavelength_nm"), contents)
+    # The reference is printed with ten decimals.
+    for ours, name in ((r, "R"), (t, "T")):
+        worst = np.max(np.abs(np.array(ours) - np.array(column(name))))
+        assert worst < 1e-8, f"{name} is off by {worst}"
+
+
+def test_prospect_without_absorption_loses_nothing() -> None:
+    kind = dr.float64_array_t(mi.Float)
+    model = prospect.Prospect(TABLE, kind, False)
+    for plates, little in itertools.product((1.0, 1.5, 3.0), (0.0, 1e-12, 1e-9, 1e-7)):
+        contents = dict.fromkeys(prospect.CONTENTS, 0.0)
+        contents.update(structure=plates, chlorophyll=little)
+        r, t = model.spectra(kind(np.linspace(400.0, 700.0, 301)), contents)
+        lost = 1.0 - np.array(r) - np.array(t)
+        assert np.all(lost > -1e-8) and np.all(lost < 1e-8 + 10.0 * little), (plates, little, lost)
+
+
+def test_coat_albedo_is_the_integral_over_directions() -> None:
+    # Over directions instead of visible normals: another route to the same number.
+    nodes, weights = np.polynomial.legendre.leggauss(400)
+    root = 0.5 * (nodes + 1.0)
+    mu, w = root * root, weights * root
+    phi = 2.0 * np.pi * (np.arange(720) + 0.5) / 720
+    for eta, a_x, a_y in ((1.45, 0.3, 0.3), (1.5, 0.2, 0.5)):
+        coat = Coat(eta, a_x, a_y)
+        for theta, turn in ((0.2, 0.3), (1.0, 1.2), (1.4, 0.7)):
+            o = np.array([np.sin(theta) * np.cos(turn), np.sin(theta) * np.sin(turn), np.cos(theta)])
+            s = np.sqrt(1.0 - mu * mu)[:, None]
+            i = np.stack([s * np.cos(phi), s * np.sin(phi), np.broadcast_to(mu[:, None], (400, 720))])
+            h = i + o[:, None, None]
+            h /= np.sqrt((h * h).sum(axis=0))
+            d = 1.0 / (np.pi * a_x * a_y * ((h[0] / a_x) ** 2 + (h[1] / a_y) ** 2 + h[2] ** 2) ** 2)
+            lam = [0.5 * (np.sqrt(1 + ((a_x * v[0]) ** 2 + (a_y * v[1]) ** 2) / v[2] ** 2) - 1)
+                   for v in (o, i)]  # fmt: skip
+            c = (o[:, None, None] * h).sum(axis=0)
+            g = np.sqrt(eta**2 - 1 + c * c)
+            fresnel = 0.5 * ((g - c) / (g + c)) ** 2
+            fresnel *= 1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2
+            f = d * fresnel / (1 + lam[0] + lam[1]) / (4 * o[2])
+            direct = (f.mean(axis=1) * w).sum() * 2.0 * np.pi
+            table = albedo(coat, *(np.array([value]) for value in o))[0]
+            assert abs(direct - table) < 5e-5, (coat, theta, direct, table)
+
+
+def test_leaf_is_sampled_as_its_pdf_says() -> None:
+    cases = list(itertools.product(COATS[:4], VIEWS))
+    level = 1.0 - (1.0 - 0.01) ** (1.0 / len(cases))
+    for coats, wi in cases:
+        bsdf = leaf(coats)
+
+        def sample(u: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> tuple:
+            bs, weight = bsdf.sample(
+                mi.BSDFContext(), hit(wi, (0.6, 0.8, 0.0)), u.x, mi.Point2f(u.y, u.z)
+            )
+            return bs.wo, dr.select(bs.pdf > 0.0, mi.Float(1.0), 0.0)
+
+        def pdf(wo: mi.Vector3f, bsdf: mi.BSDF = bsdf, wi: tuple = wi) -> mi.Float:
+            return bsdf.pdf(mi.BSDFContext(), hit(wi, (0.6, 0.8, 0.0)), wo)
+
+        test = mi.chi2.ChiSquareTest(
+            mi.chi2.SphericalDomain(), sample, pdf, sample_dim=3, sample_count=200_000, res=51,
+            ires=16 if coats == COATS[2] else 6,
+        )  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()):
+            passed = test.run(level)
+        assert passed, (coats, wi, test.p_value, test.messages)
+
+
+def test_normal_incidence_gives_back_r_and_t() -> None:
+    for coats, (r, t) in itertools.product(COATS, ((0.1, 0.05), (0.45, 0.47), (0.3, 0.1))):
+        got, error = throughputs(measured(coats, r, t), (0.0, 0.0, 1.0))
+        for part, want in zip((0, 1), (r, t), strict=True):
+            off = np.abs(got[part] - want).max()
+            assert off < 4.0 * error[part].max() + 1e-4, (coats, part, got[part], want)
+
+
+def test_contents_give_back_prospect() -> None:
+    kind = leaf_bsdf.Double
+    r, t = prospect.Prospect(TABLE, kind, False).spectra(kind(*WAVELENGTHS), GREEN)
+    got, error = throughputs(leaf(COATS[1]), (0.0, 0.0, 1.0))
+    want = np.array([np.array(r).ravel(), np.array(t).ravel()])
+    assert np.all(np.abs(got - want) < 4.0 * error + 1e-4), (got, want)
+
+
+def test_lossless_leaf_loses_nothing_at_any_angle() -> None:
+    for coats, wi, (r, t) in itertools.product(COATS, VIEWS, ((0.5, 0.5), (0.8, 0.2))):
+        got, error = throughputs(measured(coats, r, t), wi)
+        off = np.abs(got.sum(axis=0) - 1.0).max()
+        assert off < 4.0 * error.max() + 1e-4, (coats, wi, got)
+
+
+def test_leaf_is_reciprocal() -> None:
+    rng = np.random.default_rng(7)
+    a, b = (rng.normal(size=(3, 4096)) for _ in range(2))
+    a, b = (v / np.sqrt((v * v).sum(axis=0)) for v in (a, b))
+    for coats, ratio in itertools.product(COATS, (1.0, 1.6)):
+        bsdf = measured(coats, 0.2, 0.3, ratio)
+        there = bsdf.eval(mi.BSDFContext(), hit(a), mi.Vector3f(b)) / dr.abs(mi.Float(b[2]))
+        back = bsdf.eval(mi.BSDFContext(), hit(b), mi.Vector3f(a)) / dr.abs(mi.Float(a[2]))
+        there, back = np.array(there), np.array(back)
+        assert np.all(np.abs(there - back) <= 2e-3 * there + 1e-6), coats
+
+
+def test_spectral_film_gives_the_mean_radiance_of_each_band() -> None:
+    bands = [(450.0, 10.0), (550.0, 10.0), (650.0, 20.0), (750.0, 0.0)]
+    sky = {"type": "irregular", "wavelengths": "300,900", "values": "1,7"}
+    scene = mi.load_dict({
+        "type": "scene",
+        "integrator": {"type": "path"},
+        "sensor": {"type": "perspective", "film": render.film(8, 8, bands)},
+        "sky": {"type": "constant", "radiance": sky},
+    })  # fmt: skip
+    picture = render.render(scene, len(bands), spp=4096, passes=16, seed=1)
+    error = np.sqrt(picture.variance.mean(axis=(0, 1)) / 64)
+    want = np.array([1.0 + (center - 300.0) / 100.0 for center, _ in bands])
+    z = (picture.mean.mean(axis=(0, 1)) - want) / error
+    assert np.all(error < 1e-3 * want) and np.all(np.abs(z) < 4.0), (z, error)
+
+
+def furnace_scene(albedo: float) -> mi.Scene:
+    """A tilted diffuse square before a graded sky: a picture with noise everywhere."""
+    return mi.load_dict({
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": -1, "rr_depth": 1000},
+        "sensor": {
+            "type": "perspective", "fov": 40.0,
+            "to_world": mi.ScalarTransform4f().look_at([0, -3, 2], [0, 0, 0], [0, 0, 1]),
+            "film": render.film(32, 32, [(450.0, 10.0), (550.0, 10.0), (650.0, 10.0), (750.0, 10.0)]),
+        },
+        "floor": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(20.0),
+                  "bsdf": {"type": "diffuse", "reflectance": spectrum(albedo)}},
+        "ball": {"type": "sphere", "center": [0.0, 0.0, 0.6], "radius": 0.5,
+                 "bsdf": {"type": "diffuse", "reflectance": spectrum(albedo)}},
+        "lamp": {"type": "sphere", "center": [2.0, -2.0, 4.0], "radius": 0.5,
+                 "emitter": {"type": "area", "radiance": spectrum(20.0)}},
+        "sky": {"type": "constant", "radiance": spectrum(0.5)},
+    })  # fmt: skip
+
+
+def test_comparison_passes_equal_pictures_and_fails_a_one_percent_error() -> None:
+    names = ["450", "550", "650", "750"]
+    first = render.render(furnace_scene(0.5), 4, spp=1024, passes=32, seed=1)
+    second = render.render(furnace_scene(0.5), 4, spp=1024, passes=32, seed=1001)
+    other = render.render(furnace_scene(0.505), 4, spp=1024, passes=32, seed=2001)
+    same = compare.compare(first, second, names)
+    assert same.passed, same.failures
+    differs = compare.compare(first, other, names)
+    assert not differs.passed
+    with tempfile.TemporaryDirectory() as folder:
+        differs.write_pictures(Path(folder), "self")
+        assert (Path(folder) / "self-z.png").stat().st_size > 0
+
+
+def main() -> int:
+    """Runs every test of this file, or those whose names hold the arguments."""
+    leaf_bsdf.register()
+    passed, failed = 0, 0
+    for name, test in list(globals().items()):
+        if not name.startswith("test_") or (
+            sys.argv[1:] and not any(word in name for word in sys.argv[1:])
+        ):
+            continue
+        try:
+            test()
+            passed += 1
+            print(f"ok    {name[5:].replace('_', ' ')}", file=sys.stderr)
+        except Exception:  # A test must not keep the others from being run.
+            failed += 1
+            print(f"FAIL  {name[5:].replace('_', ' ')}\n{traceback.format_exc()}", file=sys.stderr)
+    print(f"reference ({VARIANT}): {passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
