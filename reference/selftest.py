@@ -16,6 +16,7 @@ import sys
 import tempfile
 import traceback
 from pathlib import Path
+from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -53,6 +54,7 @@ VIEWS = tuple(
     (math.sin(t) * math.cos(p), math.sin(t) * math.sin(p), side * math.cos(t))
     for t, p, side in ((0.01, 0.0, 1), (0.7, 0.5, 1), (1.3, 2.2, 1), (0.3, 4.0, -1), (1.2, 1.0, -1))
 )
+NAMES = ["450", "550", "650", "750"]
 WAVELENGTHS = (450.0, 550.0, 680.0, 800.0)
 
 
@@ -152,9 +154,13 @@ def test_coat_albedo_is_the_integral_over_directions() -> None:
     for eta, a_x, a_y in ((1.45, 0.3, 0.3), (1.5, 0.2, 0.5)):
         coat = Coat(eta, a_x, a_y)
         for theta, turn in ((0.2, 0.3), (1.0, 1.2), (1.4, 0.7)):
-            o = np.array([np.sin(theta) * np.cos(turn), np.sin(theta) * np.sin(turn), np.cos(theta)])
+            o = np.array(
+                [np.sin(theta) * np.cos(turn), np.sin(theta) * np.sin(turn), np.cos(theta)]
+            )
             s = np.sqrt(1.0 - mu * mu)[:, None]
-            i = np.stack([s * np.cos(phi), s * np.sin(phi), np.broadcast_to(mu[:, None], (400, 720))])
+            i = np.stack(
+                [s * np.cos(phi), s * np.sin(phi), np.broadcast_to(mu[:, None], (400, 720))]
+            )
             h = i + o[:, None, None]
             h /= np.sqrt((h * h).sum(axis=0))
             d = 1.0 / (np.pi * a_x * a_y * ((h[0] / a_x) ** 2 + (h[1] / a_y) ** 2 + h[2] ** 2) ** 2)
@@ -253,7 +259,7 @@ def furnace_scene(albedo: float) -> mi.Scene:
         "sensor": {
             "type": "perspective", "fov": 40.0,
             "to_world": mi.ScalarTransform4f().look_at([0, -3, 2], [0, 0, 0], [0, 0, 1]),
-            "film": render.film(32, 32, [(450.0, 10.0), (550.0, 10.0), (650.0, 10.0), (750.0, 10.0)]),
+            "film": render.film(32, 32, [(float(nm), 10.0) for nm in NAMES]),
         },
         "floor": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(20.0),
                   "bsdf": {"type": "diffuse", "reflectance": spectrum(albedo)}},
@@ -266,17 +272,58 @@ def furnace_scene(albedo: float) -> mi.Scene:
 
 
 def test_comparison_passes_equal_pictures_and_fails_a_one_percent_error() -> None:
-    names = ["450", "550", "650", "750"]
     first = render.render(furnace_scene(0.5), 4, spp=1024, passes=32, seed=1)
     second = render.render(furnace_scene(0.5), 4, spp=1024, passes=32, seed=1001)
     other = render.render(furnace_scene(0.505), 4, spp=1024, passes=32, seed=2001)
-    same = compare.compare(first, second, names)
+    same = compare.compare(first, second, NAMES)
     assert same.passed, same.failures
-    differs = compare.compare(first, other, names)
+    differs = compare.compare(first, other, NAMES)
     assert not differs.passed
     with tempfile.TemporaryDirectory() as folder:
         differs.write_pictures(Path(folder), "self")
         assert (Path(folder) / "self-z.png").stat().st_size > 0
+
+
+class LossyLeaf(leaf_bsdf.LeafBSDF):
+    """A leaf that loses 1 % of the light at every scattering."""
+
+    def value_and_pdf(self, si: object, wo: object, active: object) -> tuple:
+        value, pdf = super().value_and_pdf(si, wo, active)
+        return 0.99 * value, pdf
+
+
+def leaf_scene(plugin: str) -> mi.Scene:
+    """A tilted green leaf over a card, under a lamp and a sky."""
+    spec = {"type": plugin, "tissue": "contents", "prospect": str(TABLE), **GREEN}
+    for face in leaf_bsdf.FACES:
+        spec.update({f"{face}_eta": 1.45, f"{face}_alpha_across": 0.3, f"{face}_alpha_along": 0.2})
+    turn = mi.ScalarTransform4f().translate([0, 0, 0.7]).rotate([1, 0, 0], 25.0)
+    return mi.load_dict({
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": -1, "rr_depth": 1000},
+        "sensor": {
+            "type": "perspective", "fov": 30.0,
+            "to_world": mi.ScalarTransform4f().look_at([0, -3, 3], [0, 0, 0.5], [0, 0, 1]),
+            "film": render.film(32, 32, [(float(nm), 10.0) for nm in NAMES]),
+        },
+        "leaf": {"type": "rectangle", "to_world": turn, "bsdf": spec},
+        "card": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(5.0),
+                 "bsdf": {"type": "diffuse", "reflectance": spectrum(0.3)}},
+        "lamp": {"type": "sphere", "center": [2.0, -2.0, 4.0], "radius": 0.5,
+                 "emitter": {"type": "area", "radiance": spectrum(20.0)}},
+        "sky": {"type": "constant", "radiance": spectrum(0.5)},
+    })  # fmt: skip
+
+
+def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
+    mi.register_bsdf("lossy_leaf", LossyLeaf)
+    right = render.render(leaf_scene("lamina_leaf"), 4, spp=1024, passes=32, seed=1)
+    again = render.render(leaf_scene("lamina_leaf"), 4, spp=1024, passes=32, seed=1001)
+    wrong = render.render(leaf_scene("lossy_leaf"), 4, spp=1024, passes=32, seed=2001)
+    same = compare.compare(again, right, NAMES)
+    assert same.passed, same.failures
+    caught = compare.compare(wrong, right, NAMES)
+    assert not caught.checks()["mean"] and not caught.checks()["regions"], caught.bands
 
 
 def main() -> int:
@@ -288,10 +335,12 @@ def main() -> int:
             sys.argv[1:] and not any(word in name for word in sys.argv[1:])
         ):
             continue
+        began = perf_counter()
         try:
             test()
             passed += 1
-            print(f"ok    {name[5:].replace('_', ' ')}", file=sys.stderr)
+            seconds = perf_counter() - began
+            print(f"ok    {name[5:].replace('_', ' ')} ({seconds:.1f} s)", file=sys.stderr)
         except Exception:  # A test must not keep the others from being run.
             failed += 1
             print(f"FAIL  {name[5:].replace('_', ' ')}\n{traceback.format_exc()}", file=sys.stderr)

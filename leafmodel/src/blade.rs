@@ -1,71 +1,96 @@
 //! The lamina in space: mesh, relief, and what the tissue holds where.
-
-mod form;
-mod relief;
-mod sites;
+//!
+//! [`BladeMesh::build`] cuts the flat lamina into triangles that follow the margin and the major veins, raises the veins,
+//! and bends the whole.
+//!
+//! - **In**: an outline, the veins, a [`BladeForm`].
+//! - **Out**: a [`BladeMesh`] in millimetres, base at the origin, midrib along +y, adaxial side +z.
+//! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
+//! - **Left out**: the petiole, the two surfaces of a sheet with thickness (thickness is a number at each vertex).
 
 pub mod contents_map;
+mod form;
 pub mod frame;
 pub mod mesh;
 pub mod mottle;
+mod refine;
+mod relief;
+mod size_field;
+mod skeleton;
 pub mod tissue;
-pub mod triangulate;
+mod triangulate;
 pub mod vein_field;
+mod vein_grid;
 pub mod vein_profile;
+
+pub use frame::UvFrame;
+pub use mesh::{BladeError, BladeMesh, MeshDefect};
 
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BladeForm {
-    /// Angle by which each half is raised about the midrib, towards the adaxial side (0 flat).
+    /// Angle by which each half is raised about the midrib, towards the adaxial side (0 flat), −1.4 to 1.4.
     pub fold: f64,
-    /// Angle through which the midrib bends from base to apex, towards the abaxial side (0 straight).
+    /// Angle through which the midrib bends from base to apex, towards the abaxial side (0 straight), −6.2 to 6.2.
     pub curl: f64,
-    /// Amplitude of the wave along the margin as a share of the leaf's length, ≥ 0.
+    /// Amplitude of the wave along the margin as a share of the leaf's length, 0 to 0.5.
     pub ruffle: f64,
-    /// Waves along each side of the margin.
+    /// Waves along each side of the margin, 0 to 100.
     pub ruffle_waves: f64,
-    /// Height of vein relief on the abaxial side over the vein's diameter, ≥ 0 (0 none).
+    /// Height of vein relief on the abaxial side over the vein's diameter, 0 (none) to 5.
     pub relief: f64,
-    /// Thickness of the lamina between veins, mm, > 0.
+    /// Thickness of the lamina between veins, mm, 0.001 to 10.
     pub thickness_mm: f64,
-    /// Longest edge of the mesh, mm, > 0.
+    /// Longest edge of the mesh, mm, 0.001 to 10000.
     pub max_edge_mm: f64,
-    /// Veins at least this wide (radius, mm) are edges of the mesh and have relief.
+    /// Veins at least this wide (radius, mm) are edges of the mesh and have relief, 0.0001 to 1000.
     pub meshed_vein_radius_mm: f64,
 }
 
 impl BladeForm {
-    /// Checks every number.
+    /// Checks every field.
     ///
     /// # Errors
     ///
-    /// [`mesh::BladeError::OutOfRange`] with the first one outside its range.
-    pub fn validate(&self) -> Result<(), mesh::BladeError> {
-        let checks = [
-            ("fold", self.fold, -1.4, 1.4),
-            ("curl", self.curl, -6.2, 6.2),
-            ("ruffle", self.ruffle, 0.0, 0.5),
-            ("ruffle_waves", self.ruffle_waves, 0.0, 100.0),
-            ("relief", self.relief, 0.0, 5.0),
-            ("thickness_mm", self.thickness_mm, 1e-3, 10.0),
-            ("max_edge_mm", self.max_edge_mm, 1e-3, 1e4),
+    /// [`BladeError::OutOfRange`] for the first field outside its range.
+    pub fn validate(&self) -> Result<(), BladeError> {
+        let fields = [
+            ("fold", self.fold, -1.4..=1.4, "-1.4 to 1.4 (radians)"),
+            ("curl", self.curl, -6.2..=6.2, "-6.2 to 6.2 (radians)"),
+            ("ruffle", self.ruffle, 0.0..=0.5, "0 to 0.5"),
+            ("ruffle_waves", self.ruffle_waves, 0.0..=100.0, "0 to 100"),
+            ("relief", self.relief, 0.0..=5.0, "0 to 5"),
+            (
+                "thickness_mm",
+                self.thickness_mm,
+                1e-3..=10.0,
+                "0.001 to 10 (millimetres)",
+            ),
+            (
+                "max_edge_mm",
+                self.max_edge_mm,
+                1e-3..=1e4,
+                "0.001 to 10000 (millimetres)",
+            ),
             (
                 "meshed_vein_radius_mm",
                 self.meshed_vein_radius_mm,
-                1e-4,
-                1e3,
+                1e-4..=1e3,
+                "0.0001 to 1000 (millimetres)",
             ),
         ];
-        for (field, value, least, most) in checks {
-            if !(least..=most).contains(&value) {
-                return Err(mesh::BladeError::OutOfRange {
+        for (field, value, allowed, range) in fields {
+            if !allowed.contains(&value) {
+                return Err(BladeError::OutOfRange {
                     field,
                     value,
-                    least,
-                    most,
+                    range,
                 });
             }
         }
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -90,3 +90,121 @@ impl Leaf {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::optics::Contents;
+    use crate::venation::plan::{Growth, Pattern};
+
+    /// A small broad leaf with everything that a leaf can have.
+    fn plan() -> LeafPlan {
+        LeafPlan {
+            length_mm: 50.0,
+            seed: 3,
+            outline: GrowthShape {
+                rows: 80,
+                axial_rate: 0.1,
+                rate_ratio: 1.3,
+                widest_at: 0.4,
+                falloff: 3.0,
+                lobe_decay: 0.0,
+                lobe_exponent: 2.0,
+                veins: Vec::new(),
+            },
+            venation: VenationPlan {
+                pattern: Pattern::Closed,
+                final_length: 100.0,
+                kill_distance: 1.5,
+                source_birth_distance: 3.0,
+                vein_birth_distance: 3.0,
+                darts_per_area: 0.01,
+                growth: Growth::Marginal {
+                    initial_length: 15.0,
+                    length_step: 1.0,
+                },
+                murray_exponent: 2.0,
+                veinlet_radius_mm: 0.03,
+            },
+            tissue: Tissue {
+                lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.01, 0.01, 0.006]),
+                vein_factors: Contents::from_array([1.3, 0.25, 0.25, 1.0, 1.0, 2.0, 2.5]),
+                full_vein_radius_mm: 0.25,
+                sheath_width_mm: 0.1,
+                mottle: 0.1,
+                mottle_scale_mm: 2.0,
+            },
+            form: BladeForm {
+                fold: 0.3,
+                curl: 0.5,
+                ruffle: 0.01,
+                ruffle_waves: 3.0,
+                relief: 0.5,
+                thickness_mm: 0.2,
+                max_edge_mm: 2.0,
+                meshed_vein_radius_mm: 0.1,
+            },
+            map_size: 64,
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn grown_leaves_are_sound(
+            rate_ratio in 1.1..1.8,
+            widest_at in 0.15..0.8,
+            falloff in 1.2..6.0,
+            lobe_decay in 0.0..3.0,
+            seed in 0_u64..1000,
+        ) {
+            use crate::shape::growth_shape::VeinRow;
+            let mut plan = plan();
+            let lobe = |position| VeinRow { position, slope: 0.6 };
+            plan.outline = GrowthShape {
+                rate_ratio, widest_at, falloff, lobe_decay,
+                veins: [0.2, 0.4, 0.6, 0.8].map(lobe).to_vec(),
+                ..plan.outline
+            };
+            plan.seed = seed;
+            let leaf = Leaf::grow(&plan).expect("a good plan");
+            prop_assert_eq!(leaf.network.validate(), Ok(()));
+            prop_assert_eq!(leaf.mesh.validate(leaf.outline.area()), Ok(()));
+            prop_assert!(leaf.mesh.uvs.iter().all(|uv| uv.min_element() >= -1e-12 && uv.max_element() <= 1.0 + 1e-12));
+            let longer = leaf.contents.width.max(leaf.contents.height);
+            prop_assert_eq!(longer, plan.map_size);
+            for texel in &leaf.contents.texels {
+                let contents = Contents::from_array(texel.map(f64::from));
+                prop_assert!(contents.checked().is_ok(), "{:?}", contents);
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_plan_gives_the_same_leaf_bit_for_bit() {
+        let one = Leaf::grow(&plan()).expect("a good plan");
+        assert_eq!(one, Leaf::grow(&plan()).expect("a good plan"));
+        let other = LeafPlan { seed: 4, ..plan() };
+        assert_ne!(one, Leaf::grow(&other).expect("a good plan"));
+    }
+
+    #[test]
+    fn each_stage_refuses_in_its_own_name() {
+        type Spoil = fn(&mut LeafPlan);
+        let spoils: [(Spoil, &str); 5] = [
+            (|p| p.length_mm = f64::NAN, "outline: length_mm"),
+            (|p| p.venation.kill_distance = -1.0, "venation: "),
+            (|p| p.form.curl = f64::INFINITY, "blade: curl is inf"),
+            (|p| p.tissue.mottle = 2.0, "tissue: mottle is 2"),
+            (|p| p.map_size = 3, "tissue: map_size is 3"),
+        ];
+        for (spoil, start) in spoils {
+            let mut plan = plan();
+            spoil(&mut plan);
+            let message = Leaf::grow(&plan).expect_err("a bad plan").to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
+    }
+}

@@ -13,7 +13,7 @@ Double precision and numpy; nothing here depends on Mitsuba's variant.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,28 +52,20 @@ class Coat:
         """Both roughnesses."""
         return self.alpha_x, self.alpha_y
 
-    @cached_property
+    @property
     def table(self) -> Array:
         """E at √μ (rows, 0 to 1) and azimuth (columns, 0 to π/2 from the x axis)."""
         return _table(self)
 
-    @cached_property
+    @property
     def normal(self) -> float:
         """E at normal incidence."""
-        return float(albedo(self, np.array([0.0]), np.array([0.0]), np.array([1.0]))[0])
+        return _normal(self)
 
-    @cached_property
+    @property
     def mean(self) -> float:
         """(1/π) ∫ E μ dω over the hemisphere."""
-        nodes, weights = np.polynomial.legendre.leggauss(48)
-        root = 0.5 * (nodes + 1.0)
-        mu = root * root
-        # dω μ = μ dμ dφ, μ = s², so 2 μ dμ = 4 s³ ds; φ by the midpoint rule over a quadrant.
-        azimuth = (np.arange(16) + 0.5) / 16 * 0.5 * np.pi
-        m, a = (grid.ravel() for grid in np.meshgrid(mu, azimuth, indexing="ij"))
-        sine = np.sqrt(1.0 - m * m)
-        e = albedo(self, sine * np.cos(a), sine * np.sin(a), m).reshape(len(mu), -1).mean(axis=1)
-        return float(np.sum(e * 4.0 * root**3 * 0.5 * weights))
+        return _mean(self)
 
 
 def fresnel(cos_i: Array, eta: float) -> Array:
@@ -121,7 +113,7 @@ def albedo(coat: Coat, x: Array, y: Array, z: Array) -> Array:
     return (fresnel(cosine, coat.eta) * shadowed) @ weight
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=64)
 def _table(coat: Coat) -> Array:
     root = np.linspace(0.0, 1.0, SPLINE_MU)
     root[0] = GRAZING
@@ -139,3 +131,22 @@ def _table(coat: Coat) -> Array:
     # Even about both axes, so the slope is 0 at either end.
     along = CubicSpline(angles, fine, axis=1, bc_type="clamped")
     return along(np.linspace(0.0, 0.5 * np.pi, COUNT_AZIMUTH))
+
+
+@lru_cache(maxsize=64)
+def _normal(coat: Coat) -> float:
+    return float(albedo(coat, np.array([0.0]), np.array([0.0]), np.array([1.0]))[0])
+
+
+@lru_cache(maxsize=64)
+def _mean(coat: Coat) -> float:
+    nodes, weights = np.polynomial.legendre.leggauss(48)
+    root = 0.5 * (nodes + 1.0)
+    mu = root * root
+    # dω μ = μ dμ dφ, μ = s², so 2 μ dμ = 4 s³ ds; φ by the midpoint rule over a quadrant.
+    turns = 1 if coat.alpha_x == coat.alpha_y else 16
+    azimuth = (np.arange(turns) + 0.5) / turns * 0.5 * np.pi
+    m, a = (grid.ravel() for grid in np.meshgrid(mu, azimuth, indexing="ij"))
+    sine = np.sqrt(1.0 - m * m)
+    e = albedo(coat, sine * np.cos(a), sine * np.sin(a), m).reshape(len(mu), -1).mean(axis=1)
+    return float(np.sum(e * 4.0 * root**3 * 0.5 * weights))

@@ -108,7 +108,9 @@ class Comparison:
         level = np.clip(self.z / 4.0, -1.0, 1.0)
         tiles = [level[:, :, band] for band in range(level.shape[2])]
         flat = np.concatenate(tiles, axis=1)
-        rgb = np.stack([1.0 + np.minimum(flat, 0.0), 1.0 - np.abs(flat), 1.0 - np.maximum(flat, 0.0)])
+        rgb = np.stack(
+            [1.0 + np.minimum(flat, 0.0), 1.0 - np.abs(flat), 1.0 - np.maximum(flat, 0.0)]
+        )
         write_png(folder / f"{stem}-z.png", np.moveaxis(rgb, 0, -1))
         delta = self.delta_e()
         if delta is not None:
@@ -150,7 +152,9 @@ def compare(ours: Picture, theirs: Picture, names: list[str]) -> Comparison:
         share = float(good[:, :, number].mean())
         bands.append(Band(name, mean, off, error, band_z, share, bias, region_error, region_z))
         if not abs(band_z) < 3.0:
-            failures.append(f"[mean] {name} nm: the mean differs by {100 * off:+.3f} %, z = {band_z:+.2f}")
+            failures.append(
+                f"[mean] {name} nm: the mean differs by {100 * off:+.3f} %, z = {band_z:+.2f}"
+            )
         if not error <= LARGEST_ERROR:
             failures.append(f"[error] {name} nm: standard error {100 * error:.3f} % is above 0.2 %")
         if not share >= PASSING_PIXELS:

@@ -123,9 +123,7 @@ class LeafBSDF(mi.BSDF):
                 Path(str(table)), Double, bool(props.get("extrapolate", False))
             )
             if self.kind == "map":
-                self.map = ContentsMap(
-                    Path(str(mi.file_resolver().resolve(str(props.get("map")))))
-                )
+                self.map = ContentsMap(Path(str(mi.file_resolver().resolve(str(props.get("map"))))))
             elif self.kind == "contents":
                 self.contents = {name: float(props.get(name)) for name in CONTENTS}
             else:
@@ -241,9 +239,7 @@ class LeafBSDF(mi.BSDF):
     def returned(w: Any, axes: tuple[Any, Any], adaxial: Any) -> Any:
         """The way back, to a side."""
         c, s = axes
-        return mi.Vector3f(
-            c * w.x + s * w.y, c * w.y - s * w.x, dr.select(adaxial, w.z, -w.z)
-        )
+        return mi.Vector3f(c * w.x + s * w.y, c * w.y - s * w.x, dr.select(adaxial, w.z, -w.z))
 
     # Mitsuba's interface
 
@@ -269,9 +265,7 @@ class LeafBSDF(mi.BSDF):
         e_view = self.coat_albedo(view, adaxial)
         e_light = self.coat_albedo(light, cos_light > 0.0)
         tissue = self.tissue(si, active)
-        base = tissue.c(same, adaxial) * Double(
-            (1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi
-        )
+        base = tissue.c(same, adaxial) * Double((1.0 - e_view) * (1.0 - e_light) * light.z / dr.pi)
         coat = dr.select(same, self.coat_times_cosine(view, light, adaxial), 0.0)
         value = mi.UnpolarizedSpectrum(base) + coat
 

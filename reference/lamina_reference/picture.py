@@ -58,5 +58,6 @@ def mean_of(pictures: list[Array], seconds: float, spp: int) -> Picture:
     """The mean of independent pictures, with the variance of that mean."""
     stack = np.stack(pictures)
     count = len(pictures)
-    variance = stack.var(axis=0, ddof=1) / count
+    # One picture says nothing about its own variance.
+    variance = stack.var(axis=0, ddof=1) / count if count > 1 else np.full_like(stack[0], np.nan)
     return Picture(stack.mean(axis=0), variance, seconds, spp, count)

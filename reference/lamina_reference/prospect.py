@@ -82,11 +82,7 @@ class Prospect:
 
     def __init__(self, table: Path, kind: type, extrapolate: bool) -> None:
         rows = np.loadtxt(
-            [
-                line
-                for line in table.read_text(encoding="utf-8").splitlines()
-                if line[:1].isdigit()
-            ],
+            [line for line in table.read_text(encoding="utf-8").splitlines() if line[:1].isdigit()],
             delimiter=",",
         )
         self.kind = kind

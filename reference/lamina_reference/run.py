@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import resource
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 
 from . import variant
 
@@ -29,13 +30,20 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
     parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the four")
     parser.add_argument("--lamina", type=Path, default=ROOT / "target" / "release" / "lamina")
-    parser.add_argument("--spp", type=int, default=1024, help="Lamina's samples a pixel, all seeds")
+    parser.add_argument(
+        "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"
+    )
     parser.add_argument("--seeds", type=int, default=16, help="Lamina's independent pictures")
     parser.add_argument("--mitsuba-spp", type=int, default=1024, help="Mitsuba's, all passes")
     parser.add_argument("--passes", type=int, default=32, help="Mitsuba's independent pictures")
     parser.add_argument("--results", type=Path, default=ROOT / "out" / "reference")
     parser.add_argument(
         "--record", action="store_true", help="write to reference/results, which is committed"
+    )
+    parser.add_argument(
+        "--time",
+        action="store_true",
+        help="compare speed instead: one picture each at the scene's own spp (or at --spp)",
     )
     parser.add_argument("--variant", default=None, help="Mitsuba's variant, if not the best one")
     parser.add_argument("--work", type=Path, default=None, help="keep the pictures in this folder")
@@ -85,6 +93,35 @@ def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
     return facts["name"], compare.compare(ours, theirs, [f"{band:g}" for band in bands])
 
 
+def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
+    """Seconds that both programs take for one picture at equal samples a pixel."""
+    from . import leaf_bsdf, render
+
+    leaf_bsdf.register()
+    scene_file = folder / "scene.toml" if folder.is_dir() else folder
+    lamina(options.lamina, "export", "mitsuba", scene_file, "--out", work / "exported")
+    scene, facts = render.load(work / "exported")
+    spp = options.spp or facts["spp"]
+    stats = work / "stats.json"
+    stem = work / "lamina"
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    lamina(options.lamina, "render", scene_file, "--spp", spp, "--out", stem, "--stats", stats)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    our_cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    ours = json.loads(stats.read_text(encoding="utf-8"))
+    # The first picture pays for compiling; the second has another seed and the same kernel.
+    first = render.render(scene, len(facts["bands"]), spp, 1, seed=1).seconds
+    began = process_time()
+    second = render.render(scene, len(facts["bands"]), spp, 1, seed=1000).seconds
+    their_cpu = process_time() - began
+    return (
+        f"{facts['name']}, {facts['width']} × {facts['height']} at {spp} spp: "
+        f"Lamina {ours['seconds']:.1f} s ({ours['build_seconds']:.1f} s of it to build, "
+        f"{our_cpu:.1f} s of processor time); Mitsuba ({options.variant}) {second:.1f} s "
+        f"({their_cpu:.1f} s of processor time; {first:.1f} s with compilation)"
+    )
+
+
 def main() -> int:
     """Compares every scene; 0 if all checks hold."""
     options = arguments()
@@ -94,6 +131,12 @@ def main() -> int:
     if options.record:
         options.results = ROOT / "reference" / "results"
     scenes = options.scenes or [ROOT / "scenes" / name for name in SCENES]
+    if options.time:
+        for folder in scenes:
+            with tempfile.TemporaryDirectory(prefix="lamina-compare-") as scratch:
+                print(time_scene(folder, options, Path(scratch)), flush=True)
+        return 0
+    options.spp = options.spp or 1024
     options.results.mkdir(parents=True, exist_ok=True)
     checks = {True: 0, False: 0}
     for folder in scenes:

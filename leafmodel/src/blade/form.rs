@@ -1,96 +1,286 @@
-//! The flat lamina bent in space: ruffle, fold, curl.
+//! The lamina bent in space: ruffle, fold and curl, as one smooth map.
+//!
+//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the lamina,
+//! then by the fold about the midrib, then by the curl along it. Each step has continuous first derivatives, so
+//! the blade has no crease. Lengths across the midrib are kept by the fold and lengths along it by the curl.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::BladeForm;
+use crate::shape::outline::Outline;
 
-/// Distance from the midrib, over the leaf's half width, within which the fold is rounded.
-const FOLD_ROUNDING: f64 = 0.12;
+/// Distance from the midrib, over the leaf's length, at which the fold has reached tanh 1 = 76 % of its angle.
+const FOLD_ROUNDING: f64 = 0.03;
+/// Entries of the fold's table on each side.
+const FOLD_STEPS: usize = 1024;
+/// Places along the leaf at which its width is known.
+const WIDTH_BINS: usize = 128;
+/// The width used for the ruffle is averaged over this share of the length, which hides lobes and teeth.
+const WIDTH_BLUR: f64 = 0.08;
+/// Least width for the ruffle, over the greatest.
+const LEAST_WIDTH: f64 = 0.35;
+/// By how much the waves of the left margin are ahead of those of the right one, radians: real margins
+/// are not mirror images.
+const LEFT_AHEAD: f64 = 1.9;
 
-/// A smooth map from the lamina with relief to space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    form: BladeForm,
-    length: f64,
-    half_width: f64,
+/// The map from the flat lamina into space.
+#[derive(Debug)]
+pub(super) struct Bending {
+    base: DVec2,
+    ruffle: Ruffle,
+    fold: Fold,
+    /// Curvature of the midrib, 1/mm.
+    curvature: f64,
 }
 
-impl Bend {
-    /// For a leaf of the given length and half width, mm.
-    pub(super) fn new(form: BladeForm, length: f64, half_width: f64) -> Self {
+impl Bending {
+    /// The map that `form` gives to a leaf of this outline. The base goes to the origin.
+    pub(super) fn new(form: &BladeForm, outline: &Outline) -> Self {
+        let length = outline.length();
+        let (low, high) = outline.bounds();
+        let widest = (high.x - outline.base().x).max(outline.base().x - low.x);
         Self {
-            form,
-            length,
-            half_width,
+            base: outline.base(),
+            ruffle: Ruffle::new(form, outline),
+            fold: Fold::new(form.fold, FOLD_ROUNDING * length, widest),
+            curvature: form.curl / length,
         }
     }
 
-    /// Where the point `flat` (x across, y along the midrib, z adaxial height) comes to lie, mm.
-    ///
-    /// Ruffle: `z += A L (x/w)² sin(2π n y/L)`, opposite on the two sides. Fold: `z += tan φ (√(x² + c²) − c)`, `x` made
-    /// shorter by `cos φ`, so that lengths away from the midrib are kept. Curl: the y axis wound on a circle of radius
-    /// `L / angle` with its centre on the abaxial side.
-    pub(super) fn apply(&self, flat: DVec3) -> DVec3 {
-        let mut point = flat;
-        let across = flat.x / self.half_width;
-        if self.form.ruffle > 0.0 {
-            let phase = std::f64::consts::TAU * self.form.ruffle_waves * flat.y / self.length;
-            let side = libm::sin(phase + if flat.x < 0.0 { 1.0 } else { 0.0 });
-            point.z += self.form.ruffle * self.length * across * across * side;
-        }
-        if self.form.fold != 0.0 {
-            let (sin, cos) = libm::sincos(self.form.fold);
-            let c = FOLD_ROUNDING * self.half_width;
-            point.z += sin / cos * ((flat.x * flat.x + c * c).sqrt() - c) * cos;
-            point.x *= cos;
-        }
-        if self.form.curl != 0.0 {
-            let radius = self.length / self.form.curl;
-            let (sin, cos) = libm::sincos(point.y / radius);
-            let out = radius + point.z;
-            point.y = out * sin;
-            point.z = out * cos - radius;
-        }
-        point
+    /// Where the point at `height` (mm, towards the adaxial side) over the flat `p` goes, mm.
+    pub(super) fn place(&self, p: DVec2, height: f64) -> DVec3 {
+        let q = p - self.base;
+        let height = height + self.ruffle.height(q);
+        let (x, z) = self.fold.place(q.x, height);
+        self.curled(x, q.y, z)
     }
+
+    /// Bends the plane x = 0 about an axis at distance 1/curvature towards −z. With
+    /// `s = sin(κy)/κ` and `v = (1 − cos κy)/κ`, `(y, z)` goes to `(s + z κ s, z − (1 + κz) v)`.
+    fn curled(&self, x: f64, y: f64, z: f64) -> DVec3 {
+        let k = self.curvature;
+        let angle = k * y;
+        // Both stay exact as the curvature goes to zero.
+        let (s, v) = if angle.abs() < 1e-6 {
+            (y, 0.5 * k * y * y)
+        } else {
+            let half = libm::sin(0.5 * angle);
+            (libm::sin(angle) / k, 2.0 * half * half / k)
+        };
+        let stretch = 1.0 + k * z;
+        DVec3::new(x, stretch * s, z - stretch * v)
+    }
+}
+
+/// The bend across the midrib: the lamina turns by `angle · tanh(x / w)`, which is an arc near the midrib and
+/// straight away from it.
+#[derive(Debug)]
+struct Fold {
+    angle: f64,
+    rounding: f64,
+    step: f64,
+    /// Place of the lamina in the plane across the midrib, at multiples of `step` from it.
+    table: Vec<DVec2>,
+}
+
+impl Fold {
+    fn new(angle: f64, rounding: f64, widest: f64) -> Self {
+        let step = widest / FOLD_STEPS as f64;
+        let mut fold = Self {
+            angle,
+            rounding,
+            step,
+            table: vec![DVec2::ZERO],
+        };
+        let mut at = DVec2::ZERO;
+        for i in 0..=FOLD_STEPS {
+            let x = step * i as f64;
+            // Simpson's rule: the step is far below the rounding, the error below 1e-12 of the width.
+            let sum = fold.along(x) + 4.0 * fold.along(x + 0.5 * step) + fold.along(x + step);
+            at += sum * (step / 6.0);
+            fold.table.push(at);
+        }
+        fold
+    }
+
+    /// Direction of the lamina at a distance from the midrib.
+    fn along(&self, x: f64) -> DVec2 {
+        let turned = self.angle * libm::tanh(x / self.rounding);
+        DVec2::new(libm::cos(turned), libm::sin(turned))
+    }
+
+    /// Where a point `x` from the midrib along the lamina and `height` over it is in the plane across the midrib.
+    fn place(&self, x: f64, height: f64) -> (f64, f64) {
+        let side = if x < 0.0 { -1.0 } else { 1.0 };
+        let x = x.abs();
+        let i = ((x / self.step) as usize).min(FOLD_STEPS);
+        let (left, right) = (self.step * i as f64, self.step * (i + 1) as f64);
+        let t = (x - left) / self.step;
+        // Cubic through both ends with the exact directions there: continuous slopes between entries.
+        let (from, to) = (self.table[i], self.table[i + 1]);
+        let (d_from, d_to) = (self.along(left) * self.step, self.along(right) * self.step);
+        let at = from
+            + t * (d_from
+                + t * ((3.0 * (to - from) - 2.0 * d_from - d_to)
+                    + t * (2.0 * (from - to) + d_from + d_to)));
+        let normal = self.along(x).perp();
+        let p = at + normal * height;
+        (side * p.x, p.y)
+    }
+}
+
+/// The wave along the margin: `A (x/w)² sin(2π n y / L)`, with the smoothed half-width `w(y)`.
+#[derive(Debug)]
+struct Ruffle {
+    amplitude: f64,
+    /// Radians per mm.
+    frequency: f64,
+    low: f64,
+    bin: f64,
+    widths: Vec<f64>,
+}
+
+impl Ruffle {
+    fn new(form: &BladeForm, outline: &Outline) -> Self {
+        let length = outline.length();
+        let (low, high) = outline.bounds();
+        let low = low.y - outline.base().y;
+        let high = high.y - outline.base().y;
+        let bin = (high - low) / WIDTH_BINS as f64;
+        Self {
+            amplitude: form.ruffle * length,
+            frequency: std::f64::consts::TAU * form.ruffle_waves / length,
+            low,
+            bin,
+            widths: half_widths(outline, low, bin, WIDTH_BLUR * length / bin),
+        }
+    }
+
+    fn height(&self, q: DVec2) -> f64 {
+        if self.amplitude == 0.0 {
+            return 0.0;
+        }
+        let share = q.x / self.width(q.y);
+        let ahead = if q.x < 0.0 { LEFT_AHEAD } else { 0.0 };
+        // Second order in x: both halves meet at the midrib with the same (zero) height and slope.
+        let growth = share * share / (1.0 + 0.25 * share * share);
+        self.amplitude * growth * libm::sin(self.frequency * q.y + ahead)
+    }
+
+    /// Half-width at a height on the leaf: a uniform quadratic B-spline over the bins, which has
+    /// continuous slopes.
+    fn width(&self, y: f64) -> f64 {
+        let last = self.widths.len() as f64 - 1.0;
+        let place = ((y - self.low) / self.bin - 0.5).clamp(0.0, last);
+        let middle = (place + 0.5).floor().min(last);
+        let t = place - middle;
+        let at = |offset: f64| self.widths[(middle + offset).clamp(0.0, last) as usize];
+        0.5 * (0.5 - t) * (0.5 - t) * at(-1.0)
+            + (0.75 - t * t) * at(0.0)
+            + 0.5 * (0.5 + t) * (0.5 + t) * at(1.0)
+    }
+}
+
+/// Greatest distance of the margin from the midrib in each bin along the leaf, blurred by a Gaussian of
+/// `sigma` bins, and not below a share of the greatest.
+fn half_widths(outline: &Outline, low: f64, bin: f64, sigma: f64) -> Vec<f64> {
+    let mut raw = vec![0.0_f64; WIDTH_BINS];
+    let points = outline.points();
+    for (i, &a) in points.iter().enumerate() {
+        let b = points[(i + 1) % points.len()];
+        let (a, b) = (a - outline.base(), b - outline.base());
+        let pieces = ((b.y - a.y).abs() / bin).ceil().max(1.0);
+        for piece in 0..=pieces as usize {
+            let p = a.lerp(b, piece as f64 / pieces);
+            let at = (((p.y - low) / bin) as usize).min(WIDTH_BINS - 1);
+            raw[at] = raw[at].max(p.x.abs());
+        }
+    }
+    let greatest = raw.iter().copied().fold(0.0, f64::max);
+    let reach = libm::ceil(3.0 * sigma) as usize;
+    (0..WIDTH_BINS)
+        .map(|i| {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            let near = i.saturating_sub(reach)..(i + reach + 1).min(WIDTH_BINS);
+            for (j, &width) in near.clone().zip(&raw[near]) {
+                let d = (j as f64 - i as f64) / sigma;
+                let weight = libm::exp(-0.5 * d * d);
+                sum += weight * width;
+                weights += weight;
+            }
+            (sum / weights).max(LEAST_WIDTH * greatest)
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::blade::tests::{ellipse, flat};
 
-    const FORM: BladeForm = BladeForm {
-        fold: 0.4,
-        curl: 0.8,
-        ruffle: 0.0,
-        ruffle_waves: 3.0,
-        relief: 0.0,
-        thickness_mm: 0.2,
-        max_edge_mm: 1.0,
-        meshed_vein_radius_mm: 0.1,
-    };
-
-    #[test]
-    fn the_midrib_keeps_its_length_and_turns_by_the_curl() {
-        let bend = Bend::new(FORM, 80.0, 25.0);
-        let at = |y: f64| bend.apply(DVec3::new(0.0, y, 0.0));
-        let length: f64 = (0..8000)
-            .map(|i| at(f64::from(i) * 0.01).distance(at(f64::from(i + 1) * 0.01)))
-            .sum();
-        assert!((length - 80.0).abs() < 1e-4, "{length}");
-        let end = (at(80.0) - at(79.99)).normalize();
-        assert!((end.angle_between(DVec3::Y) - 0.8).abs() < 1e-3);
-        assert!(end.z < 0.0, "it bends to the abaxial side");
+    fn bent() -> BladeForm {
+        BladeForm {
+            fold: 0.6,
+            curl: 0.9,
+            ruffle: 0.02,
+            ruffle_waves: 5.0,
+            ..flat()
+        }
     }
 
     #[test]
-    fn both_halves_rise_by_the_fold_and_keep_their_width() {
-        let bend = Bend::new(BladeForm { curl: 0.0, ..FORM }, 80.0, 25.0);
-        let (inner, outer) = (DVec3::new(15.0, 40.0, 0.0), DVec3::new(25.0, 40.0, 0.0));
-        let step = bend.apply(outer) - bend.apply(inner);
-        assert!((step.length() - 10.0).abs() < 0.1, "{step}");
-        assert!((libm::atan2(step.z, step.x) - 0.4).abs() < 0.02, "{step}");
-        let mirrored = bend.apply(DVec3::new(-25.0, 40.0, 0.0));
-        assert_eq!(mirrored.z, bend.apply(outer).z);
+    fn a_flat_form_leaves_the_lamina_where_it_is() {
+        let bending = Bending::new(&flat(), &ellipse(20.0, 60.0, 60));
+        for p in [(0.0, 0.0), (3.0, 20.0), (-7.5, 41.0)].map(DVec2::from) {
+            let placed = bending.place(p, 0.25);
+            assert!((placed - p.extend(0.25)).length() < 1e-12, "{placed}");
+        }
+    }
+
+    #[test]
+    fn the_curl_keeps_the_midrib_and_bends_it_towards_the_abaxial_side() {
+        let form = BladeForm {
+            curl: 1.2,
+            ..flat()
+        };
+        let bending = Bending::new(&form, &ellipse(20.0, 60.0, 60));
+        let radius = 60.0 / 1.2;
+        for y in [0.0, 10.0, 35.0, 60.0] {
+            let placed = bending.place(DVec2::new(0.0, y), 0.0);
+            let angle = y / radius;
+            let arc = DVec3::new(0.0, radius * angle.sin(), radius * (angle.cos() - 1.0));
+            assert!((placed - arc).length() < 1e-12, "{placed}");
+        }
+    }
+
+    #[test]
+    fn the_fold_raises_both_halves_by_its_angle() {
+        let form = BladeForm {
+            fold: 0.5,
+            ..flat()
+        };
+        let bending = Bending::new(&form, &ellipse(40.0, 60.0, 60));
+        for side in [-1.0, 1.0] {
+            let [a, b] = [12.0, 18.0].map(|x| bending.place(DVec2::new(side * x, 30.0), 0.0));
+            let (rise, run) = (b.z - a.z, side * (b.x - a.x));
+            assert!((rise.atan2(run) - 0.5).abs() < 1e-3, "{}", rise.atan2(run));
+            assert!((rise.hypot(run) - 6.0).abs() < 1e-9);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_map_has_continuous_slopes(x in -9.0..9.0, y in 0.0..60.0, turn in 0.0..6.3) {
+            let bending = Bending::new(&bent(), &ellipse(20.0, 60.0, 60));
+            // One-sided differences from both sides of a point agree up to the second derivative.
+            let step = 1e-4 * DVec2::new(libm::cos(turn), libm::sin(turn));
+            for p in [DVec2::new(x, y), DVec2::new(0.0, y)] {
+                let [before, at, after] = [p - step, p, p + step].map(|p| bending.place(p, 0.0));
+                let jump = ((after - at) - (at - before)).length() / 1e-4;
+                prop_assert!(jump < 2e-4, "slopes jump by {} at {}", jump, p);
+            }
+        }
     }
 }

@@ -1,91 +1,105 @@
-//! Veins that stand out of the abaxial face.
+//! Veins that stand out on the abaxial side.
+//!
+//! The sheet is displaced towards −z along major veins: a ridge on the abaxial side, a groove on the adaxial
+//! one. The profile across a vein is one period of a cosine, so that it starts and ends flat.
+
+use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::sites::Axis;
+use super::BladeForm;
+use super::vein_grid::VeinGrid;
+use crate::venation::network::VeinSegment;
 
-/// Half width of a vein's ridge over its radius.
-const RIDGE: f64 = 1.8;
+/// Half-width of the mound in radii of the vein: the bundle sheath reaches beyond the vein itself.
+const HALF_WIDTH: f64 = 1.5;
+/// Veins rise to their full height while their radius goes from the least one meshed to this many times it.
+const FULL_AT: f64 = 1.5;
 
-/// The ridges of the meshed veins over the flat lamina.
+/// Height of the veins over the lamina.
+#[derive(Debug)]
 pub(super) struct Relief {
-    axes: Vec<Axis>,
-    /// Height over the vein's diameter.
+    /// Height over diameter.
     height: f64,
-    min: DVec2,
-    cell: f64,
-    columns: usize,
-    rows: usize,
-    members: Vec<Vec<u32>>,
+    least_radius: f64,
+    veins: VeinGrid,
 }
 
 impl Relief {
-    /// For axes within the box from `min` to `max`; `height` is the ridge's height over the vein's diameter.
-    pub(super) fn new(axes: Vec<Axis>, height: f64, min: DVec2, max: DVec2) -> Self {
-        let widest = axes
-            .iter()
-            .map(|axis| axis.radius_from.max(axis.radius_to))
-            .fold(0.0, f64::max);
-        let longest = axes
-            .iter()
-            .map(|axis| axis.from.distance(axis.to))
-            .fold(0.0, f64::max);
-        // An axis is entered where its middle lies; nothing farther than this from a point can matter to it.
-        let cell = (RIDGE * widest + 0.5 * longest).max(1e-3 * (max - min).max_element());
-        let columns = ((max.x - min.x) / cell) as usize + 1;
-        let rows = ((max.y - min.y) / cell) as usize + 1;
-        let mut relief = Self {
-            axes,
-            height,
-            min,
-            cell,
-            columns,
-            rows,
-            members: vec![Vec::new(); columns * rows],
-        };
-        for number in 0..relief.axes.len() {
-            let axis = relief.axes[number];
-            let (column, row) = relief.cell_of(0.5 * (axis.from + axis.to));
-            relief.members[row * relief.columns + column].push(number as u32);
+    /// The relief that `form` gives to these veins.
+    pub(super) fn new(form: &BladeForm, veins: &[VeinSegment]) -> Self {
+        let raised = if form.relief > 0.0 { veins } else { &[] };
+        let reach = |s: &VeinSegment| HALF_WIDTH * s.radius_from.max(s.radius_to);
+        Self {
+            height: form.relief,
+            least_radius: form.meshed_vein_radius_mm,
+            veins: VeinGrid::new(raised.to_vec(), reach),
         }
-        relief
     }
 
-    fn cell_of(&self, point: DVec2) -> (usize, usize) {
-        let place = ((point - self.min) / self.cell).max(DVec2::ZERO);
-        (
-            (place.x as usize).min(self.columns - 1),
-            (place.y as usize).min(self.rows - 1),
-        )
-    }
-
-    /// Height of the ridge at a point of the lamina, mm, ≥ 0: the highest of those that reach it.
-    ///
-    /// A ridge is `h (1 + cos(π d / w)) / 2` at distance `d < w` from the axis, with `h` the vein's diameter times the
-    /// relief and `w` 1.8 times its radius: smooth at the top and at the foot.
-    pub(super) fn at(&self, point: DVec2) -> f64 {
-        let (column, row) = self.cell_of(point);
-        let mut highest = 0.0_f64;
-        for y in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
-            for x in column.saturating_sub(1)..=(column + 1).min(self.columns - 1) {
-                for &number in &self.members[y * self.columns + x] {
-                    highest = highest.max(self.ridge(&self.axes[number as usize], point));
+    /// Displacement towards −z, mm, ≥ 0: the highest of the mounds at this point,
+    /// `relief · 2r · (1 + cos(π d / 1.5 r)) / 2` for a vein of radius `r` at distance `d`.
+    pub(super) fn height(&self, p: DVec2) -> f64 {
+        self.veins
+            .near(p)
+            .map(|vein| {
+                let away = vein.distance / (HALF_WIDTH * vein.radius);
+                if away >= 1.0 {
+                    return 0.0;
                 }
-            }
-        }
-        highest
+                let developed =
+                    smooth_step((vein.radius / self.least_radius - 1.0) / (FULL_AT - 1.0));
+                let mound = f64::midpoint(1.0, libm::cos(PI * away));
+                self.height * 2.0 * vein.radius * developed * mound
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+/// 0 below 0, 1 above 1, `3x² − 2x³` between.
+pub(super) fn smooth_step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::blade::tests::flat;
+
+    fn relief(height: f64) -> Relief {
+        let form = BladeForm {
+            relief: height,
+            meshed_vein_radius_mm: 0.1,
+            ..flat()
+        };
+        let vein = VeinSegment {
+            from: DVec2::ZERO,
+            to: DVec2::new(0.0, 20.0),
+            radius_from: 0.6,
+            radius_to: 0.1,
+            order: 1,
+        };
+        Relief::new(&form, &[vein])
     }
 
-    fn ridge(&self, axis: &Axis, point: DVec2) -> f64 {
-        let along = axis.to - axis.from;
-        let share = ((point - axis.from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        let radius = axis.radius_from + (axis.radius_to - axis.radius_from) * share;
-        let distance = point.distance(axis.from + along * share);
-        let width = RIDGE * radius;
-        if distance >= width {
-            return 0.0;
-        }
-        let profile = 0.5 * (1.0 + libm::cos(std::f64::consts::PI * distance / width));
-        2.0 * radius * self.height * profile
+    #[test]
+    fn a_vein_is_highest_on_its_axis_and_ends_flat() {
+        let relief = relief(0.5);
+        let top = relief.height(DVec2::new(0.0, 0.0));
+        assert!((top - 0.6).abs() < 1e-12, "{top}");
+        assert_eq!(relief.height(DVec2::new(0.9, 0.0)), 0.0);
+        let edge = relief.height(DVec2::new(0.88, 0.0));
+        assert!(edge > 0.0 && edge < 0.001, "{edge}");
+    }
+
+    #[test]
+    fn a_vein_that_gets_too_fine_to_mesh_sinks_into_the_lamina() {
+        assert_eq!(relief(0.5).height(DVec2::new(0.0, 20.0)), 0.0);
+    }
+
+    #[test]
+    fn no_relief_is_flat() {
+        assert_eq!(relief(0.0).height(DVec2::ZERO), 0.0);
     }
 }

@@ -29,7 +29,7 @@ impl Coefficients {
 ///
 /// The outermost plate is lit from a cone of 40°, the others by diffuse light:
 /// `T = T₁ T_s / (1 − R_s r)`, `R = R₁ + T₁ R_s t / (1 − R_s r)`, where `R_s`, `T_s` belong to the
-/// `N − 1` plates below ([`below`]).
+/// `N − 1` plates below.
 ///
 /// # Source
 ///

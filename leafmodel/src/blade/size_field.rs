@@ -1,0 +1,111 @@
+//! How long the edges of the mesh are to be at each place.
+
+use glam::DVec2;
+
+use super::BladeForm;
+use super::vein_grid::VeinGrid;
+use crate::venation::network::VeinSegment;
+
+/// Edge over a vein's radius where relief has to be drawn: five vertices across its mound.
+const EDGE_PER_RADIUS: f64 = 0.6;
+/// Growth of the edge per unit of distance from a vein.
+const GRADING: f64 = 0.3;
+/// Half-width, in radii, over which the edge stays as short as on the vein's axis: that of the mound.
+const PLATEAU: f64 = 1.5;
+/// Delaunay triangles have edges up to twice their circumradius: aiming at this share of the longest
+/// edge allowed keeps them below it.
+const AIM: f64 = 0.75;
+/// No vein asks for edges shorter than this share of the longest.
+const SHORTEST: f64 = 1.0 / 16.0;
+
+/// Target edge length over the lamina, mm.
+#[derive(Debug)]
+pub(super) struct SizeField {
+    longest: f64,
+    veins: VeinGrid,
+}
+
+impl SizeField {
+    /// Edges as `form` asks for: short by `veins`, growing linearly to the longest away from them.
+    pub(super) fn new(form: &BladeForm, veins: &[VeinSegment]) -> Self {
+        let longest = AIM * form.max_edge_mm;
+        let shaping = if form.relief > 0.0 { veins } else { &[] };
+        let reach = |segment: &VeinSegment| {
+            let radius = segment.radius_from.max(segment.radius_to);
+            PLATEAU * radius + (longest - on_axis(longest, radius)).max(0.0) / GRADING
+        };
+        Self {
+            longest,
+            veins: VeinGrid::new(shaping.to_vec(), reach),
+        }
+    }
+
+    /// Target edge length at a point, mm.
+    pub(super) fn at(&self, p: DVec2) -> f64 {
+        self.veins
+            .near(p)
+            .map(|vein| {
+                let away = (vein.distance - PLATEAU * vein.radius).max(0.0);
+                on_axis(self.longest, vein.radius) + GRADING * away
+            })
+            .fold(self.longest, f64::min)
+    }
+
+    /// The greatest target anywhere, mm.
+    pub(super) fn longest(&self) -> f64 {
+        self.longest
+    }
+}
+
+/// Target on the axis of a vein.
+fn on_axis(longest: f64, radius: f64) -> f64 {
+    (EDGE_PER_RADIUS * radius).clamp(SHORTEST * longest, longest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::blade::tests::flat;
+
+    #[test]
+    fn edges_grow_away_from_a_vein_up_to_the_longest() {
+        let vein = VeinSegment {
+            from: DVec2::ZERO,
+            to: DVec2::new(0.0, 10.0),
+            radius_from: 0.4,
+            radius_to: 0.4,
+            order: 1,
+        };
+        let form = BladeForm {
+            relief: 0.5,
+            max_edge_mm: 2.0,
+            ..flat()
+        };
+        let size = SizeField::new(&form, &[vein]);
+        assert!((size.at(DVec2::new(0.0, 5.0)) - 0.24).abs() < 1e-12);
+        let mut last = 0.0;
+        for step in 0..200 {
+            let now = size.at(DVec2::new(0.05 * f64::from(step), 5.0));
+            // Without a step: the reach of the segment ends where the longest edge is met.
+            assert!(now >= last && now <= last + 0.24 + 0.05 * GRADING);
+            if step > 0 {
+                assert!(now - last <= 0.05 * GRADING + 1e-12);
+            }
+            last = now;
+        }
+        assert_eq!(last, 1.5);
+    }
+
+    #[test]
+    fn without_relief_veins_ask_for_nothing() {
+        let vein = VeinSegment {
+            from: DVec2::ZERO,
+            to: DVec2::Y,
+            radius_from: 0.1,
+            radius_to: 0.1,
+            order: 1,
+        };
+        let size = SizeField::new(&flat(), &[vein]);
+        assert_eq!(size.at(DVec2::ZERO), size.longest());
+    }
+}

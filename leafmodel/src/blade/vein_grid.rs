@@ -1,0 +1,173 @@
+//! Which veins matter at a point: a grid of cells, each with the segments that reach into it.
+
+use glam::DVec2;
+
+use crate::venation::network::VeinSegment;
+
+/// Segments sorted into square cells by how far each of them reaches.
+#[derive(Debug)]
+pub(super) struct VeinGrid {
+    origin: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Where each cell's list begins in `members`; one more than there are cells.
+    starts: Vec<u32>,
+    members: Vec<u32>,
+    segments: Vec<VeinSegment>,
+}
+
+/// The point of a vein's axis that is nearest to a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct NearVein {
+    /// Distance to the axis, mm.
+    pub(super) distance: f64,
+    /// Radius of the vein there, mm.
+    pub(super) radius: f64,
+}
+
+/// Most cells along a side: a leaf as long as this many times the reach needs no finer grid.
+const MOST_CELLS: f64 = 1024.0;
+
+impl VeinGrid {
+    /// Sorts segments; a query at distance up to `reach(segment)` from a segment will name it.
+    pub(super) fn new(segments: Vec<VeinSegment>, reach: impl Fn(&VeinSegment) -> f64) -> Self {
+        let reaches: Vec<f64> = segments.iter().map(reach).collect();
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for (segment, &reach) in segments.iter().zip(&reaches) {
+            low = low.min(segment.from.min(segment.to) - reach);
+            high = high.max(segment.from.max(segment.to) + reach);
+        }
+        if segments.is_empty() {
+            (low, high) = (DVec2::ZERO, DVec2::ZERO);
+        }
+        let mean_reach = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
+        let extent = (high - low).max_element();
+        let cell = mean_reach.max(extent / MOST_CELLS).max(f64::MIN_POSITIVE);
+        let cells = |length: f64| (length / cell).floor() as usize + 1;
+        let mut grid = Self {
+            origin: low,
+            cell,
+            columns: cells(high.x - low.x),
+            rows: cells(high.y - low.y),
+            starts: Vec::new(),
+            members: Vec::new(),
+            segments,
+        };
+        grid.sort(&reaches);
+        grid
+    }
+
+    /// Counting sort of the segments into their cells.
+    fn sort(&mut self, reaches: &[f64]) {
+        let mut starts = vec![0_u32; self.columns * self.rows + 1];
+        for (segment, &reach) in self.segments.iter().zip(reaches) {
+            self.cells_of(segment, reach, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut free = starts.clone();
+        let mut members = vec![0; starts[starts.len() - 1] as usize];
+        for (index, (segment, &reach)) in self.segments.iter().zip(reaches).enumerate() {
+            self.cells_of(segment, reach, |cell| {
+                members[free[cell] as usize] = index as u32;
+                free[cell] += 1;
+            });
+        }
+        self.starts = starts;
+        self.members = members;
+    }
+
+    fn cells_of(&self, segment: &VeinSegment, reach: f64, mut visit: impl FnMut(usize)) {
+        let index = |p: DVec2| ((p - self.origin) / self.cell).floor().max(DVec2::ZERO);
+        let low = index(segment.from.min(segment.to) - reach);
+        let high = index(segment.from.max(segment.to) + reach);
+        for row in low.y as usize..=(high.y as usize).min(self.rows - 1) {
+            for column in low.x as usize..=(high.x as usize).min(self.columns - 1) {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+
+    /// The veins that may reach a point, each by its nearest point; in the order of the segments.
+    pub(super) fn near(&self, p: DVec2) -> impl Iterator<Item = NearVein> + '_ {
+        let place = ((p - self.origin) / self.cell).floor();
+        let inside = place.cmpge(DVec2::ZERO).all()
+            && place.x < self.columns as f64
+            && place.y < self.rows as f64;
+        let members = if inside {
+            let cell = place.y as usize * self.columns + place.x as usize;
+            &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        } else {
+            &[]
+        };
+        members
+            .iter()
+            .map(move |&index| nearest(&self.segments[index as usize], p))
+    }
+}
+
+fn nearest(segment: &VeinSegment, p: DVec2) -> NearVein {
+    let along = segment.to - segment.from;
+    let squared = along.length_squared();
+    let share = if squared > 0.0 {
+        ((p - segment.from).dot(along) / squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    NearVein {
+        distance: (segment.from + along * share - p).length(),
+        radius: segment.radius_from + (segment.radius_to - segment.radius_from) * share,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn segment((ax, ay, bx, by): (f64, f64, f64, f64), radius: f64) -> VeinSegment {
+        VeinSegment {
+            from: DVec2::new(ax, ay),
+            to: DVec2::new(bx, by),
+            radius_from: radius,
+            radius_to: radius / 2.0,
+            order: 1,
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_vein_within_reach_is_named(
+            ends in prop::collection::vec((-20.0..20.0, 0.0..50.0, -20.0..20.0, 0.0..50.0), 1..40),
+            x in -25.0..25.0, y in -5.0..55.0,
+            reach in 0.1..6.0,
+        ) {
+            let segments: Vec<_> = ends.iter().enumerate()
+                .map(|(i, &ends)| segment(ends, 0.1 + i as f64 * 0.01))
+                .collect();
+            let p = DVec2::new(x, y);
+            let within: Vec<_> = segments.iter().map(|s| nearest(s, p)).filter(|n| n.distance <= reach).collect();
+            let grid = VeinGrid::new(segments, |_| reach);
+            let found: Vec<_> = grid.near(p).filter(|n| n.distance <= reach).collect();
+            prop_assert_eq!(found, within);
+        }
+    }
+
+    #[test]
+    fn a_leaf_without_veins_has_none_near() {
+        let grid = VeinGrid::new(Vec::new(), |_| 1.0);
+        assert_eq!(grid.near(DVec2::ZERO).count(), 0);
+        assert_eq!(grid.near(DVec2::splat(1e9)).count(), 0);
+    }
+
+    #[test]
+    fn the_radius_is_that_of_the_nearest_point() {
+        let vein = segment((0.0, 0.0, 0.0, 10.0), 1.0);
+        let near = nearest(&vein, DVec2::new(3.0, 5.0));
+        assert_eq!((near.distance, near.radius), (3.0, 0.75));
+        assert_eq!(nearest(&vein, DVec2::new(0.0, 14.0)).distance, 4.0);
+    }
+}
