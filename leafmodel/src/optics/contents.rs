@@ -51,7 +51,7 @@ impl Contents {
         water: f64,
         dry_matter: f64,
     ) -> Result<Self, ContentsError> {
-        Self {
+        Self::from_array([
             structure,
             chlorophyll,
             carotenoids,
@@ -59,7 +59,7 @@ impl Contents {
             brown,
             water,
             dry_matter,
-        }
+        ])
         .checked()
     }
 

@@ -162,9 +162,6 @@ pub struct GrowArguments {
     /// Seed, instead of the leaf's
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Threads; the default is one for each processor
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
 }
 
 impl GrowArguments {

@@ -4,15 +4,7 @@ use glam::Vec2;
 use leafmodel::optics::Contents;
 
 /// Channels of a contents map, in the order of its texels.
-pub const CHANNELS: [&str; 7] = [
-    "structure",
-    "chlorophyll",
-    "carotenoids",
-    "anthocyanins",
-    "brown",
-    "water",
-    "dry_matter",
-];
+pub const CHANNELS: [&str; 7] = Contents::NAMES;
 
 /// A contents map: bilinear between texel centres, clamped at the border; row 0 is at v = 0.
 #[derive(Clone, Debug)]
@@ -58,7 +50,7 @@ impl ContentsTexture {
                 *sum += f64::from(value);
             }
         }
-        contents_of(sums.map(|sum| sum / self.texels.len() as f64))
+        Contents::from_array(sums.map(|sum| sum / self.texels.len() as f64))
     }
 
     /// Contents at `uv`.
@@ -75,28 +67,7 @@ impl ContentsTexture {
             let above = c[i] * (1.0 - share_x) + d[i] * share_x;
             f64::from(below * (1.0 - share_y) + above * share_y)
         };
-        contents_of(std::array::from_fn(value))
-    }
-}
-
-fn contents_of(values: [f64; 7]) -> Contents {
-    let [
-        structure,
-        chlorophyll,
-        carotenoids,
-        anthocyanins,
-        brown,
-        water,
-        dry_matter,
-    ] = values;
-    Contents {
-        structure,
-        chlorophyll,
-        carotenoids,
-        anthocyanins,
-        brown,
-        water,
-        dry_matter,
+        Contents::from_array(std::array::from_fn(value))
     }
 }
 
