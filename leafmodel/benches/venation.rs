@@ -10,7 +10,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use leafmodel::shape::growth_shape::{GrowthShape, VeinRow};
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::grow;
-use leafmodel::venation::plan::{Growth, Pattern, VenationPlan};
+use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
 
 /// A broad ovate leaf, 80 mm long.
 fn outline() -> Outline {
@@ -32,7 +32,7 @@ fn outline() -> Outline {
 fn plan(lengths: [f64; 3], birth_distance: f64, darts_per_area: f64) -> VenationPlan {
     let [initial_length, length_step, final_length] = lengths;
     VenationPlan {
-        pattern: Pattern::Closed,
+        pattern: Pattern::Closed(Neighbourhood::Relative),
         final_length,
         kill_distance: 1.0,
         source_birth_distance: birth_distance,
@@ -44,6 +44,7 @@ fn plan(lengths: [f64; 3], birth_distance: f64, darts_per_area: f64) -> Venation
         },
         murray_exponent: 2.0,
         veinlet_radius_mm: 0.015,
+        ..VenationPlan::default()
     }
 }
 

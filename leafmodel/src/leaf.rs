@@ -97,7 +97,7 @@ mod tests {
 
     use super::*;
     use crate::optics::Contents;
-    use crate::venation::plan::{Growth, Pattern};
+    use crate::venation::plan::{Growth, Neighbourhood, Pattern};
 
     /// A small broad leaf with everything that a leaf can have.
     fn plan() -> LeafPlan {
@@ -115,7 +115,7 @@ mod tests {
                 veins: Vec::new(),
             },
             venation: VenationPlan {
-                pattern: Pattern::Closed,
+                pattern: Pattern::Closed(Neighbourhood::Relative),
                 final_length: 100.0,
                 kill_distance: 1.5,
                 source_birth_distance: 3.0,
@@ -127,6 +127,7 @@ mod tests {
                 },
                 murray_exponent: 2.0,
                 veinlet_radius_mm: 0.03,
+                ..VenationPlan::default()
             },
             tissue: Tissue {
                 lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.01, 0.01, 0.006]),

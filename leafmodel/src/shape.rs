@@ -2,6 +2,7 @@
 
 mod cell_rows;
 mod crossing;
+pub mod growth;
 pub mod growth_shape;
 mod outer_boundary;
 pub mod outline;

@@ -76,24 +76,25 @@ pub fn grow(
     plan.validate()?;
     let segment_mm = outline.length() / plan.final_length;
     let blade = outline.moved_and_scaled(outline.base(), 1.0 / segment_mm);
-    check_darts(plan, &blade)?;
+    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
+    check_darts(plan, &blade, &clock)?;
     let grown = match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, &blade, seed),
-        Pattern::Closed => simulate::<RelativeNeighbours>(plan, &blade, seed),
+        Pattern::Open => simulate::<NearestNode>(plan, &blade, clock, seed),
+        Pattern::Closed(_) => simulate::<RelativeNeighbours>(plan, &blade, clock, seed),
     };
     let place = |p: DVec2| outline.base() + p * segment_mm;
     Ok(grown.into_network(plan, segment_mm, place))
 }
 
 /// Refuses plans whose darts would take forever.
-fn check_darts(plan: &VenationPlan, blade: &Outline) -> Result<(), PlanError> {
+fn check_darts(plan: &VenationPlan, blade: &Outline, clock: &LaminaClock) -> Result<(), PlanError> {
     let (low, high) = blade.bounds();
     let size = high - low;
     VenationPlan::validate_darts(match plan.growth {
-        Growth::None | Growth::Isogonic { .. } => plan.darts_per_area * size.x * size.y,
-        Growth::Marginal { .. } => {
-            waiting_darts(plan, size, LaminaClock::new(plan).last_growth_step())
+        Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => {
+            plan.darts_per_area * size.x * size.y
         }
+        Growth::Marginal { .. } => waiting_darts(plan, size, clock.last_growth_step()),
     })
 }
 
@@ -108,8 +109,13 @@ pub(crate) struct Grown {
     ending: Ending,
 }
 
-fn simulate<I: Influence>(plan: &VenationPlan, blade: &Outline, seed: u64) -> Grown {
-    let mut simulation = Simulation::<I>::new(plan, blade, seed);
+fn simulate<I: Influence>(
+    plan: &VenationPlan,
+    blade: &Outline,
+    clock: LaminaClock,
+    seed: u64,
+) -> Grown {
+    let mut simulation = Simulation::<I>::new(plan, blade, clock, seed);
     let ending = simulation.run();
     let mut edges = simulation.veins.edges;
     edges.sort_unstable_by_key(|&[from, to]| (to, from));

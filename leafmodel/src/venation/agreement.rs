@@ -6,9 +6,10 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 use super::closed::RelativeNeighbours;
+use super::lamina_clock::LaminaClock;
 use super::network::{Ending, VenationNetwork};
 use super::open::NearestNode;
-use super::plan::{Growth, Pattern, PlanError, VenationPlan};
+use super::plan::{Growth, Neighbourhood, Pattern, PlanError, VenationPlan};
 use super::{Grown, VenationError, all_pairs, grow, simulate};
 use crate::shape::growth_shape::{GrowthShape, VeinRow};
 use crate::shape::outline::Outline;
@@ -34,20 +35,7 @@ fn outline(slope: f64, lobe_decay: f64) -> Outline {
 
 /// The poplar row of Table 1 at 10 units of the table to a segment.
 fn poplar() -> VenationPlan {
-    VenationPlan {
-        pattern: Pattern::Closed,
-        final_length: 350.0,
-        kill_distance: 1.0,
-        source_birth_distance: 2.0,
-        vein_birth_distance: 2.0,
-        darts_per_area: 200e-6,
-        growth: Growth::Isogonic {
-            initial_length: 11.5,
-            length_step: 0.9,
-        },
-        murray_exponent: 2.0,
-        veinlet_radius_mm: 0.02,
-    }
+    VenationPlan::default()
 }
 
 fn network(plan: &VenationPlan, seed: u64) -> VenationNetwork {
@@ -62,7 +50,11 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = VenationPlan> {
         |(open, final_length, (kill, bs, bv), darts_per_area, (kind, start, length_step))| {
             let initial_length = start * final_length;
             VenationPlan {
-                pattern: if open { Pattern::Open } else { Pattern::Closed },
+                pattern: if open {
+                    Pattern::Open
+                } else {
+                    Pattern::Closed(Neighbourhood::Relative)
+                },
                 final_length,
                 kill_distance: kill,
                 source_birth_distance: bs,
@@ -88,9 +80,10 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = VenationPlan> {
 fn agrees(plan: &VenationPlan, slope: f64, lobes: f64, seed: u64) -> Result<(), TestCaseError> {
     let outline = outline(slope, lobes);
     let blade = outline.moved_and_scaled(outline.base(), plan.final_length / outline.length());
+    let clock = LaminaClock::new(plan).expect("a good plan");
     let fast: Grown = match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, &blade, seed),
-        Pattern::Closed => simulate::<RelativeNeighbours>(plan, &blade, seed),
+        Pattern::Open => simulate::<NearestNode>(plan, &blade, clock, seed),
+        Pattern::Closed(_) => simulate::<RelativeNeighbours>(plan, &blade, clock, seed),
     };
     let slow = all_pairs::simulate(plan, &blade, seed);
     prop_assert_eq!(&fast, &slow);

@@ -51,7 +51,7 @@ struct Oracle<'a> {
 
 /// What [`super::simulate`] gives, the slow way.
 pub(crate) fn simulate(plan: &VenationPlan, blade: &Outline, seed: u64) -> Grown {
-    let clock = LaminaClock::new(plan);
+    let clock = LaminaClock::new(plan).expect("a plan that has been carried out");
     let mut oracle = Oracle {
         plan,
         blade,
@@ -198,7 +198,7 @@ impl Oracle<'_> {
                 };
                 all.min_by_key(|&v| key(v)).into_iter().collect()
             }
-            Pattern::Closed => all
+            Pattern::Closed(_) => all
                 .filter(|&v| {
                     let at = self.nodes[v];
                     self.nodes
@@ -269,8 +269,8 @@ impl Oracle<'_> {
                 .partition(|&v| near(&self.nodes, v, source.place));
             let used_up = match self.plan.pattern {
                 Pattern::Open => !come.is_empty(),
-                Pattern::Closed if source.tagged.is_none() && come.is_empty() => false,
-                Pattern::Closed => {
+                Pattern::Closed(_) if source.tagged.is_none() && come.is_empty() => false,
+                Pattern::Closed(_) => {
                     source.arrived.extend(come);
                     let done = coming.is_empty();
                     source.tagged = Some(coming);

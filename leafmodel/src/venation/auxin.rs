@@ -49,7 +49,7 @@ impl Darts {
         let (low, high) = blade.bounds();
         let size = high - low;
         match plan.growth {
-            Growth::None | Growth::Isogonic { .. } => Self::Thrown {
+            Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => Self::Thrown {
                 low,
                 size,
                 per_area: plan.darts_per_area,
@@ -57,7 +57,9 @@ impl Darts {
                 next: 0,
                 until: match plan.growth {
                     Growth::None => u32::MAX,
-                    Growth::Marginal { .. } | Growth::Isogonic { .. } => clock.last_growth_step(),
+                    Growth::Marginal { .. }
+                    | Growth::Isogonic { .. }
+                    | Growth::Anisotropic { .. } => clock.last_growth_step(),
                 },
             },
             Growth::Marginal { .. } => {

@@ -1,37 +1,55 @@
 //! How large the lamina is at each step.
 //!
-//! All positions are kept in the frame of the full-grown leaf, base at the origin, in segments of
-//! that leaf. There the growth of the paper's section 3.3 is a change of two numbers:
+//! Positions are kept in segments, base at the origin. Where growth is marginal or isogonic they are those of the
+//! full-grown leaf, and growth (section 3.3) is a change of two numbers:
 //!
 //! - marginal: the margin of step `t` is the final one shrunk about the base by `σ_t / σ_final`;
 //! - isogonic: lamina and veins keep their place while the unit of length shrinks,
 //!   `λ_t = λ_final σ_final / σ_t`, and with it segment, kill distance and birth distances.
+//!
+//! Anisotropic growth has no such frame: there positions are those of the step, and move.
 
 use super::plan::{Growth, VenationPlan};
+use crate::shape::growth::{GrowthError, TissueMap, arrival};
 
 /// The lamina at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stage {
-    /// The unit of length `λ`: a segment of this step, in segments of the full-grown leaf, ≥ 1.
+    /// The unit of length `λ`: a segment of this step, in segments of the frame, ≥ 1.
     pub(crate) unit: f64,
     /// Whether a later step will find the lamina larger.
     pub(crate) still_growing: bool,
 }
 
 /// Growth of the lamina by step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct LaminaClock {
     final_length: f64,
     growth: Growth,
+    /// When anisotropic growth ends, in steps and parts of one.
+    arrival: f64,
 }
 
 impl LaminaClock {
     /// The clock of a plan that has been checked.
-    pub(crate) fn new(plan: &VenationPlan) -> Self {
-        Self {
+    ///
+    /// # Errors
+    ///
+    /// [`GrowthError`] if anisotropic growth never reaches the final length.
+    pub(crate) fn new(plan: &VenationPlan) -> Result<Self, GrowthError> {
+        let arrival = match &plan.growth {
+            Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => 0.0,
+            Growth::Anisotropic {
+                initial_length,
+                along,
+                ..
+            } => arrival(*initial_length, along, plan.final_length)?,
+        };
+        Ok(Self {
             final_length: plan.final_length,
-            growth: plan.growth,
-        }
+            growth: plan.growth.clone(),
+            arrival,
+        })
     }
 
     /// The step at which the lamina first has its final size; 0 without growth.
@@ -46,10 +64,11 @@ impl LaminaClock {
                 initial_length,
                 length_step,
             } => ((self.final_length - initial_length) / length_step).ceil() as u32,
+            Growth::Anisotropic { .. } => self.arrival.ceil() as u32,
         }
     }
 
-    /// Length at a step over final length, in (0, 1]: `σ_t`, linear in time.
+    /// Length at a step over final length, in (0, 1]: `σ_t`, linear in time unless growth is anisotropic.
     pub(crate) fn size(&self, step: u32) -> f64 {
         match self.growth {
             Growth::None => 1.0,
@@ -64,6 +83,24 @@ impl LaminaClock {
                 let length = initial_length + length_step * f64::from(step);
                 length.min(self.final_length) / self.final_length
             }
+            Growth::Anisotropic { .. } => self
+                .tissue_map(step)
+                .map_or(1.0, |map| map.length() / self.final_length),
+        }
+    }
+
+    /// For anisotropic growth, where tissue is at a step.
+    pub(crate) fn tissue_map(&self, step: u32) -> Option<TissueMap> {
+        match &self.growth {
+            Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => None,
+            Growth::Anisotropic {
+                initial_length,
+                across,
+                along,
+            } => {
+                let t = f64::from(step).min(self.arrival);
+                Some(TissueMap::new(*initial_length, across, along, t))
+            }
         }
     }
 
@@ -71,7 +108,7 @@ impl LaminaClock {
     pub(crate) fn stage(&self, step: u32) -> Stage {
         Stage {
             unit: match self.growth {
-                Growth::None | Growth::Marginal { .. } => 1.0,
+                Growth::None | Growth::Marginal { .. } | Growth::Anisotropic { .. } => 1.0,
                 Growth::Isogonic { .. } => 1.0 / self.size(step),
             },
             still_growing: step < self.last_growth_step(),

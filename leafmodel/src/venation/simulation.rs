@@ -68,8 +68,12 @@ pub(crate) struct Simulation<'a, I> {
 
 impl<'a, I: Influence> Simulation<'a, I> {
     /// Before the first step: one node at the base.
-    pub(crate) fn new(plan: &'a VenationPlan, blade: &'a Outline, seed: u64) -> Self {
-        let clock = LaminaClock::new(plan);
+    pub(crate) fn new(
+        plan: &'a VenationPlan,
+        blade: &'a Outline,
+        clock: LaminaClock,
+        seed: u64,
+    ) -> Self {
         let (low, high) = blade.bounds();
         let stretching = matches!(plan.growth, Growth::Isogonic { .. });
         let mut veins = Veins::new(low, high, stretching);
@@ -114,7 +118,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
     /// and without growth so many have missed in a row that a free spot is unlikely.
     fn is_saturated(&self) -> bool {
         match self.plan.growth {
-            Growth::Marginal { .. } | Growth::Isogonic { .. } => true,
+            Growth::Marginal { .. } | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => true,
             Growth::None => {
                 let spacing = self
                     .plan

@@ -1,6 +1,6 @@
 //! `[leaves.NAME.venation.…]`: how the veins of a leaf are grown.
 
-use leafmodel::venation::plan::{Growth, Pattern, VenationPlan};
+use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
 
 use super::limits::Limits;
 use super::reader::Block;
@@ -23,7 +23,7 @@ pub(crate) fn read_venation(leaf: &Block<'_>) -> Option<VenationPlan> {
     block.finish();
     Some(VenationPlan {
         pattern: if variant == "closed" {
-            Pattern::Closed
+            Pattern::Closed(Neighbourhood::Relative)
         } else {
             Pattern::Open
         },
@@ -35,6 +35,7 @@ pub(crate) fn read_venation(leaf: &Block<'_>) -> Option<VenationPlan> {
         growth: growth?,
         murray_exponent,
         veinlet_radius_mm: veinlet_radius_mm?,
+        ..VenationPlan::default()
     })
 }
 
