@@ -37,6 +37,11 @@ fn folder() -> TempDir {
         write(name, "");
     }
     write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
+    write(
+        "margin.svg",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\
+         <path id=\"bow\" d=\"M50 90L90 90L10 20L70 10Z\"/><path id=\"ring\" d=\"M0 0H9V9ZM1 1H2V2Z\"/></svg>",
+    );
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
 }

@@ -7,8 +7,8 @@ use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::tissue::{Tissue, TissueError};
-use crate::shape::growth_shape::{GrowthShape, GrowthShapeError};
 use crate::shape::outline::Outline;
+use crate::shape::outline_plan::{OutlinePlan, OutlinePlanError};
 use crate::venation;
 use crate::venation::VenationError;
 use crate::venation::network::{VeinSegment, VenationNetwork};
@@ -22,7 +22,7 @@ pub struct LeafPlan {
     /// Same plan and seed, same leaf, bit for bit.
     pub seed: u64,
     /// The margin.
-    pub outline: GrowthShape,
+    pub outline: OutlinePlan,
     /// The veins.
     pub venation: VenationPlan,
     /// What the tissue holds, and how veins change it.
@@ -53,7 +53,7 @@ pub struct Leaf {
 pub enum LeafError {
     /// The outline.
     #[error("outline: {0}")]
-    Outline(#[from] GrowthShapeError),
+    Outline(#[from] OutlinePlanError),
     /// The veins.
     #[error("venation: {0}")]
     Venation(#[from] VenationError),
@@ -97,23 +97,29 @@ mod tests {
 
     use super::*;
     use crate::optics::Contents;
+    use crate::shape::growth_shape::{GrowthShape, VeinRow};
+    use crate::shape::outline_plan::Contour;
     use crate::venation::plan::{Growth, Neighbourhood, Pattern};
+
+    fn ovate() -> GrowthShape {
+        GrowthShape {
+            rows: 80,
+            axial_rate: 0.1,
+            rate_ratio: 1.3,
+            widest_at: 0.4,
+            falloff: 3.0,
+            lobe_decay: 0.0,
+            lobe_exponent: 2.0,
+            veins: Vec::new(),
+        }
+    }
 
     /// A small broad leaf with everything that a leaf can have.
     fn plan() -> LeafPlan {
         LeafPlan {
             length_mm: 50.0,
             seed: 3,
-            outline: GrowthShape {
-                rows: 80,
-                axial_rate: 0.1,
-                rate_ratio: 1.3,
-                widest_at: 0.4,
-                falloff: 3.0,
-                lobe_decay: 0.0,
-                lobe_exponent: 2.0,
-                veins: Vec::new(),
-            },
+            outline: Contour::GrowthAlgorithm(ovate()).into(),
             venation: VenationPlan {
                 pattern: Pattern::Closed(Neighbourhood::Relative),
                 final_length: 100.0,
@@ -161,14 +167,14 @@ mod tests {
             lobe_decay in 0.0..3.0,
             seed in 0_u64..1000,
         ) {
-            use crate::shape::growth_shape::VeinRow;
             let mut plan = plan();
             let lobe = |position| VeinRow { position, slope: 0.6 };
-            plan.outline = GrowthShape {
+            let shape = GrowthShape {
                 rate_ratio, widest_at, falloff, lobe_decay,
                 veins: [0.2, 0.4, 0.6, 0.8].map(lobe).to_vec(),
-                ..plan.outline
+                ..ovate()
             };
+            plan.outline = Contour::GrowthAlgorithm(shape).into();
             plan.seed = seed;
             let leaf = Leaf::grow(&plan).expect("a good plan");
             prop_assert_eq!(leaf.network.validate(), Ok(()));

@@ -1,9 +1,14 @@
 //! The flat lamina: its margin, and how it comes to be.
 
 mod cell_rows;
+pub mod contour_curve;
 mod crossing;
+pub(crate) mod cubic;
 pub mod growth;
 pub mod growth_shape;
 mod outer_boundary;
 pub mod outline;
+pub mod outline_plan;
 mod slabs;
+pub mod svg_path;
+pub mod teeth;

@@ -86,6 +86,26 @@ pub fn grow(
     Ok(grown.into_network(plan, segment_mm, place))
 }
 
+/// Whether a plan can be carried out on an outline, without doing it: what [`grow`] refuses, in microseconds.
+///
+/// # Errors
+///
+/// As [`grow`].
+pub fn check(outline: &Outline, plan: &VenationPlan) -> Result<(), VenationError> {
+    plan.validate()?;
+    let segment_mm = outline.length() / plan.final_length;
+    let blade = outline.moved_and_scaled(outline.base(), 1.0 / segment_mm);
+    for (index, &[x, y]) in plan.origins.iter().enumerate() {
+        let place = DVec2::new(x, y) * plan.final_length;
+        if !(place.is_finite() && blade.covers(place)) {
+            return Err(PlanError::OriginOffBlade { index, x, y }.into());
+        }
+    }
+    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
+    check_darts(plan, &blade, &clock)?;
+    Ok(())
+}
+
 /// Refuses plans whose darts would take forever.
 fn check_darts(plan: &VenationPlan, blade: &Outline, clock: &LaminaClock) -> Result<(), PlanError> {
     let (low, high) = blade.bounds();

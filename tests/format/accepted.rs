@@ -1,7 +1,9 @@
 //! What valid scenes mean: the values that they resolve to.
 
 use glam::{DMat4, DVec3};
-use leafmodel::venation::plan::{Growth, Pattern};
+use leafmodel::shape::growth::RateCurve;
+use leafmodel::shape::outline_plan::{Contour, OutlinePlan};
+use leafmodel::venation::plan::{FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern};
 use renderer::scene::description::{
     Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
 };
@@ -211,7 +213,7 @@ fn a_leaf_is_planned_as_written() {
     let venation = &beech.plan.venation;
     assert_eq!(
         (venation.pattern, venation.final_length),
-        (Pattern::Closed, 350.0)
+        (Pattern::Closed(Neighbourhood::Relative), 350.0)
     );
     assert_eq!(
         (venation.source_birth_distance, venation.vein_birth_distance),
@@ -233,17 +235,88 @@ fn a_leaf_is_planned_as_written() {
     assert_eq!((abaxial.alpha_across, abaxial.alpha_along), (0.45, 0.3));
     let simple = &scene.leaves[1].value;
     assert_eq!(simple.plan.venation.vein_birth_distance, 4.0);
-    let positions: Vec<f64> = simple
-        .plan
-        .outline
-        .veins
-        .iter()
-        .map(|vein| vein.position)
-        .collect();
+    let Contour::GrowthAlgorithm(shape) = &simple.plan.outline.contour else {
+        panic!("the outline is {:?}", simple.plan.outline);
+    };
+    let positions: Vec<f64> = shape.veins.iter().map(|vein| vein.position).collect();
     assert_eq!(positions, [0.1, 0.3, 0.5, 0.7, 0.9]);
     assert!(
         matches!(&simple.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)
     );
+}
+
+#[test]
+fn an_outline_may_be_drawn_or_traced_and_toothed() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let outline = |leaf: usize| -> &OutlinePlan { &scene.leaves[leaf].value.plan.outline };
+    let Contour::Curve(curve) = &outline(2).contour else {
+        panic!("the outline is {:?}", outline(2));
+    };
+    let corners: Vec<bool> = curve.points.iter().map(|point| point.corner).collect();
+    assert_eq!(
+        (corners, curve.mirrored),
+        (vec![false, true, false, true], true)
+    );
+    assert_eq!(curve.points[1].place, [0.3, -0.1]);
+    let [coarse, fine] = outline(2).teeth.as_slice() else {
+        panic!("the teeth are {:?}", outline(2).teeth);
+    };
+    assert_eq!(
+        (
+            coarse.per_side,
+            coarse.lean,
+            coarse.fade_base,
+            coarse.fade_apex
+        ),
+        (12, 0.8, 0.1, 0.2)
+    );
+    assert_eq!(
+        (fine.per_side, fine.height, fine.lean, fine.fade_apex),
+        (48, 0.005, 0.0, 0.0)
+    );
+    let Contour::Svg(svg) = &outline(3).contour else {
+        panic!("the outline is {:?}", outline(3));
+    };
+    assert_eq!(
+        (svg.file.as_str(), svg.id.as_deref()),
+        ("margin.svg", Some("blade"))
+    );
+    assert_eq!((svg.base, svg.apex), ([50.0, 90.0], [50.0, 10.0]));
+}
+
+#[test]
+fn veins_are_planned_as_written() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let drawn = &scene.leaves[2].value.plan.venation;
+    assert_eq!(drawn.pattern, Pattern::Closed(Neighbourhood::Urquhart));
+    assert_eq!(drawn.origins, [[0.0, 0.0], [0.1, 0.2]]);
+    assert_eq!(
+        (drawn.unseen_veinlets, drawn.gaussian_curvature),
+        (3.0, -0.5)
+    );
+    let free_endings = FreeEndings {
+        birth_distance: 1.5,
+        kill_distance: 1.0,
+        darts_per_area: 2.0,
+    };
+    let margin_clearance = MarginClearance {
+        distance: 0.05,
+        until: 0.6,
+    };
+    assert_eq!(drawn.free_endings, Some(free_endings));
+    assert_eq!(drawn.margin_clearance, Some(margin_clearance));
+    let curve = |knots: &[[f64; 2]]| RateCurve::new(knots.to_vec()).expect("good knots");
+    let anisotropic = Growth::Anisotropic {
+        initial_length: 10.0,
+        across: curve(&[[0.0, 0.02], [1.0, 0.01]]),
+        along: curve(&[[0.0, 0.01], [0.5, 0.03], [1.0, 0.01]]),
+    };
+    let traced = &scene.leaves[3].value.plan.venation;
+    assert_eq!(
+        (&traced.pattern, &traced.growth),
+        (&Pattern::Open, &anisotropic)
+    );
+    assert!(traced.origins.is_empty() && traced.free_endings.is_none());
 }
 
 #[test]
@@ -259,7 +332,7 @@ fn leaves_can_be_read_from_a_file_that_has_nothing_else() {
     write(&format!("format = 1\n{}", &whole[start..end]));
     let overrides = ["leaves.beech.seed=9".to_owned()];
     let leaves = load_leaves(&path, &overrides).unwrap_or_else(|errors| panic!("{errors}"));
-    assert_eq!((leaves.len(), leaves[1].name.as_str()), (2, "simple"));
+    assert_eq!((leaves.len(), leaves[1].name.as_str()), (4, "simple"));
     assert_eq!(leaves[0].value.plan.seed, 9);
     write(&format!(
         "format = 1\n{}",

@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::point_tree::PointTree;
+pub(crate) use crate::shape::cubic::catmull_rom;
 use crate::shape::outline::Outline;
 
 /// Stands for "no node".
@@ -212,23 +213,6 @@ impl Veins {
 /// on either side of it after rounding, so the first millionth of the way does not count.
 pub(crate) fn can_reach(blade: &Outline, from: DVec2, to: DVec2) -> bool {
     blade.contains(to) && !blade.is_crossed_by(from + (to - from) * 1e-6, to)
-}
-
-/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord lengths for knots: old edges next
-/// to just subdivided ones are much longer than these, and even knots would bend the curve there.
-pub(crate) fn catmull_rom(p: [DVec2; 4], u: f64) -> DVec2 {
-    let chords = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
-    let [before, span, after] = chords.map(DVec2::length);
-    // Slope at a knot of the parabola through it and its neighbours.
-    let slope = |first: DVec2, d0: f64, second: DVec2, d1: f64| {
-        (first * (d1 / d0) + second * (d0 / d1)) / (d0 + d1)
-    };
-    let leaving = slope(chords[0], before, chords[1], span) * span;
-    let arriving = slope(chords[1], span, chords[2], after) * span;
-    // Cubic Hermite polynomial through both ends with these slopes.
-    let c = 3.0 * chords[1] - 2.0 * leaving - arriving;
-    let d = leaving + arriving - 2.0 * chords[1];
-    p[1] + (leaving + (c + d * u) * u) * u
 }
 
 #[cfg(test)]

@@ -111,6 +111,16 @@ pub enum SceneError {
         /// The number as written.
         value: String,
     },
+    /// Values that are allowed one by one and cannot be carried out together.
+    #[error("`{key}`: {problem}")]
+    Impossible {
+        /// The key to change.
+        key: String,
+        /// What is wrong.
+        problem: String,
+        /// What to write instead.
+        help: String,
+    },
     /// Numbers that should rise and do not.
     #[error("`{key}` must rise, but {after} follows {before}")]
     NotRising {

@@ -32,8 +32,8 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     let length_mm = block.number("length_mm", Limits::closed(0.1, 10_000.0));
     let seed = block.integer_or("seed", 0, u64::MAX, 0);
     let map_size = block.integer_or("map_size", 16, 8192, 1024) as u32;
-    let outline = read_outline(block);
-    let venation = read_venation(block);
+    let (outline, grown) = read_outline(block).unzip();
+    let venation = read_venation(block, grown.as_ref());
     let contents = block
         .block("contents", &[])
         .and_then(|inner| read_contents(&inner));
@@ -65,7 +65,9 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
 /// `veins` and `mottle`, both of which may be left out.
 fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
     const FACTORS: Limits = Limits::closed(0.0, 100.0);
-    const WIDTHS_MM: Limits = Limits::above(0.0, 100.0);
+    const FULL_MM: Limits = Limits::closed(0.001, 100.0);
+    const SHEATH_MM: Limits = Limits::closed(0.001, 5.0);
+    const PATCH_MM: Limits = Limits::closed(0.01, 1000.0);
     let mut tissue = Tissue {
         lamina,
         vein_factors: VEIN_FACTORS,
@@ -88,16 +90,16 @@ fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
             *factor = block.number_or(key, FACTORS, *factor);
         }
         tissue.full_vein_radius_mm =
-            block.number_or("full_radius_mm", WIDTHS_MM, tissue.full_vein_radius_mm);
+            block.number_or("full_radius_mm", FULL_MM, tissue.full_vein_radius_mm);
         tissue.sheath_width_mm =
-            block.number_or("sheath_width_mm", WIDTHS_MM, tissue.sheath_width_mm);
+            block.number_or("sheath_width_mm", SHEATH_MM, tissue.sheath_width_mm);
         block.finish();
     }
     if let Some(block) = leaf.optional_block("mottle") {
         tissue.mottle = block
             .number("share", Limits::closed(0.0, 1.0))
             .unwrap_or_default();
-        tissue.mottle_scale_mm = block.number_or("scale_mm", WIDTHS_MM, tissue.mottle_scale_mm);
+        tissue.mottle_scale_mm = block.number_or("scale_mm", PATCH_MM, tissue.mottle_scale_mm);
         block.finish();
     }
     tissue
@@ -122,7 +124,7 @@ fn read_form(leaf: &Block<'_>, length_mm: f64) -> BladeForm {
         .number_or("fold_deg", Limits::closed(-80.0, 80.0), 0.0)
         .to_radians();
     form.curl = block
-        .number_or("curl_deg", Limits::closed(-360.0, 360.0), 0.0)
+        .number_or("curl_deg", Limits::closed(-355.0, 355.0), 0.0)
         .to_radians();
     form.ruffle = block.number_or("ruffle", Limits::closed(0.0, 0.5), form.ruffle);
     form.ruffle_waves = block.number_or(
@@ -131,14 +133,17 @@ fn read_form(leaf: &Block<'_>, length_mm: f64) -> BladeForm {
         form.ruffle_waves,
     );
     form.relief = block.number_or("relief", Limits::closed(0.0, 5.0), form.relief);
-    form.thickness_mm =
-        block.number_or("thickness_mm", Limits::above(0.0, 100.0), form.thickness_mm);
+    form.thickness_mm = block.number_or(
+        "thickness_mm",
+        Limits::closed(0.001, 10.0),
+        form.thickness_mm,
+    );
     // A finer mesh than this has more than some ten million triangles.
-    let edges = Limits::closed(length_mm / 2000.0, length_mm);
+    let edges = Limits::closed((length_mm / 2000.0).max(0.001), length_mm);
     form.max_edge_mm = block.number_or("max_edge_mm", edges, form.max_edge_mm);
     form.meshed_vein_radius_mm = block.number_or(
         "meshed_vein_radius_mm",
-        Limits::above(0.0, 100.0),
+        Limits::closed(1e-4, 1e3),
         form.meshed_vein_radius_mm,
     );
     block.finish();

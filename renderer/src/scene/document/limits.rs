@@ -30,15 +30,6 @@ impl Limits {
         }
     }
 
-    /// Between `low` and `high`, both excluded.
-    pub(crate) const fn between(low: f64, high: f64) -> Self {
-        Self {
-            low_included: false,
-            high_included: false,
-            ..Self::closed(low, high)
-        }
-    }
-
     /// Whether a number lies in the range; NaN never does.
     pub(crate) fn contain(&self, value: f64) -> bool {
         let above = value > self.low || (self.low_included && value == self.low);
@@ -96,7 +87,6 @@ mod tests {
     fn the_ends_belong_to_a_range_as_it_says() {
         assert!(Limits::closed(0.0, 1.0).contain(0.0) && Limits::closed(0.0, 1.0).contain(1.0));
         assert!(!Limits::above(0.0, 1.0).contain(0.0) && Limits::above(0.0, 1.0).contain(1.0));
-        assert!(!Limits::between(0.0, 1.0).contain(1.0));
         assert!(!Limits::closed(0.0, 1.0).contain(f64::NAN));
     }
 

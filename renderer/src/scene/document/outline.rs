@@ -1,100 +1,67 @@
-//! `[leaves.NAME.outline.growth_algorithm]`: the margin of a leaf.
+//! `[leaves.NAME.outline.…]`: the margin of a leaf.
 
-use leafmodel::shape::growth_shape::{GrowthShape, VeinRow};
+mod curve;
+mod growth_algorithm;
+mod svg;
+mod teeth;
 
-use super::limits::Limits;
+use leafmodel::shape::outline::Outline;
+use leafmodel::shape::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
+
 use super::reader::Block;
-use super::tree::{Node, Value};
-use super::values::{number_at, wrong_type};
 use crate::scene::error::SceneError;
 
-const SLOPES: Limits = Limits::closed(-20.0, 20.0);
-const POSITIONS: Limits = Limits::closed(0.0, 1.0);
-const MOST_VEINS: u64 = 200;
+/// The kinds of contour.
+const KINDS: [&str; 3] = ["growth_algorithm", "curve", "svg"];
 
-/// Reads `outline` of a leaf.
-pub(crate) fn read_outline(leaf: &Block<'_>) -> Option<GrowthShape> {
-    let outline = leaf.block("outline", &["growth_algorithm"])?;
-    let (_, block) = outline.variant(&["growth_algorithm"])?;
-    let rows = block.integer_or("rows", 3, 10_000, 150) as usize;
-    let axial_rate = block.number_or("axial_rate", Limits::above(0.0, 1.0), 0.1);
-    let rate_ratio = block.number("rate_ratio", Limits::closed(0.1, 100.0));
-    let widest_at = block.number("widest_at", Limits::between(0.0, 1.0));
-    let falloff = block.number("falloff", Limits::above(0.0, 100.0));
-    let lobe_decay = block.number_or("lobe_decay", Limits::closed(0.0, 100.0), 0.0);
-    let lobe_exponent = block.number_or("lobe_exponent", Limits::above(0.0, 20.0), 2.0);
-    let veins = read_veins(&block);
-    block.finish();
-    Some(GrowthShape {
-        rows,
-        axial_rate,
-        rate_ratio: rate_ratio?,
-        widest_at: widest_at?,
-        falloff: falloff?,
-        lobe_decay,
-        lobe_exponent,
-        veins: veins?,
-    })
-}
-
-/// The list `veins`, or `vein_count` veins at equal distances, or none.
-fn read_veins(block: &Block<'_>) -> Option<Vec<VeinRow>> {
-    block.exclude("veins", "vein_count");
-    block.exclude("veins", "vein_slope");
-    if let Some(node) = block.node("veins") {
-        return listed_veins(block, node);
-    }
-    if block.entry("vein_count").is_none() && block.entry("vein_slope").is_none() {
-        return Some(Vec::new());
-    }
-    let count = block.integer("vein_count", 1, MOST_VEINS);
-    let slope = block.number("vein_slope", SLOPES);
-    let (count, slope) = (count?, slope?);
-    // Half a distance is left at base and tip, as in the paper's lobed leaves.
-    let position = |index: u64| (index as f64 + 0.5) / count as f64;
-    let vein = |index| VeinRow {
-        position: position(index),
-        slope,
+/// Reads `outline` of a leaf, and tries it: the outline that comes with the plan is one of length 1 mm.
+pub(crate) fn read_outline(leaf: &Block<'_>) -> Option<(OutlinePlan, Outline)> {
+    let outline = leaf.block("outline", &KINDS)?;
+    let teeth = teeth::read_teeth(&outline);
+    let (variant, block) = outline.variant(&KINDS)?;
+    let contour = match variant {
+        "curve" => curve::read_curve(&block).map(Contour::Curve),
+        "svg" => svg::read_svg(&block).map(Contour::Svg),
+        _ => growth_algorithm::read_growth_shape(&block).map(Contour::GrowthAlgorithm),
     };
-    Some((0..count).map(vein).collect())
-}
-
-fn listed_veins(block: &Block<'_>, node: &Node) -> Option<Vec<VeinRow>> {
-    const WANTED: &str = "a list of [position, slope], at most 200";
-    let Value::List(list) = &node.value else {
-        wrong_type(block.cx, node, "veins", WANTED);
-        return None;
+    let plan = OutlinePlan {
+        contour: contour?,
+        teeth: teeth?,
     };
-    if list.len() as u64 > MOST_VEINS {
-        wrong_type(block.cx, node, "veins", WANTED);
-        return None;
-    }
-    let before_this = block.cx.error_count();
-    let mut veins: Vec<VeinRow> = Vec::with_capacity(list.len());
-    for pair in list {
-        let Value::List(numbers) = &pair.value else {
-            wrong_type(block.cx, pair, "veins", WANTED);
-            continue;
-        };
-        let [position_node, slope_node] = numbers.as_slice() else {
-            wrong_type(block.cx, pair, "veins", WANTED);
-            continue;
-        };
-        let position = number_at(block.cx, position_node, "veins, position", POSITIONS);
-        let slope = number_at(block.cx, slope_node, "veins, slope", SLOPES);
-        let (Some(position), Some(slope)) = (position, slope) else {
-            continue;
-        };
-        if let Some(last) = veins.last().filter(|last| last.position >= position) {
-            let error = SceneError::NotRising {
-                key: "vein positions".to_owned(),
-                before: last.position,
-                after: position,
-            };
-            block.cx.error(&position_node.at, error);
-            break;
+    match plan.grow(1.0) {
+        Ok(grown) => Some((plan, grown)),
+        Err(error) => {
+            report(&outline, &block, error);
+            None
         }
-        veins.push(VeinRow { position, slope });
     }
-    (block.cx.error_count() == before_this).then_some(veins)
+}
+
+/// Reports an outline that each of its numbers allows and that is none all the same, at the key to change.
+fn report(outline: &Block<'_>, block: &Block<'_>, error: OutlinePlanError) {
+    let (block, key, help) = match &error {
+        OutlinePlanError::Teeth(_) => (outline, "teeth", "make the teeth lower, or fewer"),
+        OutlinePlanError::Curve(_) => (
+            block,
+            "points",
+            "give the points in order, so that the curve goes around the blade once",
+        ),
+        OutlinePlanError::Svg { .. } => (
+            block,
+            "path",
+            "draw one closed curve that does not cross itself; `base` and `apex` say where the midrib ends",
+        ),
+        OutlinePlanError::GrowthAlgorithm(_) | OutlinePlanError::Length { .. } => (
+            block,
+            "veins",
+            "put the veins farther apart, with slopes that differ less",
+        ),
+    };
+    let error = SceneError::Impossible {
+        key: key.to_owned(),
+        problem: error.to_string(),
+        help: help.to_owned(),
+    };
+    let at = block.node(key).map_or(&block.at, |node| &node.at);
+    block.cx.error(at, error);
 }

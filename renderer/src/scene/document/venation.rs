@@ -1,32 +1,64 @@
 //! `[leaves.NAME.venation.…]`: how the veins of a leaf are grown.
 
-use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+mod growth;
+
+use leafmodel::shape::growth::GrowthError;
+use leafmodel::shape::outline::Outline;
+use leafmodel::venation::plan::{
+    FreeEndings, MarginClearance, Neighbourhood, Pattern, PlanError, VenationPlan,
+};
+use leafmodel::venation::{self, VenationError};
 
 use super::limits::Limits;
 use super::reader::Block;
+use super::tree::{Node, Value};
+use super::values::{listed, numbers_at, wrong_length, wrong_type};
 use crate::scene::error::SceneError;
+use crate::scene::nearest::nearest;
 
-/// Lengths in vein segments. A leaf this long has some hundred million nodes.
-const SEGMENTS: Limits = Limits::above(0.0, 20_000.0);
+/// Length of the grown leaf, in vein segments.
+const FINAL_LENGTHS: Limits = Limits::closed(2.0, 1e5);
+/// Kill distance and birth distances, in vein segments.
+const DISTANCES: Limits = Limits::closed(0.01, 1e4);
+/// Darts per segment squared.
+const DARTS: Limits = Limits::closed(1e-12, 1e3);
 
-/// Reads `venation` of a leaf.
-pub(crate) fn read_venation(leaf: &Block<'_>) -> Option<VenationPlan> {
+/// Reads `venation` of a leaf. With the outline of a leaf of any length, what needs it is checked too.
+pub(crate) fn read_venation(leaf: &Block<'_>, outline: Option<&Outline>) -> Option<VenationPlan> {
     let venation = leaf.block("venation", &["closed", "open"])?;
     let (variant, block) = venation.variant(&["closed", "open"])?;
-    let final_length = block.number("final_length_segments", Limits::closed(2.0, 20_000.0));
-    let kill_distance = block.number("kill_distance_segments", SEGMENTS);
+    let closed = variant == "closed";
+    let defaults = VenationPlan::default();
+    let final_length = block.number("final_length_segments", FINAL_LENGTHS);
+    let kill_distance = block.number("kill_distance_segments", DISTANCES);
     let (source_birth, vein_birth) = read_birth_distances(&block);
-    let darts_per_area = block.number("darts_per_segment2", Limits::above(0.0, 1e4));
-    let murray_exponent = block.number_or("murray_exponent", Limits::closed(0.5, 10.0), 2.0);
-    let veinlet_radius_mm = block.number("veinlet_radius_mm", Limits::above(0.0, 10.0));
-    let growth = read_growth(&block, final_length);
+    let darts_per_area = block.number("darts_per_segment2", DARTS);
+    let murray_exponent = block.number_or(
+        "murray_exponent",
+        Limits::closed(0.5, 10.0),
+        defaults.murray_exponent,
+    );
+    let veinlet_radius_mm = block.number("veinlet_radius_mm", Limits::closed(1e-6, 10.0));
+    let pattern = if closed {
+        read_neighbourhood(&block).map(Pattern::Closed)
+    } else {
+        Some(Pattern::Open)
+    };
+    let origins = read_origins(&block);
+    let unseen_veinlets = block.number_or("unseen_veinlets", Limits::closed(0.0, 1e3), 0.0);
+    let gaussian_curvature = block.number_or("gaussian_curvature", Limits::closed(-2.0, 8.0), 0.0);
+    // Only areoles have room for them.
+    let free_endings = if closed {
+        read_free_endings(&block)
+    } else {
+        Some(None)
+    };
+    let margin_clearance = read_margin_clearance(&block);
+    let growth = growth::read_growth(&block, final_length);
     block.finish();
-    Some(VenationPlan {
-        pattern: if variant == "closed" {
-            Pattern::Closed(Neighbourhood::Relative)
-        } else {
-            Pattern::Open
-        },
+    let plan = VenationPlan {
+        pattern: pattern?,
+        origins: origins?,
         final_length: final_length?,
         kill_distance: kill_distance?,
         source_birth_distance: source_birth?,
@@ -35,8 +67,18 @@ pub(crate) fn read_venation(leaf: &Block<'_>) -> Option<VenationPlan> {
         growth: growth?,
         murray_exponent,
         veinlet_radius_mm: veinlet_radius_mm?,
-        ..VenationPlan::default()
-    })
+        unseen_veinlets,
+        free_endings: free_endings?,
+        margin_clearance: margin_clearance?,
+        gaussian_curvature,
+    };
+    if let Some(outline) = outline
+        && let Err(VenationError::Plan(error)) = venation::check(outline, &plan)
+    {
+        report(&block, &error);
+        return None;
+    }
+    Some(plan)
 }
 
 /// `bs` and `bv`: one key for both, or one for each.
@@ -45,49 +87,144 @@ fn read_birth_distances(block: &Block<'_>) -> (Option<f64>, Option<f64>) {
     const SOURCE: &str = "source_birth_distance_segments";
     const VEIN: &str = "vein_birth_distance_segments";
     if block.entry(SOURCE).is_none() && block.entry(VEIN).is_none() {
-        let both = block.number(BOTH, SEGMENTS);
+        let both = block.number(BOTH, DISTANCES);
         return (both, both);
     }
     block.exclude(BOTH, SOURCE);
     block.exclude(BOTH, VEIN);
-    (block.number(SOURCE, SEGMENTS), block.number(VEIN, SEGMENTS))
+    (
+        block.number(SOURCE, DISTANCES),
+        block.number(VEIN, DISTANCES),
+    )
 }
 
-fn read_growth(block: &Block<'_>, final_length: Option<f64>) -> Option<Growth> {
-    let growth = block.block("growth", &["none", "marginal", "isogonic"])?;
-    let (variant, inner) = growth.variant(&["none", "marginal", "isogonic"])?;
-    if variant == "none" {
-        inner.finish();
-        return Some(Growth::None);
+fn read_neighbourhood(block: &Block<'_>) -> Option<Neighbourhood> {
+    const WORDS: [&str; 2] = ["relative", "urquhart"];
+    if block.entry("neighbourhood").is_none() {
+        return Some(Neighbourhood::Relative);
     }
-    let initial = inner.number("initial_length_segments", SEGMENTS);
-    let length_step = inner.number("length_step_segments", SEGMENTS);
-    inner.finish();
-    let (initial_length, length_step) = (initial?, length_step?);
-    if let Some(final_length) = final_length
-        && initial_length > final_length
-    {
-        let node = inner.node("initial_length_segments");
-        let error = SceneError::OutOfRange {
-            key: "initial_length_segments".to_owned(),
-            value: node.map_or_else(String::new, |node| block.cx.quoted(node)),
-            range: format!("the values up to `final_length_segments`, {final_length}"),
-            help: "a leaf grows: let it start shorter than it ends".to_owned(),
-        };
-        block
-            .cx
-            .error(node.map_or(&inner.at, |node| &node.at), error);
+    let (word, at) = block.optional_text("neighbourhood")?;
+    match word {
+        "relative" => Some(Neighbourhood::Relative),
+        "urquhart" => Some(Neighbourhood::Urquhart),
+        _ => {
+            let node = block.node("neighbourhood")?;
+            let error = SceneError::UnknownWord {
+                key: "neighbourhood".to_owned(),
+                word: block.cx.quoted(node).trim_matches('"').to_owned(),
+                nearest: nearest(word, WORDS).map(str::to_owned),
+                known: listed(WORDS),
+            };
+            block.cx.error(at, error);
+            None
+        }
+    }
+}
+
+/// Places where veins start; none is one at the base.
+fn read_origins(block: &Block<'_>) -> Option<Vec<[f64; 2]>> {
+    const WANTED: &str = "a list of at most 1000 places [x, y]";
+    let Some(node) = block.node("origins") else {
+        return Some(Vec::new());
+    };
+    let Value::List(list) = &node.value else {
+        wrong_type(block.cx, node, "origins", WANTED);
+        return None;
+    };
+    if list.len() > 1000 {
+        wrong_length(block.cx, &node.at, "origins", "a list", list.len(), WANTED);
         return None;
     }
-    Some(if variant == "marginal" {
-        Growth::Marginal {
-            initial_length,
-            length_step,
+    let places: Vec<Option<[f64; 2]>> = list
+        .iter()
+        .map(|node| numbers_at(block.cx, node, "origins", Limits::closed(-10.0, 10.0)))
+        .collect();
+    places.into_iter().collect()
+}
+
+/// `Some(None)` where the block is left out.
+fn read_free_endings(venation: &Block<'_>) -> Option<Option<FreeEndings>> {
+    if venation.entry("free_endings").is_none() {
+        return Some(None);
+    }
+    let block = venation.optional_block("free_endings")?;
+    let birth_distance = block.number("birth_distance_segments", DISTANCES);
+    let kill_distance = block.number("kill_distance_segments", DISTANCES);
+    let darts_per_area = block.number("darts_per_segment2", DARTS);
+    block.finish();
+    Some(Some(FreeEndings {
+        birth_distance: birth_distance?,
+        kill_distance: kill_distance?,
+        darts_per_area: darts_per_area?,
+    }))
+}
+
+/// `Some(None)` where the block is left out.
+fn read_margin_clearance(venation: &Block<'_>) -> Option<Option<MarginClearance>> {
+    if venation.entry("margin_clearance").is_none() {
+        return Some(None);
+    }
+    let block = venation.optional_block("margin_clearance")?;
+    let distance = block.number("distance", Limits::closed(1e-6, 0.5));
+    let until = block.number("until", Limits::closed(0.0, 1.0));
+    block.finish();
+    Some(Some(MarginClearance {
+        distance: distance?,
+        until: until?,
+    }))
+}
+
+/// Reports a plan that each of its numbers allows and that cannot be carried out all the same, at the key to change.
+fn report(block: &Block<'_>, error: &PlanError) {
+    let (keys, help): (&[&str], &str) = match error {
+        PlanError::OriginOffBlade { .. } => (
+            &["origins"],
+            "places are shares of the midrib's length across and along it: [0, 0] is the base, [0, 1] the apex",
+        ),
+        PlanError::TooManySteps { .. } => (&["growth", "length_step_segments"], "use larger steps"),
+        PlanError::Growth(GrowthError::NeverArrives { .. }) => {
+            (&["growth", "along"], "use higher rates along the leaf")
         }
-    } else {
-        Growth::Isogonic {
-            initial_length,
-            length_step,
-        }
-    })
+        PlanError::Growth(
+            GrowthError::KnotCount { .. }
+            | GrowthError::BadPlace { .. }
+            | GrowthError::BadRate { .. },
+        ) => (&["growth"], "mend the growth functions"),
+        PlanError::TooManyDarts { .. } => (&["darts_per_segment2"], "use fewer darts"),
+        PlanError::OutOfRange { key, .. } => (
+            match *key {
+                "gaussian_curvature" => &["gaussian_curvature"],
+                _ => &[],
+            },
+            "use a value in that range",
+        ),
+    };
+    let mut node = keys
+        .first()
+        .and_then(|key| Some(&block.table.get(key)?.node));
+    if let [_, inner] = keys {
+        // Behind the kind of growth, of which there is one.
+        let kind = node.and_then(|growth| growth.table()?.0.first());
+        node = kind
+            .and_then(|kind| Some(&kind.node.table()?.get(inner)?.node))
+            .or(node);
+    }
+    if let (
+        PlanError::OriginOffBlade { index, .. },
+        Some(Node {
+            value: Value::List(list),
+            ..
+        }),
+    ) = (error, node)
+    {
+        node = list.get(*index).or(node);
+    }
+    let error = SceneError::Impossible {
+        key: keys.last().copied().unwrap_or("venation").to_owned(),
+        problem: error.to_string(),
+        help: help.to_owned(),
+    };
+    block
+        .cx
+        .error(node.map_or(&block.at, |node| &node.at), error);
 }

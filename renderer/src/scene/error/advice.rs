@@ -17,6 +17,7 @@ impl SceneError {
             Self::WrongType { .. } => "scene::wrong_type",
             Self::OutOfRange { .. } => "scene::out_of_range",
             Self::NotFinite { .. } => "scene::not_finite",
+            Self::Impossible { .. } => "scene::impossible",
             Self::NotRising { .. } => "scene::not_rising",
             Self::UnknownName { .. } => "scene::unknown_name",
             Self::BadName { .. } => "scene::bad_name",
@@ -60,6 +61,7 @@ impl SceneError {
             Self::NotOne { .. } => "keep one of them".to_owned(),
             Self::WrongType { help, .. }
             | Self::OutOfRange { help, .. }
+            | Self::Impossible { help, .. }
             | Self::BadFile { help, .. } => help.clone(),
             Self::NotFinite { .. } => "write a finite number".to_owned(),
             Self::NotRising { .. } => {
@@ -123,9 +125,10 @@ impl SceneError {
             Self::MissingKey { .. } => "in this block",
             Self::NotOne { .. } => "this block",
             Self::Conflict { .. } => "this one too",
-            Self::WrongType { .. } | Self::OutOfRange { .. } | Self::NotFinite { .. } => {
-                "this value"
-            }
+            Self::WrongType { .. }
+            | Self::OutOfRange { .. }
+            | Self::Impossible { .. }
+            | Self::NotFinite { .. } => "this value",
             Self::NotRising { .. } => "not greater than the one before",
             Self::UnknownName { .. } | Self::BadName { .. } => "this name",
             Self::UnknownWord { .. } => "this word",

@@ -1,0 +1,313 @@
+//! Outlines drawn by hand: a smooth closed curve through control points, with corners where they are wanted.
+//!
+//! - **In**: control points in shares of the midrib's length, the base at (0, 0), the apex at (0, 1), for the right
+//!   side alone or all round.
+//! - **Out**: an [`Outline`] that passes through every one of them.
+//! - **Always true**: a contour given for one side is exactly mirror symmetric.
+//!
+//! Between points the curve is a Catmull–Rom cubic with chord lengths for knots, as in stretched veins. A corner has
+//! no common tangent: the curve arrives and leaves as if the point were its end.
+
+use glam::DVec2;
+use thiserror::Error;
+
+use super::cubic::{Cubic, FLATNESS};
+use super::outline::{Outline, OutlineError};
+
+/// Most control points.
+const MOST_POINTS: usize = 1000;
+
+/// Farthest that a control point may lie from the base across or along the leaf, in lengths of the midrib.
+const FARTHEST: f64 = 10.0;
+
+/// A point that the contour passes through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlPoint {
+    /// Across the midrib (to the right) and along it from the base, in shares of its length, −10 to 10.
+    pub place: [f64; 2],
+    /// Whether the contour has a corner here instead of a tangent.
+    pub corner: bool,
+}
+
+/// A contour through control points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContourCurve {
+    /// The points in order, 3 to 1000. If mirrored, the first is the base, (0, 0), the last the apex, (0, 1), and those
+    /// between are the right side; else they go once around, in either sense.
+    pub points: Vec<ControlPoint>,
+    /// Whether the left side is the mirror image of the right one.
+    pub mirrored: bool,
+}
+
+/// Why control points give no outline.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ContourCurveError {
+    /// Too few or too many.
+    #[error("a contour has 3 to 1000 control points, here are {points}")]
+    PointCount {
+        /// How many there are.
+        points: usize,
+    },
+    /// A coordinate that is not finite or far outside the leaf.
+    #[error("control point {index} is ({x}, {y}), outside -10 to 10 (lengths of the midrib)")]
+    OutOfRange {
+        /// Which point, from 0.
+        index: usize,
+        /// Across the midrib.
+        x: f64,
+        /// Along the midrib.
+        y: f64,
+    },
+    /// A point at the place of the one before; for the first point that is the last one.
+    #[error("control point {index} lies where the one before it does")]
+    Coincident {
+        /// Which point, from 0.
+        index: usize,
+    },
+    /// A mirrored contour that does not go from base to apex.
+    #[error("the {order} control point of a mirrored contour is ({x}, {y}), it must be the {end}")]
+    BadEnd {
+        /// `first` or `last`.
+        order: &'static str,
+        /// What must be there.
+        end: &'static str,
+        /// Across the midrib.
+        x: f64,
+        /// Along the midrib.
+        y: f64,
+    },
+    /// The curve is no margin.
+    #[error("the curve through the control points is no margin: {0}")]
+    NoMargin(#[from] OutlineError),
+}
+
+impl ContourCurve {
+    /// The outline of a leaf whose midrib measures `length_mm`; the base is at the origin, the apex at
+    /// (0, `length_mm`). Straight edges stay within 10⁻⁴ of the length of the curve.
+    ///
+    /// # Errors
+    ///
+    /// [`ContourCurveError`], naming the point. `length_mm` must be finite and above 0.
+    pub fn grow(&self, length_mm: f64) -> Result<Outline, ContourCurveError> {
+        self.validate()?;
+        let places: Vec<DVec2> = self.points.iter().map(|p| DVec2::from(p.place)).collect();
+        let mut margin = vec![places[0]];
+        if self.mirrored {
+            let last = places.len() - 1;
+            for i in 0..last {
+                // Beyond an end the curve goes on as the mirror image of how it came.
+                let reflected = |i: usize| DVec2::new(-places[i].x, places[i].y);
+                let before = if i == 0 { reflected(1) } else { places[i - 1] };
+                let after = if i + 1 == last {
+                    reflected(last - 1)
+                } else {
+                    places[i + 2]
+                };
+                self.piece([before, places[i], places[i + 1], after], i, i + 1)
+                    .flatten(FLATNESS, &mut margin);
+            }
+            let right = margin.len() - 1;
+            for i in (1..right).rev() {
+                margin.push(DVec2::new(-margin[i].x, margin[i].y));
+            }
+        } else {
+            let n = places.len();
+            for i in 0..n {
+                let [before, to, after] = [i + n - 1, i + 1, i + 2].map(|k| k % n);
+                let around = [before, i, to, after].map(|k| places[k]);
+                self.piece(around, i, to).flatten(FLATNESS, &mut margin);
+            }
+        }
+        let margin = margin.into_iter().map(|p| p * length_mm).collect();
+        Ok(Outline::new(
+            margin,
+            DVec2::ZERO,
+            DVec2::new(0.0, length_mm),
+        )?)
+    }
+
+    /// The curve between two neighbouring points, by their numbers, with those before and behind them.
+    fn piece(&self, around: [DVec2; 4], from: usize, to: usize) -> Cubic {
+        let [mut before, start, end, mut after] = around;
+        // At a corner the curve goes on as it came.
+        if self.points[from].corner {
+            before = 2.0 * start - end;
+        }
+        if self.points[to].corner {
+            after = 2.0 * end - start;
+        }
+        Cubic::catmull_rom([before, start, end, after])
+    }
+
+    fn validate(&self) -> Result<(), ContourCurveError> {
+        let points = self.points.len();
+        if !(3..=MOST_POINTS).contains(&points) {
+            return Err(ContourCurveError::PointCount { points });
+        }
+        let allowed = -FARTHEST..=FARTHEST;
+        for (index, point) in self.points.iter().enumerate() {
+            let [x, y] = point.place;
+            if !(allowed.contains(&x) && allowed.contains(&y)) {
+                return Err(ContourCurveError::OutOfRange { index, x, y });
+            }
+            let before = self.points[(index + points - 1) % points].place;
+            if point.place == before {
+                return Err(ContourCurveError::Coincident { index });
+            }
+        }
+        if self.mirrored {
+            let ends = [
+                (0, "first", "base, (0, 0)", [0.0, 0.0]),
+                (points - 1, "last", "apex, (0, 1)", [0.0, 1.0]),
+            ];
+            for (index, order, end, place) in ends {
+                let [x, y] = self.points[index].place;
+                if [x, y] != place {
+                    return Err(ContourCurveError::BadEnd { order, end, x, y });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(places: &[(f64, f64, bool)]) -> Vec<ControlPoint> {
+        places
+            .iter()
+            .map(|&(x, y, corner)| ControlPoint {
+                place: [x, y],
+                corner,
+            })
+            .collect()
+    }
+
+    fn lanceolate() -> ContourCurve {
+        let list = [
+            (0.0, 0.0, false),
+            (0.2, 0.3, false),
+            (0.1, 0.8, false),
+            (0.0, 1.0, true),
+        ];
+        ContourCurve {
+            points: points(&list),
+            mirrored: true,
+        }
+    }
+
+    #[test]
+    fn a_mirrored_contour_is_exactly_symmetric_and_passes_through_its_points() {
+        let outline = lanceolate().grow(50.0).expect("a good contour");
+        let margin = outline.points();
+        for p in margin {
+            assert!(
+                margin.contains(&DVec2::new(-p.x, p.y)),
+                "{p} has no mirror image"
+            );
+        }
+        for point in lanceolate().points {
+            assert!(margin.contains(&(DVec2::from(point.place) * 50.0)));
+        }
+        assert_eq!(
+            (outline.base(), outline.apex()),
+            (DVec2::ZERO, DVec2::new(0.0, 50.0))
+        );
+    }
+
+    #[test]
+    fn corners_all_round_give_a_polygon() {
+        let list = [
+            (-0.3, -0.2, true),
+            (0.3, 0.0, true),
+            (0.25, 1.1, true),
+            (-0.3, 1.2, true),
+        ];
+        let curve = ContourCurve {
+            points: points(&list),
+            mirrored: false,
+        };
+        let outline = curve.grow(10.0).expect("a square of sorts");
+        // Pieces between corners are straight, so no point but the corners is needed.
+        assert_eq!(outline.points().len(), 4);
+        let shoelace: f64 = (0..4)
+            .map(|i| {
+                let (a, b) = (list[i], list[(i + 1) % 4]);
+                50.0 * (a.0 * b.1 - b.0 * a.1)
+            })
+            .sum();
+        assert!((outline.area() - shoelace).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_on_a_circle_give_nearly_a_circle() {
+        // Radius 1/2 about the middle of the midrib.
+        let n = 24;
+        let place = |i: i32| {
+            let angle =
+                std::f64::consts::TAU * f64::from(i) / f64::from(n) - std::f64::consts::FRAC_PI_2;
+            (0.5 * libm::cos(angle), 0.5 + 0.5 * libm::sin(angle), false)
+        };
+        let list: Vec<_> = (0..n).map(place).collect();
+        let curve = ContourCurve {
+            points: points(&list),
+            mirrored: false,
+        };
+        let outline = curve.grow(1.0).expect("a circle");
+        // Between two points an angle θ apart the cubic lies inside the circle, most so midway, where its radius is
+        // r (cos(θ/2) + sin θ sin(θ/2) / 4).
+        let angle = std::f64::consts::TAU / f64::from(n);
+        let least =
+            0.5 * (libm::cos(angle / 2.0) + libm::sin(angle) * libm::sin(angle / 2.0) / 4.0);
+        for p in outline.points() {
+            let radius = (*p - DVec2::new(0.0, 0.5)).length();
+            assert!((least - 1e-12..=0.5 + 1e-12).contains(&radius), "{radius}");
+        }
+        let area = std::f64::consts::PI / 4.0;
+        assert!((outline.area() / area - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_smooth_base_is_level_and_a_corner_is_not() {
+        // Steepness of the first edge.
+        let slope = |corner| {
+            let mut curve = lanceolate();
+            curve.points[0].corner = corner;
+            let p = curve.grow(1.0).expect("a good contour").points()[1];
+            p.y / p.x
+        };
+        assert!(slope(false) < 0.1, "{}", slope(false));
+        assert!(slope(true) > 1.0, "{}", slope(true));
+    }
+
+    #[test]
+    fn each_bad_contour_is_refused_by_its_own_error() {
+        let spoiled = |spoil: fn(&mut ContourCurve)| {
+            let mut curve = lanceolate();
+            spoil(&mut curve);
+            curve.grow(50.0).expect_err("a bad contour")
+        };
+        assert_eq!(
+            spoiled(|c| c.points.truncate(2)),
+            ContourCurveError::PointCount { points: 2 }
+        );
+        assert!(matches!(
+            spoiled(|c| c.points[1].place[0] = f64::NAN),
+            ContourCurveError::OutOfRange { index: 1, .. }
+        ));
+        assert_eq!(
+            spoiled(|c| c.points[2] = c.points[1]),
+            ContourCurveError::Coincident { index: 2 }
+        );
+        assert!(matches!(
+            spoiled(|c| c.points[0].place[1] = 0.1),
+            ContourCurveError::BadEnd { order: "first", .. }
+        ));
+        assert!(matches!(
+            spoiled(|c| c.points.swap(1, 2)),
+            ContourCurveError::NoMargin(OutlineError::SelfCrossing { .. })
+        ));
+    }
+}

@@ -1,0 +1,184 @@
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::*;
+
+/// A strip 2 mm wide and 10 mm long, pointed at both ends where base and apex are.
+fn strip() -> Outline {
+    let corners = [
+        (0.0, 0.0),
+        (1.0, 0.5),
+        (1.0, 9.5),
+        (0.0, 10.0),
+        (-1.0, 9.5),
+        (-1.0, 0.5),
+    ];
+    let points = corners.map(DVec2::from).to_vec();
+    Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 10.0)).expect("a strip")
+}
+
+fn even(per_side: u32, height: f64) -> ToothWave {
+    ToothWave {
+        per_side,
+        height,
+        lean: 0.0,
+        fade_base: 0.0,
+        fade_apex: 0.0,
+    }
+}
+
+#[test]
+fn a_wave_is_a_triangle_of_its_height_and_lean() {
+    let wave = ToothWave {
+        lean: 0.5,
+        ..even(4, 0.1)
+    };
+    let heights = [0.0, 0.75 / 8.0, 0.75 / 4.0, 0.875 / 4.0, 0.25].map(|s| wave.at(s, false));
+    for (height, expected) in heights.into_iter().zip([0.0, 0.05, 0.1, 0.05, 0.0]) {
+        assert!(
+            (height - expected).abs() < 1e-12,
+            "{height} is not {expected}"
+        );
+    }
+    // An upright side: full height before, none behind, at the apex too.
+    let saw = ToothWave {
+        lean: 1.0,
+        ..even(4, 0.1)
+    };
+    assert_eq!((saw.at(0.25, true), saw.at(0.25, false)), (0.1, 0.0));
+    assert_eq!((saw.at(1.0, true), saw.at(1.0, false)), (0.1, 0.0));
+    assert_eq!((saw.at(0.0, true), saw.at(0.0, false)), (0.0, 0.0));
+    let back = ToothWave {
+        lean: -1.0,
+        ..even(4, 0.1)
+    };
+    assert_eq!((back.at(0.25, true), back.at(0.25, false)), (0.0, 0.1));
+    let faded = ToothWave {
+        fade_base: 0.5,
+        fade_apex: 0.25,
+        ..even(8, 0.1)
+    };
+    // Tips of the first and the last tooth lie a sixteenth from either end.
+    assert!((faded.at(1.0 / 16.0, false) - 0.1 / 8.0).abs() < 1e-12);
+    assert!((faded.at(15.0 / 16.0, false) - 0.1 / 4.0).abs() < 1e-12);
+}
+
+#[test]
+fn waves_add_up() {
+    let waves = [even(1, 0.2), even(4, 0.1)];
+    let sum: f64 = waves.iter().map(|wave| wave.at(0.375, false)).sum();
+    assert!((sum - (0.15 + 0.1)).abs() < 1e-12);
+}
+
+#[test]
+fn teeth_on_a_straight_side_are_triangles_of_known_area() {
+    let plain = strip();
+    // A side is 2 √(1 + 1/4) + 9 long; so many teeth that those at its corners hardly count.
+    let side = 2.0 * 1.25_f64.sqrt() + 9.0;
+    let height = 0.01;
+    let toothed = toothed(&plain, &[even(200, height)]).expect("small teeth");
+    let gain = toothed.area() - plain.area();
+    let expected = 2.0 * side * (height * 10.0) / 2.0;
+    assert!(
+        (gain / expected - 1.0).abs() < 0.02,
+        "{gain} is not {expected}"
+    );
+    assert_eq!(
+        (toothed.base(), toothed.apex()),
+        (plain.base(), plain.apex())
+    );
+    for end in [plain.base(), plain.apex()] {
+        assert!(toothed.points().contains(&end), "{end} is no corner");
+    }
+    let (low, high) = toothed.bounds();
+    assert!((high.x - 1.1).abs() < 1e-9 && (low.x + 1.1).abs() < 1e-9);
+}
+
+#[test]
+fn saw_teeth_have_upright_sides_towards_the_apex() {
+    let saw = ToothWave {
+        lean: 1.0,
+        ..even(40, 0.02)
+    };
+    let toothed = toothed(&strip(), &[saw]).expect("saw teeth");
+    let right: Vec<DVec2> = toothed
+        .points()
+        .iter()
+        .copied()
+        .filter(|p| p.x > 0.5 && (2.0..8.0).contains(&p.y))
+        .collect();
+    let level = right
+        .windows(2)
+        .filter(|edge| (edge[1].y - edge[0].y).abs() < 1e-9);
+    // Each upright side is level, 0.2 mm long, and leads inward as one goes up.
+    assert!(level.clone().count() >= 20);
+    for edge in level {
+        assert!((edge[0].x - edge[1].x - 0.2).abs() < 1e-9, "{edge:?}");
+    }
+}
+
+#[test]
+fn teeth_that_run_into_each_other_are_refused() {
+    // A notch one tenth of a millimetre wide, teeth half a millimetre high.
+    let corners = [
+        (0.0, 0.0),
+        (2.0, 0.0),
+        (2.0, 4.95),
+        (1.0, 5.0),
+        (2.0, 5.05),
+        (2.0, 10.0),
+        (0.0, 10.0),
+    ];
+    let points = corners.map(DVec2::from).to_vec();
+    let outline =
+        Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 10.0)).expect("a notched strip");
+    assert!(matches!(
+        toothed(&outline, &[even(24, 0.05)]),
+        Err(TeethError::NoMargin(OutlineError::SelfCrossing { .. }))
+    ));
+}
+
+#[test]
+fn each_bad_wave_is_refused_by_name() {
+    type Spoil = fn(&mut ToothWave);
+    let spoils: [(Spoil, &str); 5] = [
+        (|w| w.per_side = 0, "per_side"),
+        (|w| w.height = -0.1, "height"),
+        (|w| w.lean = f64::NAN, "lean"),
+        (|w| w.fade_base = 1.5, "fade_base"),
+        (|w| w.fade_apex = -1.0, "fade_apex"),
+    ];
+    for (spoil, key) in spoils {
+        let mut wave = even(3, 0.01);
+        spoil(&mut wave);
+        let message = toothed(&strip(), &[even(3, 0.01), wave])
+            .expect_err(key)
+            .to_string();
+        assert!(
+            message.starts_with(&format!("teeth 1: {key} is ")),
+            "{message}"
+        );
+    }
+    let many = [even(3, 0.001); 21];
+    assert_eq!(
+        toothed(&strip(), &many),
+        Err(TeethError::TooManyWaves { waves: 21 })
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(64) })]
+
+    #[test]
+    fn a_toothed_symmetric_leaf_is_symmetric(
+        per_side in 1_u32..60, height in 0.001..0.02, lean in -1.0..1.0_f64,
+        fades in prop::array::uniform2(0.0..1.0_f64),
+    ) {
+        let wave = ToothWave { per_side, height, lean, fade_base: fades[0], fade_apex: fades[1] };
+        let outline = toothed(&strip(), &[wave, even(7, 0.01)]).expect("small teeth");
+        for p in outline.points() {
+            prop_assert!(outline.points().contains(&DVec2::new(-p.x, p.y)), "{} has no mirror image", p);
+        }
+        prop_assert!(outline.area() > strip().area());
+    }
+}
