@@ -30,6 +30,7 @@ pub(crate) mod tree;
 mod values;
 mod venation;
 pub(crate) mod write;
+pub(crate) mod write_leaf;
 
 use std::collections::BTreeSet;
 

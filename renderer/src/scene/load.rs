@@ -6,13 +6,14 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
+use leafmodel::leaf::LeafPlan;
 use toml::de::DeTable;
 
 use super::description::{Description, Leaf, Named};
 use super::document::context::{Context, QUOTED};
 use super::document::names::is_name;
 use super::document::tree::Table;
-use super::document::{overrides, read, read_leaves, write};
+use super::document::{overrides, read, read_leaves, write, write_leaf};
 use super::error::{LocatedError, SceneError};
 use super::report::{SceneErrors, Warning};
 use super::source::{Place, Sources, escaped, line_of_byte};
@@ -52,6 +53,31 @@ pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>
     let opened = Opened::file(path, overrides)?;
     let leaves = read_leaves(&opened.cx, &opened.tree);
     opened.finish(leaves).map(|(leaves, _)| leaves)
+}
+
+/// Reads only the leaves of a text; `file_name` and `folder` as for [`parse`].
+///
+/// # Errors
+///
+/// As [`load_leaves`].
+pub fn parse_leaves(
+    text: &str,
+    file_name: &str,
+    folder: &Path,
+    overrides: &[String],
+) -> Result<Vec<Named<Leaf>>, SceneErrors> {
+    let shown = escaped(file_name, 4 * QUOTED);
+    let opened = Opened::text(text, &shown, folder, overrides)?;
+    let leaves = read_leaves(&opened.cx, &opened.tree);
+    opened.finish(leaves).map(|(leaves, _)| leaves)
+}
+
+/// A file with the one leaf `name` that [`parse_leaves`] reads back to the same plan. Keys are left out where
+/// they have their default, and always come in the same order.
+///
+/// A plan with numbers that no scene may have gives a file that is refused when it is read.
+pub fn leaf_to_toml(name: &str, plan: &LeafPlan) -> String {
+    write_leaf::to_toml(name, plan)
 }
 
 /// Reads a scene from its text.

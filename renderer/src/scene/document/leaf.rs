@@ -26,12 +26,15 @@ const VEIN_FACTORS: Contents = Contents {
     dry_matter: 2.5,
 };
 
+/// Texels of the content maps along the longer side where nothing is said.
+pub(crate) const MAP_SIZE: u64 = 1024;
+
 /// Reads one block of `[leaves]`.
 pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     require_prospect(block.cx, &block.at);
     let length_mm = block.number("length_mm", Limits::closed(0.1, 10_000.0));
     let seed = block.integer_or("seed", 0, u64::MAX, 0);
-    let map_size = block.integer_or("map_size", 16, 8192, 1024) as u32;
+    let map_size = block.integer_or("map_size", 16, 8192, MAP_SIZE) as u32;
     let (outline, grown) = read_outline(block).unzip();
     let venation = read_venation(block, grown.as_ref());
     let contents = block
@@ -62,20 +65,39 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     })
 }
 
-/// `veins` and `mottle`, both of which may be left out.
-fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
-    const FACTORS: Limits = Limits::closed(0.0, 100.0);
-    const FULL_MM: Limits = Limits::closed(0.001, 100.0);
-    const SHEATH_MM: Limits = Limits::closed(0.001, 5.0);
-    const PATCH_MM: Limits = Limits::closed(0.01, 1000.0);
-    let mut tissue = Tissue {
+/// Tissue of which only the contents are said.
+pub(crate) fn default_tissue(lamina: Contents) -> Tissue {
+    Tissue {
         lamina,
         vein_factors: VEIN_FACTORS,
         full_vein_radius_mm: 0.06,
         sheath_width_mm: 0.1,
         mottle: 0.0,
         mottle_scale_mm: 1.0,
-    };
+    }
+}
+
+/// A blade of which nothing is said: nearly flat.
+pub(crate) fn default_form(length_mm: f64) -> BladeForm {
+    BladeForm {
+        fold: 0.0,
+        curl: 0.0,
+        ruffle: 0.0,
+        ruffle_waves: 3.0,
+        relief: 0.5,
+        thickness_mm: 0.2,
+        max_edge_mm: length_mm / 80.0,
+        meshed_vein_radius_mm: 0.1,
+    }
+}
+
+/// `veins` and `mottle`, both of which may be left out.
+fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
+    const FACTORS: Limits = Limits::closed(0.0, 100.0);
+    const FULL_MM: Limits = Limits::closed(0.001, 100.0);
+    const SHEATH_MM: Limits = Limits::closed(0.001, 5.0);
+    const PATCH_MM: Limits = Limits::closed(0.01, 1000.0);
+    let mut tissue = default_tissue(lamina);
     if let Some(block) = leaf.optional_block("veins") {
         let factors = &mut tissue.vein_factors;
         for (key, factor) in [
@@ -107,16 +129,7 @@ fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
 
 /// `blade`, which may be left out: a leaf that is nearly flat.
 fn read_form(leaf: &Block<'_>, length_mm: f64) -> BladeForm {
-    let mut form = BladeForm {
-        fold: 0.0,
-        curl: 0.0,
-        ruffle: 0.0,
-        ruffle_waves: 3.0,
-        relief: 0.5,
-        thickness_mm: 0.2,
-        max_edge_mm: length_mm / 80.0,
-        meshed_vein_radius_mm: 0.1,
-    };
+    let mut form = default_form(length_mm);
     let Some(block) = leaf.optional_block("blade") else {
         return form;
     };

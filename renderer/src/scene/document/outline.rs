@@ -31,15 +31,15 @@ pub(crate) fn read_outline(leaf: &Block<'_>) -> Option<(OutlinePlan, Outline)> {
     match plan.grow(1.0) {
         Ok(grown) => Some((plan, grown)),
         Err(error) => {
-            report(&outline, &block, error);
+            report(&outline, &block, &error);
             None
         }
     }
 }
 
 /// Reports an outline that each of its numbers allows and that is none all the same, at the key to change.
-fn report(outline: &Block<'_>, block: &Block<'_>, error: OutlinePlanError) {
-    let (block, key, help) = match &error {
+fn report(outline: &Block<'_>, block: &Block<'_>, error: &OutlinePlanError) {
+    let (block, key, help) = match error {
         OutlinePlanError::Teeth(_) => (outline, "teeth", "make the teeth lower, or fewer"),
         OutlinePlanError::Curve(_) => (
             block,

@@ -48,11 +48,7 @@ pub(crate) fn read_venation(leaf: &Block<'_>, outline: Option<&Outline>) -> Opti
     let unseen_veinlets = block.number_or("unseen_veinlets", Limits::closed(0.0, 1e3), 0.0);
     let gaussian_curvature = block.number_or("gaussian_curvature", Limits::closed(-2.0, 8.0), 0.0);
     // Only areoles have room for them.
-    let free_endings = if closed {
-        read_free_endings(&block)
-    } else {
-        Some(None)
-    };
+    let free_endings = closed.then(|| read_free_endings(&block)).flatten();
     let margin_clearance = read_margin_clearance(&block);
     let growth = growth::read_growth(&block, final_length);
     block.finish();
@@ -68,8 +64,8 @@ pub(crate) fn read_venation(leaf: &Block<'_>, outline: Option<&Outline>) -> Opti
         murray_exponent,
         veinlet_radius_mm: veinlet_radius_mm?,
         unseen_veinlets,
-        free_endings: free_endings?,
-        margin_clearance: margin_clearance?,
+        free_endings,
+        margin_clearance,
         gaussian_curvature,
     };
     if let Some(outline) = outline
@@ -142,36 +138,30 @@ fn read_origins(block: &Block<'_>) -> Option<Vec<[f64; 2]>> {
     places.into_iter().collect()
 }
 
-/// `Some(None)` where the block is left out.
-fn read_free_endings(venation: &Block<'_>) -> Option<Option<FreeEndings>> {
-    if venation.entry("free_endings").is_none() {
-        return Some(None);
-    }
+/// `None` where the block is left out, or has an error.
+fn read_free_endings(venation: &Block<'_>) -> Option<FreeEndings> {
     let block = venation.optional_block("free_endings")?;
     let birth_distance = block.number("birth_distance_segments", DISTANCES);
     let kill_distance = block.number("kill_distance_segments", DISTANCES);
     let darts_per_area = block.number("darts_per_segment2", DARTS);
     block.finish();
-    Some(Some(FreeEndings {
+    Some(FreeEndings {
         birth_distance: birth_distance?,
         kill_distance: kill_distance?,
         darts_per_area: darts_per_area?,
-    }))
+    })
 }
 
-/// `Some(None)` where the block is left out.
-fn read_margin_clearance(venation: &Block<'_>) -> Option<Option<MarginClearance>> {
-    if venation.entry("margin_clearance").is_none() {
-        return Some(None);
-    }
+/// `None` where the block is left out, or has an error.
+fn read_margin_clearance(venation: &Block<'_>) -> Option<MarginClearance> {
     let block = venation.optional_block("margin_clearance")?;
     let distance = block.number("distance", Limits::closed(1e-6, 0.5));
     let until = block.number("until", Limits::closed(0.0, 1.0));
     block.finish();
-    Some(Some(MarginClearance {
+    Some(MarginClearance {
         distance: distance?,
         until: until?,
-    }))
+    })
 }
 
 /// Reports a plan that each of its numbers allows and that cannot be carried out all the same, at the key to change.

@@ -1,0 +1,334 @@
+//! A leaf's plan as the blocks of a file that read back to it.
+//!
+//! The mirror image of [`super::leaf`], [`super::outline`] and [`super::venation`]: same keys, same defaults.
+
+use leafmodel::blade::BladeForm;
+use leafmodel::blade::tissue::Tissue;
+use leafmodel::leaf::LeafPlan;
+use leafmodel::optics::Contents;
+use leafmodel::shape::contour_curve::ContourCurve;
+use leafmodel::shape::growth_shape::GrowthShape;
+use leafmodel::shape::outline_plan::{Contour, OutlinePlan};
+use leafmodel::shape::svg_path::SvgContour;
+use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+
+use super::leaf::{MAP_SIZE, default_form, default_tissue};
+use super::tree::{Entry, Node, Table, Value};
+use super::write;
+use crate::scene::source::Place;
+
+/// Text of a file with `format = 1` and the one leaf.
+pub(crate) fn to_toml(name: &str, plan: &LeafPlan) -> String {
+    let mut root = Keys::default();
+    root.integer("format", 1);
+    root.block("leaves", Keys::default().with(name, leaf(plan)));
+    write::to_toml(&root.0)
+}
+
+/// A table in the making.
+#[derive(Default)]
+struct Keys(Table);
+
+impl Keys {
+    fn value(&mut self, key: &str, value: Value) {
+        let node = node(value);
+        self.0.0.push(Entry {
+            key: key.to_owned(),
+            key_at: node.at.clone(),
+            node,
+        });
+    }
+
+    fn block(&mut self, key: &str, block: Self) {
+        self.value(key, Value::Table(block.0));
+    }
+
+    fn with(mut self, key: &str, block: Self) -> Self {
+        self.block(key, block);
+        self
+    }
+
+    /// A block only if there is something in it.
+    fn block_if_any(&mut self, key: &str, block: Self) {
+        if !block.0.0.is_empty() {
+            self.block(key, block);
+        }
+    }
+
+    fn integer(&mut self, key: &str, value: u64) {
+        self.value(key, Value::Integer(value.into()));
+    }
+
+    fn number(&mut self, key: &str, value: f64) {
+        self.value(key, number(value));
+    }
+
+    fn number_unless(&mut self, key: &str, value: f64, default: f64) {
+        if value != default {
+            self.number(key, value);
+        }
+    }
+}
+
+fn node(value: Value) -> Node {
+    let at = Place {
+        source: 0,
+        span: 0..0,
+    };
+    Node { at, value }
+}
+
+/// A number as one would write it: without a point if it is whole.
+fn number(value: f64) -> Value {
+    // Every whole number so small is exact either way.
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        Value::Integer(value as i128)
+    } else {
+        Value::Number(value)
+    }
+}
+
+fn list(values: impl IntoIterator<Item = Value>) -> Value {
+    Value::List(values.into_iter().map(node).collect())
+}
+
+fn pair(numbers: [f64; 2]) -> Value {
+    list(numbers.map(number))
+}
+
+fn leaf(plan: &LeafPlan) -> Keys {
+    let mut keys = Keys::default();
+    keys.number("length_mm", plan.length_mm);
+    if plan.seed != 0 {
+        keys.integer("seed", plan.seed);
+    }
+    if u64::from(plan.map_size) != MAP_SIZE {
+        keys.integer("map_size", plan.map_size.into());
+    }
+    keys.block("outline", outline(&plan.outline));
+    keys.block("venation", venation(&plan.venation));
+    keys.block("contents", contents(&plan.tissue.lamina));
+    let (veins, mottle) = tissue(&plan.tissue);
+    keys.block_if_any("veins", veins);
+    keys.block_if_any("mottle", mottle);
+    keys.block_if_any("blade", form(&plan.form, plan.length_mm));
+    keys
+}
+
+fn outline(plan: &OutlinePlan) -> Keys {
+    let mut keys = Keys::default();
+    if !plan.teeth.is_empty() {
+        let waves = plan.teeth.iter().map(|wave| {
+            let mut keys = Keys::default();
+            keys.integer("per_side", wave.per_side.into());
+            keys.number("height", wave.height);
+            keys.number_unless("lean", wave.lean, 0.0);
+            keys.number_unless("fade_base", wave.fade_base, 0.0);
+            keys.number_unless("fade_apex", wave.fade_apex, 0.0);
+            Value::Table(keys.0)
+        });
+        keys.value("teeth", list(waves));
+    }
+    match &plan.contour {
+        Contour::GrowthAlgorithm(shape) => keys.block("growth_algorithm", growth_shape(shape)),
+        Contour::Curve(contour) => keys.block("curve", curve(contour)),
+        Contour::Svg(contour) => keys.block("svg", svg(contour)),
+    }
+    keys
+}
+
+fn growth_shape(shape: &GrowthShape) -> Keys {
+    let mut keys = Keys::default();
+    if shape.rows != 150 {
+        keys.integer("rows", shape.rows as u64);
+    }
+    keys.number_unless("axial_rate", shape.axial_rate, 0.1);
+    keys.number("rate_ratio", shape.rate_ratio);
+    keys.number("widest_at", shape.widest_at);
+    keys.number("falloff", shape.falloff);
+    keys.number_unless("lobe_decay", shape.lobe_decay, 0.0);
+    keys.number_unless("lobe_exponent", shape.lobe_exponent, 2.0);
+    if !shape.veins.is_empty() {
+        let veins = shape.veins.iter();
+        keys.value(
+            "veins",
+            list(veins.map(|vein| pair([vein.position, vein.slope]))),
+        );
+    }
+    keys
+}
+
+fn curve(contour: &ContourCurve) -> Keys {
+    let mut keys = Keys::default();
+    let points = contour.points.iter().map(|point| {
+        let corner = point.corner.then(|| Value::Text("corner".to_owned()));
+        list(point.place.map(number).into_iter().chain(corner))
+    });
+    keys.value("points", list(points));
+    if !contour.mirrored {
+        keys.value("mirrored", Value::Flag(false));
+    }
+    keys
+}
+
+fn svg(contour: &SvgContour) -> Keys {
+    let mut keys = Keys::default();
+    keys.value("path", Value::Text(contour.file.clone()));
+    if let Some(id) = &contour.id {
+        keys.value("id", Value::Text(id.clone()));
+    }
+    let [base, apex] = SvgContour::ends_of(&contour.points);
+    for (key, place, default) in [("base", contour.base, base), ("apex", contour.apex, apex)] {
+        if place != default {
+            keys.value(key, pair(place));
+        }
+    }
+    keys
+}
+
+fn venation(plan: &VenationPlan) -> Keys {
+    let mut keys = Keys::default();
+    keys.number("final_length_segments", plan.final_length);
+    keys.number("kill_distance_segments", plan.kill_distance);
+    if plan.source_birth_distance == plan.vein_birth_distance {
+        keys.number("birth_distance_segments", plan.vein_birth_distance);
+    } else {
+        keys.number("source_birth_distance_segments", plan.source_birth_distance);
+        keys.number("vein_birth_distance_segments", plan.vein_birth_distance);
+    }
+    keys.number("darts_per_segment2", plan.darts_per_area);
+    keys.number_unless("murray_exponent", plan.murray_exponent, 2.0);
+    keys.number("veinlet_radius_mm", plan.veinlet_radius_mm);
+    let pattern = match plan.pattern {
+        Pattern::Open => "open",
+        Pattern::Closed(Neighbourhood::Relative) => "closed",
+        Pattern::Closed(Neighbourhood::Urquhart) => {
+            keys.value("neighbourhood", Value::Text("urquhart".to_owned()));
+            "closed"
+        }
+    };
+    if !plan.origins.is_empty() {
+        keys.value("origins", list(plan.origins.iter().copied().map(pair)));
+    }
+    keys.number_unless("unseen_veinlets", plan.unseen_veinlets, 0.0);
+    keys.number_unless("gaussian_curvature", plan.gaussian_curvature, 0.0);
+    if let Some(free) = &plan.free_endings {
+        let mut block = Keys::default();
+        block.number("birth_distance_segments", free.birth_distance);
+        block.number("kill_distance_segments", free.kill_distance);
+        block.number("darts_per_segment2", free.darts_per_area);
+        keys.block("free_endings", block);
+    }
+    if let Some(clearance) = &plan.margin_clearance {
+        let mut block = Keys::default();
+        block.number("distance", clearance.distance);
+        block.number("until", clearance.until);
+        keys.block("margin_clearance", block);
+    }
+    keys.block("growth", growth(&plan.growth));
+    Keys::default().with(pattern, keys)
+}
+
+fn growth(growth: &Growth) -> Keys {
+    let mut keys = Keys::default();
+    let kind = match growth {
+        Growth::None => "none",
+        Growth::Marginal {
+            initial_length,
+            length_step,
+        } => {
+            keys.number("initial_length_segments", *initial_length);
+            keys.number("length_step_segments", *length_step);
+            "marginal"
+        }
+        Growth::Isogonic {
+            initial_length,
+            length_step,
+        } => {
+            keys.number("initial_length_segments", *initial_length);
+            keys.number("length_step_segments", *length_step);
+            "isogonic"
+        }
+        Growth::Anisotropic {
+            initial_length,
+            across,
+            along,
+        } => {
+            keys.number("initial_length_segments", *initial_length);
+            for (key, rates) in [("across", across), ("along", along)] {
+                keys.value(key, list(rates.knots().iter().copied().map(pair)));
+            }
+            "anisotropic"
+        }
+    };
+    Keys::default().with(kind, keys)
+}
+
+fn contents(contents: &Contents) -> Keys {
+    let mut keys = Keys::default();
+    keys.number("structure", contents.structure);
+    keys.number("chlorophyll_ug_per_cm2", contents.chlorophyll);
+    keys.number("carotenoids_ug_per_cm2", contents.carotenoids);
+    keys.number_unless("anthocyanins_ug_per_cm2", contents.anthocyanins, 0.0);
+    keys.number_unless("brown", contents.brown, 0.0);
+    keys.number("water_cm", contents.water);
+    keys.number("dry_matter_g_per_cm2", contents.dry_matter);
+    keys
+}
+
+/// The blocks `veins` and `mottle`.
+fn tissue(tissue: &Tissue) -> (Keys, Keys) {
+    let default = default_tissue(tissue.lamina);
+    let mut veins = Keys::default();
+    let (own, usual) = (tissue.vein_factors, default.vein_factors);
+    for (key, (value, default)) in Contents::NAMES
+        .into_iter()
+        .zip(own.to_array().into_iter().zip(usual.to_array()))
+    {
+        veins.number_unless(key, value, default);
+    }
+    let full = tissue.full_vein_radius_mm;
+    veins.number_unless("full_radius_mm", full, default.full_vein_radius_mm);
+    let sheath = tissue.sheath_width_mm;
+    veins.number_unless("sheath_width_mm", sheath, default.sheath_width_mm);
+    let mut mottle = Keys::default();
+    let scale = tissue.mottle_scale_mm;
+    if tissue.mottle != default.mottle || scale != default.mottle_scale_mm {
+        mottle.number("share", tissue.mottle);
+        mottle.number_unless("scale_mm", scale, default.mottle_scale_mm);
+    }
+    (veins, mottle)
+}
+
+/// The block `blade`.
+fn form(form: &BladeForm, length_mm: f64) -> Keys {
+    let default = default_form(length_mm);
+    let mut keys = Keys::default();
+    keys.number_unless("fold_deg", degrees(form.fold), 0.0);
+    keys.number_unless("curl_deg", degrees(form.curl), 0.0);
+    keys.number_unless("ruffle", form.ruffle, default.ruffle);
+    keys.number_unless("ruffle_waves", form.ruffle_waves, default.ruffle_waves);
+    keys.number_unless("relief", form.relief, default.relief);
+    keys.number_unless("thickness_mm", form.thickness_mm, default.thickness_mm);
+    keys.number_unless("max_edge_mm", form.max_edge_mm, default.max_edge_mm);
+    let meshed = form.meshed_vein_radius_mm;
+    keys.number_unless(
+        "meshed_vein_radius_mm",
+        meshed,
+        default.meshed_vein_radius_mm,
+    );
+    keys
+}
+
+/// Degrees that read back to the same radians if any do; the shortest that do if they are short.
+fn degrees(radians: f64) -> f64 {
+    let near = radians.to_degrees();
+    let short = (near * 1e6).round() / 1e6;
+    [short, near, near.next_up(), near.next_down()]
+        .into_iter()
+        .find(|degrees| degrees.to_radians() == radians)
+        .unwrap_or(near)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,328 @@
+use leafmodel::shape::contour_curve::ControlPoint;
+use leafmodel::shape::growth::RateCurve;
+use leafmodel::shape::growth_shape::VeinRow;
+use leafmodel::shape::teeth::ToothWave;
+use leafmodel::venation::plan::{FreeEndings, MarginClearance};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::*;
+use crate::scene::load::{leaf_to_toml, parse_leaves};
+
+const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\">\
+    <path d=\"M0 0H9V9Z\"/><path id=\"kite\" d=\"M5 9 C6 8 6 7 5 5 L4 7 Z\"/></svg>";
+
+fn ovate() -> GrowthShape {
+    GrowthShape {
+        rows: 150,
+        axial_rate: 0.1,
+        rate_ratio: 1.2,
+        widest_at: 0.3,
+        falloff: 3.0,
+        lobe_decay: 0.0,
+        lobe_exponent: 2.0,
+        veins: Vec::new(),
+    }
+}
+
+fn plain() -> LeafPlan {
+    LeafPlan {
+        length_mm: 80.0,
+        seed: 0,
+        outline: Contour::GrowthAlgorithm(ovate()).into(),
+        venation: VenationPlan::default(),
+        tissue: default_tissue(Contents::from_array([
+            1.5, 40.0, 9.0, 0.0, 0.0, 0.01, 0.006,
+        ])),
+        form: default_form(80.0),
+        map_size: 1024,
+    }
+}
+
+fn contour() -> impl Strategy<Value = Contour> {
+    let grown = (
+        3_usize..300,
+        0.01..1.0,
+        1.0..2.0,
+        0.1..0.9,
+        0.5..9.0,
+        0.0..0.01,
+        0.5..3.0,
+        0_usize..4,
+    )
+        .prop_map(
+            |(
+                rows,
+                axial_rate,
+                rate_ratio,
+                widest_at,
+                falloff,
+                lobe_decay,
+                lobe_exponent,
+                veins,
+            )| {
+                let vein = |i: usize| VeinRow {
+                    position: (i as f64 + 0.5) / 4.0,
+                    slope: 0.6,
+                };
+                Contour::GrowthAlgorithm(GrowthShape {
+                    rows,
+                    axial_rate,
+                    rate_ratio,
+                    widest_at,
+                    falloff,
+                    lobe_decay,
+                    lobe_exponent,
+                    veins: (0..veins).map(vein).collect(),
+                })
+            },
+        );
+    let drawn = (
+        prop::collection::vec((0.05..0.5, any::<bool>()), 1..6),
+        any::<bool>(),
+    )
+        .prop_map(|(widths, mirrored)| {
+            let step = 1.0 / (widths.len() + 1) as f64;
+            let point = |place, corner| ControlPoint { place, corner };
+            let heights = (1..).map(|i| f64::from(i) * step);
+            let right = widths
+                .iter()
+                .zip(heights)
+                .map(|(&(x, corner), y)| point([x, y], corner));
+            let ends = [point([0.0, 0.0], false), point([0.0, 1.0], true)];
+            let mut points: Vec<ControlPoint> = std::iter::once(ends[0])
+                .chain(right)
+                .chain([ends[1]])
+                .collect();
+            if !mirrored {
+                points.push(point([-0.3, 0.5], false));
+            }
+            Contour::Curve(ContourCurve { points, mirrored })
+        });
+    let traced = (any::<bool>(), any::<bool>()).prop_map(|(named, turned)| {
+        let id = named.then_some("kite");
+        let mut contour = SvgContour::parse("leaf.svg", SVG, id).expect("a good file");
+        if turned {
+            contour.base = contour.points[1];
+        }
+        Contour::Svg(contour)
+    });
+    prop_oneof![grown, drawn, traced]
+}
+
+fn growth() -> impl Strategy<Value = Growth> {
+    let lengths = || (1.0..100.0, 0.1..10.0);
+    let rates = || {
+        prop::collection::vec(0.001..0.1, 1..5).prop_map(|rates| {
+            let knot = |(i, rate)| [f64::from(i) / 7.0, rate];
+            RateCurve::new((0..).zip(rates).map(knot).collect()).expect("good rates")
+        })
+    };
+    prop_oneof![
+        Just(Growth::None),
+        lengths().prop_map(|(initial_length, length_step)| Growth::Marginal {
+            initial_length,
+            length_step
+        }),
+        lengths().prop_map(|(initial_length, length_step)| Growth::Isogonic {
+            initial_length,
+            length_step
+        }),
+        (1.0..50.0, rates(), rates()).prop_map(|(initial_length, across, along)| {
+            Growth::Anisotropic {
+                initial_length,
+                across,
+                along,
+            }
+        }),
+    ]
+}
+
+fn venation() -> impl Strategy<Value = VenationPlan> {
+    let pattern = prop_oneof![
+        Just(Pattern::Open),
+        Just(Pattern::Closed(Neighbourhood::Relative)),
+        Just(Pattern::Closed(Neighbourhood::Urquhart)),
+    ];
+    let free = prop::option::of((0.5..9.0, 0.5..9.0, 0.01..5.0));
+    let clearance = prop::option::of((0.01..0.5, 0.0..1.0));
+    let numbers = (
+        100.0..2000.0,
+        0.01..50.0,
+        0.01..50.0,
+        any::<bool>(),
+        1e-6..1.0,
+    );
+    let more = (
+        0.5..4.0,
+        1e-3..1.0,
+        prop_oneof![Just(0.0), 0.0..100.0],
+        prop_oneof![Just(0.0), -0.5..8.0],
+    );
+    let origins = prop_oneof![Just(Vec::new()), Just(vec![[0.0, 0.0], [0.0, 0.25]])];
+    (pattern, growth(), free, clearance, numbers, more, origins).prop_map(
+        |(pattern, growth, free, clearance, numbers, more, origins)| {
+            let (final_length, kill_distance, birth, same, darts_per_area) = numbers;
+            let (murray_exponent, veinlet_radius_mm, unseen_veinlets, gaussian_curvature) = more;
+            let free = free.filter(|_| pattern != Pattern::Open);
+            VenationPlan {
+                pattern,
+                origins,
+                final_length,
+                kill_distance,
+                source_birth_distance: birth,
+                vein_birth_distance: if same { birth } else { birth * 1.5 },
+                darts_per_area,
+                // The two do not go together.
+                gaussian_curvature: match growth {
+                    Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => {
+                        gaussian_curvature
+                    }
+                    Growth::Anisotropic { .. } => 0.0,
+                },
+                growth,
+                murray_exponent,
+                veinlet_radius_mm,
+                unseen_veinlets,
+                free_endings: free.map(|(birth_distance, kill_distance, darts_per_area)| {
+                    FreeEndings {
+                        birth_distance,
+                        kill_distance,
+                        darts_per_area,
+                    }
+                }),
+                margin_clearance: clearance
+                    .map(|(distance, until)| MarginClearance { distance, until }),
+            }
+        },
+    )
+}
+
+fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
+    let share = || prop_oneof![Just(0.0), 0.0..1.0];
+    let wave = (
+        1_u32..20,
+        0.0001..0.005,
+        prop_oneof![Just(0.0), -1.0..1.0],
+        share(),
+        share(),
+    )
+        .prop_map(|(per_side, height, lean, fade_base, fade_apex)| ToothWave {
+            per_side,
+            height,
+            lean,
+            fade_base,
+            fade_apex,
+        });
+    prop::collection::vec(wave, 0..3)
+}
+
+fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
+    let contents = (1.0..4.0, prop::array::uniform6(0.0..1.0)).prop_map(|(structure, rest)| {
+        let [a, b, c, d, e, f] = rest;
+        Contents::from_array([structure, a * 80.0, b * 20.0, c, d, e, f])
+    });
+    let tissue = (
+        contents,
+        prop::option::of(prop::array::uniform6(0.0..2.0)),
+        0.0..1.0_f64,
+    )
+        .prop_map(|(lamina, factors, mottle)| {
+            let mut tissue = default_tissue(lamina);
+            if let Some([a, b, c, d, e, f]) = factors {
+                tissue.vein_factors = Contents::from_array([1.3, a, b, c, d, e, f]);
+                tissue.mottle = mottle;
+                tissue.sheath_width_mm = 0.1 + mottle;
+            }
+            tissue
+        });
+    let form = (
+        -80.0..80.0_f64,
+        -355.0..355.0_f64,
+        0.0..0.5,
+        0.5..2.0,
+        any::<bool>(),
+    )
+        .prop_map(|(fold, curl, ruffle, relief, plain)| {
+            let default = default_form(80.0);
+            if plain {
+                return default;
+            }
+            BladeForm {
+                fold: fold.to_radians(),
+                curl: curl.to_radians(),
+                ruffle,
+                relief,
+                max_edge_mm: relief,
+                ..default
+            }
+        });
+    (tissue, form)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+
+    #[test]
+    fn a_written_plan_reads_back_to_the_same(
+        contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
+        seed in any::<u64>(), map_size in 16_u32..8192,
+    ) {
+        let outline = OutlinePlan { contour, teeth };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, form, map_size };
+        // What cannot be grown is refused by the reader, as it should be.
+        let Ok(outline) = plan.outline.grow(80.0) else {
+            return Err(TestCaseError::reject("no margin"));
+        };
+        prop_assume!(leafmodel::venation::check(&outline, &plan.venation).is_ok());
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("leaf.svg"), SVG).expect("the folder was just made");
+        let text = leaf_to_toml("beech", &plan);
+        let leaves = match parse_leaves(&text, "beech", folder.path(), &[]) {
+            Ok(leaves) => leaves,
+            Err(errors) => return Err(TestCaseError::fail(format!("{errors}\n{text}"))),
+        };
+        prop_assert_eq!(&leaves[0].value.plan, &plan, "{}", text);
+        prop_assert_eq!(leaf_to_toml("beech", &leaves[0].value.plan), text);
+    }
+
+    #[test]
+    fn whole_degrees_stay_whole(angle in -355..355_i32) {
+        prop_assert_eq!(degrees(f64::from(angle).to_radians()), f64::from(angle));
+    }
+}
+
+#[test]
+fn what_has_its_default_is_left_out() {
+    assert_eq!(
+        leaf_to_toml("beech", &plain()),
+        "format = 1
+
+[leaves.beech]
+length_mm = 80
+
+[leaves.beech.outline.growth_algorithm]
+rate_ratio = 1.2
+widest_at = 0.3
+falloff = 3
+
+[leaves.beech.venation.closed]
+final_length_segments = 350
+kill_distance_segments = 1
+birth_distance_segments = 2
+darts_per_segment2 = 0.0002
+veinlet_radius_mm = 0.02
+
+[leaves.beech.venation.closed.growth.isogonic]
+initial_length_segments = 11.5
+length_step_segments = 0.9
+
+[leaves.beech.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 40
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+"
+    );
+}
