@@ -1,8 +1,10 @@
 //! What a venation simulation is told. Lengths are in vein segments, `D = 1`.
 
+use glam::DVec2;
 use thiserror::Error;
 
 use crate::shape::growth::{GrowthError, RateCurve};
+use crate::shape::outline::Outline;
 
 /// Whether veins may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +112,22 @@ pub struct VenationPlan {
     pub gaussian_curvature: f64,
 }
 
+impl FreeEndings {
+    /// What the last round is told: an open pattern on the full-grown leaf.
+    pub(crate) fn as_plan(&self, plan: &VenationPlan) -> VenationPlan {
+        VenationPlan {
+            pattern: Pattern::Open,
+            kill_distance: self.kill_distance,
+            source_birth_distance: self.birth_distance,
+            vein_birth_distance: self.birth_distance,
+            growth: Growth::None,
+            free_endings: None,
+            margin_clearance: None,
+            ..plan.clone()
+        }
+    }
+}
+
 impl Default for VenationPlan {
     /// A closed pattern on a leaf of 350 segments that grows isogonically: the paper's poplar at ten units of
     /// its Table 1 to a segment.
@@ -159,6 +177,14 @@ pub enum PlanError {
         length_step: f64,
         /// Steps that it takes.
         steps: f64,
+    },
+    /// Two rules that do not go together.
+    #[error("{key} does not go together with {other}")]
+    Incompatible {
+        /// One rule.
+        key: &'static str,
+        /// The other.
+        other: &'static str,
     },
     /// A growth function that does not work.
     #[error(transparent)]
@@ -304,6 +330,22 @@ impl VenationPlan {
                 return Err(PlanError::OutOfRange { key, value, range });
             }
         }
+        let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
+        let pairs = [
+            (
+                self.free_endings.is_some() && self.pattern == Pattern::Open,
+                "free_endings",
+                "an open pattern",
+            ),
+            (
+                self.gaussian_curvature != 0.0 && is_anisotropic,
+                "gaussian_curvature",
+                "anisotropic growth",
+            ),
+        ];
+        if let Some(&(_, key, other)) = pairs.iter().find(|(both, ..)| *both) {
+            return Err(PlanError::Incompatible { key, other });
+        }
         match &self.growth {
             Growth::None => Ok(()),
             Growth::Marginal {
@@ -339,6 +381,39 @@ impl VenationPlan {
         let steps = ((self.final_length - initial_length) / length_step).ceil();
         if steps > 1e6 {
             return Err(PlanError::TooManySteps { length_step, steps });
+        }
+        Ok(())
+    }
+
+    /// Where veins start, in segments, base at the origin.
+    pub(crate) fn origins_in_segments(&self) -> Vec<DVec2> {
+        if self.origins.is_empty() {
+            return vec![DVec2::ZERO];
+        }
+        let place = |&[x, y]: &[f64; 2]| DVec2::new(x, y) * self.final_length;
+        self.origins.iter().map(place).collect()
+    }
+
+    /// Checks what only the margin can tell; `blade` is in segments, base at the origin.
+    pub(crate) fn validate_on(&self, blade: &Outline) -> Result<(), PlanError> {
+        let origins = self.origins_in_segments();
+        if let Some(index) = origins
+            .iter()
+            .position(|&p| !(p.is_finite() && blade.covers(p)))
+        {
+            let [x, y] = self.origins[index];
+            return Err(PlanError::OriginOffBlade { index, x, y });
+        }
+        // The map of a saddle ends where lengths vanish.
+        let middle = (blade.base() + blade.apex()) * 0.5;
+        let (low, high) = blade.bounds();
+        let farthest = (low - middle).abs().max((high - middle).abs()).length() / self.final_length;
+        if 1.0 + 0.25 * self.gaussian_curvature * farthest * farthest < 0.1 {
+            return Err(PlanError::OutOfRange {
+                key: "gaussian_curvature",
+                value: self.gaussian_curvature,
+                range: "what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared",
+            });
         }
         Ok(())
     }
