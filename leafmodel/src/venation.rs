@@ -6,9 +6,9 @@
 //!
 //! - **In**: an [`Outline`], a [`VenationPlan`], a seed.
 //! - **Out**: a [`VenationNetwork`] in millimetres, in the frame of the outline.
-//! - **Always true**: every node lies inside the outline; the network is connected and passes its own
+//! - **Always true**: every node lies inside the outline; every vein is connected to an origin; the network passes its own
 //!   [`VenationNetwork::validate`]; the same input gives the same bits on every machine.
-//! - **Left out** so far: non-uniform growth, several seed nodes, the Urquhart approximation.
+//! - **Left out**: growth of the blade in answer to its veins.
 //!
 //! # Source
 //!
@@ -23,6 +23,7 @@ mod chance;
 mod closed;
 mod fresh_nodes;
 mod influence;
+mod lamina;
 mod lamina_clock;
 pub mod network;
 mod open;
@@ -32,6 +33,7 @@ mod point_tree;
 mod relative_neighbourhood;
 mod simulation;
 mod topology;
+mod urquhart;
 mod veins;
 mod width;
 
@@ -39,14 +41,17 @@ use glam::DVec2;
 use thiserror::Error;
 
 use self::auxin::waiting_darts;
-use self::closed::RelativeNeighbours;
+use self::closed::Anastomosis;
 use self::influence::Influence;
+use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
 use self::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 use self::open::NearestNode;
-use self::plan::{Growth, Pattern, PlanError, VenationPlan};
+use self::plan::{Growth, Neighbourhood, Pattern, PlanError, VenationPlan};
+use self::relative_neighbourhood::RelativeNeighbourhood;
 use self::simulation::Simulation;
 use self::topology::Topology;
+use self::urquhart::UrquhartNeighbourhood;
 use crate::shape::outline::Outline;
 
 /// Why no veins grow.
@@ -59,7 +64,7 @@ pub enum VenationError {
 
 /// Grows the veins of a leaf.
 ///
-/// A vein segment is the midrib's length over `plan.final_length`. Veins start from one node at the base.
+/// A vein segment is the midrib's length over `plan.final_length`.
 ///
 /// # Errors
 ///
@@ -73,98 +78,209 @@ pub fn grow(
     plan: &VenationPlan,
     seed: u64,
 ) -> Result<VenationNetwork, VenationError> {
-    plan.validate()?;
-    let segment_mm = outline.length() / plan.final_length;
-    let blade = outline.moved_and_scaled(outline.base(), 1.0 / segment_mm);
-    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
-    check_darts(plan, &blade, &clock)?;
-    let grown = match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, &blade, clock, seed),
-        Pattern::Closed(_) => simulate::<RelativeNeighbours>(plan, &blade, clock, seed),
-    };
-    let place = |p: DVec2| outline.base() + p * segment_mm;
-    Ok(grown.into_network(plan, segment_mm, place))
+    let (network, _) = develop(outline, plan, seed, &[])?;
+    Ok(network)
 }
 
-/// Whether a plan can be carried out on an outline, without doing it: what [`grow`] refuses, in microseconds.
+/// A leaf in the course of its development.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Steps done.
+    pub step: u32,
+    /// The margin at that time, mm, true to size.
+    pub outline: Outline,
+    /// The veins at that time, mm, true to size. A node keeps its number from stage to stage.
+    pub network: VenationNetwork,
+}
+
+/// Grows the veins of a leaf and keeps what they were after each of `steps`; 0 is before the first. A step beyond
+/// the last gives the full-grown leaf. Stages come in the order of `steps`.
+///
+/// # Errors
+///
+/// As [`grow`].
+pub fn grow_stages(
+    outline: &Outline,
+    plan: &VenationPlan,
+    seed: u64,
+    steps: &[u32],
+) -> Result<Vec<Stage>, VenationError> {
+    let (network, mut stages) = develop(outline, plan, seed, steps)?;
+    stages.sort_by_key(|stage| stage.step);
+    let full_grown = Stage {
+        step: network.steps(),
+        outline: outline.clone(),
+        network,
+    };
+    let at = |&step: &u32| {
+        let found = stages.binary_search_by_key(&step, |stage| stage.step);
+        found.map_or(&full_grown, |i| &stages[i]).clone()
+    };
+    Ok(steps.iter().map(at).collect())
+}
+
+/// The full-grown network, and the stages after `steps` as far as there are so many.
+fn develop(
+    outline: &Outline,
+    plan: &VenationPlan,
+    seed: u64,
+    steps: &[u32],
+) -> Result<(VenationNetwork, Vec<Stage>), VenationError> {
+    plan.validate()?;
+    let blade = in_segments(outline, plan);
+    let (lamina, clock) = prepared(&blade, plan)?;
+    let segment_mm = outline.length() / plan.final_length;
+    let (grown, young) = carry_out(plan, lamina, clock, seed, steps);
+    let base = outline.base();
+    let stage = |grown: Grown| Stage {
+        step: grown.steps,
+        outline: outline.with_points(
+            grown
+                .margin
+                .iter()
+                .map(|&p| base + p * segment_mm)
+                .collect(),
+            base + grown.apex * segment_mm,
+        ),
+        network: grown.into_network(plan, segment_mm, base),
+    };
+    Ok((
+        grown.into_network(plan, segment_mm, base),
+        young.into_iter().map(stage).collect(),
+    ))
+}
+
+/// Whether a plan can be carried out on an outline, without doing it: refuses what [`grow`] refuses.
 ///
 /// # Errors
 ///
 /// As [`grow`].
 pub fn check(outline: &Outline, plan: &VenationPlan) -> Result<(), VenationError> {
     plan.validate()?;
-    let segment_mm = outline.length() / plan.final_length;
-    let blade = outline.moved_and_scaled(outline.base(), 1.0 / segment_mm);
-    for (index, &[x, y]) in plan.origins.iter().enumerate() {
-        let place = DVec2::new(x, y) * plan.final_length;
-        if !(place.is_finite() && blade.covers(place)) {
-            return Err(PlanError::OriginOffBlade { index, x, y }.into());
-        }
-    }
-    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
-    check_darts(plan, &blade, &clock)?;
+    prepared(&in_segments(outline, plan), plan)?;
     Ok(())
 }
 
-/// Refuses plans whose darts would take forever.
-fn check_darts(plan: &VenationPlan, blade: &Outline, clock: &LaminaClock) -> Result<(), PlanError> {
-    let (low, high) = blade.bounds();
-    let size = high - low;
-    VenationPlan::validate_darts(match plan.growth {
-        Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => {
-            plan.darts_per_area * size.x * size.y
-        }
-        Growth::Marginal { .. } => waiting_darts(plan, size, clock.last_growth_step()),
-    })
+/// The full-grown blade in segments, base at the origin.
+fn in_segments(outline: &Outline, plan: &VenationPlan) -> Outline {
+    let segment_mm = outline.length() / plan.final_length;
+    outline.moved_and_scaled(outline.base(), 1.0 / segment_mm)
 }
 
-/// A finished simulation: positions in segments, no widths yet.
+/// The lamina and its clock, if a plan whose numbers are in range can be carried out on this blade.
+fn prepared<'b>(
+    blade: &'b Outline,
+    plan: &VenationPlan,
+) -> Result<(Lamina<'b>, LaminaClock), VenationError> {
+    plan.validate_on(blade)?;
+    let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
+    let lamina = Lamina::new(plan, blade, clock.tissue_map(u32::MAX));
+    check_darts(plan, &lamina, &clock)?;
+    Ok((lamina, clock))
+}
+
+/// Refuses plans whose darts would take forever.
+fn check_darts(plan: &VenationPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
+    let (low, high) = lamina.blade.bounds();
+    let area = (high - low).x * (high - low).y * lamina.surplus();
+    VenationPlan::validate_darts(match plan.growth {
+        Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => {
+            plan.darts_per_area * area
+        }
+        Growth::Marginal { .. } => waiting_darts(plan, lamina, clock.last_growth_step()),
+    })?;
+    let free = plan.free_endings.map_or(0.0, |free| free.darts_per_area);
+    VenationPlan::validate_darts(free * area)
+}
+
+/// A simulation's state, in segments of its time, base at the origin; no widths yet.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Grown {
     positions: Vec<DVec2>,
     births: Vec<u32>,
     edges: Vec<[u32; 2]>,
+    origins: u32,
     steps: u32,
     sources: u32,
     ending: Ending,
+    margin: Vec<DVec2>,
+    apex: DVec2,
+}
+
+/// Runs a plan that has been checked; gives the full-grown state and those after `steps`.
+pub(crate) fn carry_out(
+    plan: &VenationPlan,
+    lamina: Lamina,
+    clock: LaminaClock,
+    seed: u64,
+    steps: &[u32],
+) -> (Grown, Vec<Grown>) {
+    match plan.pattern {
+        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, seed, steps),
+        Pattern::Closed(Neighbourhood::Relative) => {
+            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, seed, steps)
+        }
+        Pattern::Closed(Neighbourhood::Urquhart) => {
+            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, seed, steps)
+        }
+    }
 }
 
 fn simulate<I: Influence>(
     plan: &VenationPlan,
-    blade: &Outline,
+    lamina: Lamina,
     clock: LaminaClock,
     seed: u64,
-) -> Grown {
-    let mut simulation = Simulation::<I>::new(plan, blade, clock, seed);
-    let ending = simulation.run();
-    let mut edges = simulation.veins.edges;
-    edges.sort_unstable_by_key(|&[from, to]| (to, from));
-    Grown {
-        positions: simulation.veins.positions,
-        births: simulation.veins.births,
-        edges,
-        steps: simulation.step,
-        sources: simulation.sources_born,
-        ending,
-    }
+    steps: &[u32],
+) -> (Grown, Vec<Grown>) {
+    let mut young = Vec::new();
+    let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
+    let mut ending = simulation.run(|now| {
+        if steps.contains(&now.step) {
+            young.push(now.state(Ending::StepLimit));
+        }
+    });
+    let grown = match &plan.free_endings {
+        None => simulation.state(ending),
+        Some(free) => {
+            let rest = free.as_plan(plan);
+            let mut veinlets = simulation.with_free_endings(&rest, free);
+            let last = veinlets.run(|now| {
+                if now.step > 0
+                    && steps.contains(&now.step)
+                    && young.last().is_none_or(|y| y.steps < now.step)
+                {
+                    young.push(now.state(Ending::StepLimit));
+                }
+            });
+            if last == Ending::StepLimit {
+                ending = last;
+            }
+            veinlets.state(ending)
+        }
+    };
+    (grown, young)
 }
 
 impl Grown {
     /// Widths, orders, and millimetres.
-    fn into_network(
-        self,
-        plan: &VenationPlan,
-        segment_mm: f64,
-        place: impl Fn(DVec2) -> DVec2,
-    ) -> VenationNetwork {
+    fn into_network(self, plan: &VenationPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
         let topology = Topology::new(self.positions.len(), &self.edges);
         let base_to_tip = topology
             .base_to_tip()
             .expect("children and junctions are younger than what leads to them, so no edges run in a circle");
-        let flows = width::flows(&topology, &base_to_tip);
         let radius = |flow: f64| width::radius(flow, plan.veinlet_radius_mm, plan.murray_exponent);
-        let radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
+        let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
+        let mut radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
         let orders = order::orders(&topology, &self.positions, &radii, &base_to_tip);
+        if plan.unseen_veinlets > 0.0 {
+            let major = |edge: u32| orders.edges[edge as usize] <= 2;
+            flows = width::flows(&topology, &base_to_tip, |node| {
+                let bears = topology.entering(node).iter().any(|&edge| major(edge));
+                if bears { plan.unseen_veinlets } else { 0.0 }
+            });
+            radii = flows.edges.iter().map(|&flow| radius(flow)).collect();
+        }
         let edges = self
             .edges
             .iter()
@@ -191,13 +307,14 @@ impl Grown {
             .iter()
             .zip(&self.births)
             .map(|(&position, &born)| VeinNode {
-                position: place(position),
+                position: base + position * segment_mm,
                 born,
             })
             .collect();
         VenationNetwork {
             nodes,
             edges,
+            origins: self.origins,
             steps: self.steps,
             sources: self.sources,
             segment_mm,

@@ -223,6 +223,18 @@ impl Outline {
     }
 }
 
+impl Outline {
+    /// The same margin at another time, its corners and apex moved by growth that keeps every invariant.
+    pub(crate) fn with_points(&self, points: Vec<DVec2>, apex: DVec2) -> Self {
+        Self {
+            slabs: Slabs::new(&points),
+            points,
+            base: self.base,
+            apex,
+        }
+    }
+}
+
 /// Area of a polygon, positive when it is counter-clockwise (shoelace formula about its first corner).
 fn signed_area(points: &[DVec2]) -> f64 {
     let origin = points[0];

@@ -1,25 +1,27 @@
 //! The algorithm as the definitions read, by comparing everything with everything: the oracle that the
 //! fast code has to agree with, node for node.
 //!
-//! It shares with the fast code only what is no algorithm: the random numbers, the clock of the
+//! It shares with the fast code only what is no algorithm: the random numbers, the clock and the map of the
 //! lamina, the outline, and the curve on which stretched edges are cut.
 
 use glam::DVec2;
 
 use super::Grown;
 use super::auxin::{Darts, appearance, dart, waiting_darts};
+use super::chance::Use;
+use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
-use super::open::lot;
-use super::plan::{Growth, Pattern, VenationPlan};
+use super::plan::{FreeEndings, Growth, Pattern, VenationPlan};
 use super::simulation::{NO_DIRECTION, PATIENCE};
-use super::veins::catmull_rom;
-use crate::shape::outline::Outline;
+
+mod surroundings;
 
 #[derive(Clone, Debug)]
 struct Source {
     id: u32,
     place: DVec2,
+    start: DVec2,
     tagged: Option<Vec<usize>>,
     arrived: Vec<usize>,
     blocked_steps: u32,
@@ -33,13 +35,14 @@ enum Outcome {
 }
 
 struct Oracle<'a> {
-    plan: &'a VenationPlan,
-    blade: &'a Outline,
+    plan: VenationPlan,
+    lamina: Lamina<'a>,
     seed: u64,
     nodes: Vec<DVec2>,
+    starts: Vec<DVec2>,
     births: Vec<u32>,
     edges: Vec<[usize; 2]>,
-    /// Edges that cannot be cut, since they leave the blade.
+    /// Edges that cannot be cut where they are, since they leave the blade.
     uncut: Vec<bool>,
     parents: Vec<Option<usize>>,
     first_children: Vec<Option<usize>>,
@@ -47,91 +50,185 @@ struct Oracle<'a> {
     born: u32,
     step: u32,
     vain: f64,
+    origins: u32,
+    /// Steps whose outcome is to be kept, and what they were.
+    wanted: Vec<u32>,
+    young: Vec<Grown>,
 }
 
 /// What [`super::simulate`] gives, the slow way.
-pub(crate) fn simulate(plan: &VenationPlan, blade: &Outline, seed: u64) -> Grown {
-    let clock = LaminaClock::new(plan).expect("a plan that has been carried out");
+pub(crate) fn simulate(
+    plan: &VenationPlan,
+    lamina: Lamina,
+    clock: &LaminaClock,
+    seed: u64,
+    steps: &[u32],
+) -> (Grown, Vec<Grown>) {
     let mut oracle = Oracle {
-        plan,
-        blade,
+        plan: plan.clone(),
+        lamina,
         seed,
-        nodes: vec![DVec2::ZERO],
-        births: vec![0],
+        nodes: Vec::new(),
+        starts: Vec::new(),
+        births: Vec::new(),
         edges: Vec::new(),
         uncut: Vec::new(),
-        parents: vec![None],
-        first_children: vec![None],
+        parents: Vec::new(),
+        first_children: Vec::new(),
         sources: Vec::new(),
         born: 0,
         step: 0,
         vain: 0.0,
+        origins: 0,
+        wanted: steps.to_vec(),
+        young: Vec::new(),
     };
-    let candidates = oracle.candidates(&clock);
-    let limit = (f64::from(clock.last_growth_step()) + 1000.0 + 50.0 * plan.final_length) as u32;
-    let (mut idle, mut ending) = (0, Ending::StepLimit);
-    let mut thrown = Darts::new(plan, blade, &clock, seed);
-    while oracle.step < limit {
-        let stage = clock.stage(oracle.step);
-        let darts = match &candidates {
-            Some(all) => all
-                .iter()
-                .filter(|(step, _)| *step == oracle.step)
-                .map(|&(_, dart)| dart)
-                .collect(),
-            None => thrown.of_step(oracle.step, stage.unit, seed),
-        };
-        let grown = oracle.advance(stage.unit, &darts);
-        idle = if grown { 0 } else { idle + 1 };
-        let spacing = plan.source_birth_distance.min(plan.vein_birth_distance);
-        let saturated = plan.growth != Growth::None
-            || oracle.vain > 8.0 * blade.area() / (spacing * spacing) + 100.0;
-        if !stage.still_growing && saturated && (oracle.sources.is_empty() || idle >= PATIENCE) {
-            ending = Ending::Settled;
-            break;
+    if let Some(map) = clock.tissue_map(0) {
+        oracle.lamina.carry(map);
+    }
+    for origin in plan.origins_in_segments() {
+        oracle.add(oracle.lamina.now_of_full_grown(origin));
+    }
+    oracle.origins = oracle.nodes.len() as u32;
+    let candidates = oracle.candidates(clock);
+    let thrown = Darts::new(plan, &oracle.lamina, clock, seed);
+    let mut ending = oracle.run(clock, candidates.as_deref(), thrown);
+    if let Some(free) = &plan.free_endings {
+        let darts = oracle.free_darts(free);
+        let still = Darts::at_once(free, &oracle.lamina, seed);
+        oracle.plan = free.as_plan(plan);
+        oracle.sources.clear();
+        let clock = LaminaClock::new(&oracle.plan).expect("nothing grows");
+        if oracle.run(&clock, Some(&darts), still) == Ending::StepLimit {
+            ending = Ending::StepLimit;
         }
     }
-    let mut edges: Vec<[u32; 2]> = oracle.edges.iter().map(|e| e.map(|n| n as u32)).collect();
-    edges.sort_unstable_by_key(|&[from, to]| (to, from));
-    Grown {
-        positions: oracle.nodes,
-        births: oracle.births,
-        edges,
-        steps: oracle.step,
-        sources: oracle.born,
-        ending,
-    }
+    let grown = oracle.state(1.0, ending);
+    (grown, oracle.young)
 }
 
 impl Oracle<'_> {
+    fn run(
+        &mut self,
+        clock: &LaminaClock,
+        candidates: Option<&[(u32, DVec2)]>,
+        mut thrown: Darts,
+    ) -> Ending {
+        let steps = f64::from(clock.last_growth_step()) + 1000.0 + 50.0 * self.plan.final_length;
+        let (limit, first) = (self.step + steps as u32, self.step);
+        let at_once = self.plan.pattern == Pattern::Open && candidates.is_some();
+        let mut idle = 0;
+        if first == 0 {
+            self.remember(clock);
+        }
+        while self.step < limit {
+            let stage = clock.stage(self.step);
+            if self.step > first
+                && clock.stage(self.step - 1).still_growing
+                && let Some(map) = clock.tissue_map(self.step)
+            {
+                self.lamina.carry(map);
+                for (node, start) in self.nodes.iter_mut().zip(&self.starts) {
+                    *node = self.lamina.now_at(*start);
+                }
+                for source in &mut self.sources {
+                    source.place = self.lamina.now_at(source.start);
+                }
+                self.uncut.fill(false);
+            }
+            let darts = match candidates {
+                Some(all) => all
+                    .iter()
+                    .filter(|(step, _)| *step == self.step || first > 0 && self.step == first)
+                    .map(|&(_, dart)| dart)
+                    .collect(),
+                None => thrown.of_step(self.step, stage.unit, self.seed, &self.lamina),
+            };
+            let grown = self.advance(stage.unit, clock.size(self.step), &darts);
+            self.remember(clock);
+            idle = if grown { 0 } else { idle + 1 };
+            let spacing = (self.plan.source_birth_distance).min(self.plan.vein_birth_distance);
+            let saturated = self.plan.growth != Growth::None
+                || at_once
+                || self.vain > 8.0 * self.lamina.blade.area() / (spacing * spacing) + 100.0;
+            if !stage.still_growing && saturated && (self.sources.is_empty() || idle >= PATIENCE) {
+                return Ending::Settled;
+            }
+        }
+        Ending::StepLimit
+    }
+
+    fn remember(&mut self, clock: &LaminaClock) {
+        if self.wanted.contains(&self.step) {
+            let size = clock.size(self.step.saturating_sub(1));
+            self.young.push(self.state(size, Ending::StepLimit));
+        }
+    }
+
+    /// The leaf at this step, true to size, given its length over the final one.
+    fn state(&self, size: f64, ending: Ending) -> Grown {
+        let (veins, margin) = match self.plan.growth {
+            Growth::None | Growth::Anisotropic { .. } => (1.0, 1.0),
+            Growth::Marginal { .. } => (1.0, size),
+            Growth::Isogonic { .. } => (size, size),
+        };
+        let mut edges: Vec<[u32; 2]> = self.edges.iter().map(|e| e.map(|n| n as u32)).collect();
+        edges.sort_unstable_by_key(|&[from, to]| (to, from));
+        let scaled = |points: &[DVec2], by: f64| points.iter().map(|&p| p * by).collect();
+        Grown {
+            margin: scaled(&self.lamina.margin_now(), margin),
+            apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+            positions: scaled(&self.nodes, veins),
+            births: self.births.clone(),
+            edges,
+            origins: self.origins,
+            steps: self.step,
+            sources: self.born,
+            ending,
+        }
+    }
+
     /// For marginal growth, all candidates with the step of their appearance.
     fn candidates(&self, clock: &LaminaClock) -> Option<Vec<(u32, DVec2)>> {
         if !matches!(self.plan.growth, Growth::Marginal { .. }) {
             return None;
         }
-        let (low, high) = self.blade.bounds();
-        let size = high - low;
         let mut kept: Vec<DVec2> = Vec::new();
-        for number in 0..waiting_darts(self.plan, size, clock.last_growth_step()) as u64 {
-            let dart = dart(self.seed, number, low, size);
-            if kept
-                .iter()
-                .all(|&p| apart(dart, p, self.plan.source_birth_distance))
-            {
+        let count = waiting_darts(&self.plan, &self.lamina, clock.last_growth_step());
+        for number in 0..count as u64 {
+            let Some(dart) = dart([Use::DartX, Use::DartY], self.seed, number, &self.lamina) else {
+                continue;
+            };
+            let spacing = self.plan.source_birth_distance * self.lamina.enlargement(dart);
+            if kept.iter().all(|&p| apart(dart, p, spacing)) {
                 kept.push(dart);
             }
         }
-        kept.retain(|&dart| self.blade.contains(dart));
-        let appear = |dart| (appearance(self.blade.points(), clock, dart), dart);
+        kept.retain(|&dart| self.lamina.contains(dart));
+        let appear = |dart| (appearance(self.lamina.blade.points(), clock, dart), dart);
         Some(kept.into_iter().map(appear).collect())
     }
 
-    fn advance(&mut self, unit: f64, darts: &[DVec2]) -> bool {
-        if matches!(self.plan.growth, Growth::Isogonic { .. }) {
+    /// The darts of the last round.
+    fn free_darts(&self, free: &FreeEndings) -> Vec<(u32, DVec2)> {
+        let (low, high) = self.lamina.bounds_now();
+        let area = (high - low).x * (high - low).y * self.lamina.surplus();
+        let uses = [Use::FreeDartX, Use::FreeDartY];
+        (0..(free.darts_per_area * area) as u64)
+            .filter_map(|number| dart(uses, self.seed, number, &self.lamina))
+            .map(|dart| (self.step, dart))
+            .collect()
+    }
+
+    fn advance(&mut self, unit: f64, size: f64, darts: &[DVec2]) -> bool {
+        if matches!(
+            self.plan.growth,
+            Growth::Isogonic { .. } | Growth::Anisotropic { .. }
+        ) {
             self.subdivide(unit);
         }
         for &dart in darts {
-            self.throw(dart, unit);
+            self.throw(dart, unit, size);
         }
         let driven: Vec<Vec<usize>> = self.sources.iter().map(|s| self.driven_by(s)).collect();
         let outcomes: Vec<Option<Outcome>> = (0..self.nodes.len())
@@ -160,10 +257,15 @@ impl Oracle<'_> {
             .any(|o| matches!(o, Some(Outcome::Child(_))))
     }
 
-    fn throw(&mut self, dart: DVec2, unit: f64) {
-        if !self.blade.contains(dart) {
+    fn throw(&mut self, dart: DVec2, unit: f64, size: f64) {
+        let near_margin = self.plan.margin_clearance.is_some_and(|rule| {
+            let clear = rule.distance * self.plan.final_length;
+            size < rule.until && self.lamina.distance_to_margin(dart) < clear
+        });
+        if !self.lamina.contains(dart) || near_margin {
             return;
         }
+        let unit = unit * self.lamina.enlargement(dart);
         let (bs, bv) = (
             self.plan.source_birth_distance * unit,
             self.plan.vein_birth_distance * unit,
@@ -178,36 +280,12 @@ impl Oracle<'_> {
         self.sources.push(Source {
             id: self.born,
             place: dart,
+            start: self.lamina.start_of(dart),
             tagged: None,
             arrived: Vec::new(),
             blocked_steps: 0,
         });
         self.born += 1;
-    }
-
-    /// `V(s)`: the nearest node, or all relative neighbours by Eq. 2.
-    fn neighbours(&self, source: &Source) -> Vec<usize> {
-        let squared = |p: DVec2, q: DVec2| (p - q).length_squared();
-        let s = source.place;
-        let all = 0..self.nodes.len();
-        match self.plan.pattern {
-            Pattern::Open => {
-                let key = |v: usize| {
-                    let bits = squared(self.nodes[v], s).to_bits();
-                    (bits, lot(self.seed, source.id, v as u32))
-                };
-                all.min_by_key(|&v| key(v)).into_iter().collect()
-            }
-            Pattern::Closed(_) => all
-                .filter(|&v| {
-                    let at = self.nodes[v];
-                    self.nodes
-                        .iter()
-                        .enumerate()
-                        .all(|(i, &u)| i == v || squared(at, s) < squared(u, s).max(squared(at, u)))
-                })
-                .collect(),
-        }
     }
 
     fn driven_by(&self, source: &Source) -> Vec<usize> {
@@ -229,6 +307,7 @@ impl Oracle<'_> {
         if sum.length() < NO_DIRECTION {
             return Outcome::Blocked;
         }
+        let unit = unit * self.lamina.enlargement(at);
         let child = at + sum / sum.length() * unit;
         if !self.stays(at, child) {
             return Outcome::OffBlade;
@@ -243,6 +322,7 @@ impl Oracle<'_> {
 
     fn add(&mut self, position: DVec2) -> usize {
         self.nodes.push(position);
+        self.starts.push(self.lamina.start_of(position));
         self.births.push(self.step);
         self.parents.push(None);
         self.first_children.push(None);
@@ -257,9 +337,11 @@ impl Oracle<'_> {
     }
 
     fn judge(&mut self, unit: f64) {
-        let kill = self.plan.kill_distance * unit;
-        let near =
-            |nodes: &[DVec2], v: usize, s: DVec2| (nodes[v] - s).length_squared() < kill * kill;
+        let (lamina, kill_distance) = (self.lamina.clone(), self.plan.kill_distance);
+        let near = |nodes: &[DVec2], v: usize, s: DVec2| {
+            let kill = kill_distance * (unit * lamina.enlargement(s));
+            (nodes[v] - s).length_squared() < kill * kill
+        };
         let mut meetings = Vec::new();
         let mut sources = std::mem::take(&mut self.sources);
         sources.retain_mut(|source| {
@@ -290,6 +372,7 @@ impl Oracle<'_> {
     }
 
     fn weld(&mut self, source: DVec2, arrived: &[usize], unit: f64) {
+        let unit = unit * self.lamina.enlargement(source);
         let mut ends = arrived.to_vec();
         ends.retain(|&v| !apart(self.nodes[v], source, 2.0 * unit));
         if ends.len() < 2 {
@@ -297,7 +380,7 @@ impl Oracle<'_> {
         }
         let sum: DVec2 = ends.iter().map(|&v| self.nodes[v]).sum();
         let place = [source, sum / ends.len() as f64].into_iter().find(|&p| {
-            self.blade.contains(p) && self.nodes.iter().all(|&u| apart(p, u, 0.05 * unit))
+            self.lamina.contains(p) && self.nodes.iter().all(|&u| apart(p, u, 0.05 * unit))
         });
         let Some(place) = place else { return };
         ends.retain(|&v| self.stays(self.nodes[v], place));
@@ -306,85 +389,6 @@ impl Oracle<'_> {
             for end in ends {
                 self.join(end, junction);
             }
-        }
-    }
-
-    /// Whether the straight way is on the blade, but for its very beginning.
-    fn stays(&self, from: DVec2, to: DVec2) -> bool {
-        let from = from + (to - from) * 1e-6;
-        let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-        let margin = self.blade.points();
-        let crossed = (0..margin.len()).any(|i| {
-            let (a, b) = (margin[i], margin[(i + 1) % margin.len()]);
-            let (p, q) = (side(a, b, from), side(a, b, to));
-            let (r, s) = (side(from, to, a), side(from, to, b));
-            p * q < 0.0 && r * s < 0.0
-        });
-        self.blade.contains(to) && !crossed
-    }
-
-    fn subdivide(&mut self, unit: f64) {
-        let longest = 1.5 * unit;
-        let squared = |oracle: &Self, e: usize| {
-            let [from, to] = oracle.edges[e];
-            (oracle.nodes[to] - oracle.nodes[from]).length_squared()
-        };
-        loop {
-            let edge = (0..self.edges.len())
-                .filter(|&e| !self.uncut[e] && squared(self, e) > longest * longest)
-                // Keeps the last of equals: reversed, the oldest.
-                .rev()
-                .max_by(|&a, &b| squared(self, a).total_cmp(&squared(self, b)));
-            let Some(edge) = edge else { return };
-            let pieces = (squared(self, edge).sqrt() / longest).ceil().max(2.0) as usize;
-            self.cut(edge, pieces);
-        }
-    }
-
-    fn cut(&mut self, edge: usize, pieces: usize) {
-        let [from, to] = self.edges[edge];
-        let (p1, p2) = (self.nodes[from], self.nodes[to]);
-        let other = |node: Option<usize>, mirrored: DVec2, of: DVec2| {
-            node.map(|n| self.nodes[n])
-                .filter(|&p| p != of)
-                .unwrap_or(mirrored)
-        };
-        let p0 = other(self.parents[from], 2.0 * p1 - p2, p1);
-        let p3 = other(self.first_children[to], 2.0 * p2 - p1, p2);
-        let places = [true, false].into_iter().find_map(|curved| {
-            let place = |i: usize| {
-                let u = i as f64 / pieces as f64;
-                let straight = p1 + (p2 - p1) * u;
-                if curved {
-                    catmull_rom([p0, p1, p2, p3], u)
-                } else {
-                    straight
-                }
-            };
-            let places: Vec<DVec2> = (1..pieces).map(place).collect();
-            let path: Vec<DVec2> = [&[p1], &places[..], &[p2]].concat();
-            let stays = path.windows(2).all(|way| self.stays(way[0], way[1]));
-            stays.then_some(places)
-        });
-        let Some(places) = places else {
-            self.uncut[edge] = true;
-            return;
-        };
-        let (mut tail, mut tail_edge) = (from, edge);
-        for place in places {
-            let node = self.add(place);
-            self.edges[tail_edge] = [tail, node];
-            if self.first_children[tail] == Some(to) {
-                self.first_children[tail] = Some(node);
-            }
-            self.parents[node] = Some(tail);
-            self.first_children[node] = Some(to);
-            if self.parents[to] == Some(tail) {
-                self.parents[to] = Some(node);
-            }
-            self.edges.push([node, to]);
-            self.uncut.push(false);
-            (tail, tail_edge) = (node, self.edges.len() - 1);
         }
     }
 }

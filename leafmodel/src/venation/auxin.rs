@@ -8,10 +8,10 @@
 use glam::DVec2;
 
 use super::chance::{Use, uniform};
+use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
-use super::plan::{Growth, VenationPlan};
+use super::plan::{FreeEndings, Growth, VenationPlan};
 use super::point_tree::PointTree;
-use crate::shape::outline::Outline;
 
 /// Darts per square of the birth distance beyond which more of them find next to no room: the
 /// set is saturated.
@@ -21,10 +21,6 @@ const SATURATION: f64 = 20.0;
 pub(crate) enum Darts {
     /// Thrown in each step.
     Thrown {
-        /// Lower left corner of the target.
-        low: DVec2,
-        /// Size of the target: the rectangle around the blade.
-        size: DVec2,
         /// Darts per unit area and step, `ρ`.
         per_area: f64,
         /// Darts that should have been thrown so far; their number is this, rounded down.
@@ -39,41 +35,40 @@ pub(crate) enum Darts {
 }
 
 impl Darts {
-    /// The darts of a plan for the margin `blade` (frame of [`super::lamina_clock`]).
+    /// The darts of a plan.
     pub(crate) fn new(
         plan: &VenationPlan,
-        blade: &Outline,
+        lamina: &Lamina,
         clock: &LaminaClock,
         seed: u64,
     ) -> Self {
-        let (low, high) = blade.bounds();
-        let size = high - low;
+        let thrown = |until| Self::Thrown {
+            per_area: plan.darts_per_area,
+            due: 0.0,
+            next: 0,
+            until,
+        };
         match plan.growth {
-            Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => Self::Thrown {
-                low,
-                size,
-                per_area: plan.darts_per_area,
-                due: 0.0,
-                next: 0,
-                until: match plan.growth {
-                    Growth::None => u32::MAX,
-                    Growth::Marginal { .. }
-                    | Growth::Isogonic { .. }
-                    | Growth::Anisotropic { .. } => clock.last_growth_step(),
-                },
-            },
+            Growth::None => thrown(u32::MAX),
+            Growth::Isogonic { .. } | Growth::Anisotropic { .. } => {
+                thrown(clock.last_growth_step())
+            }
             Growth::Marginal { .. } => {
-                let count = waiting_darts(plan, size, clock.last_growth_step());
+                let (low, high) = lamina.bounds_now();
+                let count = waiting_darts(plan, lamina, clock.last_growth_step());
                 let mut accepted = PointTree::new(low, high);
                 let mut waiting = Vec::new();
                 for number in 0..count as u64 {
-                    let dart = dart(seed, number, low, size);
-                    if accepted.any_within(dart, plan.source_birth_distance) {
+                    let Some(dart) = dart([Use::DartX, Use::DartY], seed, number, lamina) else {
+                        continue;
+                    };
+                    let spacing = plan.source_birth_distance * lamina.enlargement(dart);
+                    if accepted.any_within(dart, spacing) {
                         continue;
                     }
                     accepted.insert(number as u32, dart);
-                    if blade.contains(dart) {
-                        waiting.push((appearance(blade.points(), clock, dart), dart));
+                    if lamina.contains(dart) {
+                        waiting.push((appearance(lamina.blade.points(), clock, dart), dart));
                     }
                 }
                 // Stable: darts that appear together keep their order.
@@ -83,13 +78,37 @@ impl Darts {
         }
     }
 
+    /// Darts for veinlets that end freely, all at once.
+    pub(crate) fn at_once(free: &FreeEndings, lamina: &Lamina, seed: u64) -> Self {
+        let (low, high) = lamina.bounds_now();
+        let size = high - low;
+        let count = free.darts_per_area * size.x * size.y * lamina.surplus();
+        let darts: Vec<(u32, DVec2)> = (0..count as u64)
+            .filter_map(|number| dart([Use::FreeDartX, Use::FreeDartY], seed, number, lamina))
+            .map(|dart| (0, dart))
+            .collect();
+        Self::Waiting(darts.into_iter())
+    }
+
+    /// Whether none are left.
+    pub(crate) fn are_all_thrown(&self) -> bool {
+        match self {
+            Self::Thrown { .. } => false,
+            Self::Waiting(waiting) => waiting.as_slice().is_empty(),
+        }
+    }
+
     /// Candidates of one step, to be called once for every step in turn. Those of diffuse growth
     /// have not been tested against each other, and may lie outside the margin.
-    pub(crate) fn of_step(&mut self, step: u32, unit: f64, seed: u64) -> Vec<DVec2> {
+    pub(crate) fn of_step(
+        &mut self,
+        step: u32,
+        unit: f64,
+        seed: u64,
+        lamina: &Lamina,
+    ) -> Vec<DVec2> {
         match self {
             Self::Thrown {
-                low,
-                size,
                 per_area,
                 due,
                 next,
@@ -98,13 +117,15 @@ impl Darts {
                 if step > *until {
                     return Vec::new();
                 }
+                let (low, high) = lamina.bounds_now();
+                let size = high - low;
                 let before = *due;
-                *due += *per_area * size.x * size.y / (unit * unit);
+                *due += *per_area * size.x * size.y * lamina.surplus() / (unit * unit);
                 let count = due.floor() - before.floor();
                 let first = *next;
                 *next += count as u64;
                 (first..*next)
-                    .map(|number| dart(seed, number, *low, *size))
+                    .filter_map(|number| dart([Use::DartX, Use::DartY], seed, number, lamina))
                     .collect()
             }
             Self::Waiting(waiting) => {
@@ -115,22 +136,29 @@ impl Darts {
     }
 }
 
-/// How many darts a step of a full-grown lamina, or the whole growth at the margin, asks for.
-/// [`super::plan`] bounds it.
-pub(crate) fn waiting_darts(plan: &VenationPlan, size: DVec2, steps: u32) -> f64 {
-    let area = size.x * size.y;
+/// How many darts the whole growth at the margin asks for. [`super::plan`] bounds it.
+pub(crate) fn waiting_darts(plan: &VenationPlan, lamina: &Lamina, steps: u32) -> f64 {
+    let (low, high) = lamina.bounds_now();
+    let size = high - low;
+    let area = size.x * size.y * lamina.surplus();
     let wanted = plan.darts_per_area * area * (f64::from(steps) + 1.0);
     let spacing = plan.source_birth_distance;
     wanted.min(SATURATION * area / (spacing * spacing)).ceil()
 }
 
-/// Where dart `number` of a run lands.
-pub(crate) fn dart(seed: u64, number: u64, low: DVec2, size: DVec2) -> DVec2 {
+/// Where dart `number` of a run lands: uniform over the rectangle around the lamina. On a curved blade some are
+/// taken back, so that they are uniform over the blade and not over its map.
+pub(crate) fn dart(uses: [Use; 2], seed: u64, number: u64, lamina: &Lamina) -> Option<DVec2> {
+    let (low, high) = lamina.bounds_now();
     let u = DVec2::new(
-        uniform(seed, Use::DartX, number),
-        uniform(seed, Use::DartY, number),
+        uniform(seed, uses[0], number),
+        uniform(seed, uses[1], number),
     );
-    low + u * size
+    let dart = low + u * (high - low);
+    let enlargement = lamina.enlargement(dart);
+    let share = 1.0 / (enlargement * enlargement * lamina.surplus());
+    let kept = lamina.is_flat() || uniform(seed, Use::DartKept, number) < share;
+    kept.then_some(dart)
 }
 
 /// The first step at which `p` is inside the margin, which grows by scaling about the origin.

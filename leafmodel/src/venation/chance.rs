@@ -12,6 +12,12 @@ pub(crate) enum Use {
     DartY = 2,
     /// Which of several equally near nodes a source drives.
     Tie = 3,
+    /// Where a dart for a veinlet that ends freely lands, across the leaf.
+    FreeDartX = 4,
+    /// The same, along the leaf.
+    FreeDartY = 5,
+    /// Whether a dart on a curved blade is kept.
+    DartKept = 6,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.

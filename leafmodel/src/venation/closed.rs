@@ -1,50 +1,99 @@
-//! Closed patterns: a source drives all its relative neighbours, and is used up when every vein
+//! Closed patterns: a source drives all its neighbours, and is used up when every vein
 //! that was on its way has come (section 4).
 //!
 //! The paper's rule for tags, made definite:
 //!
-//! - When a step leaves a relative neighbour of the source nearer than the kill distance, that node has
-//!   *arrived* and the other relative neighbours are *tagged*. From then on the source drives tagged nodes only.
+//! - When a step leaves a neighbour of the source nearer than the kill distance, that node has
+//!   *arrived* and the other neighbours are *tagged*. From then on the source drives tagged nodes only.
 //! - A tagged node keeps its tag and hands it to its children. At the end of each step, tagged nodes
-//!   that are no longer relative neighbours have left the zone of influence and lose the tag; those
+//!   that are no longer neighbours have left the zone of influence and lose the tag; those
 //!   nearer than the kill distance arrive.
 //! - With no tagged node left, the source is used up. Those that arrived are joined.
+//!
+//! Neighbours are relative neighbours, or Urquhart's approximation of them.
 
 use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
 use super::relative_neighbourhood::RelativeNeighbourhood;
+use super::urquhart::UrquhartNeighbourhood;
 
-/// The relative neighbours of a source, and the veins on their way to it.
+/// Which nodes are neighbours of a source.
+pub(crate) trait Zone: Sized {
+    /// The neighbours of a source at `place` among all nodes.
+    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self;
+
+    /// Takes in nodes that have come since.
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings);
+
+    /// Number and squared distance of each neighbour.
+    fn members(&self) -> impl Iterator<Item = (u32, f64)>;
+}
+
+impl Zone for RelativeNeighbourhood {
+    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self {
+        Self::find(place, surroundings.tree, surroundings.workspace)
+    }
+
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
+        self.update(fresh, surroundings.workspace);
+    }
+
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.members()
+    }
+}
+
+impl Zone for UrquhartNeighbourhood {
+    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self {
+        Self::find(place, surroundings.tree, surroundings.workspace.size())
+    }
+
+    fn update(&mut self, fresh: &FreshNodes, _surroundings: &mut Surroundings) {
+        let source = self.source();
+        let reach = self.reach_squared();
+        fresh.each(
+            |node_box| node_box.distance_squared(source) <= reach,
+            |id, position| self.cut(id, position),
+        );
+        self.choose();
+    }
+
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.members().iter().copied()
+    }
+}
+
+/// The neighbours of a source, and the veins on their way to it.
 #[derive(Clone, Debug)]
-pub(crate) struct RelativeNeighbours {
-    neighbourhood: RelativeNeighbourhood,
+pub(crate) struct Anastomosis<Z> {
+    zone: Z,
     /// Tagged nodes, once a vein has arrived.
     tagged: Option<Vec<u32>>,
     /// Nodes that have arrived.
     arrived: Vec<u32>,
 }
 
-impl Influence for RelativeNeighbours {
+impl<Z: Zone> Influence for Anastomosis<Z> {
     fn new(place: DVec2, _id: u32, surroundings: &mut Surroundings) -> Self {
         Self {
-            neighbourhood: RelativeNeighbourhood::find(
-                place,
-                surroundings.tree,
-                surroundings.workspace,
-            ),
+            zone: Z::find(place, surroundings),
             tagged: None,
             arrived: Vec::new(),
         }
     }
 
+    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings) {
+        self.zone = Z::find(place, surroundings);
+    }
+
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
-        self.neighbourhood.update(fresh, surroundings.workspace);
+        self.zone.update(fresh, surroundings);
     }
 
     fn each_driven(&self, visit: impl FnMut(u32)) {
-        self.neighbourhood
+        self.zone
             .members()
             .map(|(node, _)| node)
             .filter(|node| {
@@ -65,7 +114,7 @@ impl Influence for RelativeNeighbours {
 
     fn judge(&mut self, kill: f64) -> Fate {
         let arrived = |&(_, squared): &(u32, f64)| squared < kill * kill;
-        if self.tagged.is_none() && !self.neighbourhood.members().any(|n| arrived(&n)) {
+        if self.tagged.is_none() && !self.zone.members().any(|n| arrived(&n)) {
             return Fate::Stays;
         }
         let heading = |node: u32| {
@@ -74,7 +123,7 @@ impl Influence for RelativeNeighbours {
                 .is_none_or(|tagged| tagged.contains(&node))
         };
         let (come, coming): (Vec<_>, Vec<_>) = self
-            .neighbourhood
+            .zone
             .members()
             .filter(|&(node, _)| heading(node))
             .partition(arrived);

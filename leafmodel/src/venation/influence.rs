@@ -30,6 +30,10 @@ pub(crate) trait Influence: Sized {
     /// The relation of a new source, number `id`, at `place`.
     fn new(place: DVec2, id: u32, surroundings: &mut Surroundings) -> Self;
 
+    /// The source has moved to `place`, and all nodes with it: what it drives is found anew, but what it knows of tags
+    /// stays.
+    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings);
+
     /// Takes in nodes that have come since the last call.
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings);
 

@@ -64,6 +64,7 @@ pub enum Ending {
 pub struct VenationNetwork {
     pub(crate) nodes: Vec<VeinNode>,
     pub(crate) edges: Vec<VeinEdge>,
+    pub(crate) origins: u32,
     pub(crate) steps: u32,
     pub(crate) sources: u32,
     pub(crate) segment_mm: f64,
@@ -131,6 +132,11 @@ impl VenationNetwork {
             radius_to: edge.radius_to,
             order: edge.order,
         })
+    }
+
+    /// How many nodes, the first ones, veins started from, ≥ 1.
+    pub fn origins(&self) -> usize {
+        self.origins as usize
     }
 
     /// Steps that the simulation took.

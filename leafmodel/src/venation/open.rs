@@ -51,6 +51,10 @@ impl Influence for NearestNode {
         nearest
     }
 
+    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings) {
+        *self = Self::new(place, self.id, surroundings);
+    }
+
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
         let mut nearest = self.clone();
         let reach = self.distance_squared;

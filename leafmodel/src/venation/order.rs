@@ -230,7 +230,7 @@ mod tests {
         let positions: Vec<DVec2> = places.iter().copied().map(DVec2::from).collect();
         let topology = Topology::new(positions.len(), edges);
         let order = topology.base_to_tip().expect("no circle");
-        let flows = flows(&topology, &order);
+        let flows = flows(&topology, &order, |_| 0.0);
         let radii: Vec<f64> = flows.edges.iter().map(|&q| radius(q, 0.01, 2.0)).collect();
         orders(&topology, &positions, &radii, &order).edges
     }

@@ -68,6 +68,11 @@ impl Workspace {
             queue: BinaryHeap::new(),
         }
     }
+
+    /// The longer side of the rectangle.
+    pub(crate) fn size(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
 }
 
 /// A tree cell or a point that waits for its turn.

@@ -6,16 +6,18 @@
 
 use glam::DVec2;
 
+use super::Grown;
 use super::auxin::Darts;
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
+use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
-use super::plan::{Growth, VenationPlan};
+use super::open::NearestNode;
+use super::plan::{FreeEndings, Growth, VenationPlan};
 use super::point_tree::PointTree;
 use super::relative_neighbourhood::Workspace;
-use super::veins::{COINCIDENT, Veins, can_reach};
-use crate::shape::outline::Outline;
+use super::veins::{COINCIDENT, Veins};
 
 /// Steps after which a source none of whose nodes can grow is given up, and after which, with
 /// the lamina full-grown and no vein growing, all is over.
@@ -37,6 +39,8 @@ enum Outcome {
 
 struct Source<I> {
     place: DVec2,
+    /// Where its tissue started.
+    start: DVec2,
     id: u32,
     influence: I,
     blocked_steps: u32,
@@ -45,7 +49,7 @@ struct Source<I> {
 /// A venation simulation under way, in the frame of [`super::lamina_clock`].
 pub(crate) struct Simulation<'a, I> {
     plan: &'a VenationPlan,
-    blade: &'a Outline,
+    pub(crate) lamina: Lamina<'a>,
     seed: u64,
     clock: LaminaClock,
     darts: Darts,
@@ -54,6 +58,8 @@ pub(crate) struct Simulation<'a, I> {
     sources: Vec<Source<I>>,
     source_tree: PointTree,
     workspace: Workspace,
+    /// How many nodes were there at the start.
+    origins: u32,
     /// Nodes that all sources have noticed.
     noticed: u32,
     /// Sources that have appeared.
@@ -67,28 +73,52 @@ pub(crate) struct Simulation<'a, I> {
 }
 
 impl<'a, I: Influence> Simulation<'a, I> {
-    /// Before the first step: one node at the base.
+    /// Before the first step: nodes where veins start, on a lamina as it is at step 0.
     pub(crate) fn new(
         plan: &'a VenationPlan,
-        blade: &'a Outline,
+        mut lamina: Lamina<'a>,
         clock: LaminaClock,
         seed: u64,
     ) -> Self {
-        let (low, high) = blade.bounds();
-        let stretching = matches!(plan.growth, Growth::Isogonic { .. });
-        let mut veins = Veins::new(low, high, stretching);
-        veins.add_node(DVec2::ZERO, 0);
+        let origins = plan.origins_in_segments();
+        if let Some(map) = clock.tissue_map(0) {
+            lamina.carry(map);
+        }
+        let (low, high) = lamina.bounds_now();
+        let is_stretching = matches!(
+            plan.growth,
+            Growth::Isogonic { .. } | Growth::Anisotropic { .. }
+        );
+        let mut veins = Veins::new(low, high, is_stretching);
+        for origin in origins {
+            veins.add_node(lamina.now_of_full_grown(origin), 0, &lamina);
+        }
+        let darts = Darts::new(plan, &lamina, &clock, seed);
+        Self::resume(plan, lamina, clock, seed, veins, darts)
+    }
+
+    /// Goes on with veins that are there.
+    pub(crate) fn resume(
+        plan: &'a VenationPlan,
+        lamina: Lamina<'a>,
+        clock: LaminaClock,
+        seed: u64,
+        veins: Veins,
+        darts: Darts,
+    ) -> Self {
+        let (low, high) = lamina.bounds_now();
         Self {
             plan,
-            blade,
             seed,
-            darts: Darts::new(plan, blade, &clock, seed),
+            darts,
             clock,
+            origins: plan.origins.len().max(1) as u32,
+            noticed: veins.count(),
             veins,
             sources: Vec::new(),
             source_tree: PointTree::new(low, high),
             workspace: Workspace::new(low, high),
-            noticed: 1,
+            lamina,
             sources_born: 0,
             step: 0,
             idle_steps: 0,
@@ -98,13 +128,59 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Steps until nothing is left to do.
-    pub(crate) fn run(&mut self) -> Ending {
+    /// The last round, in which veinlets grow that end freely, by the plan `rest`.
+    pub(crate) fn with_free_endings<'b>(
+        self,
+        rest: &'b VenationPlan,
+        free: &FreeEndings,
+    ) -> Simulation<'b, NearestNode>
+    where
+        'a: 'b,
+    {
+        let darts = Darts::at_once(free, &self.lamina, self.seed);
+        let clock = LaminaClock::new(rest).expect("nothing grows any more");
+        let mut veins = self.veins;
+        veins.stop_stretching();
+        let mut simulation = Simulation::resume(rest, self.lamina, clock, self.seed, veins, darts);
+        simulation.step = self.step;
+        simulation.sources_born = self.sources_born;
+        simulation
+    }
+
+    /// What there is now, at the size that the lamina had in the last step.
+    pub(crate) fn state(&self, ending: Ending) -> Grown {
+        let size = self.clock.size(self.step.saturating_sub(1));
+        // Marginal growth leaves veins where they are.
+        let (veins, margin) = match self.plan.growth {
+            Growth::None | Growth::Anisotropic { .. } => (1.0, 1.0),
+            Growth::Marginal { .. } => (1.0, size),
+            Growth::Isogonic { .. } => (size, size),
+        };
+        let scaled = |points: &[DVec2], scale: f64| points.iter().map(|&p| p * scale).collect();
+        let mut edges = self.veins.edges.clone();
+        edges.sort_unstable_by_key(|&[from, to]| (to, from));
+        Grown {
+            positions: scaled(&self.veins.positions, veins),
+            births: self.veins.births.clone(),
+            edges,
+            origins: self.origins,
+            steps: self.step,
+            sources: self.sources_born,
+            ending,
+            margin: scaled(&self.lamina.margin_now(), margin),
+            apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+        }
+    }
+
+    /// Steps until nothing is left to do, and calls `look` before the first step and after each.
+    pub(crate) fn run(&mut self, mut look: impl FnMut(&Self)) -> Ending {
         let growth = f64::from(self.clock.last_growth_step());
         // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets there.
-        let limit = (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
+        let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
+        look(self);
         while self.step < limit {
             let grown = self.advance();
+            look(self);
             self.idle_steps = if grown == 0 { self.idle_steps + 1 } else { 0 };
             let nothing_new = !self.clock.stage(self.step - 1).still_growing && self.is_saturated();
             if nothing_new && (self.sources.is_empty() || self.idle_steps >= PATIENCE) {
@@ -124,7 +200,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
                     .plan
                     .source_birth_distance
                     .min(self.plan.vein_birth_distance);
-                self.darts_in_vain > 8.0 * self.blade.area() / (spacing * spacing) + 100.0
+                self.darts.are_all_thrown()
+                    || self.darts_in_vain
+                        > 8.0 * self.lamina.blade.area() / (spacing * spacing) + 100.0
             }
         }
     }
@@ -132,7 +210,10 @@ impl<'a, I: Influence> Simulation<'a, I> {
     /// One step; gives the number of veins that grew.
     pub(crate) fn advance(&mut self) -> usize {
         let stage = self.clock.stage(self.step);
-        self.veins.subdivide(stage.unit, self.blade, self.step);
+        if self.step > 0 && self.clock.stage(self.step - 1).still_growing {
+            self.carry();
+        }
+        self.veins.subdivide(stage.unit, &self.lamina, self.step);
         self.notice();
         self.add_sources(stage.unit);
         let driven = self.gather_pulls();
@@ -146,6 +227,29 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.judge_sources(stage.unit);
         self.step += 1;
         grown
+    }
+
+    /// Moves veins and sources with the tissue, if it moves.
+    fn carry(&mut self) {
+        let Some(map) = self.clock.tissue_map(self.step) else {
+            return;
+        };
+        self.lamina.carry(map);
+        let (low, high) = self.lamina.bounds_now();
+        self.veins.carry(&self.lamina, low, high);
+        self.source_tree = PointTree::new(low, high);
+        self.workspace = Workspace::new(low, high);
+        let mut surroundings = Surroundings {
+            tree: &self.veins.tree,
+            workspace: &mut self.workspace,
+            seed: self.seed,
+        };
+        for source in &mut self.sources {
+            source.place = self.lamina.now_at(source.start);
+            self.source_tree.insert(source.id, source.place);
+            source.influence.place_anew(source.place, &mut surroundings);
+        }
+        self.noticed = self.veins.count();
     }
 
     /// Lets every source take in the nodes since the last time.
@@ -166,14 +270,21 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// New sources, where darts hit the blade far enough from sources and veins.
     fn add_sources(&mut self, unit: f64) {
-        let from_sources = self.plan.source_birth_distance * unit;
-        let from_veins = self.plan.vein_birth_distance * unit;
-        for dart in self.darts.of_step(self.step, unit, self.seed) {
-            if !self.blade.contains(dart) {
+        let clear_of_margin = self.clearance();
+        for dart in self.darts.of_step(self.step, unit, self.seed, &self.lamina) {
+            let unit = unit * self.lamina.enlargement(dart);
+            if !self.lamina.contains(dart)
+                || clear_of_margin > 0.0 && self.lamina.distance_to_margin(dart) < clear_of_margin
+            {
                 continue;
             }
-            if self.source_tree.any_within(dart, from_sources)
-                || self.veins.tree.any_within(dart, from_veins)
+            if self
+                .source_tree
+                .any_within(dart, self.plan.source_birth_distance * unit)
+                || self
+                    .veins
+                    .tree
+                    .any_within(dart, self.plan.vein_birth_distance * unit)
             {
                 self.darts_in_vain += 1.0;
                 continue;
@@ -189,10 +300,21 @@ impl<'a, I: Influence> Simulation<'a, I> {
             };
             self.sources.push(Source {
                 place: dart,
+                start: self.lamina.start_of(dart),
                 id,
                 influence: I::new(dart, id, &mut surroundings),
                 blocked_steps: 0,
             });
+        }
+    }
+
+    /// How far sources of this step keep from the margin, in segments of the full-grown leaf.
+    fn clearance(&self) -> f64 {
+        match self.plan.margin_clearance {
+            Some(rule) if self.clock.size(self.step) < rule.until => {
+                rule.distance * self.plan.final_length
+            }
+            Some(_) | None => 0.0,
         }
     }
 
@@ -232,15 +354,17 @@ impl<'a, I: Influence> Simulation<'a, I> {
             if length < NO_DIRECTION {
                 return (node, Outcome::Blocked);
             }
-            let child = self.veins.positions[i] + pull / length * unit;
-            if !can_reach(self.blade, self.veins.positions[i], child) {
+            let from = self.veins.positions[i];
+            let unit = unit * self.lamina.enlargement(from);
+            let child = from + pull / length * unit;
+            if !self.lamina.can_reach(from, child) {
                 return (node, Outcome::OffBlade);
             }
             if self.veins.tree.any_within(child, COINCIDENT * unit) {
                 return (node, Outcome::Blocked);
             }
-            let id = self.veins.add_node(child, self.step);
-            self.veins.add_edge(node, id);
+            let id = self.veins.add_node(child, self.step, &self.lamina);
+            self.veins.add_edge(node, id, &self.lamina);
             (node, Outcome::Child(id))
         };
         driven.iter().map(place_one).collect()
@@ -278,10 +402,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// Removes used-up sources and joins the veins that have met there.
     fn judge_sources(&mut self, unit: f64) {
-        let kill = self.plan.kill_distance * unit;
         let mut used_up = Vec::new();
         let source_tree = &mut self.source_tree;
+        let lamina = &self.lamina;
+        let kill_distance = self.plan.kill_distance;
         self.sources.retain_mut(|source| {
+            let kill = kill_distance * (unit * lamina.enlargement(source.place));
             let arrivals = match source.influence.judge(kill) {
                 Fate::UsedUp(arrivals) => arrivals,
                 Fate::Stays if source.blocked_steps >= PATIENCE => source.influence.give_up(),
@@ -293,7 +419,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         });
         for (place, arrivals) in used_up {
             self.veins
-                .weld(place, &arrivals, unit, self.blade, self.step);
+                .weld(place, &arrivals, unit, &self.lamina, self.step);
         }
     }
 }

@@ -4,9 +4,9 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
+use super::lamina::Lamina;
 use super::point_tree::PointTree;
 pub(crate) use crate::shape::cubic::catmull_rom;
-use crate::shape::outline::Outline;
 
 /// Stands for "no node".
 pub(crate) const NO_NODE: u32 = u32::MAX;
@@ -25,6 +25,8 @@ const WELDING_REACH: f64 = 2.0;
 pub(crate) struct Veins {
     /// Where each node is.
     pub(crate) positions: Vec<DVec2>,
+    /// Where the tissue of each node started.
+    starts: Vec<DVec2>,
     /// Step at which each node came into being.
     pub(crate) births: Vec<u32>,
     /// From, to.
@@ -35,7 +37,8 @@ pub(crate) struct Veins {
     parents: Vec<u32>,
     /// The first node that grew from each node, or [`NO_NODE`].
     first_children: Vec<u32>,
-    /// Edges by length, the longest on top: bits of the squared length, complement of the number.
+    /// Edges by length in segments of their place, the longest on top: bits of the squared length, complement of
+    /// the number.
     by_length: BinaryHeap<(u64, u32)>,
     /// Whether edges stretch in time.
     stretching: bool,
@@ -46,6 +49,7 @@ impl Veins {
     pub(crate) fn new(low: DVec2, high: DVec2, stretching: bool) -> Self {
         Self {
             positions: Vec::new(),
+            starts: Vec::new(),
             births: Vec::new(),
             edges: Vec::new(),
             tree: PointTree::new(low, high),
@@ -62,9 +66,10 @@ impl Veins {
     }
 
     /// Adds a node that nothing leads to.
-    pub(crate) fn add_node(&mut self, position: DVec2, step: u32) -> u32 {
+    pub(crate) fn add_node(&mut self, position: DVec2, step: u32, lamina: &Lamina) -> u32 {
         let node = self.count();
         self.positions.push(position);
+        self.starts.push(lamina.start_of(position));
         self.births.push(step);
         self.parents.push(NO_NODE);
         self.first_children.push(NO_NODE);
@@ -73,7 +78,7 @@ impl Veins {
     }
 
     /// Adds an edge between nodes.
-    pub(crate) fn add_edge(&mut self, from: u32, to: u32) {
+    pub(crate) fn add_edge(&mut self, from: u32, to: u32, lamina: &Lamina) {
         let edge = self.edges.len() as u32;
         self.edges.push([from, to]);
         if self.parents[to as usize] == NO_NODE {
@@ -82,15 +87,36 @@ impl Veins {
         if self.first_children[from as usize] == NO_NODE {
             self.first_children[from as usize] = to;
         }
-        self.note_length(edge);
+        self.note_length(edge, lamina);
     }
 
-    fn note_length(&mut self, edge: u32) {
+    /// Growth has ended.
+    pub(crate) fn stop_stretching(&mut self) {
+        self.stretching = false;
+        self.by_length.clear();
+    }
+
+    /// Moves all nodes with their tissue, on a lamina that now fills the rectangle from `low` to `high`.
+    pub(crate) fn carry(&mut self, lamina: &Lamina, low: DVec2, high: DVec2) {
+        self.tree = PointTree::new(low, high);
+        for (node, &start) in self.starts.iter().enumerate() {
+            let place = lamina.now_at(start);
+            self.positions[node] = place;
+            self.tree.insert(node as u32, place);
+        }
+        self.by_length.clear();
+        for edge in 0..self.edges.len() as u32 {
+            self.note_length(edge, lamina);
+        }
+    }
+
+    fn note_length(&mut self, edge: u32, lamina: &Lamina) {
         if self.stretching {
             let [from, to] = self.edges[edge as usize];
-            let ends = self.positions[to as usize] - self.positions[from as usize];
-            self.by_length
-                .push((ends.length_squared().to_bits(), !edge));
+            let (from, to) = (self.positions[from as usize], self.positions[to as usize]);
+            let enlargement = lamina.enlargement((from + to) * 0.5);
+            let squared = (to - from).length_squared() / (enlargement * enlargement);
+            self.by_length.push((squared.to_bits(), !edge));
         }
     }
 
@@ -100,7 +126,7 @@ impl Veins {
     /// Growth stretches old segments many times over; left alone, their gaps would let sources and
     /// second veins appear on top of them. New nodes lie on a Catmull–Rom curve through the ends
     /// and the nodes before and after, so that bends stay round.
-    pub(crate) fn subdivide(&mut self, unit: f64, blade: &Outline, step: u32) {
+    pub(crate) fn subdivide(&mut self, unit: f64, lamina: &Lamina, step: u32) {
         let longest = LONGEST_EDGE * unit;
         while let Some(&(bits, complement)) = self.by_length.peek() {
             let squared = f64::from_bits(bits);
@@ -110,12 +136,12 @@ impl Veins {
             self.by_length.pop();
             // At least two: the root may round down to the limit itself.
             let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
-            self.cut(!complement, pieces, blade, step);
+            self.cut(!complement, pieces, lamina, step);
         }
     }
 
     /// Cuts one edge into `pieces`. An edge that leaves the blade stays in one.
-    fn cut(&mut self, edge: u32, pieces: u32, blade: &Outline, step: u32) {
+    fn cut(&mut self, edge: u32, pieces: u32, lamina: &Lamina, step: u32) {
         let [from, to] = self.edges[edge as usize];
         let at = |node: u32| self.positions[node as usize];
         let (p1, p2) = (at(from), at(to));
@@ -135,7 +161,7 @@ impl Veins {
         let stays = |places: &[DVec2]| {
             let mut before = p1;
             places.iter().chain([&p2]).all(|&p| {
-                let fine = can_reach(blade, before, p);
+                let fine = lamina.can_reach(before, p);
                 before = p;
                 fine
             })
@@ -153,7 +179,7 @@ impl Veins {
         let mut tail = from;
         let mut tail_edge = edge;
         for place in places {
-            let node = self.add_node(place, step);
+            let node = self.add_node(place, step, lamina);
             self.edges[tail_edge as usize] = [tail, node];
             if self.first_children[tail as usize] == to {
                 self.first_children[tail as usize] = node;
@@ -165,10 +191,10 @@ impl Veins {
             }
             let rest = self.edges.len() as u32;
             self.edges.push([node, to]);
-            self.note_length(tail_edge);
+            self.note_length(tail_edge, lamina);
             (tail, tail_edge) = (node, rest);
         }
-        self.note_length(tail_edge);
+        self.note_length(tail_edge, lamina);
     }
 
     /// Joins veins that have arrived at a source by a junction node there (anastomosis). Fewer than
@@ -178,9 +204,10 @@ impl Veins {
         source: DVec2,
         arrivals: &[u32],
         unit: f64,
-        blade: &Outline,
+        lamina: &Lamina,
         step: u32,
     ) {
+        let unit = unit * lamina.enlargement(source);
         let reach = WELDING_REACH * unit;
         let ends: Vec<u32> = arrivals
             .iter()
@@ -193,31 +220,28 @@ impl Veins {
         // A vein may end on the source itself; then they meet midway instead.
         let sum: DVec2 = ends.iter().map(|&v| self.positions[v as usize]).sum();
         let middle = sum / ends.len() as f64;
-        let free = |p: &DVec2| blade.contains(*p) && !self.tree.any_within(*p, COINCIDENT * unit);
+        let free = |p: &DVec2| lamina.contains(*p) && !self.tree.any_within(*p, COINCIDENT * unit);
         let Some(place) = [source, middle].into_iter().find(free) else {
             return;
         };
         let mut ends = ends;
-        ends.retain(|&v| can_reach(blade, self.positions[v as usize], place));
+        ends.retain(|&v| lamina.can_reach(self.positions[v as usize], place));
         if ends.len() < 2 {
             return;
         }
-        let junction = self.add_node(place, step);
+        let junction = self.add_node(place, step, lamina);
         for end in ends {
-            self.add_edge(end, junction);
+            self.add_edge(end, junction, lamina);
         }
     }
-}
-
-/// Whether a straight vein from a node at `from` to `to` stays on the blade. The base itself lies on the margin,
-/// on either side of it after rounding, so the first millionth of the way does not count.
-pub(crate) fn can_reach(blade: &Outline, from: DVec2, to: DVec2) -> bool {
-    blade.contains(to) && !blade.is_crossed_by(from + (to - from) * 1e-6, to)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    use crate::shape::outline::Outline;
+    use crate::venation::plan::VenationPlan;
 
     fn blade() -> Outline {
         let corners = [(-50.0, 0.0), (50.0, 0.0), (50.0, 100.0), (-50.0, 100.0)];
@@ -225,14 +249,19 @@ mod tests {
         Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 100.0)).expect("a square")
     }
 
+    fn lamina(blade: &Outline) -> Lamina<'_> {
+        Lamina::new(&VenationPlan::default(), blade, None)
+    }
+
     /// A chain of nodes two apart, as tissue stretched to twice its size leaves it.
     fn chain(places: &[(f64, f64)]) -> Veins {
-        let (low, high) = blade().bounds();
+        let blade = blade();
+        let (low, high) = blade.bounds();
         let mut veins = Veins::new(low, high, true);
         for (i, &place) in places.iter().enumerate() {
-            let node = veins.add_node(DVec2::from(place), 0);
+            let node = veins.add_node(DVec2::from(place), 0, &lamina(&blade));
             if i > 0 {
-                veins.add_edge(node - 1, node);
+                veins.add_edge(node - 1, node, &lamina(&blade));
             }
         }
         veins
@@ -241,7 +270,7 @@ mod tests {
     #[test]
     fn subdivision_leaves_no_long_edge_and_keeps_the_chain() {
         let mut veins = chain(&[(0.0, 1.0), (0.0, 3.0), (1.0, 13.0), (2.0, 14.9)]);
-        veins.subdivide(1.0, &blade(), 5);
+        veins.subdivide(1.0, &lamina(&blade()), 5);
         for &[from, to] in &veins.edges {
             let ends = veins.positions[to as usize] - veins.positions[from as usize];
             assert!(
@@ -270,7 +299,7 @@ mod tests {
             .map(|a| (10.0 * libm::cos(a), 30.0 + 10.0 * libm::sin(a)))
             .collect();
         let mut veins = chain(&places);
-        veins.subdivide(1.0, &blade(), 1);
+        veins.subdivide(1.0, &lamina(&blade()), 1);
         let inner = veins.positions.iter().skip(8).filter(|p| {
             let a = libm::atan2(p.y - 30.0, p.x);
             (0.3..1.5).contains(&a)
@@ -284,13 +313,13 @@ mod tests {
     #[test]
     fn two_veins_at_a_source_are_joined_there_and_one_is_not() {
         let mut veins = chain(&[(0.0, 1.0), (0.0, 2.0)]);
-        let other = veins.add_node(DVec2::new(1.5, 2.5), 0);
-        let far = veins.add_node(DVec2::new(9.0, 2.5), 0);
+        let other = veins.add_node(DVec2::new(1.5, 2.5), 0, &lamina(&blade()));
+        let far = veins.add_node(DVec2::new(9.0, 2.5), 0, &lamina(&blade()));
         let source = DVec2::new(0.8, 2.4);
-        veins.weld(source, &[1], 1.0, &blade(), 1);
-        veins.weld(source, &[1, far], 1.0, &blade(), 1);
+        veins.weld(source, &[1], 1.0, &lamina(&blade()), 1);
+        veins.weld(source, &[1, far], 1.0, &lamina(&blade()), 1);
         assert_eq!(veins.count(), 4);
-        veins.weld(source, &[1, other], 1.0, &blade(), 1);
+        veins.weld(source, &[1, other], 1.0, &lamina(&blade()), 1);
         assert_eq!(veins.count(), 5);
         assert_eq!(veins.positions[4], source);
         assert_eq!(veins.edges[1..], [[1, 4], [other, 4]]);

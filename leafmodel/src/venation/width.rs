@@ -19,8 +19,13 @@ pub(crate) struct Flows {
     pub(crate) edges: Vec<f64>,
 }
 
-/// Adds up flows over the whole network, given its nodes from base to tip.
-pub(crate) fn flows(topology: &Topology, base_to_tip: &[u32]) -> Flows {
+/// Adds up flows over the whole network, given its nodes from base to tip; `unseen` is what a node bears besides
+/// ("we additionally increase the width of primary and secondary veins at each node", section 3.5).
+pub(crate) fn flows(
+    topology: &Topology,
+    base_to_tip: &[u32],
+    unseen: impl Fn(u32) -> f64,
+) -> Flows {
     let mut nodes = vec![0.0; topology.nodes()];
     let mut edges = vec![1.0; topology.edge_count()];
     for &node in base_to_tip.iter().rev() {
@@ -29,7 +34,7 @@ pub(crate) fn flows(topology: &Topology, base_to_tip: &[u32]) -> Flows {
             .iter()
             .map(|&edge| edges[edge as usize])
             .sum();
-        nodes[node as usize] = beyond.max(1.0);
+        nodes[node as usize] = beyond.max(1.0) + unseen(node);
         let entering = topology.entering(node);
         let share = (nodes[node as usize] / entering.len() as f64).max(1.0);
         for &edge in entering {
@@ -51,7 +56,7 @@ mod tests {
     fn flows_of(count: usize, edges: &[[u32; 2]]) -> Flows {
         let topology = Topology::new(count, edges);
         let order = topology.base_to_tip().expect("no circle");
-        flows(&topology, &order)
+        flows(&topology, &order, |_| 0.0)
     }
 
     #[test]

@@ -181,13 +181,21 @@ fn report(block: &Block<'_>, error: &PlanError) {
             | GrowthError::BadRate { .. },
         ) => (&["growth"], "mend the growth functions"),
         PlanError::TooManyDarts { .. } => (&["darts_per_segment2"], "use fewer darts"),
-        PlanError::OutOfRange { key, .. } => (
-            match *key {
-                "gaussian_curvature" => &["gaussian_curvature"],
-                _ => &[],
-            },
-            "use a value in that range",
+        PlanError::OutOfRange {
+            key: "gaussian_curvature",
+            ..
+        }
+        | PlanError::Incompatible {
+            key: "gaussian_curvature",
+            ..
+        } => (
+            &["gaussian_curvature"],
+            "use a value nearer to 0, or leave it out",
         ),
+        // Ranges of single numbers are checked where they are read, and only closed patterns have `free_endings`.
+        PlanError::OutOfRange { .. } | PlanError::Incompatible { .. } => {
+            (&[], "change or leave out what the message names")
+        }
     };
     let mut node = keys
         .first()

@@ -1,0 +1,134 @@
+//! The lamina that veins grow on: where it ends, and how long a segment is at each place.
+//!
+//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its conformal map: angles are
+//! true there, and a length at `p` appears enlarged by the same factor in every direction. For Gaussian curvature
+//! `K` everywhere that factor is `1 + K r²/4`, with the distance `r` from the map's centre (the stereographic projection
+//! of a sphere for `K > 0`, the Poincaré disc for `K < 0`). Segments, birth and kill distances are multiplied by it.
+
+use glam::DVec2;
+
+use super::plan::VenationPlan;
+use crate::shape::growth::TissueMap;
+use crate::shape::outline::Outline;
+
+/// The blade in the frame of [`super::lamina_clock`].
+#[derive(Clone, Debug)]
+pub(crate) struct Lamina<'a> {
+    /// The full-grown margin, in segments.
+    pub(crate) blade: &'a Outline,
+    /// How tissue moves, if growth is anisotropic: its map at this step and at the end.
+    carried: Option<(TissueMap, TissueMap)>,
+    /// `K/4` in segments⁻².
+    quarter_curvature: f64,
+    /// Middle of the midrib, where the conformal map is true to scale.
+    centre: DVec2,
+    /// The smallest upright rectangle around the blade now.
+    bounds: (DVec2, DVec2),
+}
+
+impl<'a> Lamina<'a> {
+    /// The lamina of a plan, with the map of the full-grown leaf if its tissue moves.
+    pub(crate) fn new(plan: &VenationPlan, blade: &'a Outline, last: Option<TissueMap>) -> Self {
+        let length = plan.final_length;
+        Self {
+            blade,
+            carried: last.map(|last| (last.clone(), last)),
+            quarter_curvature: 0.25 * plan.gaussian_curvature / (length * length),
+            centre: (blade.base() + blade.apex()) * 0.5,
+            bounds: blade.bounds(),
+        }
+    }
+
+    /// Lets the tissue move to where `now` has it.
+    pub(crate) fn carry(&mut self, now: TissueMap) {
+        if let Some((current, _)) = &mut self.carried {
+            *current = now;
+            self.bounds = self
+                .margin_now()
+                .into_iter()
+                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
+                    (low.min(p), high.max(p))
+                });
+        }
+    }
+
+    /// Where the tissue now at `p` started; `p` itself if tissue does not move.
+    pub(crate) fn start_of(&self, p: DVec2) -> DVec2 {
+        self.carried.as_ref().map_or(p, |(now, _)| now.back(p))
+    }
+
+    /// Where the tissue is now that started at `start`.
+    pub(crate) fn now_at(&self, start: DVec2) -> DVec2 {
+        self.carried
+            .as_ref()
+            .map_or(start, |(now, _)| now.forward(start))
+    }
+
+    /// Where the tissue now at `p` will be in the full-grown leaf. Whether it is on the blade is decided there, so
+    /// that nothing can slip off while the lamina grows.
+    pub(crate) fn full_grown(&self, p: DVec2) -> DVec2 {
+        self.carried
+            .as_ref()
+            .map_or(p, |(now, last)| last.forward(now.back(p)))
+    }
+
+    /// Where the tissue is now that will be at `p` in the full-grown leaf.
+    pub(crate) fn now_of_full_grown(&self, p: DVec2) -> DVec2 {
+        self.carried
+            .as_ref()
+            .map_or(p, |(now, last)| now.forward(last.back(p)))
+    }
+
+    /// The margin as it is now.
+    pub(crate) fn margin_now(&self) -> Vec<DVec2> {
+        let margin = self.blade.points().iter();
+        margin.map(|&p| self.now_of_full_grown(p)).collect()
+    }
+
+    /// Lower left and upper right corner of the smallest upright rectangle around the blade now.
+    pub(crate) fn bounds_now(&self) -> (DVec2, DVec2) {
+        self.bounds
+    }
+
+    /// Whether `p` is on the blade.
+    pub(crate) fn contains(&self, p: DVec2) -> bool {
+        self.blade.contains(self.full_grown(p))
+    }
+
+    /// Whether a straight vein from a node at `from` to `to` stays on the blade. An origin of the veins may lie on
+    /// the margin, on either side of it after rounding, so the first millionth of the way does not count.
+    pub(crate) fn can_reach(&self, from: DVec2, to: DVec2) -> bool {
+        let (from, to) = (self.full_grown(from), self.full_grown(to));
+        self.blade.contains(to) && !self.blade.is_crossed_by(from + (to - from) * 1e-6, to)
+    }
+
+    /// Distance from `p` to the margin, both in the full-grown leaf.
+    pub(crate) fn distance_to_margin(&self, p: DVec2) -> f64 {
+        self.blade.distance_to_margin(self.full_grown(p))
+    }
+
+    /// Whether the blade has no curvature.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.quarter_curvature == 0.0
+    }
+
+    /// How many times as many darts the map needs as its area tells, ≥ 1: as many as where it shrinks most.
+    pub(crate) fn surplus(&self) -> f64 {
+        let (low, high) = self.bounds;
+        let smallest = [
+            low,
+            high,
+            DVec2::new(low.x, high.y),
+            DVec2::new(high.x, low.y),
+        ]
+        .map(|corner| self.enlargement(corner))
+        .into_iter()
+        .fold(1.0, f64::min);
+        1.0 / (smallest * smallest)
+    }
+
+    /// How much larger lengths at `p` appear in the map than they are, > 0; 1 on a flat blade.
+    pub(crate) fn enlargement(&self, p: DVec2) -> f64 {
+        1.0 + self.quarter_curvature * (p - self.centre).length_squared()
+    }
+}

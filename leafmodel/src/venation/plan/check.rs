@@ -1,0 +1,289 @@
+//! What a plan may ask for.
+
+use thiserror::Error;
+
+use super::{Growth, Pattern, VenationPlan};
+use crate::shape::growth::GrowthError;
+use crate::shape::outline::Outline;
+
+/// A number: its name, its value, least and greatest, and both in words.
+type Check = (&'static str, f64, f64, f64, &'static str);
+
+const DISTANCE: &str = "0.01 to 10000 (segments)";
+
+/// Darts that one step, or the whole of marginal growth, may throw. More would take minutes and add nothing.
+const MOST_DARTS: f64 = 1e8;
+
+/// Why a plan cannot be carried out.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PlanError {
+    /// A number outside the range in which the model holds.
+    #[error("{key} is {value}, outside {range}")]
+    OutOfRange {
+        /// Which parameter.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The lamina would grow for too many steps.
+    #[error("growing in steps of {length_step} segments takes {steps} steps, more than 1000000")]
+    TooManySteps {
+        /// Growth per step, segments.
+        length_step: f64,
+        /// Steps that it takes.
+        steps: f64,
+    },
+    /// Two rules that do not go together.
+    #[error("{key} does not go together with {other}")]
+    Incompatible {
+        /// One rule.
+        key: &'static str,
+        /// The other.
+        other: &'static str,
+    },
+    /// A growth function that does not work.
+    #[error(transparent)]
+    Growth(#[from] GrowthError),
+    /// A place where veins start that lies outside the blade.
+    #[error("origin {index} of the veins, ({x}, {y}) of the leaf's length, is not on the blade")]
+    OriginOffBlade {
+        /// Which origin, from 0.
+        index: usize,
+        /// Its place across the midrib, shares of the midrib's length.
+        x: f64,
+        /// Its place along the midrib, likewise.
+        y: f64,
+    },
+    /// The blade and `darts_per_area` together ask for too many darts.
+    #[error("darts_per_area asks for {darts} darts on this blade, more than 100000000")]
+    TooManyDarts {
+        /// How many.
+        darts: f64,
+    },
+}
+
+impl VenationPlan {
+    /// Checks every number by itself, and that growth comes to an end.
+    ///
+    /// # Errors
+    ///
+    /// [`PlanError`], naming the parameter and its range.
+    pub fn validate(&self) -> Result<(), PlanError> {
+        let checks = self.numbers().into_iter().chain(self.numbers_of_rules());
+        for (key, value, low, high, range) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(PlanError::OutOfRange { key, value, range });
+            }
+        }
+        let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
+        let pairs = [
+            (
+                self.free_endings.is_some() && self.pattern == Pattern::Open,
+                "free_endings",
+                "an open pattern",
+            ),
+            (
+                self.gaussian_curvature != 0.0 && is_anisotropic,
+                "gaussian_curvature",
+                "anisotropic growth",
+            ),
+        ];
+        if let Some(&(_, key, other)) = pairs.iter().find(|(both, ..)| *both) {
+            return Err(PlanError::Incompatible { key, other });
+        }
+        match &self.growth {
+            Growth::None => Ok(()),
+            Growth::Marginal {
+                initial_length,
+                length_step,
+            }
+            | Growth::Isogonic {
+                initial_length,
+                length_step,
+            } => self.validate_growth(*initial_length, *length_step),
+            // That it arrives is found by the clock.
+            Growth::Anisotropic { initial_length, .. } => {
+                self.validate_growth(*initial_length, 1.0)
+            }
+        }
+    }
+
+    /// Every plan's numbers, with least, greatest and the range in words.
+    fn numbers(&self) -> [Check; 10] {
+        let distance = DISTANCE;
+        [
+            (
+                "final_length",
+                self.final_length,
+                2.0,
+                1e5,
+                "2 to 100000 (segments)",
+            ),
+            ("kill_distance", self.kill_distance, 0.01, 1e4, distance),
+            (
+                "source_birth_distance",
+                self.source_birth_distance,
+                0.01,
+                1e4,
+                distance,
+            ),
+            (
+                "vein_birth_distance",
+                self.vein_birth_distance,
+                0.01,
+                1e4,
+                distance,
+            ),
+            (
+                "darts_per_area",
+                self.darts_per_area,
+                1e-12,
+                1e3,
+                "0 (excluded) to 1000",
+            ),
+            (
+                "murray_exponent",
+                self.murray_exponent,
+                0.5,
+                10.0,
+                "0.5 to 10",
+            ),
+            (
+                "veinlet_radius_mm",
+                self.veinlet_radius_mm,
+                1e-6,
+                10.0,
+                "0.000001 to 10 (millimetres)",
+            ),
+            (
+                "unseen_veinlets",
+                self.unseen_veinlets,
+                0.0,
+                1e3,
+                "0 to 1000 (per node)",
+            ),
+            (
+                "gaussian_curvature",
+                self.gaussian_curvature,
+                -2.0,
+                8.0,
+                "-2 to 8 (per leaf length squared)",
+            ),
+            (
+                "origins",
+                self.origins.len() as f64,
+                0.0,
+                1e3,
+                "a list of at most 1000 places",
+            ),
+        ]
+    }
+
+    /// Those of rules that a plan may leave out.
+    fn numbers_of_rules(&self) -> Vec<Check> {
+        let distance = DISTANCE;
+        let mut checks = Vec::new();
+        if let Some(free) = &self.free_endings {
+            checks.extend([
+                (
+                    "free_endings.birth_distance",
+                    free.birth_distance,
+                    0.01,
+                    1e4,
+                    distance,
+                ),
+                (
+                    "free_endings.kill_distance",
+                    free.kill_distance,
+                    0.01,
+                    1e4,
+                    distance,
+                ),
+                (
+                    "free_endings.darts_per_area",
+                    free.darts_per_area,
+                    1e-12,
+                    1e3,
+                    "0 (excluded) to 1000",
+                ),
+            ]);
+        }
+        if let Some(clearance) = &self.margin_clearance {
+            let share = "0 (excluded) to 0.5 (of the leaf's length)";
+            checks.extend([
+                (
+                    "margin_clearance.distance",
+                    clearance.distance,
+                    1e-6,
+                    0.5,
+                    share,
+                ),
+                (
+                    "margin_clearance.until",
+                    clearance.until,
+                    0.0,
+                    1.0,
+                    "0 to 1 (of the final length)",
+                ),
+            ]);
+        }
+        checks
+    }
+
+    fn validate_growth(&self, initial_length: f64, length_step: f64) -> Result<(), PlanError> {
+        if !(initial_length >= 1e-3 && initial_length <= self.final_length) {
+            return Err(PlanError::OutOfRange {
+                key: "initial_length",
+                value: initial_length,
+                range: "0.001 to final_length (segments)",
+            });
+        }
+        if !(length_step > 0.0 && length_step.is_finite()) {
+            return Err(PlanError::OutOfRange {
+                key: "length_step",
+                value: length_step,
+                range: "above 0 (segments per step)",
+            });
+        }
+        let steps = ((self.final_length - initial_length) / length_step).ceil();
+        if steps > 1e6 {
+            return Err(PlanError::TooManySteps { length_step, steps });
+        }
+        Ok(())
+    }
+
+    /// Checks what only the margin can tell; `blade` is in segments, base at the origin.
+    pub(crate) fn validate_on(&self, blade: &Outline) -> Result<(), PlanError> {
+        let origins = self.origins_in_segments();
+        if let Some(index) = origins
+            .iter()
+            .position(|&p| !(p.is_finite() && blade.covers(p)))
+        {
+            let [x, y] = self.origins[index];
+            return Err(PlanError::OriginOffBlade { index, x, y });
+        }
+        // The map of a saddle ends where lengths vanish.
+        let middle = (blade.base() + blade.apex()) * 0.5;
+        let (low, high) = blade.bounds();
+        let farthest = (low - middle).abs().max((high - middle).abs()).length() / self.final_length;
+        if 1.0 + 0.25 * self.gaussian_curvature * farthest * farthest < 0.1 {
+            return Err(PlanError::OutOfRange {
+                key: "gaussian_curvature",
+                value: self.gaussian_curvature,
+                range: "what a blade so wide can have: above -3.6 over its half diagonal (in leaf lengths) squared",
+            });
+        }
+        Ok(())
+    }
+
+    /// Checks what `darts` in one go would cost.
+    pub(crate) fn validate_darts(darts: f64) -> Result<(), PlanError> {
+        if darts <= MOST_DARTS {
+            Ok(())
+        } else {
+            Err(PlanError::TooManyDarts { darts })
+        }
+    }
+}

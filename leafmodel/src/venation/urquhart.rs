@@ -1,0 +1,256 @@
+//! Which vein nodes are Urquhart neighbours of a source: the approximation of section 5.2.
+//!
+//! Node `v` is one if it is a Delaunay neighbour of the source in the set of all nodes and the source, and no other
+//! Delaunay neighbour `u` has `‖v − s‖ ≥ max(‖u − s‖, ‖v − u‖)`. The relative neighbours are among them; a node that is
+//! no Delaunay neighbour can exclude more (Fig. 8).
+//!
+//! The Delaunay neighbours are those whose bisectors bound the source's Voronoi cell. New nodes only shrink the
+//! cell, so each cuts it in turn. The cell starts as a square much larger than the lamina: neighbours whose bisectors
+//! bound the cell only outside of it are far apart on the hull of the veins, and are not counted.
+
+use glam::DVec2;
+
+use super::point_tree::PointTree;
+
+/// Half the side of the square in which cells lie, in sizes of the lamina.
+pub(crate) const SURROUNDINGS: f64 = 64.0;
+
+/// Squares are compared with this much to spare where a wrong answer would only cost time.
+const SLACK: f64 = 1.0 + 1e-9;
+
+/// A side of the cell: the node behind it, if any, and the corner at its counter-clockwise end.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    node: Option<(u32, DVec2)>,
+    corner: DVec2,
+}
+
+/// The Urquhart neighbours of one source, kept up to date as nodes appear.
+#[derive(Clone, Debug)]
+pub(crate) struct UrquhartNeighbourhood {
+    source: DVec2,
+    /// Sides of the Voronoi cell, counter-clockwise; corners and nodes relative to the source.
+    sides: Vec<Side>,
+    /// Squared distance of the farthest corner.
+    radius_squared: f64,
+    /// Number and squared distance of each neighbour, by number.
+    members: Vec<(u32, f64)>,
+}
+
+impl UrquhartNeighbourhood {
+    /// Finds the neighbours of `source` among the points of `tree`, on a lamina of this `size`.
+    pub(crate) fn find(source: DVec2, tree: &PointTree, size: f64) -> Self {
+        let far = SURROUNDINGS * size;
+        let corners = [(far, -far), (far, far), (-far, far), (-far, -far)];
+        let side = |corner| Side {
+            node: None,
+            corner: DVec2::from(corner),
+        };
+        let mut found = Self {
+            source,
+            sides: corners.map(side).to_vec(),
+            radius_squared: 2.0 * far * far,
+            members: Vec::new(),
+        };
+        tree.approach(source, |entry| {
+            found.cut(entry.id, entry.position);
+            found.reach_squared()
+        });
+        found.choose();
+        found
+    }
+
+    /// Takes in one new node; [`Self::choose`] is due after the last.
+    pub(crate) fn cut(&mut self, id: u32, position: DVec2) {
+        let offset = position - self.source;
+        if offset.length_squared() > self.reach_squared() {
+            return;
+        }
+        let half = 0.5 * offset.length_squared();
+        let beyond = |corner: DVec2| corner.dot(offset) - half;
+        let Some(last) = self.sides.last() else {
+            return;
+        };
+        let mut before = (last.corner, beyond(last.corner));
+        if half > 0.0 && !self.sides.iter().any(|side| beyond(side.corner) > 0.0) {
+            return;
+        }
+        let mut sides = Vec::with_capacity(self.sides.len() + 2);
+        for side in &self.sides {
+            let at = beyond(side.corner);
+            let crossing = || before.0 + (side.corner - before.0) * (before.1 / (before.1 - at));
+            // Going out, the side is cut short; coming in, the new side ends where the old one begins.
+            match (before.1 > 0.0, at > 0.0) {
+                (false, false) => sides.push(*side),
+                (false, true) => sides.push(Side {
+                    node: side.node,
+                    corner: crossing(),
+                }),
+                (true, false) => {
+                    sides.push(Side {
+                        node: Some((id, offset)),
+                        corner: crossing(),
+                    });
+                    sides.push(*side);
+                }
+                (true, true) => {}
+            }
+            before = (side.corner, at);
+        }
+        // A node on the source leaves nothing to anyone else.
+        if half == 0.0 {
+            sides = vec![Side {
+                node: Some((id, offset)),
+                corner: DVec2::ZERO,
+            }];
+        }
+        self.sides = sides;
+        self.radius_squared = self
+            .sides
+            .iter()
+            .fold(0.0, |far, side| side.corner.length_squared().max(far));
+    }
+
+    /// Squared distance beyond which no node cuts the cell.
+    pub(crate) fn reach_squared(&self) -> f64 {
+        4.0 * self.radius_squared * SLACK
+    }
+
+    /// Where the source is.
+    pub(crate) fn source(&self) -> DVec2 {
+        self.source
+    }
+
+    /// Tests the Delaunay neighbours against each other.
+    pub(crate) fn choose(&mut self) {
+        let mut delaunay: Vec<(u32, DVec2)> = self.sides.iter().filter_map(|s| s.node).collect();
+        delaunay.sort_unstable_by_key(|&(id, _)| id);
+        delaunay.dedup_by_key(|&mut (id, _)| id);
+        // Distances as everywhere: squares of differences of positions.
+        let excluded = |v: (u32, DVec2)| {
+            delaunay.iter().any(|&u| {
+                u.0 != v.0
+                    && v.1.length_squared()
+                        >= u.1.length_squared().max((v.1 - u.1).length_squared())
+            })
+        };
+        self.members = delaunay
+            .iter()
+            .filter(|&&v| !excluded(v))
+            .map(|&(id, offset)| (id, offset.length_squared()))
+            .collect();
+    }
+
+    /// Number and squared distance of each neighbour.
+    pub(crate) fn members(&self) -> &[(u32, f64)] {
+        &self.members
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    use super::*;
+    use crate::venation::relative_neighbourhood::{RelativeNeighbourhood, Workspace};
+
+    fn tree(nodes: &[(f64, f64)]) -> PointTree {
+        let mut tree = PointTree::new(DVec2::splat(-16.0), DVec2::splat(16.0));
+        for (id, &node) in nodes.iter().enumerate() {
+            tree.insert(id as u32, DVec2::from(node));
+        }
+        tree
+    }
+
+    fn ids(neighbourhood: &UrquhartNeighbourhood) -> Vec<u32> {
+        neighbourhood.members().iter().map(|&(id, _)| id).collect()
+    }
+
+    fn relative(source: DVec2, tree: &PointTree) -> Vec<u32> {
+        let mut workspace = Workspace::new(DVec2::splat(-16.0), DVec2::splat(16.0));
+        let found = RelativeNeighbourhood::find(source, tree, &mut workspace);
+        let mut ids: Vec<u32> = found.members().map(|(id, _)| id).collect();
+        ids.sort_unstable();
+        ids
+    }
+
+    #[test]
+    fn a_node_that_is_no_delaunay_neighbour_can_exclude_a_relative_neighbour() {
+        // As in Fig. 8: node 1 lies behind the short bisector of node 2, so it is no Delaunay neighbour of the
+        // source, yet it is nearer to the source and to node 0 than these are to each other.
+        let nodes = [(10.0, 0.0), (5.4, -7.0), (1.5, -6.5), (5.6, -2.6)];
+        let nodes = &nodes[..];
+        let mut seen = None;
+        for dx in -20..=20 {
+            for dy in -20..=0 {
+                let a = (5.0 + 0.2 * f64::from(dx), -5.0 + 0.2 * f64::from(dy));
+                let tree = tree(&[nodes[0], a, nodes[2]]);
+                let urquhart = ids(&UrquhartNeighbourhood::find(DVec2::ZERO, &tree, 32.0));
+                let exact = relative(DVec2::ZERO, &tree);
+                if urquhart.contains(&0) && !exact.contains(&0) {
+                    seen = Some(a);
+                }
+                assert!(exact.iter().all(|id| urquhart.contains(id)));
+            }
+        }
+        assert!(seen.is_some(), "no such configuration");
+    }
+
+    /// `v` is a Delaunay neighbour of the source if part of their bisector is nearer to them than to all others.
+    fn is_delaunay(source: DVec2, nodes: &[DVec2], v: usize, size: f64) -> bool {
+        let offset = nodes[v] - source;
+        let (foot, along) = (offset * 0.5, offset.perp().normalize());
+        let far = SURROUNDINGS * size;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        // Keeps where `normal · (foot + t along) ≤ limit`.
+        let mut clip = |normal: DVec2, limit: f64| {
+            let (slope, rest) = (normal.dot(along), limit - normal.dot(foot));
+            if slope > 0.0 {
+                high = high.min(rest / slope);
+            } else if slope < 0.0 {
+                low = low.max(rest / slope);
+            } else if rest < 0.0 {
+                high = f64::NEG_INFINITY;
+            }
+        };
+        for normal in [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y] {
+            clip(normal, far);
+        }
+        for (u, &node) in nodes.iter().enumerate() {
+            if u != v {
+                clip(node - source, 0.5 * (node - source).length_squared());
+            }
+        }
+        low < high
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+
+        #[test]
+        fn neighbours_are_those_of_the_definition_and_hold_the_relative_ones(
+            points in proptest::collection::vec((-10.0..10.0, -10.0..10.0), 1..80),
+            x in -10.0..10.0, y in -10.0..10.0,
+        ) {
+            let source = DVec2::new(x, y);
+            let nodes: Vec<DVec2> = points.iter().copied().map(DVec2::from).collect();
+            let delaunay: Vec<usize> = (0..nodes.len())
+                .filter(|&v| is_delaunay(source, &nodes, v, 32.0))
+                .collect();
+            let squared = |p: DVec2, q: DVec2| (p - q).length_squared();
+            let expected: Vec<u32> = delaunay
+                .iter()
+                .copied()
+                .filter(|&v| delaunay.iter().all(|&u| u == v
+                    || squared(nodes[v], source) < squared(nodes[u], source).max(squared(nodes[v], nodes[u]))))
+                .map(|v| v as u32)
+                .collect();
+            let tree = tree(&points);
+            let found = UrquhartNeighbourhood::find(source, &tree, 32.0);
+            prop_assert_eq!(ids(&found), expected.clone());
+            let exact = relative(source, &tree);
+            prop_assert!(exact.iter().all(|id| expected.contains(id)));
+        }
+    }
+}
