@@ -65,6 +65,26 @@ pub enum LeafError {
     Tissue(#[from] TissueError),
 }
 
+impl LeafPlan {
+    /// The margin alone.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::Outline`].
+    pub fn grow_outline(&self) -> Result<Outline, LeafError> {
+        Ok(self.outline.grow(self.length_mm)?)
+    }
+
+    /// The veins on a margin from [`LeafPlan::grow_outline`].
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::Venation`].
+    pub fn grow_veins(&self, outline: &Outline) -> Result<VenationNetwork, LeafError> {
+        Ok(venation::grow(outline, &self.venation, self.seed)?)
+    }
+}
+
 impl Leaf {
     /// Grows the leaf of a plan.
     ///
@@ -75,8 +95,21 @@ impl Leaf {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
         plan.tissue.validate()?;
         plan.form.validate()?;
-        let outline = plan.outline.grow(plan.length_mm)?;
-        let network = venation::grow(&outline, &plan.venation, plan.seed)?;
+        let outline = plan.grow_outline()?;
+        let network = plan.grow_veins(&outline)?;
+        Self::from_veins(plan, outline, network)
+    }
+
+    /// Blade and contents about a margin and veins that the plan has brought forth.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::Blade`], [`LeafError::Tissue`].
+    pub fn from_veins(
+        plan: &LeafPlan,
+        outline: Outline,
+        network: VenationNetwork,
+    ) -> Result<Self, LeafError> {
         let mesh = BladeMesh::build(&outline, &network, &plan.form)?;
         let frame = UvFrame::around(outline.points());
         let veins: Vec<VeinSegment> = network.segments().collect();

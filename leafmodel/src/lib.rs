@@ -7,4 +7,5 @@ pub mod blade;
 pub mod leaf;
 pub mod optics;
 pub mod shape;
+pub mod species;
 pub mod venation;

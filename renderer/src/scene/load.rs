@@ -140,7 +140,7 @@ impl Opened {
             .collect();
         let mut tree = Table::from_toml(source, parsed.into_inner());
         for text in overridden {
-            overrides::apply(&cx, &mut tree, text);
+            overrides::apply(&cx, &mut tree, "-D", text);
         }
         let recorded = if overridden.is_empty() {
             text.to_owned()

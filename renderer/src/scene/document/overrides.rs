@@ -7,9 +7,10 @@ use super::tree::{Entry, Node, Table};
 use crate::scene::error::SceneError;
 use crate::scene::source::{Place, escaped};
 
-/// Puts one override into a file's tree. Errors point into the override's own text.
-pub(crate) fn apply(cx: &Context, tree: &mut Table, text: &str) {
-    let source = cx.sources.borrow_mut().add("-D", text);
+/// Puts one override into a file's tree. Errors point into the override's own text, which reports show under the
+/// name of its `flag`.
+pub(crate) fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str) {
+    let source = cx.sources.borrow_mut().add(flag, text);
     let whole = Place {
         source,
         span: 0..text.len(),
