@@ -33,9 +33,10 @@ pub(crate) mod write;
 pub(crate) mod write_leaf;
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use camera::{read_camera, read_integrator};
-use context::Context;
+use context::{Context, KnownKey};
 use film::{read_film, read_picture};
 use names::{Names, require_name};
 use object::Shapes;
@@ -45,7 +46,7 @@ use values::integer_at;
 
 use super::description::{Description, Leaf, Light, Named, Object, ObjectShape};
 use super::error::SceneError;
-use super::source::Place;
+use super::source::{Place, Sources};
 
 /// Reads a whole file. Errors are left in the context; without one there is a description.
 pub(crate) fn read(
@@ -130,6 +131,27 @@ pub(crate) fn read_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>
     }
     root.finish();
     all(leaves).filter(|_| cx.error_count() == 0)
+}
+
+/// Every key that the leaf `name` of a file may have, paths beginning with `leaves`. Keys of blocks that are left out
+/// are among them, those of kinds that were not chosen are not.
+pub(crate) fn known_keys(folder: &Path, tree: &Table, name: &str) -> Vec<KnownKey> {
+    let cx = Context::new(Sources::default(), folder.to_owned());
+    *cx.survey.borrow_mut() = Some(Vec::new());
+    let start = Place {
+        source: 0,
+        span: 0..0,
+    };
+    let leaf = tree
+        .get("leaves")
+        .and_then(|entry| entry.node.table()?.get(name));
+    if let Some(table) = leaf.and_then(|entry| entry.node.table()) {
+        leaf::read_leaf(&Block::new(&cx, table, format!("leaves.{name}"), start));
+    }
+    let mut keys = cx.survey.take().unwrap_or_default();
+    keys.sort_by(|a, b| a.path.cmp(&b.path));
+    keys.dedup();
+    keys
 }
 
 /// Blocks of a section as read; `None` stands for one with an error.

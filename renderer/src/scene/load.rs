@@ -1,5 +1,7 @@
 //! From a scene file, or its text, to a [`Description`] or a report of everything that is wrong.
 
+mod one_leaf;
+
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
@@ -17,6 +19,8 @@ use super::document::{overrides, read, read_leaves, write, write_leaf};
 use super::error::{LocatedError, SceneError};
 use super::report::{SceneErrors, Warning};
 use super::source::{Place, Sources, escaped, line_of_byte};
+
+pub use one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 
 /// Largest scene file, bytes.
 const MOST_BYTES: u64 = 16 << 20;

@@ -23,6 +23,15 @@ pub(crate) struct Remark {
     pub(crate) at: Option<Place>,
 }
 
+/// A key that a file may have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct KnownKey {
+    /// Names of all blocks around it, and its own.
+    pub(crate) path: String,
+    /// Whether the block that it belongs to is in the file.
+    pub(crate) block_is_there: bool,
+}
+
 /// Shared by all blocks of one file.
 #[derive(Debug)]
 pub(crate) struct Context {
@@ -33,6 +42,8 @@ pub(crate) struct Context {
     /// First and last wavelength of the film, nm, once it is known.
     pub(crate) range_nm: Cell<Option<[f64; 2]>>,
     pub(crate) sources: RefCell<Sources>,
+    /// If what the keys are is asked for: every key of every block, see [`KnownKey`].
+    pub(crate) survey: RefCell<Option<Vec<KnownKey>>>,
     errors: RefCell<Vec<LocatedError>>,
     error_count: Cell<usize>,
     remarks: RefCell<Vec<Remark>>,
@@ -45,6 +56,7 @@ impl Context {
             extrapolate: Cell::new(false),
             range_nm: Cell::new(None),
             sources: RefCell::new(sources),
+            survey: RefCell::default(),
             errors: RefCell::default(),
             error_count: Cell::new(0),
             remarks: RefCell::default(),

@@ -6,13 +6,16 @@
 
 use std::cell::RefCell;
 
-use super::context::{Context, ENOUGH, QUOTED};
+use super::context::{Context, ENOUGH, KnownKey, QUOTED};
 use super::limits::Limits;
 use super::tree::{Entry, Node, Table, Value};
 use super::values::{integer_at, listed, number_at, numbers_at, text_at, wrong_type};
 use crate::scene::error::{NONE, SceneError};
 use crate::scene::nearest::nearest;
 use crate::scene::source::{Place, escaped};
+
+/// What a survey of the keys reads where a block is left out.
+static NOTHING: Table = Table(Vec::new());
 
 /// A table of the file under its full name.
 #[derive(Debug)]
@@ -169,7 +172,11 @@ impl<'a> Block<'a> {
 
     /// A block inside this one that may be left out.
     pub(crate) fn optional_block(&self, key: &'static str) -> Option<Block<'a>> {
-        let entry = self.entry(key)?;
+        let Some(entry) = self.entry(key) else {
+            let surveyed = self.cx.survey.borrow().is_some();
+            let path = self.path_of(key);
+            return surveyed.then(|| Block::new(self.cx, &NOTHING, path, self.at.clone()));
+        };
         self.open(entry)
     }
 
@@ -188,6 +195,7 @@ impl<'a> Block<'a> {
     /// The one block among `variants` that is there, and nothing else beside it.
     pub(crate) fn variant(&self, variants: &[&'static str]) -> Option<(&'static str, Block<'a>)> {
         let chosen = self.one_of(variants);
+        self.note_known_keys();
         let known: Vec<&str> = self.asked.borrow().clone();
         let mut strangers = false;
         for entry in &self.table.0 {
@@ -279,6 +287,7 @@ impl<'a> Block<'a> {
     ///
     /// A missing key is left out if an unknown one is most probably just that, misspelt.
     pub(crate) fn finish(&self) {
+        self.note_known_keys();
         let asked = self.asked.borrow();
         let mut known: Vec<&str> = Vec::new();
         for key in asked.iter() {
@@ -319,6 +328,15 @@ impl<'a> Block<'a> {
             } else {
                 self.cx.error(&self.at, error);
             }
+        }
+    }
+
+    fn note_known_keys(&self) {
+        if let Some(known) = self.cx.survey.borrow_mut().as_mut() {
+            known.extend(self.asked.borrow().iter().map(|key| KnownKey {
+                path: self.path_of(key),
+                block_is_there: !std::ptr::eq(self.table, &raw const NOTHING),
+            }));
         }
     }
 
