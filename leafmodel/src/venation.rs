@@ -18,6 +18,7 @@
 mod agreement;
 #[cfg(test)]
 mod all_pairs;
+mod arches;
 mod auxin;
 mod chance;
 mod closed;

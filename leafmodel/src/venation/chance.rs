@@ -18,6 +18,8 @@ pub(crate) enum Use {
     FreeDartY = 5,
     /// Whether a dart on a curved blade is kept.
     DartKept = 6,
+    /// Where along the margin a secondary vein ends.
+    Arch = 7,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.
