@@ -236,24 +236,24 @@ fn simulate<I: Influence>(
 ) -> (Grown, Vec<Grown>) {
     let mut young = Vec::new();
     let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
-    let mut ending = simulation.run(|now| {
-        if steps.contains(&now.step) {
-            young.push(now.state(Ending::StepLimit));
+    simulation.remember(steps, &mut young);
+    let mut rounds = simulation.arch_rounds();
+    if let Some(arches) = rounds.pop() {
+        // Secondaries end freely at first and join later (\[scarpella2004\]).
+        let mut free = simulation.under::<NearestNode>();
+        for round in rounds {
+            free.lay_out(&round, |now| now.remember(steps, &mut young));
         }
-    });
+        simulation = free.under();
+        simulation.lay_out(&arches, |now| now.remember(steps, &mut young));
+    }
+    let mut ending = simulation.run(|now| now.remember(steps, &mut young));
     let grown = match &plan.free_endings {
         None => simulation.state(ending),
         Some(free) => {
             let rest = free.as_plan(plan);
             let mut veinlets = simulation.with_free_endings(&rest, free);
-            let last = veinlets.run(|now| {
-                if now.step > 0
-                    && steps.contains(&now.step)
-                    && young.last().is_none_or(|y| y.steps < now.step)
-                {
-                    young.push(now.state(Ending::StepLimit));
-                }
-            });
+            let last = veinlets.run(|now| now.remember(steps, &mut young));
             if last == Ending::StepLimit {
                 ending = last;
             }

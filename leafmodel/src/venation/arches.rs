@@ -1,10 +1,10 @@
 //! Where secondary veins are to meet in arches: sources laid out before those that chance throws.
 //!
 //! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins the next. Rounds of
-//! sources bring that about under the ordinary rules of closed patterns, one round after the other is used up: the
+//! sources bring that about under the ordinary rules, one round after the other is used up. Under the rule of open patterns, the
 //! first draws the midrib; the next ones draw every secondary along a curve, out and up to its place on a line inside the margin,
-//! as peaks of auxin do that the growing lamina carries outward; the last lies between neighbouring ends, where each
-//! source draws the two veins beside it, and they join.
+//! as peaks of auxin do that the growing lamina carries outward. The last, under the rule of closed patterns, lies between
+//! neighbouring ends, where each source draws the two veins beside it, and they join.
 //!
 //! # Source
 //!
