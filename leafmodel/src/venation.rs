@@ -18,8 +18,9 @@
 mod agreement;
 #[cfg(test)]
 mod all_pairs;
+pub mod areole;
 mod auxin;
-mod chance;
+pub(crate) mod chance;
 mod closed;
 mod fresh_nodes;
 mod influence;
@@ -28,9 +29,12 @@ pub mod network;
 mod open;
 mod order;
 pub mod plan;
+pub mod planar;
 mod point_tree;
 mod relative_neighbourhood;
 mod simulation;
+#[cfg(test)]
+pub(crate) mod testing;
 mod topology;
 mod veins;
 mod width;
