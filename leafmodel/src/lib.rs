@@ -5,6 +5,7 @@
 
 pub mod blade;
 pub mod leaf;
+pub mod measure;
 pub mod optics;
 pub mod shape;
 pub mod venation;

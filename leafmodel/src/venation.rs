@@ -35,7 +35,7 @@ mod relative_neighbourhood;
 mod simulation;
 #[cfg(test)]
 pub(crate) mod testing;
-mod topology;
+pub(crate) mod topology;
 mod veins;
 mod width;
 

@@ -12,6 +12,10 @@ pub(crate) enum Use {
     DartY = 2,
     /// Which of several equally near nodes a source drives.
     Tie = 3,
+    /// Where the distance to the nearest vein is measured, across the leaf.
+    ProbeX = 101,
+    /// Where the distance to the nearest vein is measured, along the leaf.
+    ProbeY = 102,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.

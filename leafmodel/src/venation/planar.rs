@@ -24,7 +24,7 @@ pub struct PlaneGraph {
     nodes: Vec<DVec2>,
     edges: Vec<VeinEdge>,
     grid: EdgeGrid,
-    cuts: usize,
+    crossings: usize,
 }
 
 impl PlaneGraph {
@@ -34,8 +34,8 @@ impl PlaneGraph {
         let (mut nodes, mut edges) = in_rows(network);
         let mut grid = EdgeGrid::new(&nodes, &edges);
         let found = contacts::find(&nodes, &edges, &grid);
-        let cuts = found.len();
-        if cuts > 0 {
+        let crossings = found.crossings();
+        if !found.are_none() {
             contacts::cut(&mut nodes, &mut edges, found);
             grid = EdgeGrid::new(&nodes, &edges);
         }
@@ -43,7 +43,7 @@ impl PlaneGraph {
             nodes,
             edges,
             grid,
-            cuts,
+            crossings,
         }
     }
 
@@ -52,14 +52,14 @@ impl PlaneGraph {
         &self.nodes
     }
 
-    /// The edges, with numbers of [`PlaneGraph::nodes`], ascending by `from`. The pieces of a cut edge have its order, and radii between its own.
+    /// The edges, with numbers of [`PlaneGraph::nodes`]. The pieces of a cut edge have its order, and radii between its own.
     pub fn edges(&self) -> &[VeinEdge] {
         &self.edges
     }
 
-    /// Places where veins crossed or touched without a common node, and pairs of nodes at one place.
-    pub fn cuts(&self) -> usize {
-        self.cuts
+    /// Pairs of edges that crossed. Each crossing closes one more loop than the network's own, if it does not join what was apart.
+    pub fn crossings(&self) -> usize {
+        self.crossings
     }
 
     pub(crate) fn grid(&self) -> &EdgeGrid {
@@ -69,11 +69,6 @@ impl PlaneGraph {
     /// Distance from `p` to the midline of the nearest vein, mm; none without veins.
     pub fn distance_to_vein(&self, p: DVec2) -> Option<f64> {
         self.grid.distance(&self.nodes, &self.edges, p)
-    }
-
-    /// Edges that lead away from each node: those of node `i` are `edges[starts[i]..starts[i + 1]]`.
-    pub(crate) fn leaving(&self) -> Vec<u32> {
-        starts(self.nodes.len(), &self.edges)
     }
 }
 
@@ -116,7 +111,13 @@ fn in_rows(network: &VenationNetwork) -> (Vec<DVec2>, Vec<VeinEdge>) {
 
 /// Counting sort of edges by the node they come from.
 fn by_from(count: usize, edges: &[VeinEdge]) -> Vec<VeinEdge> {
-    let mut next = starts(count, edges);
+    let mut next = vec![0_u32; count + 1];
+    for edge in edges {
+        next[edge.from as usize + 1] += 1;
+    }
+    for node in 0..count {
+        next[node + 1] += next[node];
+    }
     let mut sorted = edges.to_vec();
     for edge in edges {
         let at = &mut next[edge.from as usize];
@@ -124,16 +125,4 @@ fn by_from(count: usize, edges: &[VeinEdge]) -> Vec<VeinEdge> {
         *at += 1;
     }
     sorted
-}
-
-/// How many edges come from nodes before each.
-fn starts(count: usize, edges: &[VeinEdge]) -> Vec<u32> {
-    let mut starts = vec![0; count + 1];
-    for edge in edges {
-        starts[edge.from as usize + 1] += 1;
-    }
-    for node in 0..count {
-        starts[node + 1] += starts[node];
-    }
-    starts
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::VeinEdge;
 use super::grid::EdgeGrid;
-use super::{VeinEdge, by_from};
 
 /// Points nearer than this share of the mean edge length are one: far above rounding, far below anything grown.
 const SLACK: f64 = 1e-9;
@@ -21,8 +21,13 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    pub(super) fn len(&self) -> usize {
-        self.crossings.len() + self.touches.len() + self.meetings.len()
+    pub(super) fn are_none(&self) -> bool {
+        self.crossings.is_empty() && self.touches.is_empty() && self.meetings.is_empty()
+    }
+
+    /// Pairs of edges that cross.
+    pub(super) fn crossings(&self) -> usize {
+        self.crossings.len()
     }
 }
 
@@ -151,17 +156,25 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         cuts.extend([(first, t, node), (second, u, node)]);
     }
     let mut leaders: Vec<u32> = (0..nodes.len() as u32).collect();
+    // Ends of cut edges, and nodes that become others.
+    let mut changed = vec![false; nodes.len()];
+    changed[first_new as usize..].fill(true);
+    for &(edge, _, node) in &cuts {
+        let e = &edges[edge as usize];
+        for node in [e.from, e.to, node] {
+            changed[node as usize] = true;
+        }
+    }
     for (p, q) in contacts.meetings {
+        changed[p as usize] = true;
+        changed[q as usize] = true;
         join(&mut leaders, p, q);
     }
-    // Three edges through one point cross there in pairs.
-    let mut new: Vec<u32> = (first_new..nodes.len() as u32).collect();
-    new.sort_unstable_by(|&p, &q| {
-        nodes[p as usize]
-            .x
-            .total_cmp(&nodes[q as usize].x)
-            .then(p.cmp(&q))
-    });
+    // Several edges through one point cross there in pairs, and where a node lies there, touch it besides.
+    let mut new: Vec<u32> = cuts.iter().map(|cut| cut.2).collect();
+    let x = |node: u32| nodes[node as usize].x;
+    new.sort_unstable_by(|&p, &q| x(p).total_cmp(&x(q)).then(p.cmp(&q)));
+    new.dedup();
     for (i, &p) in new.iter().enumerate() {
         for &q in &new[i + 1..] {
             let apart = nodes[q as usize] - nodes[p as usize];
@@ -195,21 +208,28 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
             ..*edge
         });
     }
-    for piece in &mut pieces {
-        piece.from = leader(&mut leaders, piece.from);
-        piece.to = leader(&mut leaders, piece.to);
+    // Edges on top of each other have become the same piece twice. Only pieces at changed nodes can.
+    let mut pairs: Vec<(u32, u32, u32)> = Vec::new();
+    for (i, piece) in pieces.iter_mut().enumerate() {
+        if changed[piece.from as usize] || changed[piece.to as usize] {
+            piece.from = leader(&mut leaders, piece.from);
+            piece.to = leader(&mut leaders, piece.to);
+            pairs.push((piece.from.min(piece.to), piece.from.max(piece.to), i as u32));
+        }
     }
-    // Edges on top of each other have become the same piece twice.
-    let mut pairs: Vec<(u32, u32, u32)> = pieces
-        .iter()
-        .enumerate()
-        .map(|(i, e)| (e.from.min(e.to), e.from.max(e.to), i as u32))
-        .collect();
     pairs.sort_unstable();
-    pairs.dedup_by_key(|pair| (pair.0, pair.1));
-    pairs.retain(|pair| pair.0 != pair.1);
-    let kept: Vec<VeinEdge> = pairs.iter().map(|pair| pieces[pair.2 as usize]).collect();
-    *edges = by_from(nodes.len(), &kept);
+    let repeated = |w: &&[(u32, u32, u32)]| (w[0].0, w[0].1) == (w[1].0, w[1].1);
+    let mut gone: Vec<u32> = pairs.windows(2).filter(repeated).map(|w| w[1].2).collect();
+    gone.extend(pairs.iter().filter(|p| p.0 == p.1).map(|p| p.2));
+    gone.sort_unstable();
+    gone.dedup();
+    let mut gone = gone.into_iter().peekable();
+    let mut number = 0;
+    pieces.retain(|_| {
+        number += 1;
+        gone.next_if_eq(&(number - 1)).is_none()
+    });
+    *edges = pieces;
 }
 
 fn leader(leaders: &mut [u32], mut node: u32) -> u32 {
