@@ -4,6 +4,7 @@
 //! paths or images.
 
 pub mod blade;
+pub mod export;
 pub mod leaf;
 pub mod measure;
 pub mod optics;

@@ -25,7 +25,7 @@ use self::hierarchy::Hierarchy;
 use self::skeleton::Skeleton;
 use self::statistics::{mean, median, mode, variation};
 use crate::shape::outline::Outline;
-use crate::venation::areole::{Areoles, areoles};
+use crate::venation::areole::{Areole, Areoles, areoles};
 use crate::venation::chance::{Use, uniform};
 use crate::venation::network::VenationNetwork;
 
@@ -155,7 +155,7 @@ impl List {
 
     fn areoles(&mut self, found: &Areoles) {
         let mut areas: Vec<f64> = found.iter().map(|a| a.area_mm2).collect();
-        let mut round: Vec<f64> = found.iter().map(|a| a.circularity()).collect();
+        let mut round: Vec<f64> = found.iter().map(Areole::circularity).collect();
         let mut long: Vec<f64> = found.iter().map(|a| a.elongation).collect();
         self.count("areole_count", found.len());
         self.number(

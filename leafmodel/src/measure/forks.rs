@@ -61,7 +61,7 @@ impl Forks {
                 let sum: f64 = shares.clone().map(|x| libm::pow(x, exponent)).sum();
                 ratios.push(1.0 / sum);
             }
-            exponents.extend(fitted_exponent(shares));
+            exponents.extend(fitted_exponent(&shares));
         }
         let share = of_degree_3 as f64 / f64::max(junctions as f64, 1.0);
         Self {
@@ -77,7 +77,7 @@ impl Forks {
 }
 
 /// The `n > 0` for which `Σ xᵢⁿ = 1`. There is one, and only one, if all of several `xᵢ` are below 1.
-fn fitted_exponent(shares: impl Iterator<Item = f64> + Clone) -> Option<f64> {
+fn fitted_exponent(shares: &(impl Iterator<Item = f64> + Clone)) -> Option<f64> {
     let least = shares.clone().fold(f64::INFINITY, f64::min);
     if shares.clone().any(|x| x >= 1.0) {
         return None;
@@ -110,10 +110,10 @@ mod tests {
             for share in [0.5, 0.9, 0.999, 1e-4] {
                 let x = libm::pow(share, 1.0 / n);
                 let y = libm::pow(1.0 - share, 1.0 / n);
-                let fitted = fitted_exponent([x, y].into_iter()).expect("both are below 1");
+                let fitted = fitted_exponent(&[x, y].into_iter()).expect("both are below 1");
                 assert!((fitted - n).abs() < 1e-8, "{fitted} is not {n} at {share}");
             }
         }
-        assert_eq!(fitted_exponent([1.0, 0.5].into_iter()), None);
+        assert_eq!(fitted_exponent(&[1.0, 0.5].into_iter()), None);
     }
 }

@@ -1,6 +1,6 @@
 //! Networks whose measures are known in closed form.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
@@ -100,7 +100,7 @@ pub(crate) fn squares(n: u32, side: f64) -> VenationNetwork {
 pub(crate) fn hexagons(n: i32, side: f64) -> VenationNetwork {
     let mut numbers = BTreeMap::new();
     let mut places = Vec::new();
-    let mut edges = BTreeMap::new();
+    let mut edges = BTreeSet::new();
     let half = 0.75_f64.sqrt();
     for row in 0..n {
         for column in 0..n {
@@ -116,10 +116,10 @@ pub(crate) fn hexagons(n: i32, side: f64) -> VenationNetwork {
             });
             for i in 0..6 {
                 let (a, b) = (corners[i], corners[(i + 1) % 6]);
-                edges.insert((a.min(b), a.max(b)), ());
+                edges.insert([a.min(b), a.max(b)]);
             }
         }
     }
-    let edges: Vec<[u32; 2]> = edges.keys().map(|&(a, b)| [a, b]).collect();
+    let edges: Vec<[u32; 2]> = edges.into_iter().collect();
     network(&places, &edges)
 }

@@ -165,7 +165,7 @@ impl Chains {
     /// Direction and length of the first edge of a half.
     fn departure(&self, half: u32) -> DVec2 {
         let points = self.points(half / 2);
-        if half % 2 == 0 {
+        if half.is_multiple_of(2) {
             points[1] - points[0]
         } else {
             points[points.len() - 2] - points[points.len() - 1]
