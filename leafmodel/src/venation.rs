@@ -18,8 +18,9 @@
 mod agreement;
 #[cfg(test)]
 mod all_pairs;
+pub mod areole;
 mod auxin;
-mod chance;
+pub(crate) mod chance;
 mod closed;
 mod fresh_nodes;
 mod influence;
@@ -29,10 +30,13 @@ pub mod network;
 mod open;
 mod order;
 pub mod plan;
+pub mod planar;
 mod point_tree;
 mod relative_neighbourhood;
 mod simulation;
-mod topology;
+#[cfg(test)]
+pub(crate) mod testing;
+pub(crate) mod topology;
 mod urquhart;
 mod veins;
 mod width;

@@ -18,6 +18,10 @@ pub(crate) enum Use {
     FreeDartY = 5,
     /// Whether a dart on a curved blade is kept.
     DartKept = 6,
+    /// Where the distance to the nearest vein is measured, across the leaf.
+    ProbeX = 101,
+    /// Where the distance to the nearest vein is measured, along the leaf.
+    ProbeY = 102,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.
