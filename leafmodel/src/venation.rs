@@ -19,6 +19,7 @@ mod agreement;
 #[cfg(test)]
 mod all_pairs;
 pub mod areole;
+mod arches;
 mod auxin;
 pub(crate) mod chance;
 mod closed;

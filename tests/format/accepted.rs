@@ -302,6 +302,7 @@ fn veins_are_planned_as_written() {
     let margin_clearance = MarginClearance {
         distance: 0.05,
         until: 0.6,
+        arches: 0,
     };
     assert_eq!(drawn.free_endings, Some(free_endings));
     assert_eq!(drawn.margin_clearance, Some(margin_clearance));

@@ -107,6 +107,7 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = VenationPlan> {
                 margin_clearance: (clearance == 0).then_some(MarginClearance {
                     distance: 0.08,
                     until: 0.7,
+                    arches: if pattern > 0 { 4 } else { 0 },
                 }),
                 gaussian_curvature: if row == 1 && !moves { curvature } else { 0.0 },
                 ..poplar()

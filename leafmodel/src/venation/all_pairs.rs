@@ -7,6 +7,7 @@
 use glam::DVec2;
 
 use super::Grown;
+use super::arches;
 use super::auxin::{Darts, appearance, dart, waiting_darts};
 use super::chance::Use;
 use super::lamina::Lamina;
@@ -90,6 +91,8 @@ pub(crate) fn simulate(
         oracle.add(oracle.lamina.now_of_full_grown(origin));
     }
     oracle.origins = oracle.nodes.len() as u32;
+    oracle.remember(clock, 0);
+    oracle.lay_out_arches(clock);
     let candidates = oracle.candidates(clock);
     let thrown = Darts::new(plan, &oracle.lamina, clock, seed);
     let mut ending = oracle.run(clock, candidates.as_deref(), thrown);
@@ -118,14 +121,12 @@ impl Oracle<'_> {
         let (limit, first) = (self.step + steps as u32, self.step);
         let at_once = self.plan.pattern == Pattern::Open && candidates.is_some();
         let mut idle = 0;
-        if first == 0 {
-            self.remember(clock);
-        }
         while self.step < limit {
-            let stage = clock.stage(self.step);
-            if self.step > first
-                && clock.stage(self.step - 1).still_growing
-                && let Some(map) = clock.tissue_map(self.step)
+            let age = self.step - first;
+            let stage = clock.stage(age);
+            if age > 0
+                && clock.stage(age - 1).still_growing
+                && let Some(map) = clock.tissue_map(age)
             {
                 self.lamina.carry(map);
                 for (node, start) in self.nodes.iter_mut().zip(&self.starts) {
@@ -139,13 +140,13 @@ impl Oracle<'_> {
             let darts = match candidates {
                 Some(all) => all
                     .iter()
-                    .filter(|(step, _)| *step == self.step || first > 0 && self.step == first)
+                    .filter(|(step, _)| *step == age)
                     .map(|&(_, dart)| dart)
                     .collect(),
-                None => thrown.of_step(self.step, stage.unit, self.seed, &self.lamina),
+                None => thrown.of_step(age, stage.unit, self.seed, &self.lamina),
             };
-            let grown = self.advance(stage.unit, clock.size(self.step), &darts);
-            self.remember(clock);
+            let grown = self.advance(stage.unit, clock.size(age), &darts);
+            self.remember(clock, age);
             idle = if grown { 0 } else { idle + 1 };
             let spacing = (self.plan.source_birth_distance).min(self.plan.vein_birth_distance);
             let saturated = self.plan.growth != Growth::None
@@ -158,9 +159,9 @@ impl Oracle<'_> {
         Ending::StepLimit
     }
 
-    fn remember(&mut self, clock: &LaminaClock) {
+    fn remember(&mut self, clock: &LaminaClock, age: u32) {
         if self.wanted.contains(&self.step) {
-            let size = clock.size(self.step.saturating_sub(1));
+            let size = clock.size(age);
             self.young.push(self.state(size, Ending::StepLimit));
         }
     }
@@ -186,6 +187,58 @@ impl Oracle<'_> {
             sources: self.born,
             ending,
         }
+    }
+
+    /// Secondaries that meet in arches, before the lamina grows.
+    fn lay_out_arches(&mut self, clock: &LaminaClock) {
+        let Some(rule) = self.plan.margin_clearance else {
+            return;
+        };
+        if rule.arches == 0 {
+            return;
+        }
+        let scale = match self.plan.growth {
+            Growth::Marginal { .. } => clock.size(0),
+            Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => 1.0,
+        };
+        let margin: Vec<DVec2> = self
+            .lamina
+            .margin_now()
+            .iter()
+            .map(|&p| p * scale)
+            .collect();
+        let apex = self.lamina.now_of_full_grown(self.lamina.blade.apex()) * scale;
+        let unit = clock.stage(0).unit;
+        for round in arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed) {
+            for place in round {
+                if self.lamina.contains(place) {
+                    self.add_source(place);
+                }
+            }
+            let (first, mut idle) = (self.step, 0);
+            let most = 1000 + (50.0 * self.plan.final_length) as u32;
+            while self.step < first + most && !self.sources.is_empty() && idle < PATIENCE {
+                idle = if self.advance(unit, 0.0, &[]) {
+                    0
+                } else {
+                    idle + 1
+                };
+                self.remember(clock, 0);
+            }
+            self.sources.clear();
+        }
+    }
+
+    fn add_source(&mut self, place: DVec2) {
+        self.sources.push(Source {
+            id: self.born,
+            place,
+            start: self.lamina.start_of(place),
+            tagged: None,
+            arrived: Vec::new(),
+            blocked_steps: 0,
+        });
+        self.born += 1;
     }
 
     /// For marginal growth, all candidates with the step of their appearance.
@@ -216,7 +269,7 @@ impl Oracle<'_> {
         let uses = [Use::FreeDartX, Use::FreeDartY];
         (0..(free.darts_per_area * area) as u64)
             .filter_map(|number| dart(uses, self.seed, number, &self.lamina))
-            .map(|dart| (self.step, dart))
+            .map(|dart| (0, dart))
             .collect()
     }
 
@@ -277,15 +330,7 @@ impl Oracle<'_> {
             return;
         }
         self.vain = 0.0;
-        self.sources.push(Source {
-            id: self.born,
-            place: dart,
-            start: self.lamina.start_of(dart),
-            tagged: None,
-            arrived: Vec::new(),
-            blocked_steps: 0,
-        });
-        self.born += 1;
+        self.add_source(dart);
     }
 
     fn driven_by(&self, source: &Source) -> Vec<usize> {

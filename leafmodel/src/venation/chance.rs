@@ -18,6 +18,8 @@ pub(crate) enum Use {
     FreeDartY = 5,
     /// Whether a dart on a curved blade is kept.
     DartKept = 6,
+    /// Where along the margin a secondary vein ends.
+    Arch = 7,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

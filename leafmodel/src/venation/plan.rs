@@ -68,13 +68,16 @@ pub struct FreeEndings {
     pub darts_per_area: f64,
 }
 
-/// Sources kept off the margin of the young leaf, so that secondary veins meet in arches before they get there.
+/// Sources kept off the margin of the young leaf, and secondary veins that meet there in arches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarginClearance {
     /// Least distance of sources from the margin as a share of the leaf's length, > 0 up to 0.5.
     pub distance: f64,
     /// The share of the final length at which the rule ends, 0 to 1.
     pub until: f64,
+    /// Secondary veins a side that are laid out first, before the lamina grows, and joined by arches at that distance from
+    /// the margin; 0 to 50, 0 leaves all veins to chance. For closed patterns.
+    pub arches: u32,
 }
 
 /// Parameters of Runions et al. 2005; the letters are the paper's.

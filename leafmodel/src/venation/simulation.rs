@@ -7,6 +7,7 @@
 use glam::DVec2;
 
 use super::Grown;
+use super::arches;
 use super::auxin::Darts;
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
@@ -60,6 +61,10 @@ pub(crate) struct Simulation<'a, I> {
     workspace: Workspace,
     /// How many nodes were there at the start.
     origins: u32,
+    /// The step in which the lamina starts to grow; arches are laid out before.
+    first_step: u32,
+    /// Whether arches are being laid out.
+    is_laying_out: bool,
     /// Nodes that all sources have noticed.
     noticed: u32,
     /// Sources that have appeared.
@@ -112,6 +117,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
             seed,
             darts,
             clock,
+            first_step: 0,
+            is_laying_out: false,
             origins: plan.origins.len().max(1) as u32,
             noticed: veins.count(),
             veins,
@@ -143,13 +150,14 @@ impl<'a, I: Influence> Simulation<'a, I> {
         veins.stop_stretching();
         let mut simulation = Simulation::resume(rest, self.lamina, clock, self.seed, veins, darts);
         simulation.step = self.step;
+        simulation.first_step = self.step;
         simulation.sources_born = self.sources_born;
         simulation
     }
 
     /// What there is now, at the size that the lamina had in the last step.
     pub(crate) fn state(&self, ending: Ending) -> Grown {
-        let size = self.clock.size(self.step.saturating_sub(1));
+        let size = self.clock.size(self.age(self.step.saturating_sub(1)));
         // Marginal growth leaves veins where they are.
         let (veins, margin) = match self.plan.growth {
             Growth::None | Growth::Anisotropic { .. } => (1.0, 1.0),
@@ -178,11 +186,15 @@ impl<'a, I: Influence> Simulation<'a, I> {
         // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets there.
         let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
         look(self);
+        if self.step == 0 {
+            self.lay_out_arches(&mut look);
+        }
         while self.step < limit {
             let grown = self.advance();
             look(self);
             self.idle_steps = if grown == 0 { self.idle_steps + 1 } else { 0 };
-            let nothing_new = !self.clock.stage(self.step - 1).still_growing && self.is_saturated();
+            let last = self.clock.stage(self.age(self.step - 1));
+            let nothing_new = !last.still_growing && self.is_saturated();
             if nothing_new && (self.sources.is_empty() || self.idle_steps >= PATIENCE) {
                 return Ending::Settled;
             }
@@ -209,13 +221,16 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// One step; gives the number of veins that grew.
     pub(crate) fn advance(&mut self) -> usize {
-        let stage = self.clock.stage(self.step);
-        if self.step > 0 && self.clock.stage(self.step - 1).still_growing {
-            self.carry();
+        let age = self.age(self.step);
+        let stage = self.clock.stage(age);
+        if age > 0 && self.clock.stage(age - 1).still_growing {
+            self.carry(age);
         }
         self.veins.subdivide(stage.unit, &self.lamina, self.step);
         self.notice();
-        self.add_sources(stage.unit);
+        if !self.is_laying_out {
+            self.add_sources(age, stage.unit);
+        }
         let driven = self.gather_pulls();
         let outcomes = self.grow_veins(&driven, stage.unit);
         let grown = outcomes
@@ -230,8 +245,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
     }
 
     /// Moves veins and sources with the tissue, if it moves.
-    fn carry(&mut self) {
-        let Some(map) = self.clock.tissue_map(self.step) else {
+    fn carry(&mut self, age: u32) {
+        let Some(map) = self.clock.tissue_map(age) else {
             return;
         };
         self.lamina.carry(map);
@@ -269,9 +284,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
     }
 
     /// New sources, where darts hit the blade far enough from sources and veins.
-    fn add_sources(&mut self, unit: f64) {
-        let clear_of_margin = self.clearance();
-        for dart in self.darts.of_step(self.step, unit, self.seed, &self.lamina) {
+    fn add_sources(&mut self, age: u32, unit: f64) {
+        let clear_of_margin = self.clearance(age);
+        for dart in self.darts.of_step(age, unit, self.seed, &self.lamina) {
             let unit = unit * self.lamina.enlargement(dart);
             if !self.lamina.contains(dart)
                 || clear_of_margin > 0.0 && self.lamina.distance_to_margin(dart) < clear_of_margin
@@ -290,28 +305,84 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 continue;
             }
             self.darts_in_vain = 0.0;
-            let id = self.sources_born;
-            self.sources_born += 1;
-            self.source_tree.insert(id, dart);
-            let mut surroundings = Surroundings {
-                tree: &self.veins.tree,
-                workspace: &mut self.workspace,
-                seed: self.seed,
-            };
-            self.sources.push(Source {
-                place: dart,
-                start: self.lamina.start_of(dart),
-                id,
-                influence: I::new(dart, id, &mut surroundings),
-                blocked_steps: 0,
-            });
+            self.add_source(dart);
         }
     }
 
+    fn add_source(&mut self, place: DVec2) {
+        let id = self.sources_born;
+        self.sources_born += 1;
+        self.source_tree.insert(id, place);
+        let mut surroundings = Surroundings {
+            tree: &self.veins.tree,
+            workspace: &mut self.workspace,
+            seed: self.seed,
+        };
+        self.sources.push(Source {
+            place,
+            start: self.lamina.start_of(place),
+            id,
+            influence: I::new(place, id, &mut surroundings),
+            blocked_steps: 0,
+        });
+    }
+
+    /// Steps for which the lamina has grown at `step`.
+    fn age(&self, step: u32) -> u32 {
+        if self.is_laying_out {
+            0
+        } else {
+            step.saturating_sub(self.first_step)
+        }
+    }
+
+    /// Before the lamina grows: secondary veins that meet in arches, if the plan asks for them.
+    fn lay_out_arches(&mut self, look: &mut impl FnMut(&Self)) {
+        let Some(rule) = self.plan.margin_clearance.filter(|rule| rule.arches > 0) else {
+            return;
+        };
+        self.is_laying_out = true;
+        let (margin, apex) = self.young_margin();
+        // Far more than a vein takes to cross the young leaf.
+        let most = 1000 + (50.0 * self.plan.final_length) as u32;
+        for round in arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed) {
+            self.notice();
+            for place in round
+                .into_iter()
+                .filter(|&p| self.lamina.contains(p))
+                .collect::<Vec<_>>()
+            {
+                self.add_source(place);
+            }
+            let (end, mut idle) = (self.step + most, 0);
+            while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
+                idle = if self.advance() == 0 { idle + 1 } else { 0 };
+                look(self);
+            }
+            for source in self.sources.drain(..) {
+                self.source_tree.remove(source.id, source.place);
+            }
+        }
+        self.is_laying_out = false;
+        self.first_step = self.step;
+    }
+
+    /// Margin and apex at the start, in the frame of the simulation.
+    fn young_margin(&self) -> (Vec<DVec2>, DVec2) {
+        // Only marginal growth has a margin that its frame does not follow.
+        let scale = match self.plan.growth {
+            Growth::Marginal { .. } => self.clock.size(0),
+            Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => 1.0,
+        };
+        let margin = self.lamina.margin_now().into_iter().map(|p| p * scale);
+        let apex = self.lamina.now_of_full_grown(self.lamina.blade.apex()) * scale;
+        (margin.collect(), apex)
+    }
+
     /// How far sources of this step keep from the margin, in segments of the full-grown leaf.
-    fn clearance(&self) -> f64 {
+    fn clearance(&self, age: u32) -> f64 {
         match self.plan.margin_clearance {
-            Some(rule) if self.clock.size(self.step) < rule.until => {
+            Some(rule) if self.clock.size(age) < rule.until => {
                 rule.distance * self.plan.final_length
             }
             Some(_) | None => 0.0,

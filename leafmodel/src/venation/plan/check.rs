@@ -78,7 +78,13 @@ impl VenationPlan {
             }
         }
         let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
+        let has_arches = self.margin_clearance.is_some_and(|rule| rule.arches > 0);
         let pairs = [
+            (
+                has_arches && self.pattern == Pattern::Open,
+                "margin_clearance.arches",
+                "an open pattern",
+            ),
             (
                 self.free_endings.is_some() && self.pattern == Pattern::Open,
                 "free_endings",
@@ -226,6 +232,13 @@ impl VenationPlan {
                     0.0,
                     1.0,
                     "0 to 1 (of the final length)",
+                ),
+                (
+                    "margin_clearance.arches",
+                    f64::from(clearance.arches),
+                    0.0,
+                    50.0,
+                    "0 to 50",
                 ),
             ]);
         }

@@ -157,10 +157,12 @@ fn read_margin_clearance(venation: &Block<'_>) -> Option<MarginClearance> {
     let block = venation.optional_block("margin_clearance")?;
     let distance = block.number("distance", Limits::closed(1e-6, 0.5));
     let until = block.number("until", Limits::closed(0.0, 1.0));
+    let arches = block.integer_or("arches", 0, 50, 0) as u32;
     block.finish();
     Some(MarginClearance {
         distance: distance?,
         until: until?,
+        arches,
     })
 }
 

@@ -223,6 +223,9 @@ fn venation(plan: &VenationPlan) -> Keys {
         let mut block = Keys::default();
         block.number("distance", clearance.distance);
         block.number("until", clearance.until);
+        if clearance.arches > 0 {
+            block.integer("arches", u64::from(clearance.arches));
+        }
         keys.block("margin_clearance", block);
     }
     keys.block("growth", growth(&plan.growth));

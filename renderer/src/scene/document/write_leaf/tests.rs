@@ -145,7 +145,7 @@ fn venation() -> impl Strategy<Value = VenationPlan> {
         Just(Pattern::Closed(Neighbourhood::Urquhart)),
     ];
     let free = prop::option::of((0.5..9.0, 0.5..9.0, 0.01..5.0));
-    let clearance = prop::option::of((0.01..0.5, 0.0..1.0));
+    let clearance = prop::option::of((0.01..0.5, 0.0..1.0, 0_u32..9));
     let numbers = (
         100.0..2000.0,
         0.01..50.0,
@@ -191,8 +191,11 @@ fn venation() -> impl Strategy<Value = VenationPlan> {
                         darts_per_area,
                     }
                 }),
-                margin_clearance: clearance
-                    .map(|(distance, until)| MarginClearance { distance, until }),
+                margin_clearance: clearance.map(|(distance, until, arches)| MarginClearance {
+                    distance,
+                    until,
+                    arches: if pattern == Pattern::Open { 0 } else { arches },
+                }),
             }
         },
     )
