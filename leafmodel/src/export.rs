@@ -9,7 +9,7 @@
 mod geojson;
 mod graphml;
 mod json;
-mod runs;
+pub mod runs;
 mod svg;
 #[cfg(test)]
 mod tests;

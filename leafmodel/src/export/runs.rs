@@ -4,13 +4,15 @@ use crate::venation::network::VenationNetwork;
 use crate::venation::topology::Topology;
 
 /// Edges that follow each other from a junction or origin to the next junction or tip, all of one order.
-pub(super) struct Runs {
+#[derive(Clone, Debug)]
+pub struct Runs {
     starts: Vec<u32>,
     edges: Vec<u32>,
 }
 
 impl Runs {
-    pub(super) fn new(network: &VenationNetwork) -> Self {
+    /// Strings the edges of a network together. Every edge is in one run.
+    pub fn new(network: &VenationNetwork) -> Self {
         let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
         let topology = Topology::new(network.nodes().len(), &ends);
         let order = |edge: u32| network.edges()[edge as usize].order;
@@ -42,7 +44,7 @@ impl Runs {
     }
 
     /// The numbers of the edges of each run, from the petiole outwards.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn iter(&self) -> impl Iterator<Item = &[u32]> {
         self.starts
             .windows(2)
             .map(|pair| &self.edges[pair[0] as usize..pair[1] as usize])
