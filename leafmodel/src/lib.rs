@@ -4,7 +4,9 @@
 //! paths or images.
 
 pub mod blade;
+pub mod export;
 pub mod leaf;
+pub mod measure;
 pub mod optics;
 pub mod shape;
 pub mod species;

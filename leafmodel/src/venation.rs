@@ -18,9 +18,10 @@
 mod agreement;
 #[cfg(test)]
 mod all_pairs;
+pub mod areole;
 mod arches;
 mod auxin;
-mod chance;
+pub(crate) mod chance;
 mod closed;
 mod fresh_nodes;
 mod influence;
@@ -30,10 +31,13 @@ pub mod network;
 mod open;
 mod order;
 pub mod plan;
+pub mod planar;
 mod point_tree;
 mod relative_neighbourhood;
 mod simulation;
-mod topology;
+#[cfg(test)]
+pub(crate) mod testing;
+pub(crate) mod topology;
 mod urquhart;
 mod veins;
 mod width;

@@ -20,6 +20,10 @@ pub(crate) enum Use {
     DartKept = 6,
     /// Where along the margin a secondary vein ends.
     Arch = 7,
+    /// Where the distance to the nearest vein is measured, across the leaf.
+    ProbeX = 101,
+    /// Where the distance to the nearest vein is measured, along the leaf.
+    ProbeY = 102,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.

@@ -11,6 +11,9 @@
 use glam::DVec2;
 use thiserror::Error;
 
+/// How far from the origin a node of a network from elsewhere may lie in x and y, mm: a kilometre.
+const FARTHEST_MM: f64 = 1e6;
+
 /// A piece of vein between two neighbouring nodes, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VeinSegment {
@@ -86,6 +89,18 @@ pub enum NetworkError {
         /// Number of the edge.
         edge: usize,
     },
+    /// A node lies farther from the origin than any leaf reaches, or nowhere.
+    #[error("node {node} is not within 10⁶ mm of the origin")]
+    FarNode {
+        /// Number of the node.
+        node: usize,
+    },
+    /// The length of a segment is no length.
+    #[error("a vein segment is {value} mm long; it must be finite and above 0")]
+    BadSegment {
+        /// The length given.
+        value: f64,
+    },
     /// An edge has no length.
     #[error("edge {edge} has no length")]
     NoLength {
@@ -113,6 +128,52 @@ pub enum NetworkError {
 }
 
 impl VenationNetwork {
+    /// A network from elsewhere: another program, or a drawing. Edges lead away from the petiole.
+    ///
+    /// `segment_mm` is the length by which veins were resolved, as [`VenationNetwork::segment_mm`] will give it back.
+    /// The number of steps is the last node's; no sources are known.
+    ///
+    /// # Errors
+    ///
+    /// [`NetworkError`]: whatever [`VenationNetwork::validate`] refuses, a node farther than 10⁶ mm from the origin in
+    /// x or y, a segment that is not finite and above 0.
+    pub fn from_parts(
+        nodes: Vec<VeinNode>,
+        edges: Vec<VeinEdge>,
+        segment_mm: f64,
+    ) -> Result<Self, NetworkError> {
+        let near = |node: &VeinNode| node.position.abs().max_element() <= FARTHEST_MM;
+        if let Some(node) = nodes
+            .iter()
+            .position(|node| !near(node) || node.position.is_nan())
+        {
+            return Err(NetworkError::FarNode { node });
+        }
+        if !(segment_mm.is_finite() && segment_mm > 0.0) {
+            return Err(NetworkError::BadSegment { value: segment_mm });
+        }
+        let steps = nodes.iter().map(|node| node.born).max().unwrap_or(0);
+        // The first nodes, as far as nothing leads to them.
+        let mut led_to = vec![false; nodes.len()];
+        for edge in &edges {
+            if let Some(node) = led_to.get_mut(edge.to as usize) {
+                *node = true;
+            }
+        }
+        let origins = led_to.iter().take_while(|led_to| !**led_to).count() as u32;
+        let network = Self {
+            nodes,
+            edges,
+            origins,
+            steps,
+            sources: 0,
+            segment_mm,
+            ending: Ending::Settled,
+        };
+        network.validate()?;
+        Ok(network)
+    }
+
     /// The nodes, by number; the first are those the veins started from.
     pub fn nodes(&self) -> &[VeinNode] {
         &self.nodes

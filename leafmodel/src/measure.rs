@@ -1,0 +1,270 @@
+//! What biologists measure on a leaf's veins.
+//!
+//! - **In**: an [`Outline`], a [`VenationNetwork`], the exponent of Murray's law.
+//! - **Out**: [`Measures`]: a list of keys, units and values, from which JSON and a table are made.
+//! - **Always true**: no value is NaN or infinite; what does not exist (the median area of no areoles) is missing.
+//!   The same network gives the same bits on every machine.
+//! - **Left out**: what images show only after clearing and staining: vein widths are those of the model.
+//!
+//! `docs/src/theory/measures.md` defines every measure.
+
+mod forks;
+mod hierarchy;
+mod nesting;
+mod skeleton;
+mod spanning;
+mod statistics;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+use serde_json::{Map, Value as Json};
+
+use self::forks::Forks;
+use self::hierarchy::Hierarchy;
+use self::skeleton::Skeleton;
+use self::statistics::{mean, median, mode, variation};
+use crate::shape::outline::Outline;
+use crate::venation::areole::{Areole, Areoles, areoles};
+use crate::venation::chance::{Use, uniform};
+use crate::venation::network::VenationNetwork;
+
+/// A vein that ends within so many segments of the margin ends there, and is no veinlet that ends freely inside the blade.
+const MARGIN_SEGMENTS: f64 = 2.0;
+
+/// Points of the blade at which the distance to the nearest vein is measured.
+const PROBES: usize = 1 << 14;
+
+/// Veins from this order on are minor veins.
+const FIRST_MINOR_ORDER: usize = 4;
+
+/// A measured value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// How many.
+    Count(u64),
+    /// A finite number, or nothing where the leaf has nothing to measure.
+    Number(Option<f64>),
+    /// One number an order, from order 1.
+    List(Vec<f64>),
+}
+
+/// One measure of a leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// What it is. The key carries the unit.
+    pub key: &'static str,
+    /// The unit for tables, empty for pure numbers.
+    pub unit: &'static str,
+    /// The value.
+    pub value: Value,
+}
+
+/// All measures of a leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measures {
+    entries: Vec<Entry>,
+}
+
+/// Measures the veins of a leaf.
+///
+/// `murray_exponent` is the exponent `n` for which `murray_ratio_median` is taken; without a finite one above 0 that value is
+/// missing. Takes about as long as finding the areoles twice.
+pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f64) -> Measures {
+    let found = areoles(network);
+    let edges: Vec<[u32; 2]> = found
+        .graph()
+        .edges()
+        .iter()
+        .map(|e| [e.from, e.to])
+        .collect();
+    let skeleton = Skeleton::new(found.graph(), &edges);
+    let mut list = List {
+        entries: Vec::new(),
+        area: outline.area(),
+    };
+    list.count("crossing_count", found.graph().crossings());
+    list.number("blade_area_mm2", "mm²", Some(outline.area()));
+    list.veins(&skeleton);
+    list.number("spanning_tree_ratio", "", spanning::ratio(found.chains()));
+    list.distances(outline, &found);
+    list.areoles(&found);
+    list.free_endings(outline, network, &found);
+    list.forks(&Forks::new(&skeleton, murray_exponent));
+    let nesting = nesting::nesting(&found);
+    list.number("loop_nesting", "", nesting.mean);
+    list.number("loop_nesting_weighted", "", nesting.weighted);
+    list.count("loop_tree_strahler", nesting.strahler as usize);
+    list.hierarchy(&Hierarchy::new(&skeleton, outline.base()));
+    Measures {
+        entries: list.entries,
+    }
+}
+
+struct List {
+    entries: Vec<Entry>,
+    area: f64,
+}
+
+impl List {
+    fn count(&mut self, key: &'static str, value: usize) {
+        let (unit, value) = ("", Value::Count(value as u64));
+        self.entries.push(Entry { key, unit, value });
+    }
+
+    fn number(&mut self, key: &'static str, unit: &'static str, value: Option<f64>) {
+        let value = Value::Number(value.filter(|v| v.is_finite()));
+        self.entries.push(Entry { key, unit, value });
+    }
+
+    fn veins(&mut self, skeleton: &Skeleton) {
+        let lengths = skeleton.lengths_by_order();
+        let total: f64 = lengths.iter().sum();
+        let minor: f64 = lengths.iter().skip(FIRST_MINOR_ORDER - 1).sum();
+        self.number("vein_length_mm", "mm", Some(total));
+        self.number("vein_density_mm_per_mm2", "mm/mm²", Some(total / self.area));
+        self.entries.push(Entry {
+            key: "vein_density_mm_per_mm2_by_order",
+            unit: "mm/mm²",
+            value: Value::List(lengths.iter().map(|length| length / self.area).collect()),
+        });
+        self.number(
+            "minor_vein_share",
+            "",
+            (total > 0.0).then_some(minor / total),
+        );
+    }
+
+    fn distances(&mut self, outline: &Outline, found: &Areoles) {
+        let (low, high) = outline.bounds();
+        let probe = |i: u64| {
+            let share = DVec2::new(uniform(0, Use::ProbeX, i), uniform(0, Use::ProbeY, i));
+            low + share * (high - low)
+        };
+        // A blade that fills next to nothing of its rectangle is measured at fewer points.
+        let mut distances: Vec<f64> = (0..64 * PROBES as u64)
+            .map(probe)
+            .filter(|&p| outline.contains(p))
+            .take(PROBES)
+            .filter_map(|p| found.graph().distance_to_vein(p))
+            .collect();
+        self.number("vein_distance_mm_mean", "mm", mean(&distances));
+        self.number("vein_distance_mm_mode", "mm", mode(&distances));
+        self.number("vein_distance_mm_median", "mm", median(&mut distances));
+    }
+
+    fn areoles(&mut self, found: &Areoles) {
+        let mut areas: Vec<f64> = found.iter().map(|a| a.area_mm2).collect();
+        let mut round: Vec<f64> = found.iter().map(Areole::circularity).collect();
+        let mut long: Vec<f64> = found.iter().map(|a| a.elongation).collect();
+        self.count("areole_count", found.len());
+        self.number(
+            "areoles_per_mm2",
+            "1/mm²",
+            Some(found.len() as f64 / self.area),
+        );
+        self.number("areole_area_mm2_mean", "mm²", mean(&areas));
+        self.number("areole_area_cv", "", variation(&areas));
+        self.number("areole_area_mm2_median", "mm²", median(&mut areas));
+        self.number("areole_circularity_mean", "", mean(&round));
+        self.number("areole_circularity_median", "", median(&mut round));
+        self.number("areole_elongation_median", "", median(&mut long));
+    }
+
+    fn free_endings(&mut self, outline: &Outline, network: &VenationNetwork, found: &Areoles) {
+        let margin = MARGIN_SEGMENTS * network.segment_mm();
+        let free: Vec<_> = found
+            .free_endings()
+            .filter(|f| f.areole.is_some() || outline.distance_to_margin(f.tip) > margin)
+            .collect();
+        let lengths: Vec<f64> = free.iter().map(|f| f.length_mm).collect();
+        let inside = free.iter().filter(|f| f.areole.is_some()).count();
+        let per_areole = (!found.is_empty()).then(|| inside as f64 / found.len() as f64);
+        self.count("freely_ending_veinlet_count", free.len());
+        let density = free.len() as f64 / self.area;
+        self.number("freely_ending_veinlets_per_mm2", "1/mm²", Some(density));
+        self.number("freely_ending_veinlets_per_areole", "", per_areole);
+        self.number("freely_ending_veinlet_length_mm_mean", "mm", mean(&lengths));
+    }
+
+    fn forks(&mut self, forks: &Forks) {
+        self.count("junction_count", forks.junctions);
+        self.number("junction_degree_3_share", "", forks.degree_3_share);
+        self.number("branching_angle_deg_median", "°", forks.angle_deg);
+        self.number("branching_wide_deflection_deg_median", "°", forks.wide_deg);
+        self.number("branching_fine_deflection_deg_median", "°", forks.fine_deg);
+        self.number("murray_ratio_median", "", forks.murray_ratio);
+        self.number("murray_exponent_median", "", forks.murray_exponent);
+    }
+
+    fn hierarchy(&mut self, veins: &Hierarchy) {
+        self.number("midrib_length_mm", "mm", veins.midrib_mm);
+        self.count("secondary_vein_count_left", veins.left);
+        self.count("secondary_vein_count_right", veins.right);
+        self.number("secondary_spacing_mm_mean", "mm", veins.spacing_mm);
+        self.number("secondary_spacing_cv", "", veins.spacing_cv);
+        self.number("secondary_angle_deg_mean", "°", veins.secondary_deg);
+        self.number("tertiary_angle_deg_mean", "°", veins.tertiary_deg);
+    }
+}
+
+impl Measures {
+    /// All measures, in the order of tables.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The number with a key; none if there is no such key, or nothing was there to measure.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        match &entry.value {
+            Value::Count(count) => Some(*count as f64),
+            Value::Number(number) => *number,
+            Value::List(_) => None,
+        }
+    }
+
+    /// An object with a member a measure: a number, `null`, or an array.
+    pub fn json(&self) -> Json {
+        let value = |entry: &Entry| match &entry.value {
+            Value::Count(count) => Json::from(*count),
+            Value::Number(number) => Json::from(*number),
+            Value::List(list) => Json::from(list.clone()),
+        };
+        let members = self
+            .entries
+            .iter()
+            .map(|entry| (entry.key.to_owned(), value(entry)));
+        Json::Object(members.collect::<Map<String, Json>>())
+    }
+
+    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a dash.
+    pub fn table(&self) -> String {
+        let text = |value: &Value| match value {
+            Value::Count(count) => count.to_string(),
+            Value::Number(None) => "–".to_owned(),
+            Value::Number(Some(number)) => four_digits(*number),
+            Value::List(list) => {
+                let parts: Vec<String> = list.iter().map(|&number| four_digits(number)).collect();
+                parts.join(" ")
+            }
+        };
+        let wide = self.entries.iter().map(|e| e.key.len()).max().unwrap_or(0);
+        let lines = self.entries.iter().map(|entry| {
+            let line = format!("{:wide$}  {} {}", entry.key, text(&entry.value), entry.unit);
+            format!("{}\n", line.trim_end())
+        });
+        lines.collect()
+    }
+}
+
+/// A number with four significant digits, as far as they lie behind the point.
+fn four_digits(number: f64) -> String {
+    let digits = (0..8)
+        .find(|&d| number.abs() * 10_f64.powi(d) >= 1000.0)
+        .unwrap_or(8);
+    format!(
+        "{number:.0$}",
+        if number == 0.0 { 0 } else { digits as usize }
+    )
+}

@@ -1,0 +1,63 @@
+//! Means and medians of what may be nothing.
+
+/// Bins in which [`mode`] counts.
+const BINS: usize = 64;
+
+/// Arithmetic mean; none of nothing.
+pub(super) fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// Median, for an even count the mean of the middle two; none of nothing. Reorders the values.
+pub(super) fn median(values: &mut [f64]) -> Option<f64> {
+    let count = values.len();
+    if count == 0 {
+        return None;
+    }
+    let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
+    if count % 2 == 1 {
+        return Some(upper);
+    }
+    let lower = below.iter().copied().max_by(f64::total_cmp);
+    lower.map(|lower| 0.5 * (lower + upper))
+}
+
+/// Standard deviation (of a sample, `n − 1`) over mean; none below two values or about a mean of 0.
+pub(super) fn variation(values: &[f64]) -> Option<f64> {
+    let mean = mean(values)?;
+    if values.len() < 2 || mean == 0.0 {
+        return None;
+    }
+    let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+    Some((squares / (values.len() - 1) as f64).sqrt() / mean)
+}
+
+/// Middle of the fullest of 64 equal bins from 0 to the largest value, the first of equally full ones; values ≥ 0.
+pub(super) fn mode(values: &[f64]) -> Option<f64> {
+    let largest = values.iter().copied().max_by(f64::total_cmp)?;
+    let width = largest / BINS as f64;
+    let mut counts = [0_u32; BINS];
+    for value in values {
+        counts[((value / width) as usize).min(BINS - 1)] += 1;
+    }
+    let fullest = counts.iter().max()?;
+    let bin = counts.iter().position(|count| count == fullest)?;
+    Some((bin as f64 + 0.5) * width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_and_medians_of_few_values_are_what_they_are() {
+        assert_eq!(median(&mut []), None);
+        assert_eq!(mean(&[]), None);
+        assert_eq!(mode(&[]), None);
+        assert_eq!(variation(&[1.0]), None);
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(2.5));
+        assert_eq!(variation(&[1.0, 3.0]), Some(2.0_f64.sqrt() / 2.0));
+        assert_eq!(mode(&[0.1, 0.1, 0.1, 3.0, 6.4]), Some(0.15000000000000002));
+    }
+}

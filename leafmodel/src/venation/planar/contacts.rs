@@ -1,0 +1,246 @@
+//! Where edges meet without a common node, and how they are cut there.
+
+use glam::DVec2;
+
+use super::VeinEdge;
+use super::grid::EdgeGrid;
+
+/// Points nearer than this share of the mean edge length are one: far above rounding, far below anything grown.
+const SLACK: f64 = 1e-9;
+
+/// All places where edges meet without a common node.
+#[derive(Debug, Default)]
+pub(super) struct Contacts {
+    /// Two edges, and how far along each they cross, in (0, 1).
+    crossings: Vec<(u32, u32, f64, f64)>,
+    /// An edge, a node that lies on it, and how far along, in (0, 1).
+    touches: Vec<(u32, u32, f64)>,
+    /// Two nodes at one place.
+    meetings: Vec<(u32, u32)>,
+    slack: f64,
+}
+
+impl Contacts {
+    pub(super) fn are_none(&self) -> bool {
+        self.crossings.is_empty() && self.touches.is_empty() && self.meetings.is_empty()
+    }
+
+    /// Pairs of edges that cross.
+    pub(super) fn crossings(&self) -> usize {
+        self.crossings.len()
+    }
+}
+
+/// Compares all pairs of edges that share a cell of the grid.
+pub(super) fn find(nodes: &[DVec2], edges: &[VeinEdge], grid: &EdgeGrid) -> Contacts {
+    let length = |e: &VeinEdge| (nodes[e.to as usize] - nodes[e.from as usize]).length();
+    let mean = edges.iter().map(length).sum::<f64>() / (edges.len() as f64).max(1.0);
+    let mut contacts = Contacts {
+        slack: SLACK * mean,
+        ..Contacts::default()
+    };
+    let slack = DVec2::splat(contacts.slack);
+    let mut held: Vec<Piece> = Vec::new();
+    for list in grid.lists() {
+        held.clear();
+        for &number in list {
+            let e = &edges[number as usize];
+            let piece = Piece {
+                number,
+                nodes: [e.from, e.to],
+                ends: [nodes[e.from as usize], nodes[e.to as usize]],
+            };
+            let (low, high) = piece.bounds();
+            for other in &held {
+                let (other_low, other_high) = other.bounds();
+                if low.cmple(other_high + slack).all() && other_low.cmple(high + slack).all() {
+                    contacts.compare(other, &piece);
+                }
+            }
+            held.push(piece);
+        }
+    }
+    // A pair that shares several cells was found in each.
+    contacts.crossings.sort_unstable_by_key(|c| (c.0, c.1));
+    contacts.crossings.dedup_by_key(|c| (c.0, c.1));
+    contacts.touches.sort_unstable_by_key(|t| (t.0, t.1));
+    contacts.touches.dedup_by_key(|t| (t.0, t.1));
+    contacts.meetings.sort_unstable();
+    contacts.meetings.dedup();
+    contacts
+}
+
+#[derive(Clone, Copy)]
+struct Piece {
+    number: u32,
+    nodes: [u32; 2],
+    ends: [DVec2; 2],
+}
+
+impl Piece {
+    fn bounds(&self) -> (DVec2, DVec2) {
+        let [a, b] = self.ends;
+        (a.min(b), a.max(b))
+    }
+
+    /// On which side of its line `p` lies, times its length.
+    fn side(&self, p: DVec2) -> f64 {
+        (self.ends[1] - self.ends[0]).perp_dot(p - self.ends[0])
+    }
+}
+
+impl Contacts {
+    fn compare(&mut self, first: &Piece, second: &Piece) {
+        let shared = first.nodes.iter().any(|node| second.nodes.contains(node));
+        let (c, d) = (first.side(second.ends[0]), first.side(second.ends[1]));
+        let (a, b) = (second.side(first.ends[0]), second.side(first.ends[1]));
+        let squared = |piece: &Piece| (piece.ends[1] - piece.ends[0]).length_squared();
+        let (first_squared, second_squared) = (squared(first), squared(second));
+        let limit = self.slack * self.slack;
+        let near = |side: f64, squared: f64| side * side <= limit * squared;
+        let apart =
+            |p: f64, q: f64, squared: f64| p * q > 0.0 && !near(p, squared) && !near(q, squared);
+        if apart(c, d, first_squared) || apart(a, b, second_squared) {
+            return;
+        }
+        let mut touching = false;
+        for (on, on_squared, of, sides) in [
+            (first, first_squared, second, [c, d]),
+            (second, second_squared, first, [a, b]),
+        ] {
+            for (end, side) in sides.into_iter().enumerate() {
+                if near(side, on_squared) && !on.nodes.contains(&of.nodes[end]) {
+                    touching |= self.touch(on, on_squared, of.nodes[end], of.ends[end]);
+                }
+            }
+        }
+        if !touching && !shared && c * d < 0.0 && a * b < 0.0 {
+            self.crossings
+                .push((first.number, second.number, a / (a - b), c / (c - d)));
+        }
+    }
+
+    /// Notes that `node`, which lies on the line of `on`, lies on the edge itself, if it does.
+    fn touch(&mut self, on: &Piece, squared: f64, node: u32, place: DVec2) -> bool {
+        let limit = self.slack * self.slack;
+        for (end, &other) in on.ends.iter().zip(&on.nodes) {
+            if (place - end).length_squared() <= limit {
+                self.meetings.push((node.min(other), node.max(other)));
+                return true;
+            }
+        }
+        let t = (place - on.ends[0]).dot(on.ends[1] - on.ends[0]) / squared;
+        let inside = t > 0.0 && t < 1.0;
+        if inside {
+            self.touches.push((on.number, node, t));
+        }
+        inside
+    }
+}
+
+/// Makes a node of every contact, and cuts the edges there.
+pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: Contacts) {
+    let slack = contacts.slack;
+    // (edge, how far along, node)
+    let mut cuts: Vec<(u32, f64, u32)> = contacts
+        .touches
+        .iter()
+        .map(|&(edge, node, t)| (edge, t, node))
+        .collect();
+    let first_new = nodes.len() as u32;
+    for (first, second, t, u) in contacts.crossings {
+        let node = nodes.len() as u32;
+        let e = &edges[first as usize];
+        let (a, b) = (nodes[e.from as usize], nodes[e.to as usize]);
+        nodes.push(a + (b - a) * t);
+        cuts.extend([(first, t, node), (second, u, node)]);
+    }
+    let mut leaders: Vec<u32> = (0..nodes.len() as u32).collect();
+    // Ends of cut edges, and nodes that become others.
+    let mut changed = vec![false; nodes.len()];
+    changed[first_new as usize..].fill(true);
+    for &(edge, _, node) in &cuts {
+        let e = &edges[edge as usize];
+        for node in [e.from, e.to, node] {
+            changed[node as usize] = true;
+        }
+    }
+    for (p, q) in contacts.meetings {
+        changed[p as usize] = true;
+        changed[q as usize] = true;
+        join(&mut leaders, p, q);
+    }
+    // Several edges through one point cross there in pairs, and where a node lies there, touch it besides.
+    let mut new: Vec<u32> = cuts.iter().map(|cut| cut.2).collect();
+    let x = |node: u32| nodes[node as usize].x;
+    new.sort_unstable_by(|&p, &q| x(p).total_cmp(&x(q)).then(p.cmp(&q)));
+    new.dedup();
+    for (i, &p) in new.iter().enumerate() {
+        for &q in &new[i + 1..] {
+            let apart = nodes[q as usize] - nodes[p as usize];
+            if apart.x > slack {
+                break;
+            }
+            if apart.length_squared() <= slack * slack {
+                join(&mut leaders, p, q);
+            }
+        }
+    }
+    cuts.sort_unstable_by(|p, q| p.0.cmp(&q.0).then(p.1.total_cmp(&q.1)));
+    let mut cuts = cuts.into_iter().peekable();
+    let mut pieces = Vec::with_capacity(edges.len() + 2 * cuts.len());
+    for (number, edge) in edges.iter().enumerate() {
+        let (mut tail, mut radius) = (edge.from, edge.radius_from);
+        while let Some((_, t, node)) = cuts.next_if(|cut| cut.0 == number as u32) {
+            let there = edge.radius_from + (edge.radius_to - edge.radius_from) * t;
+            pieces.push(VeinEdge {
+                from: tail,
+                to: node,
+                radius_from: radius,
+                radius_to: there,
+                ..*edge
+            });
+            (tail, radius) = (node, there);
+        }
+        pieces.push(VeinEdge {
+            from: tail,
+            radius_from: radius,
+            ..*edge
+        });
+    }
+    // Edges on top of each other have become the same piece twice. Only pieces at changed nodes can.
+    let mut pairs: Vec<(u32, u32, u32)> = Vec::new();
+    for (i, piece) in pieces.iter_mut().enumerate() {
+        if changed[piece.from as usize] || changed[piece.to as usize] {
+            piece.from = leader(&mut leaders, piece.from);
+            piece.to = leader(&mut leaders, piece.to);
+            pairs.push((piece.from.min(piece.to), piece.from.max(piece.to), i as u32));
+        }
+    }
+    pairs.sort_unstable();
+    let repeated = |w: &&[(u32, u32, u32)]| (w[0].0, w[0].1) == (w[1].0, w[1].1);
+    let mut gone: Vec<u32> = pairs.windows(2).filter(repeated).map(|w| w[1].2).collect();
+    gone.extend(pairs.iter().filter(|p| p.0 == p.1).map(|p| p.2));
+    gone.sort_unstable();
+    gone.dedup();
+    let mut gone = gone.into_iter().peekable();
+    let mut number = 0;
+    pieces.retain(|_| {
+        number += 1;
+        gone.next_if_eq(&(number - 1)).is_none()
+    });
+    *edges = pieces;
+}
+
+fn leader(leaders: &mut [u32], mut node: u32) -> u32 {
+    while leaders[node as usize] != node {
+        leaders[node as usize] = leaders[leaders[node as usize] as usize];
+        node = leaders[node as usize];
+    }
+    node
+}
+
+fn join(leaders: &mut [u32], p: u32, q: u32) {
+    let (p, q) = (leader(leaders, p), leader(leaders, q));
+    leaders[p.max(q) as usize] = p.min(q);
+}

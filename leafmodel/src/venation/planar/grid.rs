@@ -1,0 +1,294 @@
+//! A grid of square cells over the leaf, and the edges that pass through each.
+
+use glam::DVec2;
+
+use super::VeinEdge;
+
+/// Square cells over a rectangle, numbered row by row from the lower left.
+#[derive(Clone, Debug)]
+pub(crate) struct Lattice {
+    low: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+}
+
+impl Lattice {
+    /// Cells over all points: about two a point if they fill the rectangle, never above four a point (and a few), and no
+    /// smaller than `least`.
+    pub(crate) fn around(points: impl Iterator<Item = DVec2>, count: usize, least: f64) -> Self {
+        let (low, high) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
+        if count == 0 {
+            return Self {
+                low: DVec2::ZERO,
+                cell: 1.0,
+                columns: 1,
+                rows: 1,
+            };
+        }
+        let size = high - low;
+        let n = count as f64;
+        let cell = (size.x * size.y / (2.0 * n)).sqrt();
+        let cell = cell.max(size.max_element() / n).max(least);
+        let cell = if cell > 0.0 { cell } else { 1.0 };
+        Self {
+            low,
+            cell,
+            columns: (size.x / cell) as usize + 1,
+            rows: (size.y / cell) as usize + 1,
+        }
+    }
+
+    pub(crate) fn cells(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Cell in which a point lies; for points off the rectangle the nearest.
+    pub(crate) fn cell(&self, p: DVec2) -> usize {
+        self.row(p.y) * self.columns + self.column(p.x)
+    }
+
+    // Casts from float to int saturate, so what lies below the rectangle falls into its first row.
+    fn column(&self, x: f64) -> usize {
+        (((x - self.low.x) / self.cell) as usize).min(self.columns - 1)
+    }
+
+    fn row(&self, y: f64) -> usize {
+        (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
+    }
+
+    /// Every cell through which the segment from `a` to `b` passes, and at times a neighbour of one.
+    fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let (first, last) = (self.row(a.y), self.row(b.y));
+        for row in first..=last {
+            // The part of the segment in this row, widened by far more than rounding.
+            let slack = 1e-6 * self.cell;
+            let floor = self.low.y + row as f64 * self.cell - slack;
+            let ceiling = floor + self.cell + 2.0 * slack;
+            let slope = (b.x - a.x) / (b.y - a.y);
+            let at = |y: f64| a.x + (y - a.y) * slope;
+            let enter = if row == first || floor <= a.y {
+                a.x
+            } else {
+                at(floor)
+            };
+            let leave = if row == last || ceiling >= b.y {
+                b.x
+            } else {
+                at(ceiling)
+            };
+            let (left, right) = (enter.min(leave), enter.max(leave));
+            for column in self.column(left - slack)..=self.column(right + slack) {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+}
+
+/// Edges by cell.
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeGrid {
+    lattice: Lattice,
+    starts: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+impl EdgeGrid {
+    pub(crate) fn new(nodes: &[DVec2], edges: &[VeinEdge]) -> Self {
+        let ends = |edge: &VeinEdge| (nodes[edge.from as usize], nodes[edge.to as usize]);
+        let total: f64 = edges
+            .iter()
+            .map(|edge| {
+                let (a, b) = ends(edge);
+                (b - a).length()
+            })
+            .sum();
+        let least = total / (edges.len() as f64).max(1.0);
+        let points = edges.iter().flat_map(|edge| <[DVec2; 2]>::from(ends(edge)));
+        let lattice = Lattice::around(points, edges.len(), least);
+        let mut starts = vec![0_u32; lattice.cells() + 1];
+        for edge in edges {
+            let (a, b) = ends(edge);
+            lattice.along(a, b, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut next = starts.clone();
+        let mut sorted = vec![0; starts[lattice.cells()] as usize];
+        for (number, edge) in edges.iter().enumerate() {
+            let (a, b) = ends(edge);
+            lattice.along(a, b, |cell| {
+                sorted[next[cell] as usize] = number as u32;
+                next[cell] += 1;
+            });
+        }
+        Self {
+            lattice,
+            starts,
+            edges: sorted,
+        }
+    }
+
+    /// The edges of each cell in turn, ascending.
+    pub(crate) fn lists(&self) -> impl Iterator<Item = &[u32]> {
+        self.starts
+            .windows(2)
+            .map(|pair| &self.edges[pair[0] as usize..pair[1] as usize])
+    }
+
+    fn list(&self, column: usize, row: usize) -> &[u32] {
+        let cell = row * self.lattice.columns + column;
+        &self.edges[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// Distance from `p` to the nearest edge; none without edges.
+    pub(crate) fn distance(&self, nodes: &[DVec2], edges: &[VeinEdge], p: DVec2) -> Option<f64> {
+        let lattice = &self.lattice;
+        let (column, row) = (lattice.column(p.x), lattice.row(p.y));
+        let mut nearest = f64::INFINITY;
+        for ring in 0..=lattice.columns.max(lattice.rows) {
+            let left = column.saturating_sub(ring);
+            let right = (column + ring).min(lattice.columns - 1);
+            let floor = row.saturating_sub(ring);
+            let ceiling = (row + ring).min(lattice.rows - 1);
+            let mut look = |column: usize, row: usize| {
+                for &edge in self.list(column, row) {
+                    let edge = &edges[edge as usize];
+                    let (a, b) = (nodes[edge.from as usize], nodes[edge.to as usize]);
+                    nearest = nearest.min(squared_distance(p, a, b));
+                }
+            };
+            for r in floor..=ceiling {
+                if r.abs_diff(row) == ring {
+                    (left..=right).for_each(|c| look(c, r));
+                } else {
+                    if column >= ring {
+                        look(left, r);
+                    }
+                    if column + ring < lattice.columns && ring > 0 {
+                        look(right, r);
+                    }
+                }
+            }
+            // What was not looked at lies beyond a side of this box that is no side of the grid. Edges of a cell
+            // reach beyond it, but then they are listed there too.
+            let low = lattice.low + DVec2::new(left as f64, floor as f64) * lattice.cell;
+            let high =
+                lattice.low + DVec2::new(right as f64 + 1.0, ceiling as f64 + 1.0) * lattice.cell;
+            let mut safe = f64::INFINITY;
+            if left > 0 {
+                safe = safe.min(p.x - low.x);
+            }
+            if right + 1 < lattice.columns {
+                safe = safe.min(high.x - p.x);
+            }
+            if floor > 0 {
+                safe = safe.min(p.y - low.y);
+            }
+            if ceiling + 1 < lattice.rows {
+                safe = safe.min(high.y - p.y);
+            }
+            if safe == f64::INFINITY || (safe > 0.0 && nearest <= safe * safe) {
+                break;
+            }
+        }
+        (nearest < f64::INFINITY).then(|| nearest.sqrt())
+    }
+
+    /// Goes from `p` towards −x and gives the first edge met of which `wanted` is true. A node at the height of `p`
+    /// counts as below it.
+    pub(crate) fn first_to_the_left(
+        &self,
+        nodes: &[DVec2],
+        edges: &[VeinEdge],
+        p: DVec2,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let row = self.lattice.row(p.y);
+        for column in (0..=self.lattice.column(p.x)).rev() {
+            let hit = self
+                .list(column, row)
+                .iter()
+                .filter_map(|&number| {
+                    let edge = &edges[number as usize];
+                    let (a, b) = (nodes[edge.from as usize], nodes[edge.to as usize]);
+                    if (a.y > p.y) == (b.y > p.y) || !wanted(number) {
+                        return None;
+                    }
+                    let slope = (b.x - a.x) / (b.y - a.y);
+                    let x = a.x + (p.y - a.y) * slope;
+                    // Of edges that meet at the height of `p`, the one farther right just above it comes first.
+                    (x <= p.x).then_some((number, x, slope))
+                })
+                .max_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
+            if let Some((number, x, _)) = hit {
+                // An edge of this cell may be met left of it, behind one of another cell.
+                let start = self.lattice.low.x + column as f64 * self.lattice.cell;
+                if column == 0 || x >= start {
+                    return Some(number);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Squared distance from `p` to the segment from `a` to `b`.
+fn squared_distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let along = b - a;
+    let t = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    (a + along * t - p).length_squared()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    use super::*;
+
+    fn edge(from: u32, to: u32) -> VeinEdge {
+        VeinEdge {
+            from,
+            to,
+            radius_from: 1.0,
+            radius_to: 1.0,
+            order: 1,
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+
+        #[test]
+        fn the_grid_answers_as_all_edges_do(
+            places in prop::collection::vec((0.0..10.0_f64, 0.0..4.0_f64), 2..60),
+            x in -3.0..13.0_f64, y in -3.0..7.0_f64,
+        ) {
+            let nodes: Vec<DVec2> = places.into_iter().map(DVec2::from).collect();
+            let edges: Vec<VeinEdge> = (1..nodes.len() as u32).map(|to| edge(to / 2, to)).collect();
+            let grid = EdgeGrid::new(&nodes, &edges);
+            let p = DVec2::new(x, y);
+            let ends = |e: &VeinEdge| (nodes[e.from as usize], nodes[e.to as usize]);
+            let nearest = edges.iter().map(|e| squared_distance(p, ends(e).0, ends(e).1)).fold(f64::INFINITY, f64::min);
+            let found = grid.distance(&nodes, &edges, p).expect("there are edges");
+            prop_assert!((found - nearest.sqrt()).abs() <= 1e-12);
+            let left = edges
+                .iter()
+                .enumerate()
+                .filter(|(number, e)| number % 3 > 0 && (ends(e).0.y > y) != (ends(e).1.y > y))
+                .map(|(number, e)| {
+                    let (a, b) = ends(e);
+                    (number as u32, a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
+                })
+                .filter(|&(_, at)| at <= x)
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .map(|(number, _)| number);
+            prop_assert_eq!(grid.first_to_the_left(&nodes, &edges, p, |number| number % 3 > 0), left);
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! A flat drawing of a leaf: margin and veins in their true widths.
+//!
+//! - **In**: an [`Outline`], a [`VenationNetwork`], a size, a [`Style`].
+//! - **Out**: a [`Drawing`], 8-bit sRGB, apex up.
+//! - **Always true**: the same network gives the same bytes. Ink is proportional to the area of veins, also for veins
+//!   finer than a pixel.
+//! - **Left out**: light. Coverage is mixed between sRGB values, as drawing programs do.
+
+use glam::DVec2;
+use leafmodel::export::order_colour;
+use leafmodel::export::runs::Runs;
+use leafmodel::shape::outline::Outline;
+use leafmodel::venation::network::VenationNetwork;
+use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
+
+use crate::image::{ImageError, MOST_PIXELS};
+
+/// Space around the blade, as a share of its longer side.
+const BORDER: f64 = 0.02;
+
+/// Veins finer than this many pixels are drawn as wide, and paler: the rasteriser counts in quarters of a pixel.
+const LEAST_WIDTH: f64 = 0.75;
+
+/// Steps in which fine veins get paler.
+const PALES: usize = 16;
+
+/// Nodes nearer to each other than this many pixels are left out along a vein.
+const SHORTEST: f64 = 0.75;
+
+/// Gaps at bends that are closed, pixels.
+const LEAST_GAP: f64 = 0.05;
+
+/// Corners of the finest polygon that stands for a disc.
+const CORNERS: usize = 64;
+
+/// The largest side that the rasteriser can draw, pixels.
+const LONGEST_SIDE: u32 = 32_000;
+
+/// How a drawing looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// For white paper: dark veins on a pale leaf.
+    OnPaper,
+    /// Each vein order in a colour of its own ([`leafmodel::export::ORDER_COLOURS`]), coarse veins on top.
+    Orders,
+}
+
+/// A picture in 8-bit sRGB.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawing {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green and blue by row, from the top, and column.
+    pub rgb: Vec<u8>,
+}
+
+/// Draws a leaf so that its longer side, with a border of a fiftieth, takes `pixels_per_long_side`.
+///
+/// # Errors
+///
+/// [`ImageError`] unless that is 1 to 32 000, and the picture at most [`MOST_PIXELS`] in all.
+pub fn draw(
+    outline: &Outline,
+    network: &VenationNetwork,
+    pixels_per_long_side: u32,
+    style: Style,
+) -> Result<Drawing, ImageError> {
+    let (low, high) = outline.bounds();
+    let border = BORDER * (high - low).max_element();
+    let size = high - low + DVec2::splat(2.0 * border);
+    let scale = f64::from(pixels_per_long_side) / size.max_element();
+    let (width, height) = (
+        (size.x * scale).round().max(1.0) as u32,
+        (size.y * scale).round().max(1.0) as u32,
+    );
+    if pixels_per_long_side == 0 {
+        return Err(ImageError::Inconsistent {
+            what: "a drawing needs at least 1 pixel".to_owned(),
+        });
+    }
+    let canvas = (u64::from(width) * u64::from(height) <= MOST_PIXELS
+        && pixels_per_long_side <= LONGEST_SIDE)
+        .then(|| Pixmap::new(width, height))
+        .flatten();
+    let mut canvas = canvas.ok_or(ImageError::TooLarge {
+        width: u64::from(width),
+        height: u64::from(height),
+        channels: 3,
+    })?;
+    let sheet = Sheet {
+        corner: DVec2::new(low.x - border, high.y + border),
+        scale,
+    };
+    let (blade, margin) = match style {
+        Style::OnPaper => ([238, 243, 226], [150, 168, 132]),
+        Style::Orders => ([246, 246, 242], [190, 190, 184]),
+    };
+    canvas.fill(Color::WHITE);
+    if let Some(path) = sheet.polygon(outline.points()) {
+        fill(&mut canvas, &path, blade, 1.0);
+        let line = Stroke::default();
+        let same = Transform::identity();
+        canvas.stroke_path(&path, &ink(margin, 1.0), &line, same, None);
+    }
+    for (colour, strength, path) in sheet.veins(network, style) {
+        fill(&mut canvas, &path, colour, strength);
+    }
+    let rgb = canvas
+        .pixels()
+        .iter()
+        .flat_map(|p| [p.red(), p.green(), p.blue()]);
+    Ok(Drawing {
+        width,
+        height,
+        rgb: rgb.collect(),
+    })
+}
+
+fn ink([red, green, blue]: [u8; 3], strength: f64) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, (255.0 * strength).round() as u8);
+    paint
+}
+
+fn fill(canvas: &mut Pixmap, path: &Path, colour: [u8; 3], strength: f64) {
+    let rule = FillRule::Winding;
+    canvas.fill_path(
+        path,
+        &ink(colour, strength),
+        rule,
+        Transform::identity(),
+        None,
+    );
+}
+
+/// Where millimetres lie on the picture.
+struct Sheet {
+    /// Its upper left corner, mm.
+    corner: DVec2,
+    /// Pixels a millimetre.
+    scale: f64,
+}
+
+impl Sheet {
+    fn place(&self, p: DVec2) -> DVec2 {
+        DVec2::new(p.x - self.corner.x, self.corner.y - p.y) * self.scale
+    }
+
+    fn polygon(&self, points: &[DVec2]) -> Option<Path> {
+        let mut path = PathBuilder::new();
+        add(&mut path, points.iter().map(|&p| self.place(p)));
+        path.finish()
+    }
+
+    /// Areas to fill, with colour and strength, from the lowest to the topmost.
+    fn veins(&self, network: &VenationNetwork, style: Style) -> Vec<([u8; 3], f64, Path)> {
+        let layers = match style {
+            Style::OnPaper => 1,
+            Style::Orders => usize::from(u8::MAX) + 1,
+        };
+        // Everything of one colour and strength is one path, so that where pieces overlap nothing is drawn twice.
+        let mut paths: Vec<Vec<PathBuilder>> = vec![Vec::new(); layers];
+        let disc = disc();
+        let nodes = network.nodes();
+        for run in Runs::new(network).iter() {
+            let edges = || run.iter().map(|&edge| &network.edges()[edge as usize]);
+            let order = network.edges()[run[0] as usize].order;
+            let layer = match style {
+                Style::OnPaper => 0,
+                Style::Orders => usize::from(order),
+            };
+            let first = network.edges()[run[0] as usize];
+            let mut tail = self.place(nodes[first.from as usize].position);
+            let mut start = first.radius_from * self.scale;
+            let mut before = DVec2::ZERO;
+            let last = run.len() - 1;
+            for (number, edge) in edges().enumerate() {
+                let head = self.place(nodes[edge.to as usize].position);
+                let end = edge.radius_to * self.scale;
+                let short = (head - tail).length() < SHORTEST;
+                if short && number < last && (start - end).abs() < 0.05 * end {
+                    continue;
+                }
+                let width = start + end;
+                let steps = (width / LEAST_WIDTH * PALES as f64).ceil();
+                let pale = (steps as usize).clamp(1, PALES) - 1;
+                if paths[layer].is_empty() {
+                    paths[layer] = vec![PathBuilder::new(); PALES];
+                }
+                let path = &mut paths[layer][pale];
+                let least = 0.5 * LEAST_WIDTH;
+                let radii = [start.max(least), end.max(least)];
+                let aside = piece(path, [tail, head], radii);
+                // On the outer side of a bend the pieces leave a gap, about r sin φ wide.
+                if (aside.perp_dot(before) * radii[0]).abs() > LEAST_GAP {
+                    round(path, tail, radii[0], &disc);
+                }
+                if number == last {
+                    round(path, head, radii[1], &disc);
+                }
+                (tail, start, before) = (head, end, aside);
+            }
+        }
+        let mut areas = Vec::new();
+        for (layer, paths) in paths.into_iter().enumerate().rev() {
+            let colour = match style {
+                Style::OnPaper => [60, 90, 42],
+                Style::Orders => order_colour(layer as u8),
+            };
+            for (pale, path) in paths.into_iter().enumerate() {
+                // Strengths stand for the middle of their step, but the last is full.
+                let strength = ((pale as f64 + 0.5) / PALES as f64)
+                    .max(f64::from(u8::from(pale + 1 == PALES)));
+                areas.extend(path.finish().map(|path| (colour, strength, path)));
+            }
+        }
+        areas
+    }
+}
+
+/// A closed polygon.
+fn add(path: &mut PathBuilder, mut points: impl Iterator<Item = DVec2>) {
+    if let Some(first) = points.next() {
+        path.move_to(first.x as f32, first.y as f32);
+        for p in points {
+            path.line_to(p.x as f32, p.y as f32);
+        }
+        path.close();
+    }
+}
+
+/// A piece of vein with straight sides; gives the unit vector across it. Pieces and discs all run the same way around, so that
+/// overlaps add up.
+fn piece(path: &mut PathBuilder, [from, to]: [DVec2; 2], [start, end]: [f64; 2]) -> DVec2 {
+    let aside = (to - from).perp().normalize_or_zero();
+    let sides = [
+        from + aside * start,
+        from - aside * start,
+        to - aside * end,
+        to + aside * end,
+    ];
+    add(path, sides.into_iter());
+    aside
+}
+
+/// A disc, unless it is too small to be seen.
+fn round(path: &mut PathBuilder, centre: DVec2, radius: f64, disc: &[DVec2]) {
+    // What the corners leave out of the disc is finer than a tenth of a pixel.
+    let every = match radius {
+        ..0.6 => return,
+        ..3.0 => 8,
+        ..12.0 => 4,
+        ..48.0 => 2,
+        _ => 1,
+    };
+    add(
+        path,
+        disc.iter().step_by(every).map(|&p| centre + p * radius),
+    );
+}
+
+/// Corners on the unit circle.
+fn disc() -> Vec<DVec2> {
+    (0..CORNERS)
+        .map(|i| std::f64::consts::TAU * i as f64 / CORNERS as f64)
+        .map(|angle| DVec2::new(libm::cos(angle), libm::sin(angle)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use leafmodel::venation::network::{VeinEdge, VeinNode};
+
+    use super::*;
+
+    /// A square blade of 96 mm, drawn at a hundred pixels with its border: one pixel a millimetre.
+    fn blade() -> Outline {
+        let corners = [(0.0, 0.0), (96.0, 0.0), (96.0, 96.0), (0.0, 96.0)];
+        let corners = corners.map(DVec2::from).to_vec();
+        Outline::new(corners, DVec2::new(48.0, 0.0), DVec2::new(48.0, 96.0)).expect("a square")
+    }
+
+    fn line(ends: [(f64, f64); 2], pieces: u32, radius: f64) -> VenationNetwork {
+        let [a, b] = ends.map(DVec2::from);
+        let nodes = (0..=pieces).map(|i| VeinNode {
+            position: a + (b - a) * (f64::from(i) / f64::from(pieces)),
+            born: i,
+        });
+        let edges = (0..pieces).map(|i| VeinEdge {
+            from: i,
+            to: i + 1,
+            radius_from: radius,
+            radius_to: radius,
+            order: 1,
+        });
+        VenationNetwork::from_parts(nodes.collect(), edges.collect(), 1.0).expect("a line")
+    }
+
+    /// How many pixels the ink of veins would cover.
+    fn inked(veins: &VenationNetwork, style: Style) -> f64 {
+        let bare = line([(40.0, 1.0), (40.0, 2.0)], 1, 1e-9);
+        let pixels = (100.0 * 1.04) as u32;
+        let without = draw(&blade(), &bare, pixels, style).expect("small");
+        let with = draw(&blade(), veins, pixels, style).expect("small");
+        let paler = without
+            .rgb
+            .iter()
+            .zip(&with.rgb)
+            .map(|(a, b)| f64::from(*a) - f64::from(*b));
+        let full = match style {
+            Style::OnPaper => 238.0 - 60.0 + 243.0 - 90.0 + 226.0 - 42.0,
+            Style::Orders => 246.0 + 246.0 + 242.0,
+        };
+        let scale = f64::from(pixels) / (96.0 * 1.04);
+        paler.sum::<f64>() / full / (scale * scale)
+    }
+
+    #[test]
+    fn a_straight_vein_covers_its_length_times_its_width() {
+        for style in [Style::OnPaper, Style::Orders] {
+            for (width, tolerance) in [(0.2, 0.08), (0.6, 0.05), (2.0, 0.02), (7.3, 0.01)] {
+                for ends in [[(10.0, 10.0), (81.0, 33.0)], [(20.0, 11.0), (57.0, 88.0)]] {
+                    for pieces in [1, 40, 400] {
+                        let veins = line(ends, pieces, 0.5 * width);
+                        let length = veins.vein_length_mm();
+                        // The end is half a disc, if wide enough to be seen.
+                        let cap = if width > 1.2 {
+                            std::f64::consts::PI * width * width / 8.0
+                        } else {
+                            0.0
+                        };
+                        let expected = length * width + cap;
+                        let ink = inked(&veins, style);
+                        assert!(
+                            (ink / expected - 1.0).abs() < tolerance,
+                            "{ink} is not {expected}: {width} {pieces}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_apex_is_up_and_the_blade_pale() {
+        let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
+        let drawing = draw(&blade(), &veins, 104, Style::OnPaper).expect("small");
+        assert_eq!((drawing.width, drawing.height), (104, 104));
+        let pixel = |x: usize, y: usize| &drawing.rgb[3 * (104 * y + x)..][..3];
+        assert_eq!(pixel(52, 12), [60, 90, 42]);
+        assert_eq!(pixel(52, 90), [238, 243, 226]);
+        assert_eq!(pixel(0, 0), [255, 255, 255]);
+    }
+
+    #[test]
+    fn sizes_that_cannot_be_drawn_are_refused() {
+        let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
+        for pixels in [0, 20_000, 40_000, u32::MAX] {
+            assert!(draw(&blade(), &veins, pixels, Style::Orders).is_err());
+        }
+        assert!(draw(&blade(), &veins, 1, Style::Orders).is_ok());
+    }
+}
