@@ -20,7 +20,7 @@ use super::plan::MarginClearance;
 const JITTER: f64 = 0.25;
 
 /// Rounds in which a secondary vein grows to its end.
-const LEGS: u32 = 5;
+const LEGS: u32 = 8;
 
 /// How far along the midrib a secondary rises, over how far it reaches away from it.
 const RISE: f64 = 0.8;
@@ -119,6 +119,10 @@ pub(crate) fn rounds(
                 continue;
             }
             let (height, reach) = ((end - base).dot(up), (end - base).perp_dot(up));
+            // Where the leaf is narrow there is no room for an arch.
+            if reach.abs() < 1.5 * distance {
+                continue;
+            }
             let rise = (RISE * reach.abs()).min(0.9 * height).max(0.0);
             let start = base + up * (height - rise);
             // First mostly outward, at last mostly upward.
@@ -153,10 +157,10 @@ mod tests {
         };
         let apex = DVec2::new(0.0, 100.0);
         let rounds = rounds(&rule, &margin, DVec2::ZERO, apex, 3);
-        assert_eq!(rounds.len(), 7);
+        assert_eq!(rounds.len(), 10);
         assert_eq!(rounds[0], [DVec2::new(0.0, 95.0)]);
-        assert_eq!((rounds[5].len(), rounds[6].len()), (12, 10));
-        for (places, wanted) in [(&rounds[5], 5.0), (&rounds[6], 4.0)] {
+        assert_eq!((rounds[8].len(), rounds[9].len()), (12, 10));
+        for (places, wanted) in [(&rounds[8], 5.0), (&rounds[9], 4.0)] {
             for p in places {
                 let near = margin
                     .iter()
@@ -165,6 +169,6 @@ mod tests {
                 assert!((near - wanted).abs() < 0.5, "{p} is {near} from the margin");
             }
         }
-        assert_eq!(rounds[5].iter().filter(|p| p.x > 0.0).count(), 6);
+        assert_eq!(rounds[8].iter().filter(|p| p.x > 0.0).count(), 6);
     }
 }
