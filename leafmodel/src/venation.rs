@@ -23,6 +23,7 @@ pub mod areole;
 mod auxin;
 pub(crate) mod chance;
 mod closed;
+pub mod conformal_map;
 mod fresh_nodes;
 mod influence;
 mod lamina;
@@ -47,6 +48,7 @@ use thiserror::Error;
 
 use self::auxin::waiting_darts;
 use self::closed::Anastomosis;
+use self::conformal_map::ConformalMap;
 use self::influence::Influence;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
@@ -210,6 +212,8 @@ pub(crate) struct Grown {
     ending: Ending,
     margin: Vec<DVec2>,
     apex: DVec2,
+    /// Of the leaf whose conformal map this is: only isogonic growth scales the map.
+    map_apex: DVec2,
 }
 
 /// Runs a plan that has been checked; gives the full-grown state and those after `steps`.
@@ -270,6 +274,10 @@ fn simulate<I: Influence>(
 impl Grown {
     /// Widths, orders, and millimetres.
     fn into_network(self, plan: &VenationPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
+        let apex = self.map_apex * segment_mm;
+        let curvature = plan.gaussian_curvature / apex.length_squared();
+        let map = ConformalMap::new(curvature, base + apex * 0.5);
+        let place = |node: u32| base + self.positions[node as usize] * segment_mm;
         let topology = Topology::new(self.positions.len(), &self.edges);
         let base_to_tip = topology
             .base_to_tip()
@@ -301,8 +309,8 @@ impl Grown {
                 VeinEdge {
                     from,
                     to,
-                    radius_from: start.max(radii[i]),
-                    radius_to: radii[i],
+                    radius_from: start.max(radii[i]) * map.enlargement(place(from)),
+                    radius_to: radii[i] * map.enlargement(place(to)),
                     order: orders.edges[i],
                 }
             })
@@ -319,6 +327,7 @@ impl Grown {
         VenationNetwork {
             nodes,
             edges,
+            map,
             origins: self.origins,
             steps: self.steps,
             sources: self.sources,

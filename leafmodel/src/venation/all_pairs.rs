@@ -179,6 +179,7 @@ impl Oracle<'_> {
         Grown {
             margin: scaled(&self.lamina.margin_now(), margin),
             apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+            map_apex: self.lamina.blade.apex() * veins,
             positions: scaled(&self.nodes, veins),
             births: self.births.clone(),
             edges,

@@ -11,6 +11,8 @@
 use glam::DVec2;
 use thiserror::Error;
 
+use super::conformal_map::ConformalMap;
+
 /// How far from the origin a node of a network from elsewhere may lie in x and y, mm: a kilometre.
 const FARTHEST_MM: f64 = 1e6;
 
@@ -67,6 +69,7 @@ pub enum Ending {
 pub struct VenationNetwork {
     pub(crate) nodes: Vec<VeinNode>,
     pub(crate) edges: Vec<VeinEdge>,
+    pub(crate) map: ConformalMap,
     pub(crate) origins: u32,
     pub(crate) steps: u32,
     pub(crate) sources: u32,
@@ -164,6 +167,7 @@ impl VenationNetwork {
         let network = Self {
             nodes,
             edges,
+            map: ConformalMap::FLAT,
             origins,
             steps,
             sources: 0,
@@ -193,6 +197,11 @@ impl VenationNetwork {
             radius_to: edge.radius_to,
             order: edge.order,
         })
+    }
+
+    /// The map of the blade in which positions, lengths and radii are given; flat but for curved blades.
+    pub fn map(&self) -> ConformalMap {
+        self.map
     }
 
     /// How many nodes, the first ones, veins started from, ≥ 1.
@@ -266,8 +275,12 @@ impl VenationNetwork {
                 return Err(NetworkError::BadEdge { edge });
             }
             let (from, to) = (self.nodes[e.from as usize], self.nodes[e.to as usize]);
-            let radii =
-                e.radius_from.is_finite() && e.radius_to > 0.0 && e.radius_from >= e.radius_to;
+            // On the blade, not in its map; what is equal there may differ by rounding here.
+            let on_blade =
+                |radius: f64, node: &VeinNode| radius / self.map.enlargement(node.position);
+            let (start, end) = (on_blade(e.radius_from, &from), on_blade(e.radius_to, &to));
+            let slack = if self.map.is_flat() { 1.0 } else { 1.0 + 1e-12 };
+            let radii = start.is_finite() && end > 0.0 && start * slack >= end;
             if !(radii && from.position.is_finite() && to.position.is_finite()) {
                 return Err(NetworkError::BadNumber { edge });
             }

@@ -177,6 +177,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             ending,
             margin: scaled(&self.lamina.margin_now(), margin),
             apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+            map_apex: self.lamina.blade.apex() * veins,
         }
     }
 
