@@ -11,6 +11,8 @@
 
 mod contacts;
 mod grid;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec2;
 
