@@ -311,3 +311,84 @@ impl VenationNetwork {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parts(
+        positions: &[(f64, f64)],
+        edges: &[(u32, u32, f64, f64)],
+    ) -> Result<VenationNetwork, NetworkError> {
+        let nodes = positions.iter().zip(3..).map(|(&p, born)| VeinNode {
+            position: p.into(),
+            born,
+        });
+        let edges = edges
+            .iter()
+            .map(|&(from, to, radius_from, radius_to)| VeinEdge {
+                from,
+                to,
+                radius_from,
+                radius_to,
+                order: 1,
+            });
+        VenationNetwork::from_parts(nodes.collect(), edges.collect(), 0.5)
+    }
+
+    #[test]
+    fn a_network_from_elsewhere_keeps_its_parts() {
+        let network = parts(
+            &[(0.0, 0.0), (0.0, 1.0), (1.0, 2.0)],
+            &[(0, 1, 0.2, 0.1), (1, 2, 0.1, 0.1)],
+        );
+        let network = network.expect("nothing is wrong with it");
+        assert_eq!(
+            (network.steps(), network.sources(), network.segment_mm()),
+            (5, 0, 0.5)
+        );
+        assert_eq!((network.components(), network.loops()), (1, 0));
+        assert_eq!(network.vein_length_mm(), 1.0 + 2.0_f64.sqrt());
+    }
+
+    #[test]
+    fn each_fault_of_a_network_from_elsewhere_has_its_error() {
+        let two = [(0.0, 0.0), (0.0, 1.0)];
+        let far = NetworkError::FarNode { node: 1 };
+        for place in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (0.0, -2e6)] {
+            assert_eq!(parts(&[(0.0, 0.0), place], &[]), Err(far.clone()));
+        }
+        assert_eq!(
+            parts(&two, &[(0, 2, 1.0, 1.0)]),
+            Err(NetworkError::BadEdge { edge: 0 })
+        );
+        assert_eq!(
+            parts(&two, &[(1, 1, 1.0, 1.0)]),
+            Err(NetworkError::BadEdge { edge: 0 })
+        );
+        for (from, to) in [
+            (1.0, 2.0),
+            (1.0, 0.0),
+            (f64::NAN, 1.0),
+            (f64::INFINITY, 1.0),
+            (1.0, f64::NAN),
+        ] {
+            assert_eq!(
+                parts(&two, &[(0, 1, from, to)]),
+                Err(NetworkError::BadNumber { edge: 0 })
+            );
+        }
+        let same = parts(&[(1.0, 1.0), (1.0, 1.0)], &[(0, 1, 1.0, 1.0)]);
+        assert_eq!(same, Err(NetworkError::NoLength { edge: 0 }));
+        let twice = parts(&two, &[(0, 1, 1.0, 1.0), (1, 0, 1.0, 1.0)]);
+        assert_eq!(twice, Err(NetworkError::Twice { edge: 1 }));
+        let ring = [(0, 1, 1.0, 1.0), (1, 2, 1.0, 1.0), (2, 0, 1.0, 1.0)];
+        let ring = parts(&[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)], &ring);
+        assert_eq!(ring, Err(NetworkError::Circle { node: 0 }));
+        for value in [0.0, -1.0, f64::INFINITY] {
+            let bad = VenationNetwork::from_parts(Vec::new(), Vec::new(), value);
+            assert_eq!(bad, Err(NetworkError::BadSegment { value }));
+        }
+        assert!(VenationNetwork::from_parts(Vec::new(), Vec::new(), f64::NAN).is_err());
+    }
+}
