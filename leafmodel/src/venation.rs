@@ -18,8 +18,8 @@
 mod agreement;
 #[cfg(test)]
 mod all_pairs;
-pub mod areole;
 mod arches;
+pub mod areole;
 mod auxin;
 pub(crate) mod chance;
 mod closed;
