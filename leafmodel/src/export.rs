@@ -17,7 +17,7 @@ mod tests;
 pub use self::geojson::geojson;
 pub use self::graphml::graphml;
 pub use self::json::json;
-pub use self::svg::{SvgStyle, svg};
+pub use self::svg::{SvgStyle, svg, svg_within};
 
 /// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after Okabe and Ito); finer orders than there
 /// are colours share the last.

@@ -7,6 +7,7 @@ pub mod arguments;
 mod check;
 mod export;
 mod grow;
+mod interrupt;
 mod optics;
 mod pictures;
 mod progress;
@@ -47,7 +48,8 @@ impl Failure {
 
 impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Self {
-        Self::BadInput(errors.render(std::io::stderr().is_terminal()))
+        let report = errors.render(std::io::stderr().is_terminal());
+        Self::BadInput(format!("{report}\n"))
     }
 }
 
@@ -105,8 +107,14 @@ fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Fails if nothing could be written beside `path`, before any work is done.
+/// Fails if `path` could not be written, before any work is done.
 fn check_writable(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(Failure::bad(format!(
+            "{} is a folder: name a file",
+            path.display()
+        )));
+    }
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());

@@ -10,7 +10,7 @@ pub mod description;
 mod document;
 pub mod error;
 pub mod load;
-mod nearest;
+pub(crate) mod nearest;
 pub mod plants;
 pub mod report;
 pub mod source;

@@ -33,7 +33,17 @@ pub struct SvgStyle {
 /// There is a group for each order, finest first, so that coarse veins lie on top. Stretches of a vein with one width are
 /// one stroked path; where a vein tapers it is a filled outline.
 pub fn svg(outline: &Outline, network: &VenationNetwork, style: SvgStyle) -> String {
-    let (low, high) = outline.bounds();
+    svg_within(outline.bounds(), outline, network, style)
+}
+
+/// The same with a page for another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of
+/// a leaf while it grows have one scale on the page of the full-grown one.
+pub fn svg_within(
+    (low, high): (DVec2, DVec2),
+    outline: &Outline,
+    network: &VenationNetwork,
+    style: SvgStyle,
+) -> String {
     let border = BORDER * (high - low).max_element();
     let size = high - low + DVec2::splat(2.0 * border);
     let mut text = format!(

@@ -37,7 +37,7 @@ pub enum Command {
     Compare(CompareArguments),
     /// Print what an EXR file holds
     Info(InfoArguments),
-    /// Grow a leaf and write its veins, mesh and contents
+    /// Grow a leaf and write its veins, its blade, its contents and measures
     Grow(GrowArguments),
 }
 
@@ -144,34 +144,53 @@ pub struct InfoArguments {
 /// `lamina grow`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct GrowArguments {
-    /// A file with leaves or a scene, and which leaf if there are several: scene.toml#beech
-    #[arg(value_name = "FILE.toml[#LEAF]")]
-    pub leaf: String,
-    /// Override a value, written as in the file: -D leaves.beech.seed=3
+    /// A preset, or a file with leaves or a scene, and which leaf if there are several: scene.toml#beech
+    #[arg(
+        value_name = "PRESET|FILE.toml[#LEAF]",
+        required_unless_present = "list"
+    )]
+    pub leaf: Option<String>,
+    /// Name the presets
+    #[arg(long, exclusive = true)]
+    pub list: bool,
+    /// Change a value of the leaf: --set blade.ruffle=0.02; the end of a path is enough where only one key has it
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Override a value of the file, written as in it: -D leaves.beech.seed=3
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Files to write, their kind by their ending: svg, ply, obj
+    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson (veins), ply, obj (blade), toml (plan)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub out: Vec<PathBuf>,
+    /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so on
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: Option<u32>,
+    /// Write measures of the veins as JSON, and print them as a table
+    #[arg(long, value_name = "FILE.json")]
+    pub measure: Option<PathBuf>,
     /// Write the maps of contents into a folder
     #[arg(long, value_name = "DIR")]
     pub contents: Option<PathBuf>,
-    /// Write times and counts as JSON
+    /// Write times, memory and counts as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
     /// Seed, instead of the leaf's
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Threads; the default is one for each processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Pixels along the longer side of a png
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
+    pub size: u32,
 }
 
-impl GrowArguments {
-    /// The file, and the leaf in it if one is named behind `#`.
-    pub fn file_and_leaf(&self) -> (PathBuf, Option<&str>) {
-        match self.leaf.rsplit_once('#') {
-            // A folder may have `#` in its name; what is behind a leaf's is never a path.
-            Some((file, leaf)) if !leaf.contains(['/', '\\']) => (PathBuf::from(file), Some(leaf)),
-            Some(_) | None => (PathBuf::from(&self.leaf), None),
-        }
+/// The file, and the leaf in it if one is named behind `#`.
+pub fn file_and_leaf(leaf: &str) -> (PathBuf, Option<&str>) {
+    match leaf.rsplit_once('#') {
+        // A folder may have `#` in its name; what is behind a leaf's is never a path.
+        Some((file, leaf)) if !leaf.contains(['/', '\\']) => (PathBuf::from(file), Some(leaf)),
+        Some(_) | None => (PathBuf::from(leaf), None),
     }
 }
 
@@ -245,6 +264,10 @@ mod tests {
             "lamina optics --cab -1 --out a.csv",
             "lamina export pbrt a.toml --out b",
             "lamina compare a.exr",
+            "lamina grow",
+            "lamina grow --list poplar",
+            "lamina grow poplar --frames 0",
+            "lamina grow poplar --size 8",
         ] {
             let error = parsed(line).expect_err(line);
             assert_eq!(error.exit_code(), 2, "{line}");
@@ -265,7 +288,8 @@ mod tests {
             let Some(Command::Grow(grow)) = parsed(line).expect(line).command else {
                 panic!("{line} is no grow");
             };
-            assert_eq!(grow.file_and_leaf(), (PathBuf::from(file), leaf));
+            let named = grow.leaf.expect("a leaf is named");
+            assert_eq!(file_and_leaf(&named), (PathBuf::from(file), leaf));
         }
     }
 

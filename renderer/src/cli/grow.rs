@@ -1,192 +1,229 @@
-//! `lamina grow`: a leaf's veins, blade and contents as files.
+//! `lamina grow`: a leaf's veins, blade, contents and measures as files.
 
-use std::fmt::Write as _;
+mod blade_files;
+mod choice;
+mod frames;
+mod outputs;
+
 use std::io::Write as _;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use leafmodel::leaf::Leaf;
+use leafmodel::export::{self, SvgStyle};
+use leafmodel::leaf::{Leaf, LeafPlan};
+use leafmodel::measure::measure;
+use leafmodel::shape::outline::Outline;
+use leafmodel::species::PRESETS;
+use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
 
+use self::frames::Page;
+use self::outputs::{Kind, Outputs};
 use crate::cli::arguments::GrowArguments;
-use crate::cli::{Failure, check_writable, say, stats};
+use crate::cli::interrupt::stop_on_interrupt;
+use crate::cli::{Failure, say, stats};
+use crate::export::drawing::{Style, draw_within};
 use crate::export::mitsuba::map_picture;
-use crate::image::{atomic, openexr};
+use crate::image::{atomic, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
-use crate::scene::load;
+use crate::scene::load::leaf_to_toml;
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
+    if arguments.list {
+        let longest = PRESETS.iter().map(|preset| preset.name.len()).max();
+        for preset in PRESETS {
+            let width = longest.unwrap_or(0);
+            say(format!("{:<width$}  {}", preset.name, preset.about));
+        }
+        return Ok(());
+    }
     let started = Instant::now();
-    let (file, wanted) = arguments.file_and_leaf();
-    let leaves = load::load_leaves(&file, &arguments.overrides)?;
-    let names: Vec<&str> = leaves.iter().map(|leaf| leaf.name.as_str()).collect();
-    let chosen = match wanted {
-        None if leaves.len() == 1 => leaves.first(),
-        None => None,
-        Some(name) => leaves.iter().find(|leaf| leaf.name == name),
+    let chosen = choice::choose(arguments)?;
+    let outputs = Outputs::planned(arguments)?;
+    let stop = stop_on_interrupt()?;
+    let work = || {
+        carry_out(
+            arguments,
+            &chosen.name,
+            &chosen.value.plan,
+            &outputs,
+            &stop,
+            started,
+        )
     };
-    let Some(chosen) = chosen else {
-        return Err(Failure::bad(format!(
-            "{} holds the leaves {}: name one of them behind the file, as in {}#{}",
-            file.display(),
-            names.join(", "),
-            file.display(),
-            names.first().unwrap_or(&"NAME")
-        )));
-    };
-    for path in arguments.out.iter().chain(&arguments.stats) {
-        check_writable(path)?;
+    match arguments.threads {
+        None => work(),
+        Some(threads) => rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build()
+            .map_err(Failure::system)?
+            .install(work),
     }
-    for path in &arguments.out {
-        kind_of(path)?;
+}
+
+fn carry_out(
+    arguments: &GrowArguments,
+    name: &str,
+    plan: &LeafPlan,
+    outputs: &Outputs,
+    stop: &AtomicBool,
+    started: Instant,
+) -> Result<(), Failure> {
+    for (path, _) in outputs.whole.iter().filter(|(_, kind)| *kind == Kind::Toml) {
+        finish(path, leaf_to_toml(name, plan).as_bytes(), stop)?;
     }
-    let mut plan = chosen.value.plan.clone();
-    plan.seed = arguments.seed.unwrap_or(plan.seed);
-    let leaf = Leaf::grow(&plan).map_err(Failure::bad)?;
-    for path in &arguments.out {
-        let bytes = match kind_of(path)? {
-            Kind::Svg => svg(&leaf).into_bytes(),
-            Kind::Ply => ply(&leaf),
-            Kind::Obj => obj(&leaf).into_bytes(),
+    if !outputs.veins {
+        return Ok(());
+    }
+    let growing = Instant::now();
+    let grown = Grown::new(plan, outputs.blade)?;
+    let build_seconds = growing.elapsed().as_secs_f64();
+    let (outline, network) = grown.veins();
+    for (path, kind) in &outputs.whole {
+        let bytes = match kind {
+            Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson => {
+                veins_file(*kind, outline.bounds(), outline, network, arguments.size)?
+            }
+            Kind::Ply | Kind::Obj => match &grown {
+                Grown::Leaf(leaf) if *kind == Kind::Ply => blade_files::ply(&leaf.mesh),
+                Grown::Leaf(leaf) => blade_files::obj(&leaf.mesh).into_bytes(),
+                Grown::Veins(..) => continue,
+            },
+            Kind::Toml => continue,
         };
-        atomic::replace(path, |file| file.write_all(&bytes)).map_err(Failure::system)?;
-        say(path.display());
+        finish(path, &bytes, stop)?;
     }
-    if let Some(folder) = &arguments.contents {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| Failure::system(format!("{}: {error}", folder.display())))?;
-        let path = folder.join(format!("{}.exr", chosen.name));
-        let map = &leaf.contents;
-        let texture =
-            ContentsTexture::new(map.width as usize, map.height as usize, map.texels.clone());
-        openexr::write(&map_picture(&texture), &path).map_err(Failure::system)?;
-        say(path.display());
+    if let (Some(folder), Grown::Leaf(leaf)) = (&arguments.contents, &grown) {
+        write_contents(folder, name, leaf, stop)?;
+    }
+    if let Some(count) = arguments.frames {
+        frames::write(plan, outline, network, outputs, count, arguments.size, stop)?;
+    }
+    if let Some(path) = &arguments.measure {
+        let measures = measure(outline, network, plan.venation.murray_exponent);
+        eprint!("{}", measures.table());
+        finish(path, format!("{:#}\n", measures.json()).as_bytes(), stop)?;
     }
     let seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
         let report = json!({
-            "leaf": chosen.name,
+            "leaf": name,
             "seconds": seconds,
+            "build_seconds": build_seconds,
             "peak_mib": stats::peak_mib(),
-            "nodes": leaf.network.nodes().len(),
-            "loops": leaf.network.loops(),
-            "steps": leaf.network.steps(),
-            "triangles": leaf.mesh.triangles.len(),
+            "nodes": network.nodes().len(),
+            "sources": network.sources(),
+            "steps": network.steps(),
+            "loops": network.loops(),
+            "triangles": grown.triangles(),
         });
         stats::write(path, &report)?;
     }
+    let triangles = grown
+        .triangles()
+        .map_or_else(String::new, |count| format!("{count} triangles, "));
     eprintln!(
-        "{}: {} vein nodes, {} loops, {} triangles, {seconds:.2} s",
-        chosen.name,
-        leaf.network.nodes().len(),
-        leaf.network.loops(),
-        leaf.mesh.triangles.len()
+        "{name}: {} vein nodes, {} loops, {} steps, {triangles}{seconds:.2} s",
+        network.nodes().len(),
+        network.loops(),
+        network.steps(),
     );
     Ok(())
 }
 
-enum Kind {
-    Svg,
-    Ply,
-    Obj,
+/// As much of a leaf as is asked for.
+enum Grown {
+    Veins(Outline, VenationNetwork),
+    Leaf(Box<Leaf>),
 }
 
-fn kind_of(path: &Path) -> Result<Kind, Failure> {
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("svg") => Ok(Kind::Svg),
-        Some("ply") => Ok(Kind::Ply),
-        Some("obj") => Ok(Kind::Obj),
-        _ => Err(Failure::bad(format!(
-            "{}: the ending tells what is written, svg (veins), ply or obj (blade)",
-            path.display()
-        ))),
+impl Grown {
+    fn new(plan: &LeafPlan, blade: bool) -> Result<Self, Failure> {
+        if blade {
+            let leaf = Leaf::grow(plan).map_err(Failure::bad)?;
+            return Ok(Self::Leaf(Box::new(leaf)));
+        }
+        let outline = plan.grow_outline().map_err(Failure::bad)?;
+        let network = plan.grow_veins(&outline).map_err(Failure::bad)?;
+        Ok(Self::Veins(outline, network))
     }
-}
 
-/// Margin and veins in their true widths, millimetres, apex up.
-fn svg(leaf: &Leaf) -> String {
-    let (min, size) = (leaf.frame.min, leaf.frame.size);
-    let border = 0.02 * size.y;
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {3} {0} {1}\">\n\
-         <g transform=\"scale(1,-1)\">\n<path fill=\"#eef3e2\" stroke=\"none\" d=\"",
-        size.x + 2.0 * border,
-        size.y + 2.0 * border,
-        min.x - border,
-        -(min.y + size.y + border)
-    );
-    for (number, point) in leaf.outline.points().iter().enumerate() {
-        let letter = if number == 0 { 'M' } else { 'L' };
-        let _ = write!(text, "{letter}{:.4} {:.4}", point.x, point.y);
-    }
-    text += "Z\"/>\n<g stroke=\"#3c5a2a\" stroke-linecap=\"round\" fill=\"none\">\n";
-    for vein in leaf.network.segments() {
-        let _ = writeln!(
-            text,
-            "<path stroke-width=\"{:.4}\" d=\"M{:.4} {:.4}L{:.4} {:.4}\"/>",
-            vein.radius_from + vein.radius_to,
-            vein.from.x,
-            vein.from.y,
-            vein.to.x,
-            vein.to.y
-        );
-    }
-    text + "</g>\n</g>\n</svg>\n"
-}
-
-/// The blade in millimetres, with normals, uv and thickness.
-fn ply(leaf: &Leaf) -> Vec<u8> {
-    let mesh = &leaf.mesh;
-    let mut header = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment lengths in mm\nelement vertex {}\n",
-        mesh.positions.len()
-    );
-    for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v", "thickness"] {
-        let _ = writeln!(header, "property float {name}");
-    }
-    let _ = write!(
-        header,
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        mesh.triangles.len()
-    );
-    let mut bytes = header.into_bytes();
-    for (vertex, position) in mesh.positions.iter().enumerate() {
-        let normal = mesh.normals[vertex];
-        let uv = mesh.uvs[vertex];
-        let thickness = mesh.thickness_mm[vertex];
-        for value in position
-            .to_array()
-            .into_iter()
-            .chain(normal.to_array())
-            .chain([uv.x, uv.y, thickness])
-        {
-            bytes.extend_from_slice(&(value as f32).to_le_bytes());
+    fn veins(&self) -> (&Outline, &VenationNetwork) {
+        match self {
+            Self::Veins(outline, network) => (outline, network),
+            Self::Leaf(leaf) => (&leaf.outline, &leaf.network),
         }
     }
-    for triangle in &mesh.triangles {
-        bytes.push(3);
-        for index in triangle {
-            bytes.extend_from_slice(&(*index as i32).to_le_bytes());
+
+    fn triangles(&self) -> Option<usize> {
+        match self {
+            Self::Veins(..) => None,
+            Self::Leaf(leaf) => Some(leaf.mesh.triangles.len()),
         }
     }
-    bytes
 }
 
-fn obj(leaf: &Leaf) -> String {
-    let mesh = &leaf.mesh;
-    let mut text = String::from("# lengths in mm\n");
-    for (vertex, position) in mesh.positions.iter().enumerate() {
-        let (normal, uv) = (mesh.normals[vertex], mesh.uvs[vertex]);
-        let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
-        let _ = writeln!(text, "vt {} {}", uv.x, uv.y);
-        let _ = writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z);
+/// Margin and veins in a format that shows them; pictures on the page of a blade with the corners `page`.
+fn veins_file(
+    kind: Kind,
+    page: Page,
+    outline: &Outline,
+    network: &VenationNetwork,
+    pixels: u32,
+) -> Result<Vec<u8>, Failure> {
+    Ok(match kind {
+        Kind::Svg => export::svg_within(page, outline, network, SvgStyle::default()).into_bytes(),
+        Kind::Png => drawn(page, outline, network, pixels)?,
+        Kind::Json => export::json(outline, network, true).into_bytes(),
+        Kind::GraphMl => export::graphml(network).into_bytes(),
+        Kind::GeoJson => export::geojson(outline, network).into_bytes(),
+        Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
+    })
+}
+
+/// The map of contents as `DIR/NAME.exr`.
+fn write_contents(
+    folder: &Path,
+    name: &str,
+    leaf: &Leaf,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    if stop.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
     }
-    for [a, b, c] in mesh
-        .triangles
-        .iter()
-        .map(|triangle| triangle.map(|index| index + 1))
-    {
-        let _ = writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}");
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::system(format!("{}: {error}", folder.display())))?;
+    let path = folder.join(format!("{name}.exr"));
+    let map = &leaf.contents;
+    let texture = ContentsTexture::new(map.width as usize, map.height as usize, map.texels.clone());
+    openexr::write(&map_picture(&texture), &path).map_err(Failure::system)?;
+    say(path.display());
+    Ok(())
+}
+
+/// Writes a file and tells its name, unless somebody has pressed Ctrl-C.
+fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
+    if stop.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted);
     }
-    text
+    write(path, bytes)?;
+    say(path.display());
+    Ok(())
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
+}
+
+/// A picture of margin and veins as PNG.
+fn drawn(
+    page: Page,
+    outline: &Outline,
+    network: &VenationNetwork,
+    pixels: u32,
+) -> Result<Vec<u8>, Failure> {
+    let drawing =
+        draw_within(page, outline, network, pixels, Style::OnPaper).map_err(Failure::bad)?;
+    portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
 }

@@ -1,13 +1,12 @@
 //! `lamina render`: a scene file to STEM.exr and STEM.png.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use serde_json::json;
 
 use crate::cli::arguments::RenderArguments;
+use crate::cli::interrupt::stop_on_interrupt;
 use crate::cli::progress::Reporter;
 use crate::cli::{Failure, check_writable, load_scene, say, stats};
 use crate::image::{openexr, portable_network, tone};
@@ -116,19 +115,6 @@ fn with_ending(stem: &Path, ending: &str) -> PathBuf {
     name.push(".");
     name.push(ending);
     PathBuf::from(name)
-}
-
-/// A flag that the first Ctrl-C sets; the second one leaves at once.
-fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })
-    .map_err(Failure::system)?;
-    Ok(stop)
 }
 
 fn write_picture(

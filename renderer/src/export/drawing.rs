@@ -67,7 +67,28 @@ pub fn draw(
     pixels_per_long_side: u32,
     style: Style,
 ) -> Result<Drawing, ImageError> {
-    let (low, high) = outline.bounds();
+    draw_within(
+        outline.bounds(),
+        outline,
+        network,
+        pixels_per_long_side,
+        style,
+    )
+}
+
+/// The same on the sheet of another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of a
+/// leaf while it grows have one scale on the sheet of the full-grown one.
+///
+/// # Errors
+///
+/// As [`draw`].
+pub fn draw_within(
+    (low, high): (DVec2, DVec2),
+    outline: &Outline,
+    network: &VenationNetwork,
+    pixels_per_long_side: u32,
+    style: Style,
+) -> Result<Drawing, ImageError> {
     let border = BORDER * (high - low).max_element();
     let size = high - low + DVec2::splat(2.0 * border);
     let scale = f64::from(pixels_per_long_side) / size.max_element();

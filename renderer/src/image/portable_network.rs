@@ -23,8 +23,17 @@ const AFTER_HEADER: usize = 8 + 25;
 ///
 /// [`ImageError::Inconsistent`] unless there are 3 · width · height of them; [`ImageError::File`].
 pub fn write(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), ImageError> {
-    let bytes = encode(width, height, rgb, rgb.len(), ExtendedColorType::Rgb8)?;
+    let bytes = encoded(width, height, rgb)?;
     atomic::replace(path, |file| file.write_all(&bytes))
+}
+
+/// The bytes of the file that [`write`] writes.
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] unless there are 3 · width · height values.
+pub fn encoded(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, ImageError> {
+    encode(width, height, rgb, rgb.len(), ExtendedColorType::Rgb8)
 }
 
 /// Writes 16-bit sRGB values, interleaved, by row from the top.

@@ -81,7 +81,7 @@ fn meant(nearest: Option<&str>) -> String {
 }
 
 /// Reads one leaf. `overridden` are `key=value` with paths from the top of the file, `settings` with paths from the leaf, or
-/// with a key alone where only one block has it.
+/// with as much of a path's end as only one key has.
 ///
 /// # Errors
 ///
@@ -144,9 +144,7 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
     };
     let key = key.trim();
     let prefix = format!("leaves.{name}.");
-    if key.contains('.') {
-        return Ok(format!("{prefix}{key}={value}"));
-    }
+    let in_whole = |path: &str| Ok(format!("{prefix}{path}={value}"));
     // Paths from the leaf; those of blocks that the file has count before those that it lacks.
     let paths = |there: bool| {
         known
@@ -154,12 +152,16 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
             .filter(move |known| known.block_is_there == there)
             .filter_map(|known| known.path.strip_prefix(&prefix))
     };
-    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let ends_with_key = |path: &&str| {
+        let before = path.strip_suffix(key);
+        before.is_some_and(|before| before.is_empty() || before.ends_with('.'))
+    };
     for there in [true, false] {
-        let found: Vec<&str> = paths(there).filter(|path| last(path) == key).collect();
+        let found: Vec<&str> = paths(there).filter(ends_with_key).collect();
         match found.as_slice() {
             [] => {}
-            [path] => return Ok(format!("{prefix}{path}={value}")),
+            [path] => return in_whole(path),
+            several if several.contains(&key) && key.contains('.') => return in_whole(key),
             several => {
                 return Err(LeafNotChosen::Ambiguous {
                     key: escaped(key, QUOTED),
@@ -168,6 +170,11 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
             }
         }
     }
+    if key.contains('.') {
+        // The reader tells which part of the path is wrong.
+        return in_whole(key);
+    }
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
     let all: Vec<&str> = paths(true).chain(paths(false)).collect();
     let lasts: Vec<String> = all.iter().map(|path| last(path)).collect();
     let near = nearest(key, lasts.iter().map(String::as_str));
@@ -223,6 +230,9 @@ mod tests {
             (plan.seed, plan.venation.kill_distance, plan.form.fold),
             (3, 2.0, 0.0)
         );
+        let plan = set(&["isogonic.length_step_segments=2", "veins.structure=1.1"])
+            .expect("good settings");
+        assert_eq!(plan.tissue.vein_factors.structure, 1.1);
         // In a block that the plan does not have.
         let clearance = set(&["venation.closed.margin_clearance={ distance = 0.1, until = 1 }"]);
         assert!(

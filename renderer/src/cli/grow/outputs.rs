@@ -1,0 +1,150 @@
+//! The files that are asked for, checked before any work is done.
+
+use std::path::{Path, PathBuf};
+
+use crate::cli::arguments::GrowArguments;
+use crate::cli::{Failure, check_writable};
+
+/// What a file holds, told by its ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Svg,
+    Png,
+    Json,
+    GraphMl,
+    GeoJson,
+    Ply,
+    Obj,
+    Toml,
+}
+
+impl Kind {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            Some("json") => Ok(Self::Json),
+            Some("graphml") => Ok(Self::GraphMl),
+            Some("geojson") => Ok(Self::GeoJson),
+            Some("ply") => Ok(Self::Ply),
+            Some("obj") => Ok(Self::Obj),
+            Some("toml") => Ok(Self::Toml),
+            _ => Err(Failure::bad(format!(
+                "{}: the ending tells what is written: svg, png, json, graphml or geojson (veins), ply or obj (blade), \
+                 toml (plan)",
+                path.display()
+            ))),
+        }
+    }
+
+    /// Whether it shows margin and veins, which there are at any time of growth.
+    pub(super) fn is_of_veins(self) -> bool {
+        match self {
+            Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson => true,
+            Self::Ply | Self::Obj | Self::Toml => false,
+        }
+    }
+
+    fn needs_blade(self) -> bool {
+        matches!(self, Self::Ply | Self::Obj)
+    }
+}
+
+/// All files that are asked for by name.
+#[derive(Debug)]
+pub(super) struct Outputs {
+    /// Files of the full-grown leaf.
+    pub(super) whole: Vec<(PathBuf, Kind)>,
+    /// Files of each of its stages, before the stage's number is put in.
+    pub(super) staged: Vec<(PathBuf, Kind)>,
+    /// Whether the blade and its contents are needed.
+    pub(super) blade: bool,
+    /// Whether veins are needed.
+    pub(super) veins: bool,
+}
+
+impl Outputs {
+    pub(super) fn planned(arguments: &GrowArguments) -> Result<Self, Failure> {
+        let kinds = arguments.out.iter().map(|path| Kind::of(path));
+        let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
+        let files = arguments.out.iter().cloned().zip(kinds);
+        let in_stages = arguments.frames.is_some();
+        let (staged, whole): (Vec<_>, Vec<_>) =
+            files.partition(|(_, kind)| in_stages && kind.is_of_veins());
+        if in_stages && staged.is_empty() {
+            return Err(Failure::bad(
+                "--frames needs an --out that shows veins: svg, png, json, graphml or geojson",
+            ));
+        }
+        let reports = arguments.measure.iter().chain(&arguments.stats);
+        let mut seen: Vec<&PathBuf> = Vec::new();
+        for path in arguments.out.iter().chain(reports) {
+            if seen.contains(&path) {
+                let path = path.display();
+                return Err(Failure::bad(format!(
+                    "{path} is to be written twice: name another file"
+                )));
+            }
+            check_writable(path)?;
+            seen.push(path);
+        }
+        if let Some(folder) = &arguments.contents {
+            check_folder(folder)?;
+        }
+        let blade =
+            arguments.contents.is_some() || whole.iter().any(|(_, kind)| kind.needs_blade());
+        let only_plan = !whole.is_empty() && whole.iter().all(|(_, kind)| *kind == Kind::Toml);
+        let counts = arguments.measure.is_some() || arguments.stats.is_some();
+        Ok(Self {
+            veins: blade || counts || in_stages || !only_plan,
+            whole,
+            staged,
+            blade,
+        })
+    }
+}
+
+/// Fails if a folder could neither be written to nor be made.
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    let there = folder
+        .ancestors()
+        .find(|path| path.as_os_str().is_empty() || path.exists());
+    match there {
+        Some(path) if path == folder && !path.is_dir() => Err(Failure::bad(format!(
+            "{} is a file: name a folder",
+            folder.display()
+        ))),
+        Some(path) => check_writable(&path.join("map.exr")),
+        None => Ok(()),
+    }
+}
+
+/// The file of stage `number`, counted from 1: `leaf-0001.png` for `leaf.png`.
+pub(super) fn numbered(path: &Path, number: usize) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:04}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_are_numbered_before_the_ending() {
+        for (path, expected) in [
+            ("leaf.png", "leaf-0001.png"),
+            ("a.b/leaf.x.svg", "a.b/leaf.x-0001.svg"),
+        ] {
+            assert_eq!(numbered(Path::new(path), 1), Path::new(expected));
+        }
+        assert_eq!(
+            numbered(Path::new("leaf.png"), 12_345),
+            Path::new("leaf-12345.png")
+        );
+    }
+}
