@@ -5,6 +5,8 @@
 //! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and changed.
 
 mod beyond;
+#[cfg(test)]
+mod claims;
 mod contours;
 mod list;
 mod runions;

@@ -27,9 +27,9 @@ pub(super) fn brochidodromous() -> LeafPlan {
         vein_birth_distance: 4.0,
         murray_exponent: 3.2,
         margin_clearance: Some(MarginClearance {
-            distance: 0.08,
+            distance: 0.075,
             until: 0.4,
-            arches: 8,
+            arches: 9,
         }),
         ..net(500.0, 100.0, 0.025)
     };
@@ -41,9 +41,9 @@ pub(super) fn free_endings() -> LeafPlan {
         source_birth_distance: 5.0,
         vein_birth_distance: 5.0,
         free_endings: Some(FreeEndings {
-            birth_distance: 1.4,
+            birth_distance: 1.8,
             kill_distance: 0.8,
-            darts_per_area: 0.25,
+            darts_per_area: 0.03,
         }),
         ..net(260.0, 60.0, 0.006)
     };

@@ -84,7 +84,7 @@ pub static PRESETS: &[Preset] = &[
     Preset {
         name: "sweetgum",
         about: "Fig. 12: a primary vein into each lobe of a digitate blade",
-        source: "Table 1 of Runions et al. 2005, 7 units to a segment, so that the margin moves one segment a step; kill distance 10 as the text says (\"corresponding to Figure 9c\"), the table has 1; outline by eye",
+        source: "Table 1 of Runions et al. 2005, 10 units to a segment; outline by eye",
         row: Some(&runions::SWEETGUM),
         plan: runions::sweetgum,
     },

@@ -77,7 +77,7 @@ pub(super) static SWEETGUM: Row = Row {
     growth: RowGrowth::Marginal(7.0),
     darts: 200.0,
     murray_exponent: 2.0,
-    leaf_unit: 7.0,
+    leaf_unit: 10.0,
 };
 
 pub(super) static TOOTHED: Row = Row {
@@ -241,11 +241,7 @@ pub(super) fn alchemilla() -> LeafPlan {
 }
 
 pub(super) fn sweetgum() -> LeafPlan {
-    let venation = VenationPlan {
-        kill_distance: 10.0,
-        ..SWEETGUM.plan(SWEETGUM.leaf_unit, 0.008)
-    };
-    green_leaf(90.0, 1, contours::star(), venation)
+    leaf(&SWEETGUM, 90.0, 1, 0.006, contours::star())
 }
 
 pub(super) fn toothed() -> LeafPlan {
@@ -283,11 +279,11 @@ pub(super) fn grass() -> LeafPlan {
 }
 
 pub(super) fn poplar_leaf() -> LeafPlan {
-    leaf(&POPLAR, 70.0, 1, 0.02, contours::deltoid())
+    leaf(&POPLAR, 70.0, 40, 0.02, contours::deltoid())
 }
 
 pub(super) fn poplar_urquhart() -> LeafPlan {
-    leaf(&POPLAR_URQUHART, 70.0, 1, 0.02, contours::deltoid())
+    leaf(&POPLAR_URQUHART, 70.0, 40, 0.02, contours::deltoid())
 }
 
 pub(super) fn poplar_fine() -> LeafPlan {
@@ -295,7 +291,7 @@ pub(super) fn poplar_fine() -> LeafPlan {
         leaf_unit: 3.0,
         ..POPLAR
     };
-    leaf(&fine, 70.0, 2, 0.006, contours::deltoid())
+    leaf(&fine, 70.0, 24, 0.006, contours::deltoid())
 }
 
 /// A tenth of the growth a step, so that veins keep up; a tenth of the darts, so that as many fall on the same tissue.
@@ -306,11 +302,11 @@ pub(super) fn poplar_x10() -> LeafPlan {
         darts: 20.0,
         ..POPLAR
     };
-    leaf(&fine, 70.0, 2, 0.002, contours::deltoid())
+    leaf(&fine, 70.0, 2, 0.0015, contours::deltoid())
 }
 
 pub(super) fn developmental() -> LeafPlan {
-    leaf(&DEVELOPMENTAL, 2.0, 2, 0.0015, contours::circular())
+    leaf(&DEVELOPMENTAL, 2.0, 68, 0.0015, contours::circular())
 }
 
 pub(super) fn trillium() -> LeafPlan {

@@ -114,27 +114,39 @@ pub(crate) fn rounds(
         };
         let reach = |end: DVec2| (end - base).perp_dot(up);
         // Where the leaf is narrow there is no room for an arch.
-        let has_room = |end: DVec2| clear(&end) && reach(end).abs() >= 1.5 * distance;
+        let has_room = |end: DVec2| clear(&end) && reach(end).abs() >= distance;
         let shares: Vec<f64> = (0..rule.arches)
             .map(|k| place(f64::from(k)))
             .filter(|&share| has_room(side.inside(share, distance)))
             .collect();
-        for &share in &shares {
-            let end = side.inside(share, distance);
-            let (height, reach) = ((end - base).dot(up), reach(end));
-            let rise = (RISE * reach.abs()).min(0.9 * height).max(0.0);
-            let start = base + up * (height - rise);
-            // First mostly outward, at last mostly upward.
-            let bend = start + up * (0.4 * rise) - up.perp() * (0.8 * reach);
-            for leg in 1..=LEGS {
-                let t = f64::from(leg) / f64::from(LEGS);
-                let (from, to) = (start.lerp(bend, t), bend.lerp(end, t));
-                rounds[leg as usize].push(from.lerp(to, t));
-            }
+        let curves: Vec<[DVec2; 3]> = shares
+            .iter()
+            .map(|&share| {
+                let end = side.inside(share, distance);
+                let (height, reach) = ((end - base).dot(up), reach(end));
+                let rise = (RISE * reach.abs()).min(0.9 * height).max(0.0);
+                let start = base + up * (height - rise);
+                // First mostly outward, at last mostly upward.
+                [
+                    start,
+                    start + up * (0.4 * rise) - up.perp() * (0.8 * reach),
+                    end,
+                ]
+            })
+            .collect();
+        let at =
+            |[start, bend, end]: [DVec2; 3], t: f64| start.lerp(bend, t).lerp(bend.lerp(end, t), t);
+        for leg in 1..=LEGS {
+            let t = f64::from(leg) / f64::from(LEGS);
+            rounds[leg as usize].extend(curves.iter().map(|&curve| at(curve, t)));
         }
-        let between = shares.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        let arches = between.map(|share| side.inside(share, 0.8 * distance));
-        rounds[LEGS as usize + 1].extend(arches.filter(clear));
+        for pair in curves.windows(2) {
+            // Half-way from an end to the outer part of the next vein: both are its relative neighbours there.
+            let end = pair[0][2];
+            let outer = (5..=10).map(|i| at(pair[1], 0.1 * f64::from(i)));
+            let near = outer.min_by(|p, q| (*p - end).length().total_cmp(&(*q - end).length()));
+            rounds[LEGS as usize + 1].extend(near.map(|near| (end + near) * 0.5));
+        }
     }
     rounds
 }
@@ -158,17 +170,13 @@ mod tests {
         let rounds = rounds(&rule, &margin, DVec2::ZERO, apex, 3);
         assert_eq!(rounds.len(), 10);
         assert_eq!(rounds[0], [DVec2::new(0.0, 95.0)]);
-        // The two ends next to the apex have no room.
-        assert_eq!((rounds[8].len(), rounds[9].len()), (10, 8));
-        for (places, wanted) in [(&rounds[8], 5.0), (&rounds[9], 4.0)] {
-            for p in places {
-                let near = margin
-                    .iter()
-                    .map(|q| (*q - *p).length())
-                    .fold(f64::MAX, f64::min);
-                assert!((near - wanted).abs() < 0.5, "{p} is {near} from the margin");
-            }
+        // Is there room for all ends of this ellipse?.
+        assert_eq!((rounds[8].len(), rounds[9].len()), (12, 10));
+        for p in &rounds[8] {
+            let away = margin.iter().map(|q| (*q - *p).length());
+            let near = away.fold(f64::MAX, f64::min);
+            assert!((near - 5.0).abs() < 0.5, "{p} is {near} from the margin");
         }
-        assert_eq!(rounds[8].iter().filter(|p| p.x > 0.0).count(), 5);
+        assert_eq!(rounds[8].iter().filter(|p| p.x > 0.0).count(), 6);
     }
 }
