@@ -27,20 +27,16 @@ pub(crate) struct RelativeNeighbours {
 }
 
 impl Influence for RelativeNeighbours {
-    fn new(place: DVec2, _id: u32, surroundings: &mut Surroundings) -> Self {
+    fn new(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
         Self {
-            neighbourhood: RelativeNeighbourhood::find(
-                place,
-                surroundings.tree,
-                surroundings.workspace,
-            ),
+            neighbourhood: RelativeNeighbourhood::find(place, surroundings.tree),
             tagged: None,
             arrived: Vec::new(),
         }
     }
 
-    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
-        self.neighbourhood.update(fresh, surroundings.workspace);
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
+        self.neighbourhood.update(fresh, surroundings.tree);
     }
 
     fn each_driven(&self, visit: impl FnMut(u32)) {

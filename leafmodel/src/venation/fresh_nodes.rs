@@ -5,6 +5,8 @@
 
 use glam::DVec2;
 
+use super::probe::Probe;
+
 /// Nodes in a box that is not divided further.
 const CAPACITY: usize = 6;
 
@@ -94,6 +96,23 @@ impl<'a> FreshNodes<'a> {
     /// Whether there are none.
     pub(crate) fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// Shows the nodes to `probe`, in no order to be relied on, as far as it enters their boxes.
+    pub(crate) fn visit(&self, probe: &mut impl Probe) {
+        let mut next = 0;
+        while let Some(node_box) = self.boxes.get(next) {
+            if !probe.enters(node_box.low, node_box.high) {
+                next = node_box.after as usize;
+                continue;
+            }
+            if !node_box.is_divided {
+                for &i in &self.sorted[node_box.from as usize..node_box.to as usize] {
+                    probe.meet(self.first + i, self.positions[i as usize]);
+                }
+            }
+            next += 1;
+        }
     }
 
     /// Calls `visit` with number and position of every node in boxes that `matters` lets pass,

@@ -35,7 +35,7 @@ impl NearestNode {
 }
 
 impl Influence for NearestNode {
-    fn new(place: DVec2, id: u32, surroundings: &mut Surroundings) -> Self {
+    fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self {
         let mut nearest = Self {
             place,
             id,
@@ -51,7 +51,7 @@ impl Influence for NearestNode {
         nearest
     }
 
-    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
         let mut nearest = self.clone();
         let reach = self.distance_squared;
         fresh.each(

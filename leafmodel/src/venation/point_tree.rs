@@ -5,6 +5,8 @@
 
 use glam::DVec2;
 
+use super::probe::Probe;
+
 /// Points a cell holds before it splits.
 const CAPACITY: usize = 8;
 
@@ -46,6 +48,8 @@ pub(crate) enum View<'a> {
 /// A quadtree over a square that holds every point it will ever get.
 #[derive(Clone, Debug)]
 pub(crate) struct PointTree {
+    low: DVec2,
+    high: DVec2,
     cells: Vec<Cell>,
 }
 
@@ -60,7 +64,16 @@ impl PointTree {
             half: (high - low).max_element() * 0.5,
             content: Content::Leaf(Vec::new()),
         };
-        Self { cells: vec![root] }
+        Self {
+            low,
+            high,
+            cells: vec![root],
+        }
+    }
+
+    /// Lower left and upper right corner of the rectangle that holds every point.
+    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
+        (self.low, self.high)
     }
 
     /// Adds a point, which must lie in the tree's square.
@@ -141,6 +154,31 @@ impl PointTree {
             .length_squared()
     }
 
+    /// Shows the points to `probe`, those about `p` first, as far as it enters their cells.
+    pub(crate) fn visit(&self, p: DVec2, probe: &mut impl Probe) {
+        self.visit_below(Self::ROOT, p, probe);
+    }
+
+    fn visit_below(&self, number: u32, p: DVec2, probe: &mut impl Probe) {
+        let cell = &self.cells[number as usize];
+        match self.view(number) {
+            View::Branch(children) => {
+                let half = DVec2::splat(cell.half);
+                if probe.enters(cell.centre - half, cell.centre + half) {
+                    let home = quadrant(cell.centre, p);
+                    for i in 0..4 {
+                        self.visit_below(children[(home ^ i) as usize], p, probe);
+                    }
+                }
+            }
+            View::Leaf(entries) => {
+                for entry in entries {
+                    probe.meet(entry.id, entry.position);
+                }
+            }
+        }
+    }
+
     /// Whether a point lies at `radius` from `p` or nearer.
     pub(crate) fn any_within(&self, p: DVec2, radius: f64) -> bool {
         self.any_within_below(Self::ROOT, p, radius * radius)
@@ -161,6 +199,50 @@ impl PointTree {
             View::Leaf(entries) => entries
                 .iter()
                 .any(|entry| (entry.position - p).length_squared() <= radius_squared),
+        }
+    }
+
+    /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and to `q`.
+    pub(crate) fn any_near_both(
+        &self,
+        p: DVec2,
+        q: DVec2,
+        distance_squared: f64,
+        except: u32,
+    ) -> bool {
+        self.any_near_both_below(Self::ROOT, p, q, distance_squared, except)
+    }
+
+    fn any_near_both_below(
+        &self,
+        cell: u32,
+        p: DVec2,
+        q: DVec2,
+        distance_squared: f64,
+        except: u32,
+    ) -> bool {
+        let reach = distance_squared * (1.0 + 1e-9);
+        if self.distance_squared(cell, p) > reach || self.distance_squared(cell, q) > reach {
+            return false;
+        }
+        match self.view(cell) {
+            View::Branch(children) => {
+                let home = quadrant(self.cells[cell as usize].centre, q);
+                (0..4).any(|i| {
+                    self.any_near_both_below(
+                        children[(home ^ i) as usize],
+                        p,
+                        q,
+                        distance_squared,
+                        except,
+                    )
+                })
+            }
+            View::Leaf(entries) => entries.iter().any(|entry| {
+                (entry.position - p).length_squared() <= distance_squared
+                    && (entry.position - q).length_squared() <= distance_squared
+                    && entry.id != except
+            }),
         }
     }
 

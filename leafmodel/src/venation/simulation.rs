@@ -13,7 +13,6 @@ use super::lamina_clock::LaminaClock;
 use super::network::Ending;
 use super::plan::{Growth, VenationPlan};
 use super::point_tree::PointTree;
-use super::relative_neighbourhood::Workspace;
 use super::veins::{COINCIDENT, Veins, can_reach};
 use crate::shape::outline::Outline;
 
@@ -53,7 +52,6 @@ pub(crate) struct Simulation<'a, I> {
     pub(crate) veins: Veins,
     sources: Vec<Source<I>>,
     source_tree: PointTree,
-    workspace: Workspace,
     /// Nodes that all sources have noticed.
     noticed: u32,
     /// Sources that have appeared.
@@ -87,7 +85,6 @@ impl<'a, I: Influence> Simulation<'a, I> {
             veins,
             sources: Vec::new(),
             source_tree: PointTree::new(low, high),
-            workspace: Workspace::new(low, high),
             noticed: 1,
             sources_born: 0,
             step: 0,
@@ -152,13 +149,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
     fn notice(&mut self) {
         let fresh = FreshNodes::new(&self.veins.positions, self.noticed);
         if !fresh.is_empty() {
-            let mut surroundings = Surroundings {
+            let surroundings = Surroundings {
                 tree: &self.veins.tree,
-                workspace: &mut self.workspace,
                 seed: self.seed,
             };
             for source in &mut self.sources {
-                source.influence.notice(&fresh, &mut surroundings);
+                source.influence.notice(&fresh, &surroundings);
             }
         }
         self.noticed = self.veins.count();
@@ -182,15 +178,14 @@ impl<'a, I: Influence> Simulation<'a, I> {
             let id = self.sources_born;
             self.sources_born += 1;
             self.source_tree.insert(id, dart);
-            let mut surroundings = Surroundings {
+            let surroundings = Surroundings {
                 tree: &self.veins.tree,
-                workspace: &mut self.workspace,
                 seed: self.seed,
             };
             self.sources.push(Source {
                 place: dart,
                 id,
-                influence: I::new(dart, id, &mut surroundings),
+                influence: I::new(dart, id, &surroundings),
                 blocked_steps: 0,
             });
         }
