@@ -12,15 +12,14 @@
 //!   nodes only those of them that lie before the horizon are candidates, and a relative neighbour
 //!   remains one unless a new node lies in its lune.
 
+use std::ops::ControlFlow;
+
 use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
 use super::horizon::Horizon;
 use super::point_tree::PointTree;
-use super::probe::Probe;
-
-/// Squares are compared with this much to spare where a wrong answer would only cost time.
-const SLACK: f64 = 1.0 + 1e-9;
+use super::probe::{Probe, SLACK, distance_squared};
 
 /// A relative neighbour, or a node that may turn out to be one.
 #[derive(Clone, Copy, Debug)]
@@ -49,14 +48,14 @@ impl RelativeNeighbourhood {
             horizon: Horizon::of_rectangle(low - source, high - source),
             neighbours: Vec::with_capacity(8),
         };
-        tree.visit(source, &mut Search(&mut found));
+        let _ = tree.visit(source, &mut Search(&mut found));
         found.ascertain(tree);
         found
     }
 
     /// Takes in nodes that have come since, and are in `tree` too.
     pub(crate) fn update(&mut self, fresh: &FreshNodes, tree: &PointTree) {
-        fresh.visit(&mut Update(self));
+        let _ = fresh.visit(&mut Update(self));
         self.ascertain(tree);
     }
 
@@ -110,12 +109,13 @@ impl Probe for Search<'_> {
         self.0.horizon.shows_any_in(low - source, high - source)
     }
 
-    fn meet(&mut self, id: u32, position: DVec2) {
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
         let offset = position - self.0.source;
         let distance_squared = offset.length_squared();
         if self.0.horizon.shows(offset, distance_squared) {
             self.0.meet(id, position, offset, distance_squared);
         }
+        ControlFlow::Continue(())
     }
 }
 
@@ -125,18 +125,18 @@ struct Update<'a>(&'a mut RelativeNeighbourhood);
 impl Probe for Update<'_> {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let source = self.0.source;
-        let near = |p: DVec2| (low - p).max(p - high).max(DVec2::ZERO).length_squared();
-        let from_source = near(source);
+        let from_source = distance_squared(low, high, source);
         self.0.horizon.shows_any_in(low - source, high - source)
             || self.0.neighbours.iter().any(|node| {
                 let reach = node.distance_squared * SLACK;
-                from_source <= reach && near(node.position) <= reach
+                from_source <= reach && distance_squared(low, high, node.position) <= reach
             })
     }
 
-    fn meet(&mut self, id: u32, position: DVec2) {
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
         let offset = position - self.0.source;
         self.0.meet(id, position, offset, offset.length_squared());
+        ControlFlow::Continue(())
     }
 }
 
