@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::probe::{Probe, SLACK, distance_squared};
 
 /// Points a cell holds before it splits.
-const CAPACITY: usize = 8;
+const CAPACITY: usize = 16;
 
 /// Depth at which cells no longer split: points that near are as good as one.
 const MAX_DEPTH: u32 = 40;
