@@ -25,6 +25,7 @@ mod fresh_nodes;
 mod horizon;
 mod influence;
 mod lamina_clock;
+mod length_queue;
 pub mod network;
 mod open;
 mod order;

@@ -1,9 +1,8 @@
 //! The network while it grows: nodes, edges, and the index to find nodes by place.
 
-use std::collections::BinaryHeap;
-
 use glam::DVec2;
 
+use super::length_queue::LengthQueue;
 use super::point_tree::PointTree;
 use crate::shape::outline::Outline;
 
@@ -34,8 +33,8 @@ pub(crate) struct Veins {
     parents: Vec<u32>,
     /// The first node that grew from each node, or [`NO_NODE`].
     first_children: Vec<u32>,
-    /// Edges by length, the longest on top: bits of the squared length, complement of the number.
-    by_length: BinaryHeap<(u64, u32)>,
+    /// Edges by length, if edges stretch in time.
+    by_length: LengthQueue,
     /// Whether edges stretch in time.
     stretching: bool,
 }
@@ -50,7 +49,8 @@ impl Veins {
             tree: PointTree::new(low, high),
             parents: Vec::new(),
             first_children: Vec::new(),
-            by_length: BinaryHeap::new(),
+            // A segment is never shorter than one unit of the frame.
+            by_length: LengthQueue::new(LONGEST_EDGE * LONGEST_EDGE),
             stretching,
         }
     }
@@ -88,8 +88,7 @@ impl Veins {
         if self.stretching {
             let [from, to] = self.edges[edge as usize];
             let ends = self.positions[to as usize] - self.positions[from as usize];
-            self.by_length
-                .push((ends.length_squared().to_bits(), !edge));
+            self.by_length.push(edge, ends.length_squared());
         }
     }
 
@@ -101,15 +100,10 @@ impl Veins {
     /// and the nodes before and after, so that bends stay round.
     pub(crate) fn subdivide(&mut self, unit: f64, blade: &Outline, step: u32) {
         let longest = LONGEST_EDGE * unit;
-        while let Some(&(bits, complement)) = self.by_length.peek() {
-            let squared = f64::from_bits(bits);
-            if squared <= longest * longest {
-                break;
-            }
-            self.by_length.pop();
+        while let Some((edge, squared)) = self.by_length.pop_above(longest * longest) {
             // At least two: the root may round down to the limit itself.
             let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
-            self.cut(!complement, pieces, blade, step);
+            self.cut(edge, pieces, blade, step);
         }
     }
 
