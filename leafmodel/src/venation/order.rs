@@ -66,7 +66,10 @@ pub(crate) fn orders(
     }
     for order in 1..=FINEST {
         let mut pending = std::mem::take(&mut starts[usize::from(order)]);
-        while let Some(edge) = pending.pop() {
+        // In the order found: neighbours in the list are unrelated, so memory fetches overlap.
+        let mut next = 0;
+        while let Some(&edge) = pending.get(next) {
+            next += 1;
             edges[edge as usize] = order;
             let node = topology.edge(edge)[1];
             if survey.main_entry[node as usize] != Some(edge) {
