@@ -195,6 +195,30 @@ impl PointTree {
         self.visit_cell(self.cells[0], self.root, p, probe)
     }
 
+    /// The same for a probe that nothing matters to but between two corners, that of the smaller and that
+    /// of the larger coordinates: starts at the smallest cell that holds all of it.
+    fn visit_within(
+        &self,
+        low: DVec2,
+        high: DVec2,
+        p: DVec2,
+        probe: &mut impl Probe,
+    ) -> ControlFlow<()> {
+        // Far above the rounding of coordinates.
+        let slack = DVec2::splat(1e-12 * self.root.half);
+        let (low, high) = (low - slack, high + slack);
+        let (mut cell, mut square) = (self.cells[0], self.root);
+        while let Some(first) = children(cell) {
+            let quadrant = square.quadrant(low);
+            if square.quadrant(high) != quadrant {
+                break;
+            }
+            cell = self.cells[(first + quadrant) as usize];
+            square = square.quarter(quadrant);
+        }
+        self.visit_cell(cell, square, p, probe)
+    }
+
     fn visit_cell(
         &self,
         cell: u32,
@@ -229,8 +253,13 @@ impl PointTree {
 
     /// Whether a point lies at `radius` from `p` or nearer.
     pub(crate) fn any_within(&self, p: DVec2, radius: f64) -> bool {
-        let radius_squared = radius * radius;
-        self.visit(p, &mut Within { p, radius_squared }).is_break()
+        let reach = DVec2::splat(radius);
+        let mut circle = Within {
+            p,
+            radius_squared: radius * radius,
+        };
+        self.visit_within(p - reach, p + reach, p, &mut circle)
+            .is_break()
     }
 
     /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and to `q`.
@@ -240,7 +269,9 @@ impl PointTree {
             squared,
             except,
         };
-        self.visit(q, &mut lune).is_break()
+        let reach = DVec2::splat(squared.sqrt());
+        let (low, high) = (p.max(q) - reach, p.min(q) + reach);
+        self.visit_within(low, high, q, &mut lune).is_break()
     }
 }
 
