@@ -47,7 +47,7 @@ pub(crate) fn orders(
     radii: &[f64],
     base_to_tip: &[u32],
 ) -> Orders {
-    let survey = Survey::new(topology, positions, radii, base_to_tip);
+    let survey = Survey::new(topology, positions, radii);
     let mut edges = vec![0; topology.edge_count()];
     // Edges where a vein of each order starts, found while coarser orders are followed.
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
@@ -126,12 +126,7 @@ struct Survey<'a> {
 }
 
 impl<'a> Survey<'a> {
-    fn new(
-        topology: &'a Topology<'a>,
-        positions: &'a [DVec2],
-        radii: &'a [f64],
-        base_to_tip: &[u32],
-    ) -> Self {
+    fn new(topology: &'a Topology<'a>, positions: &'a [DVec2], radii: &'a [f64]) -> Self {
         let widest = |edges: &[u32]| {
             edges
                 .iter()
@@ -153,9 +148,9 @@ impl<'a> Survey<'a> {
                 .map(|node| widest(topology.leaving(node)))
                 .collect(),
         };
-        let refined: Vec<(u32, Option<u32>)> = base_to_tip
-            .iter()
-            .map(|&node| (node, survey.continuation(node)))
+        let refined: Vec<(u32, Option<u32>)> = (0..nodes)
+            .filter(|&node| topology.leaving(node).len() > 1)
+            .map(|node| (node, survey.continuation(node)))
             .collect();
         for (node, edge) in refined {
             survey.continuations[node as usize] = edge;
@@ -163,11 +158,9 @@ impl<'a> Survey<'a> {
         survey
     }
 
+    /// In which of several branches the vein goes on.
     fn continuation(&self, node: u32) -> Option<u32> {
         let out = self.topology.leaving(node);
-        if out.len() < 2 {
-            return out.first().copied();
-        }
         let arrival = self.arrival(node);
         let score = |edge: u32| {
             let departure = self.departure(edge);
@@ -212,15 +205,16 @@ impl<'a> Survey<'a> {
         let Some(main) = self.continuations[node as usize] else {
             return false;
         };
+        if self.radii[branch as usize] < ALIKE * self.radii[main as usize] {
+            return false;
+        }
         let arrival = self.arrival(node);
         let angle = |edge: u32| {
             let departure = self.departure(edge);
             libm::atan2(arrival.perp_dot(departure), arrival.dot(departure))
         };
         let (ahead, aside) = (angle(main), angle(branch));
-        self.radii[branch as usize] >= ALIKE * self.radii[main as usize]
-            && ahead * aside < 0.0
-            && (ahead + aside).abs() <= FORK_SKEW
+        ahead * aside < 0.0 && (ahead + aside).abs() <= FORK_SKEW
     }
 }
 
