@@ -123,6 +123,10 @@ struct Survey<'a> {
     /// The widest edge into each node.
     main_entry: Vec<Option<u32>>,
     continuations: Vec<Option<u32>>,
+    /// Where the widest edge into each node comes from; where none is, the node itself.
+    back: Vec<u32>,
+    /// Where the continuation of each node leads; where none is, the node itself.
+    ahead: Vec<u32>,
 }
 
 impl<'a> Survey<'a> {
@@ -147,13 +151,26 @@ impl<'a> Survey<'a> {
             continuations: (0..nodes)
                 .map(|node| widest(topology.leaving(node)))
                 .collect(),
+            back: Vec::new(),
+            ahead: Vec::new(),
         };
+        // Steps along veins are what takes time here, so that each should be one look-up.
+        let end = |node: u32, edge: Option<u32>, end: usize| {
+            edge.map_or(node, |edge| topology.edge(edge)[end])
+        };
+        survey.back = (0..nodes)
+            .map(|node| end(node, survey.main_entry[node as usize], 0))
+            .collect();
+        survey.ahead = (0..nodes)
+            .map(|node| end(node, survey.continuations[node as usize], 1))
+            .collect();
         let refined: Vec<(u32, Option<u32>)> = (0..nodes)
             .filter(|&node| topology.leaving(node).len() > 1)
             .map(|node| (node, survey.continuation(node)))
             .collect();
         for (node, edge) in refined {
             survey.continuations[node as usize] = edge;
+            survey.ahead[node as usize] = end(node, edge, 1);
         }
         survey
     }
@@ -174,25 +191,14 @@ impl<'a> Survey<'a> {
 
     /// Direction in which the vein comes to a node; zero at its start.
     fn arrival(&self, node: u32) -> DVec2 {
-        let mut back = node;
-        for _ in 0..LOOK {
-            match self.main_entry[back as usize] {
-                Some(edge) => back = self.topology.edge(edge)[0],
-                None => break,
-            }
-        }
+        let back = (0..LOOK).fold(node, |at, _| self.back[at as usize]);
         self.direction(back, node)
     }
 
     /// Direction in which the vein that starts with an edge leaves.
     fn departure(&self, edge: u32) -> DVec2 {
-        let [from, mut ahead] = self.topology.edge(edge);
-        for _ in 1..LOOK {
-            match self.continuations[ahead as usize] {
-                Some(edge) => ahead = self.topology.edge(edge)[1],
-                None => break,
-            }
-        }
+        let [from, to] = self.topology.edge(edge);
+        let ahead = (1..LOOK).fold(to, |at, _| self.ahead[at as usize]);
         self.direction(from, ahead)
     }
 
