@@ -82,7 +82,7 @@ impl Square {
     }
 }
 
-/// A quadtree over a square that holds every point it will ever get.
+/// A quadtree over a rectangle that holds every point it will ever get.
 #[derive(Clone, Debug)]
 pub(crate) struct PointTree {
     low: DVec2,
@@ -125,7 +125,7 @@ impl PointTree {
         (at, square, depth)
     }
 
-    /// Adds a point, which must lie in the tree's square.
+    /// Adds a point, which must lie in the rectangle: searches rely on it.
     pub(crate) fn insert(&mut self, id: u32, position: DVec2) {
         let (mut at, mut square, mut depth) = self.leaf(position);
         loop {
