@@ -6,6 +6,7 @@ mod crossing;
 pub(crate) mod cubic;
 pub mod growth;
 pub mod growth_shape;
+mod interior_grid;
 mod outer_boundary;
 pub mod outline;
 pub mod outline_plan;

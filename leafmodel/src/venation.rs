@@ -25,15 +25,18 @@ pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
 mod fresh_nodes;
+mod horizon;
 mod influence;
 mod lamina;
 mod lamina_clock;
+mod length_queue;
 pub mod network;
 mod open;
 mod order;
 pub mod plan;
 pub mod planar;
 mod point_tree;
+mod probe;
 mod relative_neighbourhood;
 mod simulation;
 #[cfg(test)]

@@ -5,13 +5,15 @@
 //! - **Always true**: counter-clockwise, no repeated point, no edge crosses or touches another,
 //!   the enclosed area is positive, both ends of the midrib lie on the blade.
 //!
-//! Queries go through the horizontal slabs of `shape::slabs`: their cost is that of the few
-//! edges at the same height, not of the whole margin.
+//! Queries are answered by the coarse cells of `shape::interior_grid` away from the margin, and
+//! near it by the horizontal slabs of `shape::slabs`: their cost is that of the few edges at the same
+//! height, not of the whole margin.
 
 use glam::DVec2;
 use thiserror::Error;
 
 use super::crossing::first_crossing;
+use super::interior_grid::InteriorGrid;
 use super::slabs::Slabs;
 
 /// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding only.
@@ -28,6 +30,7 @@ pub struct Outline {
     base: DVec2,
     apex: DVec2,
     slabs: Slabs,
+    interior: InteriorGrid,
 }
 
 /// Why a polygon is no margin.
@@ -115,6 +118,7 @@ impl Outline {
             slabs
         };
         let outline = Self {
+            interior: InteriorGrid::new(&points, &slabs),
             points,
             base,
             apex,
@@ -158,7 +162,9 @@ impl Outline {
     /// Whether `p` lies inside the margin. On the margin itself the answer is either, but always
     /// the same for the same point.
     pub fn contains(&self, p: DVec2) -> bool {
-        self.slabs.contains(&self.points, p)
+        self.interior
+            .contains(p)
+            .unwrap_or_else(|| self.slabs.contains(&self.points, p))
     }
 
     /// Whether `p` is inside or, up to rounding, on the margin.
@@ -170,7 +176,7 @@ impl Outline {
 
     /// Whether the segment from `a` to `b` crosses the margin; touching it from one side is no crossing.
     pub fn is_crossed_by(&self, a: DVec2, b: DVec2) -> bool {
-        self.slabs.is_crossed_by(&self.points, a, b)
+        !self.interior.is_clear(a, b) && self.slabs.is_crossed_by(&self.points, a, b)
     }
 
     /// Distance from `p`, inside or outside, to the nearest point of the margin, mm, ≥ 0.
@@ -214,8 +220,10 @@ impl Outline {
     pub(crate) fn moved_and_scaled(&self, centre: DVec2, factor: f64) -> Self {
         let image = |p: DVec2| (p - centre) * factor;
         let points: Vec<DVec2> = self.points.iter().map(|&p| image(p)).collect();
+        let slabs = Slabs::new(&points);
         Self {
-            slabs: Slabs::new(&points),
+            interior: InteriorGrid::new(&points, &slabs),
+            slabs,
             points,
             base: image(self.base),
             apex: image(self.apex),
@@ -226,8 +234,10 @@ impl Outline {
 impl Outline {
     /// The same margin at another time, its corners and apex moved by growth that keeps every invariant.
     pub(crate) fn with_points(&self, points: Vec<DVec2>, apex: DVec2) -> Self {
+        let slabs = Slabs::new(&points);
         Self {
-            slabs: Slabs::new(&points),
+            interior: InteriorGrid::new(&points, &slabs),
+            slabs,
             points,
             base: self.base,
             apex,

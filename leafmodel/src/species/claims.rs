@@ -54,11 +54,6 @@ impl Grown {
         segments.filter(|segment| segment.order <= order).collect()
     }
 
-    fn highest_order(&self) -> u8 {
-        let orders = self.network.edges().iter().map(|edge| edge.order);
-        orders.max().expect("veins")
-    }
-
     fn stages(&self, steps: &[u32]) -> Vec<Stage> {
         let plan = &self.plan;
         grow_stages(&self.outline, &plan.venation, plan.seed, steps).expect("a good plan")

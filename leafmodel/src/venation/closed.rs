@@ -22,22 +22,22 @@ use super::urquhart::UrquhartNeighbourhood;
 /// Which nodes are neighbours of a source.
 pub(crate) trait Zone: Sized {
     /// The neighbours of a source at `place` among all nodes.
-    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self;
+    fn find(place: DVec2, surroundings: &Surroundings) -> Self;
 
     /// Takes in nodes that have come since.
-    fn update(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings);
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
 
     /// Number and squared distance of each neighbour.
     fn members(&self) -> impl Iterator<Item = (u32, f64)>;
 }
 
 impl Zone for RelativeNeighbourhood {
-    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self {
-        Self::find(place, surroundings.tree, surroundings.workspace)
+    fn find(place: DVec2, surroundings: &Surroundings) -> Self {
+        Self::find(place, surroundings.tree)
     }
 
-    fn update(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
-        self.update(fresh, surroundings.workspace);
+    fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
+        self.update(fresh, surroundings.tree);
     }
 
     fn members(&self) -> impl Iterator<Item = (u32, f64)> {
@@ -46,17 +46,12 @@ impl Zone for RelativeNeighbourhood {
 }
 
 impl Zone for UrquhartNeighbourhood {
-    fn find(place: DVec2, surroundings: &mut Surroundings) -> Self {
-        Self::find(place, surroundings.tree, surroundings.workspace.size())
+    fn find(place: DVec2, surroundings: &Surroundings) -> Self {
+        Self::find(place, surroundings.tree)
     }
 
-    fn update(&mut self, fresh: &FreshNodes, _surroundings: &mut Surroundings) {
-        let source = self.source();
-        let reach = self.reach_squared();
-        fresh.each(
-            |node_box| node_box.distance_squared(source) <= reach,
-            |id, position| self.cut(id, position),
-        );
+    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
+        let _ = fresh.visit(self);
         self.choose();
     }
 
@@ -76,7 +71,7 @@ pub(crate) struct Anastomosis<Z> {
 }
 
 impl<Z: Zone> Influence for Anastomosis<Z> {
-    fn new(place: DVec2, _id: u32, surroundings: &mut Surroundings) -> Self {
+    fn new(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
         Self {
             zone: Z::find(place, surroundings),
             tagged: None,
@@ -84,11 +79,11 @@ impl<Z: Zone> Influence for Anastomosis<Z> {
         }
     }
 
-    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings) {
+    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
         self.zone = Z::find(place, surroundings);
     }
 
-    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
         self.zone.update(fresh, surroundings);
     }
 

@@ -3,7 +3,11 @@
 //! What a source knows of the veins can only change through new nodes near it. A step brings few
 //! of them, so they get a small tree of boxes of their own, built anew each time.
 
+use std::ops::ControlFlow;
+
 use glam::DVec2;
+
+use super::probe::Probe;
 
 /// Nodes in a box that is not divided further.
 const CAPACITY: usize = 6;
@@ -28,16 +32,6 @@ pub(crate) struct NodeBox {
     /// Number of the next box that is not inside this one.
     after: u32,
     is_divided: bool,
-}
-
-impl NodeBox {
-    /// Squared distance from `p` to the nearest point of the box, 0 inside.
-    pub(crate) fn distance_squared(&self, p: DVec2) -> f64 {
-        (self.low - p)
-            .max(p - self.high)
-            .max(DVec2::ZERO)
-            .length_squared()
-    }
 }
 
 impl<'a> FreshNodes<'a> {
@@ -96,26 +90,22 @@ impl<'a> FreshNodes<'a> {
         self.positions.is_empty()
     }
 
-    /// Calls `visit` with number and position of every node in boxes that `matters` lets pass,
-    /// in no order to be relied on. A box that does not matter hides all boxes in it.
-    pub(crate) fn each(
-        &self,
-        matters: impl Fn(&NodeBox) -> bool,
-        mut visit: impl FnMut(u32, DVec2),
-    ) {
+    /// Shows the nodes to `probe`, in no order to be relied on, as far as it enters their boxes.
+    pub(crate) fn visit(&self, probe: &mut impl Probe) -> ControlFlow<()> {
         let mut next = 0;
         while let Some(node_box) = self.boxes.get(next) {
-            if !matters(node_box) {
+            if !probe.enters(node_box.low, node_box.high) {
                 next = node_box.after as usize;
                 continue;
             }
             if !node_box.is_divided {
                 for &i in &self.sorted[node_box.from as usize..node_box.to as usize] {
-                    visit(self.first + i, self.positions[i as usize]);
+                    probe.meet(self.first + i, self.positions[i as usize])?;
                 }
             }
             next += 1;
         }
+        ControlFlow::Continue(())
     }
 }
 
@@ -124,7 +114,28 @@ mod tests {
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
+    use super::super::probe::distance_squared;
     use super::*;
+
+    /// Gathers the nodes in a circle.
+    struct Circle {
+        centre: DVec2,
+        squared: f64,
+        found: Vec<usize>,
+    }
+
+    impl Probe for Circle {
+        fn enters(&self, low: DVec2, high: DVec2) -> bool {
+            distance_squared(low, high, self.centre) <= self.squared
+        }
+
+        fn meet(&mut self, id: u32, p: DVec2) -> ControlFlow<()> {
+            if (p - self.centre).length_squared() <= self.squared {
+                self.found.push(id as usize);
+            }
+            ControlFlow::Continue(())
+        }
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig {
@@ -140,16 +151,10 @@ mod tests {
             let old = old.min(positions.len());
             let centre = DVec2::new(x, y);
             let squared = radius * radius;
-            let mut found = Vec::new();
+            let mut circle = Circle { centre, squared, found: Vec::new() };
             let fresh = FreshNodes::new(&positions, old as u32);
-            fresh.each(
-                |node_box| node_box.distance_squared(centre) <= squared,
-                |id, p| {
-                    if (p - centre).length_squared() <= squared {
-                        found.push(id as usize);
-                    }
-                },
-            );
+            prop_assert!(fresh.visit(&mut circle).is_continue());
+            let mut found = circle.found;
             found.sort_unstable();
             let expected: Vec<usize> = (old..positions.len())
                 .filter(|&i| (positions[i] - centre).length_squared() <= squared)

@@ -4,14 +4,11 @@ use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
 use super::point_tree::PointTree;
-use super::relative_neighbourhood::Workspace;
 
 /// What sources share while they look at the veins.
 pub(crate) struct Surroundings<'a> {
     /// All vein nodes.
     pub(crate) tree: &'a PointTree,
-    /// Room for the search of relative neighbours.
-    pub(crate) workspace: &'a mut Workspace,
     /// Seed of the simulation, for ties.
     pub(crate) seed: u64,
 }
@@ -28,14 +25,14 @@ pub(crate) enum Fate {
 /// A source's relation to the veins around it.
 pub(crate) trait Influence: Sized {
     /// The relation of a new source, number `id`, at `place`.
-    fn new(place: DVec2, id: u32, surroundings: &mut Surroundings) -> Self;
+    fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
 
     /// The source has moved to `place`, and all nodes with it: what it drives is found anew, but what it knows of tags
     /// stays.
-    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings);
+    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings);
 
     /// Takes in nodes that have come since the last call.
-    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings);
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
 
     /// Calls `visit` with each node that this source drives.
     fn each_driven(&self, visit: impl FnMut(u32));

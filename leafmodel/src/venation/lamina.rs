@@ -89,6 +89,22 @@ impl<'a> Lamina<'a> {
         self.bounds
     }
 
+    /// Corners of a rectangle that holds all that grows on the blade now. Where tissue moves, straight margins of the
+    /// full-grown leaf bulge between the corners that [`Self::bounds_now`] sees.
+    pub(crate) fn room(&self) -> (DVec2, DVec2) {
+        let (low, high) = self.bounds;
+        let spare = match self.carried {
+            Some(_) => 0.1 * (high - low),
+            None => DVec2::ZERO,
+        };
+        (low - spare, high + spare)
+    }
+
+    /// Whether tissue moves.
+    pub(crate) fn moves(&self) -> bool {
+        self.carried.is_some()
+    }
+
     /// Whether `p` is on the blade.
     pub(crate) fn contains(&self, p: DVec2) -> bool {
         self.blade.contains(self.full_grown(p))

@@ -1,11 +1,14 @@
 //! Open patterns: a source drives the one node nearest to it (section 3.3), and the first vein
 //! within the kill distance uses it up.
 
+use std::ops::ControlFlow;
+
 use glam::DVec2;
 
 use super::chance::{Use, bits};
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
+use super::probe::{Probe, SLACK, distance_squared};
 
 /// The node nearest to a source.
 #[derive(Clone, Debug)]
@@ -22,7 +25,32 @@ pub(crate) fn lot(seed: u64, source: u32, node: u32) -> (u64, u32) {
     (bits(seed, Use::Tie, counter), node)
 }
 
+/// Looks for nodes as near as the nearest so far, or nearer.
+struct Look<'a> {
+    nearest: &'a mut NearestNode,
+    seed: u64,
+}
+
+impl Probe for Look<'_> {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        distance_squared(low, high, self.nearest.place) <= self.nearest.distance_squared * SLACK
+    }
+
+    fn meet(&mut self, node: u32, position: DVec2) -> ControlFlow<()> {
+        let squared = (position - self.nearest.place).length_squared();
+        self.nearest.consider(node, squared, self.seed);
+        ControlFlow::Continue(())
+    }
+}
+
 impl NearestNode {
+    fn look(&mut self, seed: u64) -> Look<'_> {
+        Look {
+            nearest: self,
+            seed,
+        }
+    }
+
     fn consider(&mut self, node: u32, distance_squared: f64, seed: u64) {
         let tied = distance_squared == self.distance_squared;
         if distance_squared < self.distance_squared
@@ -35,37 +63,25 @@ impl NearestNode {
 }
 
 impl Influence for NearestNode {
-    fn new(place: DVec2, id: u32, surroundings: &mut Surroundings) -> Self {
+    fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self {
         let mut nearest = Self {
             place,
             id,
             node: u32::MAX,
             distance_squared: f64::INFINITY,
         };
-        let seed = surroundings.seed;
-        surroundings.tree.approach(place, |entry| {
-            let squared = (entry.position - place).length_squared();
-            nearest.consider(entry.id, squared, seed);
-            nearest.distance_squared
-        });
+        let _ = surroundings
+            .tree
+            .visit(place, &mut nearest.look(surroundings.seed));
         nearest
     }
 
-    fn place_anew(&mut self, place: DVec2, surroundings: &mut Surroundings) {
+    fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
         *self = Self::new(place, self.id, surroundings);
     }
 
-    fn notice(&mut self, fresh: &FreshNodes, surroundings: &mut Surroundings) {
-        let mut nearest = self.clone();
-        let reach = self.distance_squared;
-        fresh.each(
-            |node_box| node_box.distance_squared(self.place) <= reach,
-            |node, position| {
-                let squared = (position - self.place).length_squared();
-                nearest.consider(node, squared, surroundings.seed);
-            },
-        );
-        *self = nearest;
+    fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
+        let _ = fresh.visit(&mut self.look(surroundings.seed));
     }
 
     fn each_driven(&self, mut visit: impl FnMut(u32)) {

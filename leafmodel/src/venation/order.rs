@@ -47,7 +47,7 @@ pub(crate) fn orders(
     radii: &[f64],
     base_to_tip: &[u32],
 ) -> Orders {
-    let survey = Survey::new(topology, positions, radii, base_to_tip);
+    let survey = Survey::new(topology, positions, radii);
     let mut edges = vec![0; topology.edge_count()];
     // Edges where a vein of each order starts, found while coarser orders are followed.
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
@@ -66,7 +66,10 @@ pub(crate) fn orders(
     }
     for order in 1..=FINEST {
         let mut pending = std::mem::take(&mut starts[usize::from(order)]);
-        while let Some(edge) = pending.pop() {
+        // In the order found: neighbours in the list are unrelated, so memory fetches overlap.
+        let mut next = 0;
+        while let Some(&edge) = pending.get(next) {
+            next += 1;
             edges[edge as usize] = order;
             let node = topology.edge(edge)[1];
             if survey.main_entry[node as usize] != Some(edge) {
@@ -120,15 +123,14 @@ struct Survey<'a> {
     /// The widest edge into each node.
     main_entry: Vec<Option<u32>>,
     continuations: Vec<Option<u32>>,
+    /// Where the widest edge into each node comes from; where none is, the node itself.
+    back: Vec<u32>,
+    /// Where the continuation of each node leads; where none is, the node itself.
+    ahead: Vec<u32>,
 }
 
 impl<'a> Survey<'a> {
-    fn new(
-        topology: &'a Topology<'a>,
-        positions: &'a [DVec2],
-        radii: &'a [f64],
-        base_to_tip: &[u32],
-    ) -> Self {
+    fn new(topology: &'a Topology<'a>, positions: &'a [DVec2], radii: &'a [f64]) -> Self {
         let widest = |edges: &[u32]| {
             edges
                 .iter()
@@ -149,22 +151,33 @@ impl<'a> Survey<'a> {
             continuations: (0..nodes)
                 .map(|node| widest(topology.leaving(node)))
                 .collect(),
+            back: Vec::new(),
+            ahead: Vec::new(),
         };
-        let refined: Vec<(u32, Option<u32>)> = base_to_tip
-            .iter()
-            .map(|&node| (node, survey.continuation(node)))
+        // Steps along veins are what takes time here, so that each should be one look-up.
+        let end = |node: u32, edge: Option<u32>, end: usize| {
+            edge.map_or(node, |edge| topology.edge(edge)[end])
+        };
+        survey.back = (0..nodes)
+            .map(|node| end(node, survey.main_entry[node as usize], 0))
+            .collect();
+        survey.ahead = (0..nodes)
+            .map(|node| end(node, survey.continuations[node as usize], 1))
+            .collect();
+        let refined: Vec<(u32, Option<u32>)> = (0..nodes)
+            .filter(|&node| topology.leaving(node).len() > 1)
+            .map(|node| (node, survey.continuation(node)))
             .collect();
         for (node, edge) in refined {
             survey.continuations[node as usize] = edge;
+            survey.ahead[node as usize] = end(node, edge, 1);
         }
         survey
     }
 
+    /// In which of several branches the vein goes on.
     fn continuation(&self, node: u32) -> Option<u32> {
         let out = self.topology.leaving(node);
-        if out.len() < 2 {
-            return out.first().copied();
-        }
         let arrival = self.arrival(node);
         let score = |edge: u32| {
             let departure = self.departure(edge);
@@ -178,25 +191,14 @@ impl<'a> Survey<'a> {
 
     /// Direction in which the vein comes to a node; zero at its start.
     fn arrival(&self, node: u32) -> DVec2 {
-        let mut back = node;
-        for _ in 0..LOOK {
-            match self.main_entry[back as usize] {
-                Some(edge) => back = self.topology.edge(edge)[0],
-                None => break,
-            }
-        }
+        let back = (0..LOOK).fold(node, |at, _| self.back[at as usize]);
         self.direction(back, node)
     }
 
     /// Direction in which the vein that starts with an edge leaves.
     fn departure(&self, edge: u32) -> DVec2 {
-        let [from, mut ahead] = self.topology.edge(edge);
-        for _ in 1..LOOK {
-            match self.continuations[ahead as usize] {
-                Some(edge) => ahead = self.topology.edge(edge)[1],
-                None => break,
-            }
-        }
+        let [from, to] = self.topology.edge(edge);
+        let ahead = (1..LOOK).fold(to, |at, _| self.ahead[at as usize]);
         self.direction(from, ahead)
     }
 
@@ -209,15 +211,16 @@ impl<'a> Survey<'a> {
         let Some(main) = self.continuations[node as usize] else {
             return false;
         };
+        if self.radii[branch as usize] < ALIKE * self.radii[main as usize] {
+            return false;
+        }
         let arrival = self.arrival(node);
         let angle = |edge: u32| {
             let departure = self.departure(edge);
             libm::atan2(arrival.perp_dot(departure), arrival.dot(departure))
         };
         let (ahead, aside) = (angle(main), angle(branch));
-        self.radii[branch as usize] >= ALIKE * self.radii[main as usize]
-            && ahead * aside < 0.0
-            && (ahead + aside).abs() <= FORK_SKEW
+        ahead * aside < 0.0 && (ahead + aside).abs() <= FORK_SKEW
     }
 }
 

@@ -2,204 +2,326 @@
 //!
 //! Veins crowd along lines and leave the rest empty, which a regular grid serves badly; a tree
 //! follows them. Points are added one by one and can be removed; cells split when they overflow.
+//!
+//! A cell is one number, its place follows from the way to it, and empty cells have no room for
+//! points: the tree of a million points fits into the caches, apart from the points themselves.
+
+use std::ops::ControlFlow;
 
 use glam::DVec2;
 
+use super::probe::{Probe, SLACK, distance_squared};
+
 /// Points a cell holds before it splits.
-const CAPACITY: usize = 8;
+const CAPACITY: usize = 16;
 
 /// Depth at which cells no longer split: points that near are as good as one.
 const MAX_DEPTH: u32 = 40;
 
-/// A point and the number it goes by.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Entry {
-    /// Where it is.
-    pub(crate) position: DVec2,
-    /// Its number in the caller's list.
-    pub(crate) id: u32,
+/// No bucket.
+const NONE: u32 = u32::MAX;
+
+/// Marks the number of a cell's first child, as against that of its bucket.
+const BRANCH: u32 = 1 << 31;
+
+/// The points of a leaf, or some of them.
+#[derive(Clone, Debug)]
+struct Bucket {
+    positions: [DVec2; CAPACITY],
+    ids: [u32; CAPACITY],
+    len: u32,
+    /// The bucket with more points of the same leaf, which only the deepest leaves have, or [`NONE`].
+    next: u32,
 }
 
-/// A square of the tree.
-#[derive(Clone, Debug)]
-struct Cell {
+impl Bucket {
+    const EMPTY: Self = Self {
+        positions: [DVec2::ZERO; CAPACITY],
+        ids: [0; CAPACITY],
+        len: 0,
+        next: NONE,
+    };
+
+    fn is_full(&self) -> bool {
+        self.len as usize == CAPACITY
+    }
+
+    fn push(&mut self, id: u32, position: DVec2) {
+        self.positions[self.len as usize] = position;
+        self.ids[self.len as usize] = id;
+        self.len += 1;
+    }
+
+    fn points(&self) -> impl Iterator<Item = (u32, DVec2)> + '_ {
+        let len = self.len as usize;
+        let ids = self.ids[..len].iter().copied();
+        ids.zip(self.positions[..len].iter().copied())
+    }
+}
+
+/// Where a cell of the tree lies.
+#[derive(Clone, Copy, Debug)]
+struct Square {
     centre: DVec2,
     half: f64,
-    content: Content,
 }
 
-#[derive(Clone, Debug)]
-enum Content {
-    /// Number of the first of four children, in the order −−, +−, −+, ++ of x and y.
-    Branch(u32),
-    Leaf(Vec<Entry>),
+impl Square {
+    /// Which quarter a point belongs to, in the order −−, +−, −+, ++ of x and y.
+    fn quadrant(self, p: DVec2) -> u32 {
+        u32::from(p.x >= self.centre.x) | (u32::from(p.y >= self.centre.y) << 1)
+    }
+
+    fn quarter(self, quadrant: u32) -> Self {
+        let half = self.half * 0.5;
+        let side = |bit: u32| if quadrant & bit == 0 { -half } else { half };
+        Self {
+            centre: self.centre + DVec2::new(side(1), side(2)),
+            half,
+        }
+    }
 }
 
-/// What a cell holds, for traversals of their own kind.
-pub(crate) enum View<'a> {
-    /// Numbers of the four children.
-    Branch([u32; 4]),
-    /// The points themselves.
-    Leaf(&'a [Entry]),
-}
-
-/// A quadtree over a square that holds every point it will ever get.
+/// A quadtree over a rectangle that holds every point it will ever get.
 #[derive(Clone, Debug)]
 pub(crate) struct PointTree {
-    cells: Vec<Cell>,
+    low: DVec2,
+    high: DVec2,
+    root: Square,
+    /// The number of the first of four children with the mark [`BRANCH`], or that of a bucket, or [`NONE`].
+    cells: Vec<u32>,
+    buckets: Vec<Bucket>,
 }
 
 impl PointTree {
-    /// Number of the cell that holds all others.
-    pub(crate) const ROOT: u32 = 0;
-
     /// An empty tree over the rectangle from `low` to `high`.
     pub(crate) fn new(low: DVec2, high: DVec2) -> Self {
-        let root = Cell {
-            centre: (low + high) * 0.5,
-            half: (high - low).max_element() * 0.5,
-            content: Content::Leaf(Vec::new()),
-        };
-        Self { cells: vec![root] }
+        Self {
+            low,
+            high,
+            root: Square {
+                centre: (low + high) * 0.5,
+                half: (high - low).max_element() * 0.5,
+            },
+            cells: vec![NONE],
+            buckets: Vec::new(),
+        }
     }
 
-    /// Adds a point, which must lie in the tree's square.
-    pub(crate) fn insert(&mut self, id: u32, position: DVec2) {
-        let mut at = Self::ROOT as usize;
-        let mut depth = 0;
-        loop {
-            let first = match &mut self.cells[at].content {
-                Content::Branch(first) => *first,
-                Content::Leaf(entries) => {
-                    if entries.len() < CAPACITY || depth >= MAX_DEPTH {
-                        entries.push(Entry { position, id });
-                        return;
-                    }
-                    self.split(at)
-                }
-            };
-            at = (first + quadrant(self.cells[at].centre, position)) as usize;
+    /// Lower left and upper right corner of the rectangle that holds every point.
+    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
+        (self.low, self.high)
+    }
+
+    /// Number of the leaf about `p`, its square and its depth.
+    fn leaf(&self, p: DVec2) -> (usize, Square, u32) {
+        let (mut at, mut square, mut depth) = (0, self.root, 0);
+        while let Some(first) = children(self.cells[at]) {
+            let quadrant = square.quadrant(p);
+            at = (first + quadrant) as usize;
+            square = square.quarter(quadrant);
             depth += 1;
         }
+        (at, square, depth)
     }
 
-    /// Turns a leaf into a branch, its points into those of its children; gives the first child.
-    fn split(&mut self, at: usize) -> u32 {
-        let first = self.cells.len() as u32;
-        let Cell { centre, half, .. } = self.cells[at];
-        let old = std::mem::replace(&mut self.cells[at].content, Content::Branch(first));
-        let quarter = half * 0.5;
-        let mut leaves: [Vec<Entry>; 4] = std::array::from_fn(|_| Vec::with_capacity(CAPACITY));
-        if let Content::Leaf(entries) = old {
-            for entry in entries {
-                leaves[quadrant(centre, entry.position) as usize].push(entry);
+    /// Adds a point, which must lie in the rectangle: searches rely on it.
+    pub(crate) fn insert(&mut self, id: u32, position: DVec2) {
+        let (mut at, mut square, mut depth) = self.leaf(position);
+        loop {
+            let number = self.cells[at];
+            match self.buckets.get_mut(number as usize) {
+                Some(bucket) if !bucket.is_full() => return bucket.push(id, position),
+                Some(_) if depth < MAX_DEPTH => {
+                    let quadrant = square.quadrant(position);
+                    at = (self.split(at, square) + quadrant) as usize;
+                    square = square.quarter(quadrant);
+                    depth += 1;
+                }
+                // Empty, or so deep that more buckets have to do.
+                _ => {
+                    self.cells[at] = self.add_bucket(number);
+                }
             }
         }
-        for (i, entries) in leaves.into_iter().enumerate() {
-            let side = |bit: usize| if i & bit == 0 { -quarter } else { quarter };
-            self.cells.push(Cell {
-                centre: centre + DVec2::new(side(1), side(2)),
-                half: quarter,
-                content: Content::Leaf(entries),
-            });
+    }
+
+    fn add_bucket(&mut self, next: u32) -> u32 {
+        let number = self.buckets.len() as u32;
+        self.buckets.push(Bucket {
+            next,
+            ..Bucket::EMPTY
+        });
+        number
+    }
+
+    /// Turns a leaf with one bucket into a branch; gives the first child.
+    fn split(&mut self, at: usize, square: Square) -> u32 {
+        let first = self.cells.len() as u32;
+        let number = std::mem::replace(&mut self.cells[at], first | BRANCH);
+        let old = std::mem::replace(&mut self.buckets[number as usize], Bucket::EMPTY);
+        let mut children = [NONE; 4];
+        // The bucket goes to the first child that needs one.
+        let mut free = Some(number);
+        for (id, position) in old.points() {
+            let child = &mut children[square.quadrant(position) as usize];
+            if *child == NONE {
+                *child = free.take().unwrap_or_else(|| self.add_bucket(NONE));
+            }
+            self.buckets[*child as usize].push(id, position);
         }
+        self.cells.extend(children);
         first
     }
 
     /// Takes a point out again. Nothing happens if it is not there.
     pub(crate) fn remove(&mut self, id: u32, position: DVec2) {
-        let mut at = Self::ROOT as usize;
-        loop {
-            match &mut self.cells[at].content {
-                Content::Branch(first) => {
-                    let first = *first;
-                    at = (first + quadrant(self.cells[at].centre, position)) as usize;
+        let (at, ..) = self.leaf(position);
+        let mut number = self.cells[at];
+        while let Some(bucket) = self.buckets.get_mut(number as usize) {
+            let len = bucket.len as usize;
+            if let Some(i) = bucket.ids[..len].iter().position(|&other| other == id) {
+                bucket.ids[i] = bucket.ids[len - 1];
+                bucket.positions[i] = bucket.positions[len - 1];
+                bucket.len -= 1;
+                return;
+            }
+            number = bucket.next;
+        }
+    }
+
+    /// Shows the points to `probe`, those about `p` first, as far as it enters their cells.
+    pub(crate) fn visit(&self, p: DVec2, probe: &mut impl Probe) -> ControlFlow<()> {
+        self.visit_cell(self.cells[0], self.root, p, probe)
+    }
+
+    /// The same for a probe that nothing matters to but between two corners, that of the smaller and that
+    /// of the larger coordinates: starts at the smallest cell that holds all of it.
+    fn visit_within(
+        &self,
+        low: DVec2,
+        high: DVec2,
+        p: DVec2,
+        probe: &mut impl Probe,
+    ) -> ControlFlow<()> {
+        // Far above the rounding of coordinates.
+        let slack = DVec2::splat(1e-12 * self.root.half);
+        let (low, high) = (low - slack, high + slack);
+        let (mut cell, mut square) = (self.cells[0], self.root);
+        while let Some(first) = children(cell) {
+            let quadrant = square.quadrant(low);
+            if square.quadrant(high) != quadrant {
+                break;
+            }
+            cell = self.cells[(first + quadrant) as usize];
+            square = square.quarter(quadrant);
+        }
+        self.visit_cell(cell, square, p, probe)
+    }
+
+    fn visit_cell(
+        &self,
+        cell: u32,
+        square: Square,
+        p: DVec2,
+        probe: &mut impl Probe,
+    ) -> ControlFlow<()> {
+        if let Some(first) = children(cell) {
+            let home = square.quadrant(p);
+            for i in 0..4 {
+                let child = self.cells[(first + (home ^ i)) as usize];
+                if child == NONE {
+                    continue;
                 }
-                Content::Leaf(entries) => {
-                    if let Some(i) = entries.iter().position(|entry| entry.id == id) {
-                        entries.swap_remove(i);
-                    }
-                    return;
+                let square = square.quarter(home ^ i);
+                let half = DVec2::splat(square.half);
+                if probe.enters(square.centre - half, square.centre + half) {
+                    self.visit_cell(child, square, p, probe)?;
                 }
             }
+            return ControlFlow::Continue(());
         }
-    }
-
-    /// What a cell holds.
-    pub(crate) fn view(&self, cell: u32) -> View<'_> {
-        match &self.cells[cell as usize].content {
-            Content::Branch(first) => View::Branch([*first, first + 1, first + 2, first + 3]),
-            Content::Leaf(entries) => View::Leaf(entries),
+        let mut number = cell;
+        while let Some(bucket) = self.buckets.get(number as usize) {
+            for (id, position) in bucket.points() {
+                probe.meet(id, position)?;
+            }
+            number = bucket.next;
         }
-    }
-
-    /// Squared distance from `p` to a cell, 0 inside.
-    pub(crate) fn distance_squared(&self, cell: u32, p: DVec2) -> f64 {
-        let cell = &self.cells[cell as usize];
-        ((p - cell.centre).abs() - DVec2::splat(cell.half))
-            .max(DVec2::ZERO)
-            .length_squared()
+        ControlFlow::Continue(())
     }
 
     /// Whether a point lies at `radius` from `p` or nearer.
     pub(crate) fn any_within(&self, p: DVec2, radius: f64) -> bool {
-        self.any_within_below(Self::ROOT, p, radius * radius)
+        let reach = DVec2::splat(radius);
+        let mut circle = Within {
+            p,
+            radius_squared: radius * radius,
+        };
+        self.visit_within(p - reach, p + reach, p, &mut circle)
+            .is_break()
     }
 
-    fn any_within_below(&self, cell: u32, p: DVec2, radius_squared: f64) -> bool {
-        if self.distance_squared(cell, p) > radius_squared * (1.0 + 1e-9) {
-            return false;
-        }
-        match self.view(cell) {
-            View::Branch(children) => {
-                // The quadrant of p first: it is the likeliest to have a near point.
-                let home = quadrant(self.cells[cell as usize].centre, p);
-                (0..4).any(|i| {
-                    self.any_within_below(children[(home ^ i) as usize], p, radius_squared)
-                })
-            }
-            View::Leaf(entries) => entries
-                .iter()
-                .any(|entry| (entry.position - p).length_squared() <= radius_squared),
-        }
+    /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and to `q`.
+    pub(crate) fn any_near_both(&self, p: DVec2, q: DVec2, squared: f64, except: u32) -> bool {
+        let mut lune = Lune {
+            ends: [p, q],
+            squared,
+            except,
+        };
+        let reach = DVec2::splat(squared.sqrt());
+        let (low, high) = (p.max(q) - reach, p.min(q) + reach);
+        self.visit_within(low, high, q, &mut lune).is_break()
+    }
+}
+
+/// The first of four children of a cell that is a branch.
+fn children(cell: u32) -> Option<u32> {
+    (cell & BRANCH != 0 && cell != NONE).then_some(cell & !BRANCH)
+}
+
+/// Looks for any point in a circle.
+struct Within {
+    p: DVec2,
+    radius_squared: f64,
+}
+
+impl Probe for Within {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        distance_squared(low, high, self.p) <= self.radius_squared * SLACK
     }
 
-    /// Calls `visit` with points in such an order that all nearer than the distance it last
-    /// returned (squared) are met. Serves nearest-point queries with ties of any rule.
-    pub(crate) fn approach(&self, p: DVec2, mut visit: impl FnMut(&Entry) -> f64) {
-        let mut best = f64::INFINITY;
-        self.approach_below(Self::ROOT, p, &mut best, &mut visit);
-    }
-
-    fn approach_below(
-        &self,
-        cell: u32,
-        p: DVec2,
-        best: &mut f64,
-        visit: &mut impl FnMut(&Entry) -> f64,
-    ) {
-        if self.distance_squared(cell, p) > *best * (1.0 + 1e-9) {
-            return;
-        }
-        match self.view(cell) {
-            View::Branch(children) => {
-                let home = quadrant(self.cells[cell as usize].centre, p);
-                for i in 0..4 {
-                    self.approach_below(children[(home ^ i) as usize], p, best, visit);
-                }
-            }
-            View::Leaf(entries) => {
-                for entry in entries {
-                    *best = visit(entry);
-                }
-            }
+    fn meet(&mut self, _id: u32, position: DVec2) -> ControlFlow<()> {
+        if (position - self.p).length_squared() <= self.radius_squared {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     }
 }
 
-/// Which child of a cell about `centre` a point belongs to.
-fn quadrant(centre: DVec2, p: DVec2) -> u32 {
-    u32::from(p.x >= centre.x) | (u32::from(p.y >= centre.y) << 1)
+/// Looks for any point in two circles at once.
+struct Lune {
+    ends: [DVec2; 2],
+    squared: f64,
+    except: u32,
+}
+
+impl Probe for Lune {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        let reach = self.squared * SLACK;
+        let [p, q] = self.ends;
+        distance_squared(low, high, p) <= reach && distance_squared(low, high, q) <= reach
+    }
+
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
+        let near = |p: DVec2| (position - p).length_squared() <= self.squared;
+        if near(self.ends[0]) && near(self.ends[1]) && id != self.except {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
 }
 
 #[cfg(test)]
@@ -208,6 +330,38 @@ mod tests {
     use proptest::test_runner::RngSeed;
 
     use super::*;
+
+    /// Meets every point.
+    struct All(Vec<u32>);
+
+    impl Probe for All {
+        fn enters(&self, _low: DVec2, _high: DVec2) -> bool {
+            true
+        }
+
+        fn meet(&mut self, id: u32, _position: DVec2) -> ControlFlow<()> {
+            self.0.push(id);
+            ControlFlow::Continue(())
+        }
+    }
+
+    #[test]
+    fn any_number_of_points_fits_in_one_place() {
+        let (low, high) = (DVec2::ZERO, DVec2::splat(10.0));
+        let mut tree = PointTree::new(low, high);
+        let p = DVec2::new(3.1, 4.1);
+        for id in 0..100 {
+            tree.insert(id, p);
+        }
+        tree.insert(100, DVec2::new(3.1, 4.2));
+        for id in (0..100).filter(|id| id % 7 != 0) {
+            tree.remove(id, p);
+        }
+        let mut met = All(Vec::new());
+        assert!(tree.visit(p, &mut met).is_continue());
+        met.0.sort_unstable();
+        assert!(met.0.iter().copied().eq((0..=98).step_by(7).chain([100])));
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
@@ -236,16 +390,16 @@ mod tests {
             let p = DVec2::new(x, y);
             let near = list.iter().any(|(_, q)| (*q - p).length_squared() <= radius * radius);
             prop_assert_eq!(tree.any_within(p, radius), near);
-            let mut best = f64::INFINITY;
-            tree.approach(p, |entry| {
-                best = best.min((entry.position - p).length_squared());
-                best
-            });
-            let nearest = list
-                .iter()
-                .map(|(_, q)| (*q - p).length_squared())
-                .fold(f64::INFINITY, f64::min);
-            prop_assert_eq!(best, nearest);
+            let other = DVec2::new(y, x);
+            let squared = |q: DVec2| (q - p).length_squared().max((q - other).length_squared());
+            let both = list.iter().any(|(id, q)| *id != 3 && squared(*q) <= radius);
+            prop_assert_eq!(tree.any_near_both(p, other, radius, 3), both);
+            let mut met = All(Vec::new());
+            prop_assert!(tree.visit(p, &mut met).is_continue());
+            met.0.sort_unstable();
+            let mut all: Vec<u32> = list.iter().map(|&(id, _)| id).collect();
+            all.sort_unstable();
+            prop_assert_eq!(met.0, all);
         }
     }
 }

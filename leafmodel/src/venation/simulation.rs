@@ -17,7 +17,6 @@ use super::network::Ending;
 use super::open::NearestNode;
 use super::plan::{FreeEndings, Growth, VenationPlan};
 use super::point_tree::PointTree;
-use super::relative_neighbourhood::Workspace;
 use super::veins::{COINCIDENT, Veins};
 
 /// Steps after which a source none of whose nodes can grow is given up, and after which, with
@@ -58,7 +57,6 @@ pub(crate) struct Simulation<'a, I> {
     pub(crate) veins: Veins,
     sources: Vec<Source<I>>,
     source_tree: PointTree,
-    workspace: Workspace,
     /// How many nodes were there at the start.
     origins: u32,
     /// The step in which the lamina starts to grow; arches are laid out before.
@@ -89,7 +87,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         if let Some(map) = clock.tissue_map(0) {
             lamina.carry(map);
         }
-        let (low, high) = lamina.bounds_now();
+        let (low, high) = lamina.room();
         let is_stretching = matches!(
             plan.growth,
             Growth::Isogonic { .. } | Growth::Anisotropic { .. }
@@ -111,7 +109,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         veins: Veins,
         darts: Darts,
     ) -> Self {
-        let (low, high) = lamina.bounds_now();
+        let (low, high) = lamina.room();
         Self {
             plan,
             seed,
@@ -124,7 +122,6 @@ impl<'a, I: Influence> Simulation<'a, I> {
             veins,
             sources: Vec::new(),
             source_tree: PointTree::new(low, high),
-            workspace: Workspace::new(low, high),
             lamina,
             sources_born: 0,
             step: 0,
@@ -254,19 +251,17 @@ impl<'a, I: Influence> Simulation<'a, I> {
             return;
         };
         self.lamina.carry(map);
-        let (low, high) = self.lamina.bounds_now();
+        let (low, high) = self.lamina.room();
         self.veins.carry(&self.lamina, low, high);
         self.source_tree = PointTree::new(low, high);
-        self.workspace = Workspace::new(low, high);
-        let mut surroundings = Surroundings {
+        let surroundings = Surroundings {
             tree: &self.veins.tree,
-            workspace: &mut self.workspace,
             seed: self.seed,
         };
         for source in &mut self.sources {
             source.place = self.lamina.now_at(source.start);
             self.source_tree.insert(source.id, source.place);
-            source.influence.place_anew(source.place, &mut surroundings);
+            source.influence.place_anew(source.place, &surroundings);
         }
         self.noticed = self.veins.count();
     }
@@ -275,13 +270,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
     fn notice(&mut self) {
         let fresh = FreshNodes::new(&self.veins.positions, self.noticed);
         if !fresh.is_empty() {
-            let mut surroundings = Surroundings {
+            let surroundings = Surroundings {
                 tree: &self.veins.tree,
-                workspace: &mut self.workspace,
                 seed: self.seed,
             };
             for source in &mut self.sources {
-                source.influence.notice(&fresh, &mut surroundings);
+                source.influence.notice(&fresh, &surroundings);
             }
         }
         self.noticed = self.veins.count();
@@ -317,16 +311,15 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let id = self.sources_born;
         self.sources_born += 1;
         self.source_tree.insert(id, place);
-        let mut surroundings = Surroundings {
+        let surroundings = Surroundings {
             tree: &self.veins.tree,
-            workspace: &mut self.workspace,
             seed: self.seed,
         };
         self.sources.push(Source {
             place,
             start: self.lamina.start_of(place),
             id,
-            influence: I::new(place, id, &mut surroundings),
+            influence: I::new(place, id, &surroundings),
             blocked_steps: 0,
         });
     }
@@ -386,7 +379,6 @@ impl<'a, I: Influence> Simulation<'a, I> {
             veins: self.veins,
             sources: Vec::new(),
             source_tree: self.source_tree,
-            workspace: self.workspace,
             origins: self.origins,
             first_step: self.first_step,
             is_laying_out: self.is_laying_out,

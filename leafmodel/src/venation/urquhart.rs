@@ -8,15 +8,15 @@
 //! cell, so each cuts it in turn. The cell starts as a square much larger than the lamina: neighbours whose bisectors
 //! bound the cell only outside of it are far apart on the hull of the veins, and are not counted.
 
+use std::ops::ControlFlow;
+
 use glam::DVec2;
 
 use super::point_tree::PointTree;
+use super::probe::{Probe, SLACK, distance_squared};
 
 /// Half the side of the square in which cells lie, in sizes of the lamina.
 pub(crate) const SURROUNDINGS: f64 = 64.0;
-
-/// Squares are compared with this much to spare where a wrong answer would only cost time.
-const SLACK: f64 = 1.0 + 1e-9;
 
 /// A side of the cell: the node behind it, if any, and the corner at its counter-clockwise end.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +38,10 @@ pub(crate) struct UrquhartNeighbourhood {
 }
 
 impl UrquhartNeighbourhood {
-    /// Finds the neighbours of `source` among the points of `tree`, on a lamina of this `size`.
-    pub(crate) fn find(source: DVec2, tree: &PointTree, size: f64) -> Self {
-        let far = SURROUNDINGS * size;
+    /// Finds the neighbours of `source` among the points of `tree`.
+    pub(crate) fn find(source: DVec2, tree: &PointTree) -> Self {
+        let (low, high) = tree.bounds();
+        let far = SURROUNDINGS * (high - low).max_element();
         let corners = [(far, -far), (far, far), (-far, far), (-far, -far)];
         let side = |corner| Side {
             node: None,
@@ -52,16 +53,13 @@ impl UrquhartNeighbourhood {
             radius_squared: 2.0 * far * far,
             members: Vec::new(),
         };
-        tree.approach(source, |entry| {
-            found.cut(entry.id, entry.position);
-            found.reach_squared()
-        });
+        let _ = tree.visit(source, &mut found);
         found.choose();
         found
     }
 
     /// Takes in one new node; [`Self::choose`] is due after the last.
-    pub(crate) fn cut(&mut self, id: u32, position: DVec2) {
+    fn cut(&mut self, id: u32, position: DVec2) {
         let offset = position - self.source;
         if offset.length_squared() > self.reach_squared() {
             return;
@@ -112,13 +110,8 @@ impl UrquhartNeighbourhood {
     }
 
     /// Squared distance beyond which no node cuts the cell.
-    pub(crate) fn reach_squared(&self) -> f64 {
+    fn reach_squared(&self) -> f64 {
         4.0 * self.radius_squared * SLACK
-    }
-
-    /// Where the source is.
-    pub(crate) fn source(&self) -> DVec2 {
-        self.source
     }
 
     /// Tests the Delaunay neighbours against each other.
@@ -147,13 +140,25 @@ impl UrquhartNeighbourhood {
     }
 }
 
+/// Meets nodes near enough to cut the cell.
+impl Probe for UrquhartNeighbourhood {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        distance_squared(low, high, self.source) <= self.reach_squared()
+    }
+
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
+        self.cut(id, position);
+        ControlFlow::Continue(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
     use super::*;
-    use crate::venation::relative_neighbourhood::{RelativeNeighbourhood, Workspace};
+    use crate::venation::relative_neighbourhood::RelativeNeighbourhood;
 
     fn tree(nodes: &[(f64, f64)]) -> PointTree {
         let mut tree = PointTree::new(DVec2::splat(-16.0), DVec2::splat(16.0));
@@ -168,8 +173,7 @@ mod tests {
     }
 
     fn relative(source: DVec2, tree: &PointTree) -> Vec<u32> {
-        let mut workspace = Workspace::new(DVec2::splat(-16.0), DVec2::splat(16.0));
-        let found = RelativeNeighbourhood::find(source, tree, &mut workspace);
+        let found = RelativeNeighbourhood::find(source, tree);
         let mut ids: Vec<u32> = found.members().map(|(id, _)| id).collect();
         ids.sort_unstable();
         ids
@@ -186,7 +190,7 @@ mod tests {
             for dy in -20..=0 {
                 let a = (5.0 + 0.2 * f64::from(dx), -5.0 + 0.2 * f64::from(dy));
                 let tree = tree(&[nodes[0], a, nodes[2]]);
-                let urquhart = ids(&UrquhartNeighbourhood::find(DVec2::ZERO, &tree, 32.0));
+                let urquhart = ids(&UrquhartNeighbourhood::find(DVec2::ZERO, &tree));
                 let exact = relative(DVec2::ZERO, &tree);
                 if urquhart.contains(&0) && !exact.contains(&0) {
                     seen = Some(a);
@@ -247,7 +251,7 @@ mod tests {
                 .map(|v| v as u32)
                 .collect();
             let tree = tree(&points);
-            let found = UrquhartNeighbourhood::find(source, &tree, 32.0);
+            let found = UrquhartNeighbourhood::find(source, &tree);
             prop_assert_eq!(ids(&found), expected.clone());
             let exact = relative(source, &tree);
             prop_assert!(exact.iter().all(|id| expected.contains(id)));

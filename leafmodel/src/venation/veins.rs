@@ -1,10 +1,9 @@
 //! The network while it grows: nodes, edges, and the index to find nodes by place.
 
-use std::collections::BinaryHeap;
-
 use glam::DVec2;
 
 use super::lamina::Lamina;
+use super::length_queue::LengthQueue;
 use super::point_tree::PointTree;
 pub(crate) use crate::shape::cubic::catmull_rom;
 
@@ -25,7 +24,7 @@ const WELDING_REACH: f64 = 2.0;
 pub(crate) struct Veins {
     /// Where each node is.
     pub(crate) positions: Vec<DVec2>,
-    /// Where the tissue of each node started.
+    /// Where the tissue of each node started, if tissue moves.
     starts: Vec<DVec2>,
     /// Step at which each node came into being.
     pub(crate) births: Vec<u32>,
@@ -37,11 +36,15 @@ pub(crate) struct Veins {
     parents: Vec<u32>,
     /// The first node that grew from each node, or [`NO_NODE`].
     first_children: Vec<u32>,
-    /// Edges by length in segments of their place, the longest on top: bits of the squared length, complement of
-    /// the number.
-    by_length: BinaryHeap<(u64, u32)>,
+    /// Edges by length in segments of their place, if edges stretch in time.
+    by_length: LengthQueue,
     /// Whether edges stretch in time.
     stretching: bool,
+}
+
+/// A queue of edges; a segment is never shorter than one unit of the frame.
+fn length_queue() -> LengthQueue {
+    LengthQueue::new(LONGEST_EDGE * LONGEST_EDGE)
 }
 
 impl Veins {
@@ -55,7 +58,7 @@ impl Veins {
             tree: PointTree::new(low, high),
             parents: Vec::new(),
             first_children: Vec::new(),
-            by_length: BinaryHeap::new(),
+            by_length: length_queue(),
             stretching,
         }
     }
@@ -69,7 +72,9 @@ impl Veins {
     pub(crate) fn add_node(&mut self, position: DVec2, step: u32, lamina: &Lamina) -> u32 {
         let node = self.count();
         self.positions.push(position);
-        self.starts.push(lamina.start_of(position));
+        if lamina.moves() {
+            self.starts.push(lamina.start_of(position));
+        }
         self.births.push(step);
         self.parents.push(NO_NODE);
         self.first_children.push(NO_NODE);
@@ -93,7 +98,7 @@ impl Veins {
     /// Growth has ended.
     pub(crate) fn stop_stretching(&mut self) {
         self.stretching = false;
-        self.by_length.clear();
+        self.by_length = length_queue();
     }
 
     /// Moves all nodes with their tissue, on a lamina that now fills the rectangle from `low` to `high`.
@@ -104,7 +109,7 @@ impl Veins {
             self.positions[node] = place;
             self.tree.insert(node as u32, place);
         }
-        self.by_length.clear();
+        self.by_length = length_queue();
         for edge in 0..self.edges.len() as u32 {
             self.note_length(edge, lamina);
         }
@@ -116,7 +121,7 @@ impl Veins {
             let (from, to) = (self.positions[from as usize], self.positions[to as usize]);
             let enlargement = lamina.enlargement((from + to) * 0.5);
             let squared = (to - from).length_squared() / (enlargement * enlargement);
-            self.by_length.push((squared.to_bits(), !edge));
+            self.by_length.push(edge, squared);
         }
     }
 
@@ -128,15 +133,10 @@ impl Veins {
     /// and the nodes before and after, so that bends stay round.
     pub(crate) fn subdivide(&mut self, unit: f64, lamina: &Lamina, step: u32) {
         let longest = LONGEST_EDGE * unit;
-        while let Some(&(bits, complement)) = self.by_length.peek() {
-            let squared = f64::from_bits(bits);
-            if squared <= longest * longest {
-                break;
-            }
-            self.by_length.pop();
+        while let Some((edge, squared)) = self.by_length.pop_above(longest * longest) {
             // At least two: the root may round down to the limit itself.
             let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
-            self.cut(!complement, pieces, lamina, step);
+            self.cut(edge, pieces, lamina, step);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Claims on open patterns.
 
 use super::*;
+use crate::venation::plan::Growth;
 
 /// Where veins end in a network.
 fn tips(network: &VenationNetwork) -> Vec<DVec2> {
@@ -17,30 +18,34 @@ fn tips(network: &VenationNetwork) -> Vec<DVec2> {
 #[test]
 fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
     // Median distance of the nodes of the last steps from the margin of their time, over the leaf's length then.
-    let lag = |name: &str| -> Vec<f64> {
-        let leaf = Grown::preset(name);
-        let steps = leaf.network.steps();
-        let stages = leaf.stages(&[steps / 4, steps / 3, steps / 2]);
+    let lag = |leaf: &Grown| -> Vec<f64> {
+        let Growth::Marginal { length_step, .. } = leaf.plan.venation.growth else {
+            panic!("the margin grows");
+        };
+        // When the leaf is a quarter, a half and three quarters of its final length.
+        let final_length = leaf.plan.venation.final_length;
+        let steps = [0.25, 0.5, 0.75].map(|share| (share * final_length / length_step) as u32);
         let median = |stage: &Stage| {
-            let young = stage
-                .network
-                .nodes()
-                .iter()
-                .filter(|n| n.born + 10 >= stage.step);
-            let mut far: Vec<f64> = young
-                .map(|n| stage.outline.distance_to_margin(n.position) / stage.outline.length())
-                .collect();
+            let nodes = stage.network.nodes().iter();
+            let young = nodes.filter(|node| node.born + 10 >= stage.step);
+            let away = |p: DVec2| stage.outline.distance_to_margin(p) / stage.outline.length();
+            let mut far: Vec<f64> = young.map(|node| away(node.position)).collect();
             far.sort_by(f64::total_cmp);
             far[far.len() / 2]
         };
-        stages.iter().map(median).collect()
+        leaf.stages(&steps).iter().map(median).collect()
     };
-    // The kill distance, 40 segments, is what keeps tips from the margin; it is 4 % of the slow leaf's final length. In
-    // the fast leaf tips fall behind.
-    let (slow, fast) = (lag("runions-9i"), lag("runions-9b"));
+    let slow = Grown::preset("runions-9i");
+    // The same leaf grown ten times as fast: its tips fall behind.
+    let mut plan = slow.plan.clone();
+    let Growth::Marginal { length_step, .. } = &mut plan.venation.growth else {
+        panic!("the margin grows");
+    };
+    *length_step *= 10.0;
+    let (slow, fast) = (lag(&slow), lag(&Grown::of(plan)));
     assert!(slow.iter().all(|&lag| lag < 0.08), "{slow:?}");
     assert!(
-        slow.iter().zip(&fast).all(|(s, f)| s * 2.0 < *f),
+        slow.iter().zip(&fast).all(|(s, f)| 2.0 * s < *f),
         "{slow:?} {fast:?}"
     );
 }

@@ -59,7 +59,7 @@ impl Oracle<'_> {
                 high = f64::NEG_INFINITY;
             }
         };
-        let (corner, other) = self.lamina.bounds_now();
+        let (corner, other) = self.lamina.room();
         let far = SURROUNDINGS * (other - corner).max_element();
         for normal in [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y] {
             clip(normal, far);
