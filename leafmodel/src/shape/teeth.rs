@@ -54,6 +54,11 @@ pub enum TeethError {
         /// How many.
         waves: usize,
     },
+    /// Base and apex have no margin between them to bear teeth.
+    #[error(
+        "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth"
+    )]
+    NoSides,
     /// Teeth run into each other.
     #[error("the toothed margin is none: {0}")]
     NoMargin(#[from] OutlineError),
@@ -182,7 +187,10 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
     let Some(shortest) = waves.iter().map(|wave| wave.per_side).max() else {
         return Ok(outline.clone());
     };
-    let [right, left] = sides(outline);
+    let [right, left] = sides(outline).map(Side::new);
+    let (Some(right), Some(left)) = (right, left) else {
+        return Err(TeethError::NoSides);
+    };
     let shape = |side: Side, sign: f64| {
         side.toothed(waves, outline.length(), 0.25 / f64::from(shortest), sign)
     };
@@ -202,17 +210,21 @@ struct Side {
 }
 
 impl Side {
-    fn new(points: Vec<DVec2>) -> Self {
+    /// A side through these points, unless all are one.
+    fn new(points: Vec<DVec2>) -> Option<Self> {
         let mut length = 0.0;
         let mut shares = vec![0.0];
         for edge in points.windows(2) {
             length += (edge[1] - edge[0]).length();
             shares.push(length);
         }
+        if length <= 0.0 {
+            return None;
+        }
         for share in &mut shares {
             *share /= length;
         }
-        Self { points, shares }
+        Some(Self { points, shares })
     }
 
     /// The place at a share of the side.
@@ -250,8 +262,8 @@ impl Side {
     }
 }
 
-/// The right and the left side of a margin, each from the place nearest to the base to that nearest to the apex.
-fn sides(outline: &Outline) -> [Side; 2] {
+/// Points of the right and the left side of a margin, each from the place nearest to the base to that nearest to the apex.
+fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();
     let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest(points, p));
@@ -270,7 +282,7 @@ fn sides(outline: &Outline) -> [Side; 2] {
     };
     let mut left = walk(&apex, &base);
     left.reverse();
-    [walk(&base, &apex), left].map(Side::new)
+    [walk(&base, &apex), left]
 }
 
 /// A place on a polygon.

@@ -139,6 +139,19 @@ fn teeth_that_run_into_each_other_are_refused() {
 }
 
 #[test]
+fn a_midrib_away_from_the_margin_takes_teeth_if_its_ends_part_it() {
+    let square = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(DVec2::from);
+    let between = |base: (f64, f64), apex: (f64, f64)| {
+        let outline = Outline::new(square.to_vec(), base.into(), apex.into());
+        toothed(&outline.expect("a square"), &[even(5, 0.1)])
+    };
+    let inside = between((0.0, -2.0), (0.0, 2.0)).expect("two sides");
+    assert!(inside.area() > 100.0);
+    // Both ends are nearest to the same place, (5, 0).
+    assert_eq!(between((3.0, 0.0), (4.0, 0.0)), Err(TeethError::NoSides));
+}
+
+#[test]
 fn each_bad_wave_is_refused_by_name() {
     type Spoil = fn(&mut ToothWave);
     let spoils: [(Spoil, &str); 5] = [

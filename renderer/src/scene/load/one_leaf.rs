@@ -114,7 +114,7 @@ pub fn load_one_leaf(
         LeafFile::File { leaf: None, .. } => names.first().filter(|_| names.len() == 1),
     };
     let chosen = chosen.cloned();
-    if let Some(name) = &chosen {
+    if let Some(name) = chosen.as_ref().filter(|_| !settings.is_empty()) {
         let known = known_keys(&opened.cx.folder, &opened.tree, name);
         for setting in settings {
             let text = in_full(setting, name, &known)?;
