@@ -170,9 +170,10 @@ impl ToothWave {
 
 /// The outline with teeth: every place of the margin moved outward by the sum of `waves` there.
 ///
-/// Each side is measured along the margin from base to apex. Outward is at right angles to the chord over a quarter of
-/// the shortest tooth before and behind, so that it turns gently where the margin is a polygon. Notches and tips
-/// are corners of the result, as are those of the outline.
+/// Each side is measured along the margin from base to apex. Outward is at right angles to the chord between the places
+/// a quarter of the shortest tooth before and behind, or as far as all waves together are high if that is more: so it turns
+/// gently where the margin is a polygon, and slowly enough that neighbours do not cross in a bay. Notches and tips are
+/// corners of the result, as are those of the outline.
 ///
 /// # Errors
 ///
@@ -191,8 +192,14 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
     let (Some(right), Some(left)) = (right, left) else {
         return Err(TeethError::NoSides);
     };
+    let quarter = 0.25 / f64::from(shortest);
+    let highest: f64 = waves
+        .iter()
+        .map(|wave| wave.height * outline.length())
+        .sum();
     let shape = |side: Side, sign: f64| {
-        side.toothed(waves, outline.length(), 0.25 / f64::from(shortest), sign)
+        let reach = quarter.max(highest / side.length).min(0.25);
+        side.toothed(waves, outline.length(), reach, sign)
     };
     let mut margin = shape(right, 1.0);
     let mut back = shape(left, -1.0);
@@ -207,6 +214,8 @@ struct Side {
     points: Vec<DVec2>,
     /// Way along the margin to each point, as a share of the side.
     shares: Vec<f64>,
+    /// The whole way.
+    length: f64,
 }
 
 impl Side {
@@ -224,7 +233,11 @@ impl Side {
         for share in &mut shares {
             *share /= length;
         }
-        Some(Self { points, shares })
+        Some(Self {
+            points,
+            shares,
+            length,
+        })
     }
 
     /// The place at a share of the side.
