@@ -260,11 +260,10 @@ impl Measures {
 
 /// A number with four significant digits, as far as they lie behind the point.
 fn four_digits(number: f64) -> String {
-    let digits = (0..8)
-        .find(|&d| number.abs() * 10_f64.powi(d) >= 1000.0)
-        .unwrap_or(8);
-    format!(
-        "{number:.0$}",
-        if number == 0.0 { 0 } else { digits as usize }
-    )
+    let (mut digits, mut shifted) = (0, number.abs());
+    while shifted < 1000.0 && digits < 8 && number != 0.0 {
+        shifted *= 10.0;
+        digits += 1;
+    }
+    format!("{number:.digits$}")
 }

@@ -1,85 +1,96 @@
-//! Leaves to start from, by name.
+//! Leaves to start from: presets by name, each with a word on where its numbers come from.
 //!
-//! A preset is a whole [`LeafPlan`]; its `source` says which of its numbers were measured or published and which
-//! were judged by eye.
+//! - **In**: a name, as in `lamina grow poplar`.
+//! - **Out**: a [`LeafPlan`] with every number in it.
+//! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and changed.
+
+mod beyond;
+mod contours;
+mod list;
+mod runions;
+pub mod table_1;
 
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::optics::Contents;
-use crate::shape::growth_shape::{GrowthShape, VeinRow};
-use crate::shape::outline_plan::Contour;
+use crate::shape::outline_plan::OutlinePlan;
 use crate::venation::plan::VenationPlan;
 
-/// A leaf with a name.
+pub use self::list::PRESETS;
+use self::table_1::Row;
+
+/// A leaf by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
-    /// What it is called on the command line: letters, digits and `-`.
+    /// What it is called: lower-case words joined by `-`.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// What it is, and what its figure claims.
     pub about: &'static str,
-    /// Where its numbers come from.
+    /// Where its numbers come from, and where they depart from there.
     pub source: &'static str,
-    /// Makes its plan.
-    pub plan: fn() -> LeafPlan,
+    /// The row of Table 1 of Runions et al. 2005 that it stands for, if it does.
+    pub row: Option<&'static Row>,
+    /// Makes the plan.
+    plan: fn() -> LeafPlan,
 }
 
 impl Preset {
-    /// The plan of the leaf.
+    /// The whole plan of the leaf.
     pub fn plan(&self) -> LeafPlan {
         (self.plan)()
     }
 }
 
-/// All presets, in the order in which they are listed.
-pub static PRESETS: &[Preset] = &[Preset {
-    name: "poplar",
-    about: "broad leaf with a closed net of veins on isogonic growth",
-    source: "veins: Runions et al. 2005, Table 1, poplar at ten units to a segment; outline, contents and blade by eye",
-    plan: poplar,
-}];
-
-/// The preset of that name.
+/// The preset of this name.
 pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-fn poplar() -> LeafPlan {
-    let vein = |position, slope| VeinRow { position, slope };
-    let outline = GrowthShape {
-        rows: 200,
-        axial_rate: 0.1,
-        rate_ratio: 1.22,
-        widest_at: 0.32,
-        falloff: 3.0,
-        lobe_decay: 0.0,
-        lobe_exponent: 2.0,
-        veins: vec![vein(0.1, -0.35), vein(0.9, 0.45)],
-    };
+/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Figures for species come with
+/// presets of their own; these are the middle of what is usual (`docs/src/theory/tissue.md`).
+fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: VenationPlan) -> LeafPlan {
+    let veinlet = venation.veinlet_radius_mm;
     LeafPlan {
-        length_mm: 80.0,
-        seed: 7,
-        outline: Contour::GrowthAlgorithm(outline).into(),
-        venation: VenationPlan::default(),
+        length_mm,
+        seed,
+        outline,
+        venation,
         tissue: Tissue {
-            lamina: Contents::from_array([1.5, 38.0, 9.0, 0.5, 0.0, 0.01, 0.005]),
-            vein_factors: Contents::from_array([1.5, 0.1, 0.12, 1.0, 1.0, 2.0, 3.0]),
-            full_vein_radius_mm: 0.06,
-            sheath_width_mm: 0.1,
+            lamina: Contents {
+                structure: 1.5,
+                chlorophyll: 38.0,
+                carotenoids: 9.0,
+                anthocyanins: 0.5,
+                brown: 0.0,
+                water: 0.01,
+                dry_matter: 0.005,
+            },
+            vein_factors: Contents {
+                structure: 1.3,
+                chlorophyll: 0.1,
+                carotenoids: 0.12,
+                anthocyanins: 1.0,
+                brown: 1.0,
+                water: 2.0,
+                dry_matter: 2.5,
+            },
+            full_vein_radius_mm: (4.0 * veinlet).clamp(0.001, 0.2),
+            sheath_width_mm: (5.0 * veinlet).clamp(0.001, 0.15),
             mottle: 0.1,
             mottle_scale_mm: 1.5,
         },
         form: BladeForm {
-            fold: 12.0_f64.to_radians(),
-            curl: 25.0_f64.to_radians(),
-            ruffle: 0.012,
+            fold: 8.0_f64.to_radians(),
+            curl: 20.0_f64.to_radians(),
+            ruffle: 0.01,
             ruffle_waves: 2.5,
             relief: 0.6,
             thickness_mm: 0.2,
-            max_edge_mm: 1.0,
+            max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },
-        map_size: 1024,
+        map_size: 1600,
     }
 }
 

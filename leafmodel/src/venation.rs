@@ -23,6 +23,7 @@ pub mod areole;
 mod auxin;
 pub(crate) mod chance;
 mod closed;
+pub mod conformal_map;
 mod fresh_nodes;
 mod influence;
 mod lamina;
@@ -47,6 +48,7 @@ use thiserror::Error;
 
 use self::auxin::waiting_darts;
 use self::closed::Anastomosis;
+use self::conformal_map::ConformalMap;
 use self::influence::Influence;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
@@ -210,6 +212,8 @@ pub(crate) struct Grown {
     ending: Ending,
     margin: Vec<DVec2>,
     apex: DVec2,
+    /// Of the leaf whose conformal map this is: only isogonic growth scales the map.
+    map_apex: DVec2,
 }
 
 /// Runs a plan that has been checked; gives the full-grown state and those after `steps`.
@@ -240,24 +244,24 @@ fn simulate<I: Influence>(
 ) -> (Grown, Vec<Grown>) {
     let mut young = Vec::new();
     let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
-    let mut ending = simulation.run(|now| {
-        if steps.contains(&now.step) {
-            young.push(now.state(Ending::StepLimit));
+    simulation.remember(steps, &mut young);
+    let mut rounds = simulation.arch_rounds();
+    if let Some(arches) = rounds.pop() {
+        // Secondaries end freely at first and join later (\[scarpella2004\]).
+        let mut free = simulation.under::<NearestNode>();
+        for round in rounds {
+            free.lay_out(&round, |now| now.remember(steps, &mut young));
         }
-    });
+        simulation = free.under();
+        simulation.lay_out(&arches, |now| now.remember(steps, &mut young));
+    }
+    let mut ending = simulation.run(|now| now.remember(steps, &mut young));
     let grown = match &plan.free_endings {
         None => simulation.state(ending),
         Some(free) => {
             let rest = free.as_plan(plan);
             let mut veinlets = simulation.with_free_endings(&rest, free);
-            let last = veinlets.run(|now| {
-                if now.step > 0
-                    && steps.contains(&now.step)
-                    && young.last().is_none_or(|y| y.steps < now.step)
-                {
-                    young.push(now.state(Ending::StepLimit));
-                }
-            });
+            let last = veinlets.run(|now| now.remember(steps, &mut young));
             if last == Ending::StepLimit {
                 ending = last;
             }
@@ -270,6 +274,10 @@ fn simulate<I: Influence>(
 impl Grown {
     /// Widths, orders, and millimetres.
     fn into_network(self, plan: &VenationPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
+        let apex = self.map_apex * segment_mm;
+        let curvature = plan.gaussian_curvature / apex.length_squared();
+        let map = ConformalMap::new(curvature, base + apex * 0.5);
+        let place = |node: u32| base + self.positions[node as usize] * segment_mm;
         let topology = Topology::new(self.positions.len(), &self.edges);
         let base_to_tip = topology
             .base_to_tip()
@@ -301,8 +309,8 @@ impl Grown {
                 VeinEdge {
                     from,
                     to,
-                    radius_from: start.max(radii[i]),
-                    radius_to: radii[i],
+                    radius_from: start.max(radii[i]) * map.enlargement(place(from)),
+                    radius_to: radii[i] * map.enlargement(place(to)),
                     order: orders.edges[i],
                 }
             })
@@ -319,6 +327,7 @@ impl Grown {
         VenationNetwork {
             nodes,
             edges,
+            map,
             origins: self.origins,
             steps: self.steps,
             sources: self.sources,

@@ -1,13 +1,14 @@
 //! The lamina bent in space: ruffle, fold and curl, as one smooth map.
 //!
-//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the lamina,
-//! then by the fold about the midrib, then by the curl along it. Each step has continuous first derivatives, so
+//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the lamina; if the lamina is
+//! the map of a curved blade, it is brought onto that; then it is moved by the fold about the midrib, then by the curl along it. Each step has continuous first derivatives, so
 //! the blade has no crease. Lengths across the midrib are kept by the fold and lengths along it by the curl.
 
 use glam::{DVec2, DVec3};
 
 use super::BladeForm;
 use crate::shape::outline::Outline;
+use crate::venation::conformal_map::ConformalMap;
 
 /// Distance from the midrib, over the leaf's length, at which the fold has reached tanh 1 = 76 % of its angle.
 const FOLD_ROUNDING: f64 = 0.03;
@@ -27,6 +28,10 @@ const LEFT_AHEAD: f64 = 1.9;
 #[derive(Debug)]
 pub(super) struct Bending {
     base: DVec2,
+    /// The map of a blade that is curved by itself.
+    map: ConformalMap,
+    /// Where that brings the base.
+    base_in_space: DVec3,
     ruffle: Ruffle,
     fold: Fold,
     /// Curvature of the midrib, 1/mm.
@@ -35,12 +40,14 @@ pub(super) struct Bending {
 
 impl Bending {
     /// The map that `form` gives to a leaf of this outline. The base goes to the origin.
-    pub(super) fn new(form: &BladeForm, outline: &Outline) -> Self {
+    pub(super) fn new(form: &BladeForm, outline: &Outline, map: ConformalMap) -> Self {
         let length = outline.length();
         let (low, high) = outline.bounds();
         let widest = (high.x - outline.base().x).max(outline.base().x - low.x);
         Self {
             base: outline.base(),
+            map,
+            base_in_space: map.in_space(outline.base(), 0.0),
             ruffle: Ruffle::new(form, outline),
             fold: Fold::new(form.fold, FOLD_ROUNDING * length, widest),
             curvature: form.curl / length,
@@ -51,6 +58,12 @@ impl Bending {
     pub(super) fn place(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.base;
         let height = height + self.ruffle.height(q);
+        let (q, height) = if self.map.is_flat() {
+            (q, height)
+        } else {
+            let at = self.map.in_space(p, height) - self.base_in_space;
+            (at.truncate(), at.z)
+        };
         let (x, z) = self.fold.place(q.x, height);
         self.curled(x, q.y, z)
     }
@@ -232,7 +245,7 @@ mod tests {
 
     #[test]
     fn a_flat_form_leaves_the_lamina_where_it_is() {
-        let bending = Bending::new(&flat(), &ellipse(20.0, 60.0, 60));
+        let bending = Bending::new(&flat(), &ellipse(20.0, 60.0, 60), ConformalMap::FLAT);
         for p in [(0.0, 0.0), (3.0, 20.0), (-7.5, 41.0)].map(DVec2::from) {
             let placed = bending.place(p, 0.25);
             assert!((placed - p.extend(0.25)).length() < 1e-12, "{placed}");
@@ -245,7 +258,7 @@ mod tests {
             curl: 1.2,
             ..flat()
         };
-        let bending = Bending::new(&form, &ellipse(20.0, 60.0, 60));
+        let bending = Bending::new(&form, &ellipse(20.0, 60.0, 60), ConformalMap::FLAT);
         let radius = 60.0 / 1.2;
         for y in [0.0, 10.0, 35.0, 60.0] {
             let placed = bending.place(DVec2::new(0.0, y), 0.0);
@@ -261,7 +274,7 @@ mod tests {
             fold: 0.5,
             ..flat()
         };
-        let bending = Bending::new(&form, &ellipse(40.0, 60.0, 60));
+        let bending = Bending::new(&form, &ellipse(40.0, 60.0, 60), ConformalMap::FLAT);
         for side in [-1.0, 1.0] {
             let [a, b] = [12.0, 18.0].map(|x| bending.place(DVec2::new(side * x, 30.0), 0.0));
             let (rise, run) = (b.z - a.z, side * (b.x - a.x));
@@ -273,7 +286,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_map_has_continuous_slopes(x in -9.0..9.0, y in 0.0..60.0, turn in 0.0..6.3) {
-            let bending = Bending::new(&bent(), &ellipse(20.0, 60.0, 60));
+            let bending = Bending::new(&bent(), &ellipse(20.0, 60.0, 60), ConformalMap::FLAT);
             // One-sided differences from both sides of a point agree up to the second derivative.
             let step = 1e-4 * DVec2::new(libm::cos(turn), libm::sin(turn));
             for p in [DVec2::new(x, y), DVec2::new(0.0, y)] {

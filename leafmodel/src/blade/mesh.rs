@@ -11,6 +11,7 @@ use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use super::triangulate::{Triangulation, triangulate};
 use crate::shape::outline::Outline;
+use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Most triangles of one blade.
@@ -136,10 +137,10 @@ impl BladeMesh {
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
         let veins: Vec<VeinSegment> = network.segments().collect();
-        Self::from_veins(outline, &veins, form)
+        Self::from_veins(outline, &veins, network.map(), form)
     }
 
-    /// As [`BladeMesh::build`], from pieces of vein. Pieces belong together where ends have the same bits.
+    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces belong together where ends have the same bits.
     ///
     /// # Errors
     ///
@@ -147,6 +148,7 @@ impl BladeMesh {
     pub fn from_veins(
         outline: &Outline,
         veins: &[VeinSegment],
+        map: ConformalMap,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
         form.validate()?;
@@ -159,7 +161,7 @@ impl BladeMesh {
         let skeleton = Skeleton::new(outline, &size, &major);
         let flat = triangulate(outline, &size, &skeleton, MOST_TRIANGLES)?;
         let relief = Relief::new(form, &major);
-        let bending = Bending::new(form, outline);
+        let bending = Bending::new(form, outline, map);
         Self::raised(flat, &UvFrame::around(outline.points()), |p| {
             let height = relief.height(p);
             (bending.place(p, -height), form.thickness_mm + height)

@@ -1,5 +1,6 @@
 //! Blades over many outlines and veins; and the shapes that the tests of this folder share.
 
+use crate::venation::conformal_map::ConformalMap;
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -103,8 +104,13 @@ fn a_leaf_with_raised_veins_is_well_meshed() {
         curl: 0.6,
         ..flat()
     };
-    let mesh = BladeMesh::from_veins(&outline, &herringbone(60.0, 9, 0.5), &form)
-        .expect("an ordinary leaf");
+    let mesh = BladeMesh::from_veins(
+        &outline,
+        &herringbone(60.0, 9, 0.5),
+        ConformalMap::FLAT,
+        &form,
+    )
+    .expect("an ordinary leaf");
     assert_eq!(mesh.validate(outline.area()), Ok(()));
     let angles: Vec<f64> = mesh
         .triangles
@@ -136,8 +142,8 @@ fn the_same_leaf_has_the_same_bits() {
         ..flat()
     };
     assert_eq!(
-        BladeMesh::from_veins(&outline, &veins, &form),
-        BladeMesh::from_veins(&outline, &veins, &form)
+        BladeMesh::from_veins(&outline, &veins, ConformalMap::FLAT, &form),
+        BladeMesh::from_veins(&outline, &veins, ConformalMap::FLAT, &form)
     );
 }
 
@@ -176,7 +182,7 @@ fn a_mesh_too_fine_is_refused_before_it_is_built() {
         max_edge_mm: 0.01,
         ..flat()
     };
-    let answer = BladeMesh::from_veins(&ellipse(24.0, 60.0, 120), &[], &form);
+    let answer = BladeMesh::from_veins(&ellipse(24.0, 60.0, 120), &[], ConformalMap::FLAT, &form);
     assert!(matches!(answer, Err(BladeError::TooFine { .. })));
 }
 
@@ -188,7 +194,7 @@ fn a_blade_curled_into_itself_is_refused() {
         max_edge_mm: 2.0,
         ..flat()
     };
-    let answer = BladeMesh::from_veins(&ellipse(60.0, 60.0, 120), &[], &form);
+    let answer = BladeMesh::from_veins(&ellipse(60.0, 60.0, 120), &[], ConformalMap::FLAT, &form);
     assert!(
         matches!(answer, Err(BladeError::TurnedOver { .. })),
         "{answer:?}"
@@ -234,7 +240,7 @@ proptest! {
         let form = BladeForm {
             relief, fold, curl, ruffle, ruffle_waves: 4.0, max_edge_mm: 1.5, ..flat()
         };
-        let mesh = BladeMesh::from_veins(&outline, &veins, &form).expect("gently bent");
+        let mesh = BladeMesh::from_veins(&outline, &veins, ConformalMap::FLAT, &form).expect("gently bent");
         prop_assert_eq!(mesh.validate(outline.area()), Ok(()));
         let pointed = mesh.triangles.iter().filter(|t| smallest_angle(&mesh, t) < 15.0).count();
         // The margin's own corners may be sharper; there are fewer of them than of its points.

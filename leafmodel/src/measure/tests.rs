@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
 use super::*;
 use crate::venation::testing::{hexagons, network, poplar, rectangle, squares, wide};
 
@@ -290,6 +293,36 @@ fn every_key_is_used_once_and_carries_its_unit() {
             entry.key,
             entry.unit
         );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(100) })]
+
+    #[test]
+    fn scribbles_with_any_widths_and_orders_have_finite_measures(
+        at in prop::collection::vec((0_i32..60, 0_i32..60), 2..30),
+        chords in prop::collection::vec((0_u32..30, 0_u32..30, 0.001..2.0_f64, 1_u8..5), 0..40),
+        exponent in 0.1..20.0_f64,
+    ) {
+        let places: Vec<DVec2> = at.iter().map(|&(x, y)| DVec2::new(f64::from(x), f64::from(y)) * 0.1).collect();
+        let count = places.len() as u32;
+        let mut edges: Vec<(u32, u32, f64, u8)> = chords
+            .iter()
+            .map(|&(a, b, radius, order)| ((a % count).min(b % count), (a % count).max(b % count), radius, order))
+            .filter(|e| places[e.0 as usize] != places[e.1 as usize])
+            .collect();
+        edges.sort_by_key(|e| (e.0, e.1));
+        edges.dedup_by_key(|e| (e.0, e.1));
+        let measures = measure(&rectangle((0.0, 0.0), (6.0, 6.0)), &wide(&places, &edges), exponent);
+        for entry in measures.entries() {
+            let fine = match &entry.value {
+                Value::Count(_) | Value::Number(None) => true,
+                Value::Number(Some(number)) => number.is_finite() && *number >= 0.0,
+                Value::List(list) => list.iter().all(|number| number.is_finite() && *number >= 0.0),
+            };
+            prop_assert!(fine, "{entry:?}");
+        }
     }
 }
 

@@ -179,6 +179,7 @@ impl Oracle<'_> {
         Grown {
             margin: scaled(&self.lamina.margin_now(), margin),
             apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+            map_apex: self.lamina.blade.apex() * veins,
             positions: scaled(&self.nodes, veins),
             births: self.births.clone(),
             edges,
@@ -209,7 +210,14 @@ impl Oracle<'_> {
             .collect();
         let apex = self.lamina.now_of_full_grown(self.lamina.blade.apex()) * scale;
         let unit = clock.stage(0).unit;
-        for round in arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed) {
+        let rounds = arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed);
+        let (last, pattern) = (rounds.len() - 1, self.plan.pattern);
+        for (number, round) in rounds.into_iter().enumerate() {
+            self.plan.pattern = if number < last {
+                Pattern::Open
+            } else {
+                pattern
+            };
             for place in round {
                 if self.lamina.contains(place) {
                     self.add_source(place);

@@ -1,9 +1,10 @@
 //! Where secondary veins are to meet in arches: sources laid out before those that chance throws.
 //!
-//! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins the next. Two
-//! rounds of sources bring that about under the ordinary rules of closed patterns. The first draws the midrib to the apex and secondaries
-//! to places at regular distances along a line inside the margin, where auxin peaks form in young leaves. The second lies
-//! between neighbouring ends, a little nearer to the margin: each source draws the two veins beside it, which join there.
+//! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins the next. Rounds of
+//! sources bring that about under the ordinary rules, one round after the other is used up. Under the rule of open patterns, the
+//! first draws the midrib; the next ones draw every secondary along a curve, out and up to its place on a line inside the margin,
+//! as peaks of auxin do that the growing lamina carries outward. The last, under the rule of closed patterns, lies between
+//! neighbouring ends, where each source draws the two veins beside it, and they join.
 //!
 //! # Source
 //!
@@ -17,6 +18,12 @@ use super::plan::MarginClearance;
 
 /// Share of the distance between neighbouring places by which chance moves each.
 const JITTER: f64 = 0.25;
+
+/// Rounds in which a secondary vein grows to its end.
+const LEGS: u32 = 8;
+
+/// How far along the midrib a secondary rises, over how far it reaches away from it.
+const RISE: f64 = 0.8;
 
 /// The margin from base to apex on one side, and its length up to each corner.
 struct Side {
@@ -59,14 +66,14 @@ impl Side {
     }
 }
 
-/// The two rounds of sources for a blade with this margin (counter-clockwise), all in one frame.
+/// The rounds of sources for a blade with this margin (counter-clockwise), all in one frame.
 pub(crate) fn rounds(
     rule: &MarginClearance,
     margin: &[DVec2],
     base: DVec2,
     apex: DVec2,
     seed: u64,
-) -> [Vec<DVec2>; 2] {
+) -> Vec<Vec<DVec2>> {
     let nearest = |p: DVec2| {
         let squared = |i: &usize| (margin[*i] - p).length_squared();
         (0..margin.len())
@@ -93,8 +100,9 @@ pub(crate) fn rounds(
         })
     };
     let ends = f64::from(rule.arches);
-    let mut first = vec![apex - (apex - base).normalize_or_zero() * distance];
-    let mut second = Vec::new();
+    let up = (apex - base).normalize_or_zero();
+    let mut rounds = vec![vec![apex - up * distance]];
+    rounds.resize(LEGS as usize + 2, Vec::new());
     for (number, side) in [right, left].into_iter().enumerate() {
         if side.points.len() < 2 {
             continue;
@@ -104,10 +112,63 @@ pub(crate) fn rounds(
             let jitter = JITTER * (uniform(seed, Use::Arch, counter) - 0.5);
             (k + 0.5 + jitter) / ends
         };
-        let shares: Vec<f64> = (0..rule.arches).map(|k| place(f64::from(k))).collect();
-        first.extend(shares.iter().map(|&share| side.inside(share, distance)));
+        let reach = |end: DVec2| (end - base).perp_dot(up);
+        // Where the leaf is narrow there is no room for an arch.
+        let has_room = |end: DVec2| clear(&end) && reach(end).abs() >= 1.5 * distance;
+        let shares: Vec<f64> = (0..rule.arches)
+            .map(|k| place(f64::from(k)))
+            .filter(|&share| has_room(side.inside(share, distance)))
+            .collect();
+        for &share in &shares {
+            let end = side.inside(share, distance);
+            let (height, reach) = ((end - base).dot(up), reach(end));
+            let rise = (RISE * reach.abs()).min(0.9 * height).max(0.0);
+            let start = base + up * (height - rise);
+            // First mostly outward, at last mostly upward.
+            let bend = start + up * (0.4 * rise) - up.perp() * (0.8 * reach);
+            for leg in 1..=LEGS {
+                let t = f64::from(leg) / f64::from(LEGS);
+                let (from, to) = (start.lerp(bend, t), bend.lerp(end, t));
+                rounds[leg as usize].push(from.lerp(to, t));
+            }
+        }
         let between = shares.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        second.extend(between.map(|share| side.inside(share, 0.8 * distance)));
+        let arches = between.map(|share| side.inside(share, 0.8 * distance));
+        rounds[LEGS as usize + 1].extend(arches.filter(clear));
     }
-    [first, second].map(|places| places.into_iter().filter(clear).collect())
+    rounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_lie_along_the_margin_at_their_distance_on_both_sides() {
+        let margin: Vec<DVec2> = (0..400)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0 - std::f64::consts::FRAC_PI_2)
+            .map(|a| DVec2::new(30.0 * libm::cos(a), 50.0 + 50.0 * libm::sin(a)))
+            .collect();
+        let rule = MarginClearance {
+            distance: 0.05,
+            until: 0.5,
+            arches: 6,
+        };
+        let apex = DVec2::new(0.0, 100.0);
+        let rounds = rounds(&rule, &margin, DVec2::ZERO, apex, 3);
+        assert_eq!(rounds.len(), 10);
+        assert_eq!(rounds[0], [DVec2::new(0.0, 95.0)]);
+        // The two ends next to the apex have no room.
+        assert_eq!((rounds[8].len(), rounds[9].len()), (10, 8));
+        for (places, wanted) in [(&rounds[8], 5.0), (&rounds[9], 4.0)] {
+            for p in places {
+                let near = margin
+                    .iter()
+                    .map(|q| (*q - *p).length())
+                    .fold(f64::MAX, f64::min);
+                assert!((near - wanted).abs() < 0.5, "{p} is {near} from the margin");
+            }
+        }
+        assert_eq!(rounds[8].iter().filter(|p| p.x > 0.0).count(), 5);
+    }
 }

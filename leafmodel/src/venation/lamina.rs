@@ -1,12 +1,11 @@
 //! The lamina that veins grow on: where it ends, and how long a segment is at each place.
 //!
-//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its conformal map: angles are
-//! true there, and a length at `p` appears enlarged by the same factor in every direction. For Gaussian curvature
-//! `K` everywhere that factor is `1 + K r²/4`, with the distance `r` from the map's centre (the stereographic projection
-//! of a sphere for `K > 0`, the Poincaré disc for `K < 0`). Segments, birth and kill distances are multiplied by it.
+//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its conformal map
+//! ([`super::conformal_map`]): segments, birth and kill distances are multiplied by the map's enlargement at the place.
 
 use glam::DVec2;
 
+use super::conformal_map::ConformalMap;
 use super::plan::VenationPlan;
 use crate::shape::growth::TissueMap;
 use crate::shape::outline::Outline;
@@ -18,10 +17,8 @@ pub(crate) struct Lamina<'a> {
     pub(crate) blade: &'a Outline,
     /// How tissue moves, if growth is anisotropic: its map at this step and at the end.
     carried: Option<(TissueMap, TissueMap)>,
-    /// `K/4` in segments⁻².
-    quarter_curvature: f64,
-    /// Middle of the midrib, where the conformal map is true to scale.
-    centre: DVec2,
+    /// The map that this frame is of the blade.
+    map: ConformalMap,
     /// The smallest upright rectangle around the blade now.
     bounds: (DVec2, DVec2),
 }
@@ -33,8 +30,10 @@ impl<'a> Lamina<'a> {
         Self {
             blade,
             carried: last.map(|last| (last.clone(), last)),
-            quarter_curvature: 0.25 * plan.gaussian_curvature / (length * length),
-            centre: (blade.base() + blade.apex()) * 0.5,
+            map: ConformalMap::new(
+                plan.gaussian_curvature / (length * length),
+                (blade.base() + blade.apex()) * 0.5,
+            ),
             bounds: blade.bounds(),
         }
     }
@@ -109,7 +108,7 @@ impl<'a> Lamina<'a> {
 
     /// Whether the blade has no curvature.
     pub(crate) fn is_flat(&self) -> bool {
-        self.quarter_curvature == 0.0
+        self.map.is_flat()
     }
 
     /// How many times as many darts the map needs as its area tells, ≥ 1: as many as where it shrinks most.
@@ -129,6 +128,6 @@ impl<'a> Lamina<'a> {
 
     /// How much larger lengths at `p` appear in the map than they are, > 0; 1 on a flat blade.
     pub(crate) fn enlargement(&self, p: DVec2) -> f64 {
-        1.0 + self.quarter_curvature * (p - self.centre).length_squared()
+        self.map.enlargement(p)
     }
 }

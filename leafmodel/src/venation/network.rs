@@ -11,6 +11,8 @@
 use glam::DVec2;
 use thiserror::Error;
 
+use super::conformal_map::ConformalMap;
+
 /// How far from the origin a node of a network from elsewhere may lie in x and y, mm: a kilometre.
 const FARTHEST_MM: f64 = 1e6;
 
@@ -67,6 +69,7 @@ pub enum Ending {
 pub struct VenationNetwork {
     pub(crate) nodes: Vec<VeinNode>,
     pub(crate) edges: Vec<VeinEdge>,
+    pub(crate) map: ConformalMap,
     pub(crate) origins: u32,
     pub(crate) steps: u32,
     pub(crate) sources: u32,
@@ -164,6 +167,7 @@ impl VenationNetwork {
         let network = Self {
             nodes,
             edges,
+            map: ConformalMap::FLAT,
             origins,
             steps,
             sources: 0,
@@ -193,6 +197,11 @@ impl VenationNetwork {
             radius_to: edge.radius_to,
             order: edge.order,
         })
+    }
+
+    /// The map of the blade in which positions, lengths and radii are given; flat but for curved blades.
+    pub fn map(&self) -> ConformalMap {
+        self.map
     }
 
     /// How many nodes, the first ones, veins started from, ≥ 1.
@@ -266,8 +275,12 @@ impl VenationNetwork {
                 return Err(NetworkError::BadEdge { edge });
             }
             let (from, to) = (self.nodes[e.from as usize], self.nodes[e.to as usize]);
-            let radii =
-                e.radius_from.is_finite() && e.radius_to > 0.0 && e.radius_from >= e.radius_to;
+            // On the blade, not in its map; what is equal there may differ by rounding here.
+            let on_blade =
+                |radius: f64, node: &VeinNode| radius / self.map.enlargement(node.position);
+            let (start, end) = (on_blade(e.radius_from, &from), on_blade(e.radius_to, &to));
+            let slack = if self.map.is_flat() { 1.0 } else { 1.0 + 1e-12 };
+            let radii = start.is_finite() && end > 0.0 && start * slack >= end;
             if !(radii && from.position.is_finite() && to.position.is_finite()) {
                 return Err(NetworkError::BadNumber { edge });
             }
@@ -296,5 +309,86 @@ impl VenationNetwork {
             Ok(_) => Ok(()),
             Err(node) => Err(NetworkError::Circle { node }),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parts(
+        positions: &[(f64, f64)],
+        edges: &[(u32, u32, f64, f64)],
+    ) -> Result<VenationNetwork, NetworkError> {
+        let nodes = positions.iter().zip(3..).map(|(&p, born)| VeinNode {
+            position: p.into(),
+            born,
+        });
+        let edges = edges
+            .iter()
+            .map(|&(from, to, radius_from, radius_to)| VeinEdge {
+                from,
+                to,
+                radius_from,
+                radius_to,
+                order: 1,
+            });
+        VenationNetwork::from_parts(nodes.collect(), edges.collect(), 0.5)
+    }
+
+    #[test]
+    fn a_network_from_elsewhere_keeps_its_parts() {
+        let network = parts(
+            &[(0.0, 0.0), (0.0, 1.0), (1.0, 2.0)],
+            &[(0, 1, 0.2, 0.1), (1, 2, 0.1, 0.1)],
+        );
+        let network = network.expect("nothing is wrong with it");
+        assert_eq!(
+            (network.steps(), network.sources(), network.segment_mm()),
+            (5, 0, 0.5)
+        );
+        assert_eq!((network.components(), network.loops()), (1, 0));
+        assert_eq!(network.vein_length_mm(), 1.0 + 2.0_f64.sqrt());
+    }
+
+    #[test]
+    fn each_fault_of_a_network_from_elsewhere_has_its_error() {
+        let two = [(0.0, 0.0), (0.0, 1.0)];
+        let far = NetworkError::FarNode { node: 1 };
+        for place in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (0.0, -2e6)] {
+            assert_eq!(parts(&[(0.0, 0.0), place], &[]), Err(far.clone()));
+        }
+        assert_eq!(
+            parts(&two, &[(0, 2, 1.0, 1.0)]),
+            Err(NetworkError::BadEdge { edge: 0 })
+        );
+        assert_eq!(
+            parts(&two, &[(1, 1, 1.0, 1.0)]),
+            Err(NetworkError::BadEdge { edge: 0 })
+        );
+        for (from, to) in [
+            (1.0, 2.0),
+            (1.0, 0.0),
+            (f64::NAN, 1.0),
+            (f64::INFINITY, 1.0),
+            (1.0, f64::NAN),
+        ] {
+            assert_eq!(
+                parts(&two, &[(0, 1, from, to)]),
+                Err(NetworkError::BadNumber { edge: 0 })
+            );
+        }
+        let same = parts(&[(1.0, 1.0), (1.0, 1.0)], &[(0, 1, 1.0, 1.0)]);
+        assert_eq!(same, Err(NetworkError::NoLength { edge: 0 }));
+        let twice = parts(&two, &[(0, 1, 1.0, 1.0), (1, 0, 1.0, 1.0)]);
+        assert_eq!(twice, Err(NetworkError::Twice { edge: 1 }));
+        let ring = [(0, 1, 1.0, 1.0), (1, 2, 1.0, 1.0), (2, 0, 1.0, 1.0)];
+        let ring = parts(&[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)], &ring);
+        assert_eq!(ring, Err(NetworkError::Circle { node: 0 }));
+        for value in [0.0, -1.0, f64::INFINITY] {
+            let bad = VenationNetwork::from_parts(Vec::new(), Vec::new(), value);
+            assert_eq!(bad, Err(NetworkError::BadSegment { value }));
+        }
+        assert!(VenationNetwork::from_parts(Vec::new(), Vec::new(), f64::NAN).is_err());
     }
 }

@@ -11,6 +11,8 @@
 
 mod contacts;
 mod grid;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec2;
 
@@ -32,12 +34,14 @@ impl PlaneGraph {
     /// like length.
     pub fn new(network: &VenationNetwork) -> Self {
         let (mut nodes, mut edges) = in_rows(network);
-        let mut grid = EdgeGrid::new(&nodes, &edges);
-        let found = contacts::find(&nodes, &edges, &grid);
+        let length = |e: &VeinEdge| (nodes[e.to as usize] - nodes[e.from as usize]).length();
+        let mean_length = edges.iter().map(length).sum::<f64>() / (edges.len() as f64).max(1.0);
+        let mut grid = EdgeGrid::new(&nodes, &edges, mean_length);
+        let found = contacts::find(&nodes, &edges, &grid, mean_length);
         let crossings = found.crossings();
         if !found.are_none() {
             contacts::cut(&mut nodes, &mut edges, found);
-            grid = EdgeGrid::new(&nodes, &edges);
+            grid = EdgeGrid::new(&nodes, &edges, mean_length);
         }
         Self {
             nodes,

@@ -177,18 +177,22 @@ impl<'a, I: Influence> Simulation<'a, I> {
             ending,
             margin: scaled(&self.lamina.margin_now(), margin),
             apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,
+            map_apex: self.lamina.blade.apex() * veins,
         }
     }
 
-    /// Steps until nothing is left to do, and calls `look` before the first step and after each.
+    /// Adds what there is now to `young` if its step is one of `steps`.
+    pub(crate) fn remember(&self, steps: &[u32], young: &mut Vec<Grown>) {
+        if steps.contains(&self.step) {
+            young.push(self.state(Ending::StepLimit));
+        }
+    }
+
+    /// Steps until nothing is left to do, and calls `look` after each step.
     pub(crate) fn run(&mut self, mut look: impl FnMut(&Self)) -> Ending {
         let growth = f64::from(self.clock.last_growth_step());
         // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets there.
         let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
-        look(self);
-        if self.step == 0 {
-            self.lay_out_arches(&mut look);
-        }
         while self.step < limit {
             let grown = self.advance();
             look(self);
@@ -336,35 +340,64 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Before the lamina grows: secondary veins that meet in arches, if the plan asks for them.
-    fn lay_out_arches(&mut self, look: &mut impl FnMut(&Self)) {
-        let Some(rule) = self.plan.margin_clearance.filter(|rule| rule.arches > 0) else {
-            return;
-        };
+    /// Before the lamina grows: lets sources at `places` draw veins until they are used up, and calls `look` after each
+    /// step.
+    pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self)) {
         self.is_laying_out = true;
-        let (margin, apex) = self.young_margin();
-        // Far more than a vein takes to cross the young leaf.
-        let most = 1000 + (50.0 * self.plan.final_length) as u32;
-        for round in arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed) {
-            self.notice();
-            for place in round
-                .into_iter()
-                .filter(|&p| self.lamina.contains(p))
-                .collect::<Vec<_>>()
-            {
+        self.notice();
+        for &place in places {
+            if self.lamina.contains(place) {
                 self.add_source(place);
             }
-            let (end, mut idle) = (self.step + most, 0);
-            while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
-                idle = if self.advance() == 0 { idle + 1 } else { 0 };
-                look(self);
-            }
-            for source in self.sources.drain(..) {
-                self.source_tree.remove(source.id, source.place);
-            }
+        }
+        // Far more than a vein takes to cross the young leaf.
+        let end = self.step + 1000 + (50.0 * self.plan.final_length) as u32;
+        let mut idle = 0;
+        while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
+            idle = if self.advance() == 0 { idle + 1 } else { 0 };
+            look(self);
+        }
+        for source in self.sources.drain(..) {
+            self.source_tree.remove(source.id, source.place);
         }
         self.is_laying_out = false;
         self.first_step = self.step;
+    }
+
+    /// The rounds of sources that lay out arches, if the plan asks for them.
+    pub(crate) fn arch_rounds(&self) -> Vec<Vec<DVec2>> {
+        match self.plan.margin_clearance {
+            Some(rule) if rule.arches > 0 => {
+                let (margin, apex) = self.young_margin();
+                arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed)
+            }
+            Some(_) | None => Vec::new(),
+        }
+    }
+
+    /// The same veins under sources of another kind; those there are given up.
+    pub(crate) fn under<J: Influence>(self) -> Simulation<'a, J> {
+        Simulation {
+            plan: self.plan,
+            lamina: self.lamina,
+            seed: self.seed,
+            clock: self.clock,
+            darts: self.darts,
+            veins: self.veins,
+            sources: Vec::new(),
+            source_tree: self.source_tree,
+            workspace: self.workspace,
+            origins: self.origins,
+            first_step: self.first_step,
+            is_laying_out: self.is_laying_out,
+            noticed: self.noticed,
+            sources_born: self.sources_born,
+            step: self.step,
+            idle_steps: self.idle_steps,
+            darts_in_vain: self.darts_in_vain,
+            pulls: self.pulls,
+            is_driven: self.is_driven,
+        }
     }
 
     /// Margin and apex at the start, in the frame of the simulation.

@@ -32,11 +32,14 @@ impl Contacts {
 }
 
 /// Compares all pairs of edges that share a cell of the grid.
-pub(super) fn find(nodes: &[DVec2], edges: &[VeinEdge], grid: &EdgeGrid) -> Contacts {
-    let length = |e: &VeinEdge| (nodes[e.to as usize] - nodes[e.from as usize]).length();
-    let mean = edges.iter().map(length).sum::<f64>() / (edges.len() as f64).max(1.0);
+pub(super) fn find(
+    nodes: &[DVec2],
+    edges: &[VeinEdge],
+    grid: &EdgeGrid,
+    mean_length: f64,
+) -> Contacts {
     let mut contacts = Contacts {
-        slack: SLACK * mean,
+        slack: SLACK * mean_length,
         ..Contacts::default()
     };
     let slack = DVec2::splat(contacts.slack);

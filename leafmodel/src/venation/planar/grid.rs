@@ -97,34 +97,29 @@ pub(crate) struct EdgeGrid {
 }
 
 impl EdgeGrid {
-    pub(crate) fn new(nodes: &[DVec2], edges: &[VeinEdge]) -> Self {
+    /// Sorts edges, whose mean length is given, into cells.
+    pub(crate) fn new(nodes: &[DVec2], edges: &[VeinEdge], mean_length: f64) -> Self {
         let ends = |edge: &VeinEdge| (nodes[edge.from as usize], nodes[edge.to as usize]);
-        let total: f64 = edges
-            .iter()
-            .map(|edge| {
-                let (a, b) = ends(edge);
-                (b - a).length()
-            })
-            .sum();
-        let least = total / (edges.len() as f64).max(1.0);
         let points = edges.iter().flat_map(|edge| <[DVec2; 2]>::from(ends(edge)));
-        let lattice = Lattice::around(points, edges.len(), least);
+        let lattice = Lattice::around(points, edges.len(), mean_length);
         let mut starts = vec![0_u32; lattice.cells() + 1];
-        for edge in edges {
+        let mut listed: Vec<(u32, u32)> = Vec::with_capacity(2 * edges.len());
+        for (number, edge) in (0..).zip(edges) {
             let (a, b) = ends(edge);
-            lattice.along(a, b, |cell| starts[cell + 1] += 1);
+            lattice.along(a, b, |cell| {
+                starts[cell + 1] += 1;
+                listed.push((cell as u32, number));
+            });
         }
         for cell in 1..starts.len() {
             starts[cell] += starts[cell - 1];
         }
         let mut next = starts.clone();
-        let mut sorted = vec![0; starts[lattice.cells()] as usize];
-        for (number, edge) in edges.iter().enumerate() {
-            let (a, b) = ends(edge);
-            lattice.along(a, b, |cell| {
-                sorted[next[cell] as usize] = number as u32;
-                next[cell] += 1;
-            });
+        let mut sorted = vec![0; listed.len()];
+        for (cell, number) in listed {
+            let at = &mut next[cell as usize];
+            sorted[*at as usize] = number;
+            *at += 1;
         }
         Self {
             lattice,
@@ -271,7 +266,7 @@ mod tests {
         ) {
             let nodes: Vec<DVec2> = places.into_iter().map(DVec2::from).collect();
             let edges: Vec<VeinEdge> = (1..nodes.len() as u32).map(|to| edge(to / 2, to)).collect();
-            let grid = EdgeGrid::new(&nodes, &edges);
+            let grid = EdgeGrid::new(&nodes, &edges, 5.0);
             let p = DVec2::new(x, y);
             let ends = |e: &VeinEdge| (nodes[e.from as usize], nodes[e.to as usize]);
             let nearest = edges.iter().map(|e| squared_distance(p, ends(e).0, ends(e).1)).fold(f64::INFINITY, f64::min);

@@ -1,0 +1,59 @@
+//! Presets for what section 7 of Runions et al. 2005 asks for.
+
+use super::{contours, green_leaf};
+use crate::leaf::LeafPlan;
+use crate::venation::plan::{FreeEndings, Growth, MarginClearance, VenationPlan};
+
+/// A closed net on isogonic growth that starts with a leaf long enough for its secondaries to form together.
+fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> VenationPlan {
+    VenationPlan {
+        final_length,
+        source_birth_distance: 3.5,
+        vein_birth_distance: 3.5,
+        darts_per_area: 0.01,
+        growth: Growth::Isogonic {
+            initial_length,
+            length_step: 2.0,
+        },
+        murray_exponent: 2.3,
+        veinlet_radius_mm: veinlet_mm,
+        ..VenationPlan::default()
+    }
+}
+
+pub(super) fn brochidodromous() -> LeafPlan {
+    let venation = VenationPlan {
+        source_birth_distance: 4.0,
+        vein_birth_distance: 4.0,
+        murray_exponent: 3.2,
+        margin_clearance: Some(MarginClearance {
+            distance: 0.08,
+            until: 0.4,
+            arches: 8,
+        }),
+        ..net(500.0, 100.0, 0.025)
+    };
+    green_leaf(80.0, 2, contours::broad_elliptic(), venation)
+}
+
+pub(super) fn free_endings() -> LeafPlan {
+    let venation = VenationPlan {
+        source_birth_distance: 5.0,
+        vein_birth_distance: 5.0,
+        free_endings: Some(FreeEndings {
+            birth_distance: 1.4,
+            kill_distance: 0.8,
+            darts_per_area: 0.25,
+        }),
+        ..net(260.0, 60.0, 0.006)
+    };
+    green_leaf(25.0, 1, contours::ovate(), venation)
+}
+
+pub(super) fn cupped() -> LeafPlan {
+    let venation = VenationPlan {
+        gaussian_curvature: 6.0,
+        ..net(300.0, 60.0, 0.012)
+    };
+    green_leaf(60.0, 1, contours::orbicular(), venation)
+}
