@@ -51,6 +51,18 @@ pub enum OutlinePlanError {
         /// What is wrong with the path.
         problem: OutlineError,
     },
+    /// An end of the midrib lies off the path.
+    #[error("the {end} ({x}, {y}) lies neither on the path of \"{file}\" nor inside it")]
+    SvgEnd {
+        /// The file's name.
+        file: String,
+        /// `base` or `apex`.
+        end: &'static str,
+        /// Where it lies in the coordinates of the file.
+        x: f64,
+        /// Likewise, downwards.
+        y: f64,
+    },
     /// Teeth.
     #[error(transparent)]
     Teeth(#[from] TeethError),
@@ -79,15 +91,24 @@ impl OutlinePlan {
         let smooth = match &self.contour {
             Contour::GrowthAlgorithm(shape) => shape.grow(length_mm)?,
             Contour::Curve(curve) => curve.grow(length_mm)?,
-            Contour::Svg(contour) => {
-                contour
-                    .grow(length_mm)
-                    .map_err(|problem| OutlinePlanError::Svg {
-                        file: contour.file.clone(),
-                        problem,
-                    })?
-            }
+            Contour::Svg(contour) => contour
+                .grow(length_mm)
+                .map_err(|problem| refused(contour, problem))?,
         };
         Ok(toothed(&smooth, &self.teeth)?)
     }
+}
+
+/// An error in the words of the file that the contour comes from.
+fn refused(contour: &SvgContour, problem: OutlineError) -> OutlinePlanError {
+    let file = contour.file.clone();
+    let OutlineError::OffBlade { end, .. } = problem else {
+        return OutlinePlanError::Svg { file, problem };
+    };
+    let [x, y] = if end == "base" {
+        contour.base
+    } else {
+        contour.apex
+    };
+    OutlinePlanError::SvgEnd { file, end, x, y }
 }

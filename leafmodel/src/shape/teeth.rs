@@ -54,6 +54,11 @@ pub enum TeethError {
         /// How many.
         waves: usize,
     },
+    /// Base and apex have no margin between them to bear teeth.
+    #[error(
+        "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth"
+    )]
+    NoSides,
     /// Teeth run into each other.
     #[error("the toothed margin is none: {0}")]
     NoMargin(#[from] OutlineError),
@@ -165,9 +170,10 @@ impl ToothWave {
 
 /// The outline with teeth: every place of the margin moved outward by the sum of `waves` there.
 ///
-/// Each side is measured along the margin from base to apex. Outward is at right angles to the chord over a quarter of
-/// the shortest tooth before and behind, so that it turns gently where the margin is a polygon. Notches and tips
-/// are corners of the result, as are those of the outline.
+/// Each side is measured along the margin from base to apex. Outward is at right angles to the chord between the places
+/// a quarter of the shortest tooth before and behind, or as far as all waves together are high if that is more: so it turns
+/// gently where the margin is a polygon, and slowly enough that neighbours do not cross in a bay. Notches and tips are
+/// corners of the result, as are those of the outline.
 ///
 /// # Errors
 ///
@@ -182,9 +188,18 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
     let Some(shortest) = waves.iter().map(|wave| wave.per_side).max() else {
         return Ok(outline.clone());
     };
-    let [right, left] = sides(outline);
+    let [right, left] = sides(outline).map(Side::new);
+    let (Some(right), Some(left)) = (right, left) else {
+        return Err(TeethError::NoSides);
+    };
+    let quarter = 0.25 / f64::from(shortest);
+    let highest: f64 = waves
+        .iter()
+        .map(|wave| wave.height * outline.length())
+        .sum();
     let shape = |side: Side, sign: f64| {
-        side.toothed(waves, outline.length(), 0.25 / f64::from(shortest), sign)
+        let reach = quarter.max(highest / side.length).min(0.25);
+        side.toothed(waves, outline.length(), reach, sign)
     };
     let mut margin = shape(right, 1.0);
     let mut back = shape(left, -1.0);
@@ -199,20 +214,30 @@ struct Side {
     points: Vec<DVec2>,
     /// Way along the margin to each point, as a share of the side.
     shares: Vec<f64>,
+    /// The whole way.
+    length: f64,
 }
 
 impl Side {
-    fn new(points: Vec<DVec2>) -> Self {
+    /// A side through these points, unless all are one.
+    fn new(points: Vec<DVec2>) -> Option<Self> {
         let mut length = 0.0;
         let mut shares = vec![0.0];
         for edge in points.windows(2) {
             length += (edge[1] - edge[0]).length();
             shares.push(length);
         }
+        if length <= 0.0 {
+            return None;
+        }
         for share in &mut shares {
             *share /= length;
         }
-        Self { points, shares }
+        Some(Self {
+            points,
+            shares,
+            length,
+        })
     }
 
     /// The place at a share of the side.
@@ -250,8 +275,8 @@ impl Side {
     }
 }
 
-/// The right and the left side of a margin, each from the place nearest to the base to that nearest to the apex.
-fn sides(outline: &Outline) -> [Side; 2] {
+/// Points of the right and the left side of a margin, each from the place nearest to the base to that nearest to the apex.
+fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();
     let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest(points, p));
@@ -270,7 +295,7 @@ fn sides(outline: &Outline) -> [Side; 2] {
     };
     let mut left = walk(&apex, &base);
     left.reverse();
-    [walk(&base, &apex), left].map(Side::new)
+    [walk(&base, &apex), left]
 }
 
 /// A place on a polygon.

@@ -134,7 +134,7 @@ fn carry_out(
 
 /// As much of a leaf as is asked for.
 enum Grown {
-    Veins(Outline, VenationNetwork),
+    Veins(Box<(Outline, VenationNetwork)>),
     Leaf(Box<Leaf>),
 }
 
@@ -146,12 +146,12 @@ impl Grown {
         }
         let outline = plan.grow_outline().map_err(Failure::bad)?;
         let network = plan.grow_veins(&outline).map_err(Failure::bad)?;
-        Ok(Self::Veins(outline, network))
+        Ok(Self::Veins(Box::new((outline, network))))
     }
 
     fn veins(&self) -> (&Outline, &VenationNetwork) {
         match self {
-            Self::Veins(outline, network) => (outline, network),
+            Self::Veins(veins) => (&veins.0, &veins.1),
             Self::Leaf(leaf) => (&leaf.outline, &leaf.network),
         }
     }

@@ -118,6 +118,27 @@ fn saw_teeth_have_upright_sides_towards_the_apex() {
 }
 
 #[test]
+fn high_teeth_do_not_cross_in_a_bay() {
+    // The bay turns by 2 · 45°, and the teeth are as high as its side is long.
+    let corners = [
+        (0.0, 0.0),
+        (2.0, 1.0),
+        (2.0, 4.0),
+        (1.0, 5.0),
+        (2.0, 6.0),
+        (2.0, 9.0),
+        (0.0, 10.0),
+        (-1.0, 5.0),
+    ];
+    let points = corners.map(DVec2::from).to_vec();
+    let outline =
+        Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 10.0)).expect("a leaf with a bay");
+    for height in [0.005, 0.02, 0.08] {
+        assert!(toothed(&outline, &[even(9, height)]).is_ok(), "{height}");
+    }
+}
+
+#[test]
 fn teeth_that_run_into_each_other_are_refused() {
     // A notch one tenth of a millimetre wide, teeth half a millimetre high.
     let corners = [
@@ -136,6 +157,19 @@ fn teeth_that_run_into_each_other_are_refused() {
         toothed(&outline, &[even(24, 0.05)]),
         Err(TeethError::NoMargin(OutlineError::SelfCrossing { .. }))
     ));
+}
+
+#[test]
+fn a_midrib_away_from_the_margin_takes_teeth_if_its_ends_part_it() {
+    let square = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(DVec2::from);
+    let between = |base: (f64, f64), apex: (f64, f64)| {
+        let outline = Outline::new(square.to_vec(), base.into(), apex.into());
+        toothed(&outline.expect("a square"), &[even(5, 0.1)])
+    };
+    let inside = between((0.0, -2.0), (0.0, 2.0)).expect("two sides");
+    assert!(inside.area() > 100.0);
+    // Both ends are nearest to the same place, (5, 0).
+    assert_eq!(between((3.0, 0.0), (4.0, 0.0)), Err(TeethError::NoSides));
 }
 
 #[test]

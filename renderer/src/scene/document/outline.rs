@@ -46,10 +46,15 @@ fn report(outline: &Block<'_>, block: &Block<'_>, error: &OutlinePlanError) {
             "points",
             "give the points in order, so that the curve goes around the blade once",
         ),
+        OutlinePlanError::SvgEnd { end, .. } => (
+            block,
+            *end,
+            "name a point of the contour by its coordinates in the file, y down",
+        ),
         OutlinePlanError::Svg { .. } => (
             block,
             "path",
-            "draw one closed curve that does not cross itself; `base` and `apex` say where the midrib ends",
+            "draw one closed curve that does not cross itself",
         ),
         OutlinePlanError::GrowthAlgorithm(_) | OutlinePlanError::Length { .. } => (
             block,

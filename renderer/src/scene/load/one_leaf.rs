@@ -114,7 +114,7 @@ pub fn load_one_leaf(
         LeafFile::File { leaf: None, .. } => names.first().filter(|_| names.len() == 1),
     };
     let chosen = chosen.cloned();
-    if let Some(name) = &chosen {
+    if let Some(name) = chosen.as_ref().filter(|_| !settings.is_empty()) {
         let known = known_keys(&opened.cx.folder, &opened.tree, name);
         for setting in settings {
             let text = in_full(setting, name, &known)?;
@@ -188,10 +188,27 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::shape::growth_shape::GrowthShape;
+    use leafmodel::shape::outline_plan::Contour;
+    use leafmodel::venation::plan::VenationPlan;
+
     use super::*;
 
     fn set(settings: &[&str]) -> Result<LeafPlan, LeafNotChosen> {
-        let plan = leafmodel::species::find("poplar").expect("a preset").plan();
+        let mut plan = leafmodel::species::find("poplar").expect("a preset").plan();
+        // Whatever the preset has, the keys of these tests are those of these kinds.
+        let shape = GrowthShape {
+            rows: 150,
+            axial_rate: 0.1,
+            rate_ratio: 1.2,
+            widest_at: 0.3,
+            falloff: 3.0,
+            lobe_decay: 0.0,
+            lobe_exponent: 2.0,
+            veins: Vec::new(),
+        };
+        plan.outline = Contour::GrowthAlgorithm(shape).into();
+        plan.venation = VenationPlan::default();
         let file = LeafFile::Plan {
             name: "poplar",
             plan: &plan,
