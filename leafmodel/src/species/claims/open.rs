@@ -44,10 +44,8 @@ fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
     *length_step *= 10.0;
     let (slow, fast) = (lag(&slow), lag(&Grown::of(plan)));
     assert!(slow.iter().all(|&lag| lag < 0.08), "{slow:?}");
-    assert!(
-        slow.iter().zip(&fast).all(|(s, f)| 2.0 * s < *f),
-        "{slow:?} {fast:?}"
-    );
+    let mean = |lags: &[f64]| lags.iter().sum::<f64>() / lags.len() as f64;
+    assert!(2.0 * mean(&slow) < mean(&fast), "{slow:?} {fast:?}");
 }
 
 #[test]
