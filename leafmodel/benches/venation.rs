@@ -9,8 +9,10 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use leafmodel::measure::measure;
 use leafmodel::shape::growth_shape::{GrowthShape, VeinRow};
 use leafmodel::shape::outline::Outline;
+use leafmodel::species::PRESETS;
 use leafmodel::venation::grow;
 use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
 
@@ -98,5 +100,26 @@ fn rows(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(venation, rows);
+/// Every preset of Table 1, and measures of the finest net: areoles and all.
+fn presets(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("presets");
+    group.sample_size(10);
+    for preset in PRESETS {
+        let plan = preset.plan();
+        let outline = plan.grow_outline().expect("a good outline");
+        let grow_it = || grow(&outline, &plan.venation, plan.seed).expect("a good plan");
+        let is_fine = preset.name == "poplar-x10";
+        group.measurement_time(Duration::from_secs(if is_fine { 15 } else { 1 }));
+        group.bench_function(preset.name, |bencher| bencher.iter(grow_it));
+        if is_fine {
+            let network = grow_it();
+            let exponent = plan.venation.murray_exponent;
+            group.bench_function("poplar-x10, measures", |bencher| {
+                bencher.iter(|| measure(&outline, black_box(&network), exponent));
+            });
+        }
+    }
+}
+
+criterion_group!(venation, rows, presets);
 criterion_main!(venation);

@@ -55,5 +55,9 @@ pub(super) fn cupped() -> LeafPlan {
         gaussian_curvature: 6.0,
         ..net(300.0, 60.0, 0.012)
     };
-    green_leaf(60.0, 1, contours::orbicular(), venation)
+    let mut leaf = green_leaf(60.0, 1, contours::orbicular(), venation);
+    // It is bent by its own curvature.
+    leaf.form.fold = 0.0;
+    leaf.form.curl = 0.0;
+    leaf
 }
