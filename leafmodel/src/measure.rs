@@ -113,7 +113,8 @@ impl List {
     }
 
     fn number(&mut self, key: &'static str, unit: &'static str, value: Option<f64>) {
-        let value = Value::Number(value.filter(|v| v.is_finite()));
+        // Adding 0 turns the negative zero of an empty sum into zero.
+        let value = Value::Number(value.filter(|v| v.is_finite()).map(|v| v + 0.0));
         self.entries.push(Entry { key, unit, value });
     }
 

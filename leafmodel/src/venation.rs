@@ -70,6 +70,9 @@ pub enum VenationError {
     /// The plan cannot be carried out.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// The caller did not want to wait any longer.
+    #[error("growing the veins was stopped")]
+    Stopped,
 }
 
 /// Grows the veins of a leaf.
@@ -88,7 +91,21 @@ pub fn grow(
     plan: &VenationPlan,
     seed: u64,
 ) -> Result<VenationNetwork, VenationError> {
-    let (network, _) = develop(outline, plan, seed, &[])?;
+    grow_unless(outline, plan, seed, &|| false)
+}
+
+/// As [`grow`], but gives up when `is_stopped` says so, which is asked after each step.
+///
+/// # Errors
+///
+/// As [`grow`], and [`VenationError::Stopped`].
+pub fn grow_unless(
+    outline: &Outline,
+    plan: &VenationPlan,
+    seed: u64,
+    is_stopped: &dyn Fn() -> bool,
+) -> Result<VenationNetwork, VenationError> {
+    let (network, _) = develop(outline, plan, seed, &[], is_stopped)?;
     Ok(network)
 }
 
@@ -115,7 +132,7 @@ pub fn grow_stages(
     seed: u64,
     steps: &[u32],
 ) -> Result<Vec<Stage>, VenationError> {
-    let (network, mut stages) = develop(outline, plan, seed, steps)?;
+    let (network, mut stages) = develop(outline, plan, seed, steps, &|| false)?;
     stages.sort_by_key(|stage| stage.step);
     let full_grown = Stage {
         step: network.steps(),
@@ -135,12 +152,16 @@ fn develop(
     plan: &VenationPlan,
     seed: u64,
     steps: &[u32],
+    is_stopped: &dyn Fn() -> bool,
 ) -> Result<(VenationNetwork, Vec<Stage>), VenationError> {
     plan.validate()?;
     let blade = in_segments(outline, plan);
     let (lamina, clock) = prepared(&blade, plan)?;
     let segment_mm = outline.length() / plan.final_length;
-    let (grown, young) = carry_out(plan, lamina, clock, seed, steps);
+    let (grown, young) = carry_out(plan, lamina, clock, seed, steps, is_stopped);
+    if is_stopped() {
+        return Err(VenationError::Stopped);
+    }
     let base = outline.base();
     let stage = |grown: Grown| Stage {
         step: grown.steps,
@@ -185,6 +206,7 @@ fn prepared<'b>(
     plan.validate_on(blade)?;
     let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
     let lamina = Lamina::new(plan, blade, clock.tissue_map(u32::MAX));
+    check_young(&lamina, &clock)?;
     check_darts(plan, &lamina, &clock)?;
     Ok((lamina, clock))
 }
@@ -193,14 +215,31 @@ fn prepared<'b>(
 fn check_darts(plan: &VenationPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let (low, high) = lamina.blade.bounds();
     let area = (high - low).x * (high - low).y * lamina.surplus();
+    let steps = clock.last_growth_step();
+    let per_step = plan.darts_per_area * area;
     VenationPlan::validate_darts(match plan.growth {
-        Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => {
-            plan.darts_per_area * area
+        Growth::None => per_step,
+        Growth::Isogonic { .. } => {
+            // The mean of the squared size, which grows linearly up to 1.
+            let size = clock.size(0);
+            per_step * (f64::from(steps) + 1.0) * (1.0 + size + size * size) / 3.0
         }
-        Growth::Marginal { .. } => waiting_darts(plan, lamina, clock.last_growth_step()),
+        Growth::Anisotropic { .. } => per_step * (f64::from(steps) + 1.0),
+        Growth::Marginal { .. } => waiting_darts(plan, lamina, steps),
     })?;
     let free = plan.free_endings.map_or(0.0, |free| free.darts_per_area);
     VenationPlan::validate_darts(free * area)
+}
+
+/// Refuses growth that comes from nowhere: a young leaf far larger than the full-grown one, or without any size.
+fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
+    let Some(first) = clock.tissue_map(0) else {
+        return Ok(());
+    };
+    let size = |(low, high): (DVec2, DVec2)| high - low;
+    let mut young = lamina.clone();
+    young.carry(first);
+    VenationPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
 }
 
 /// A simulation's state, in segments of its time, base at the origin; no widths yet.
@@ -226,15 +265,41 @@ pub(crate) fn carry_out(
     clock: LaminaClock,
     seed: u64,
     steps: &[u32],
+    is_stopped: &dyn Fn() -> bool,
 ) -> (Grown, Vec<Grown>) {
+    let watch = Watch {
+        steps,
+        young: Vec::new(),
+        is_stopped,
+    };
     match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, seed, steps),
+        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, seed, watch),
         Pattern::Closed(Neighbourhood::Relative) => {
-            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, seed, steps)
+            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, seed, watch)
         }
         Pattern::Closed(Neighbourhood::Urquhart) => {
-            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, seed, steps)
+            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, seed, watch)
         }
+    }
+}
+
+/// What looks on while veins grow.
+struct Watch<'a> {
+    /// Steps whose outcome is to be kept.
+    steps: &'a [u32],
+    /// What they brought so far.
+    young: Vec<Grown>,
+    /// Whether to give up.
+    is_stopped: &'a dyn Fn() -> bool,
+}
+
+impl Watch<'_> {
+    /// Keeps the state of a step that is wanted; says whether to go on.
+    fn look<I: Influence>(&mut self, now: &Simulation<'_, I>) -> bool {
+        if self.steps.contains(&now.step) {
+            self.young.push(now.state(Ending::Growing));
+        }
+        !(self.is_stopped)()
     }
 }
 
@@ -243,35 +308,34 @@ fn simulate<I: Influence>(
     lamina: Lamina,
     clock: LaminaClock,
     seed: u64,
-    steps: &[u32],
+    mut watch: Watch<'_>,
 ) -> (Grown, Vec<Grown>) {
-    let mut young = Vec::new();
     let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
-    simulation.remember(steps, &mut young);
+    watch.look(&simulation);
     let mut rounds = simulation.arch_rounds();
     if let Some(arches) = rounds.pop() {
         // Secondaries end freely at first and join later (\[scarpella2004\]).
         let mut free = simulation.under::<NearestNode>();
         for round in rounds {
-            free.lay_out(&round, |now| now.remember(steps, &mut young));
+            free.lay_out(&round, |now| watch.look(now));
         }
         simulation = free.under();
-        simulation.lay_out(&arches, |now| now.remember(steps, &mut young));
+        simulation.lay_out(&arches, |now| watch.look(now));
     }
-    let mut ending = simulation.run(|now| now.remember(steps, &mut young));
+    let mut ending = simulation.run(|now| watch.look(now));
     let grown = match &plan.free_endings {
         None => simulation.state(ending),
         Some(free) => {
             let rest = free.as_plan(plan);
             let mut veinlets = simulation.with_free_endings(&rest, free);
-            let last = veinlets.run(|now| now.remember(steps, &mut young));
-            if last == Ending::StepLimit {
+            let last = veinlets.run(|now| watch.look(now));
+            if last != Ending::Settled {
                 ending = last;
             }
             veinlets.state(ending)
         }
     };
-    (grown, young)
+    (grown, watch.young)
 }
 
 impl Grown {

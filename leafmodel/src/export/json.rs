@@ -23,6 +23,7 @@ pub fn json(outline: &Outline, network: &VenationNetwork, with_areoles: bool) ->
     });
     let ending = match network.ending() {
         Ending::Settled => "settled",
+        Ending::Growing => "growing",
         Ending::StepLimit => "step limit",
     };
     let nodes = |value: fn(&VeinNode) -> Value| column(network.nodes(), value);

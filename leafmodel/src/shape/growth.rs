@@ -153,7 +153,7 @@ impl RateCurve {
 #[derive(Clone, Debug)]
 pub(crate) struct TissueMap {
     initial_length: f64,
-    /// `RERGx` at the middle of each cell's ends: `(1 + gx)^t` on the grid, linear between.
+    /// Stretch across the leaf, `(1 + gx)^t`, at each grid line.
     widths: Vec<f64>,
     /// Height over the base of each grid line.
     heights: Vec<f64>,

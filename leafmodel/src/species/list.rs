@@ -76,14 +76,14 @@ pub static PRESETS: &[Preset] = &[
     },
     Preset {
         name: "alchemilla",
-        about: "Fig. 11: lady's mantle. Primaries radiate from the petiole into a rounded blade",
+        about: "Fig. 11: lady's mantle. Major veins radiate from the petiole into a rounded blade",
         source: "Table 1 of Runions et al. 2005, 10 units to a segment; outline by eye",
         row: Some(&runions::ALCHEMILLA),
         plan: runions::alchemilla,
     },
     Preset {
         name: "sweetgum",
-        about: "Fig. 12: a primary vein into each lobe of a digitate blade",
+        about: "Fig. 12: a major vein into each lobe of a digitate blade",
         source: "Table 1 of Runions et al. 2005, 10 units to a segment; outline by eye",
         row: Some(&runions::SWEETGUM),
         plan: runions::sweetgum,
@@ -146,7 +146,7 @@ pub static PRESETS: &[Preset] = &[
     },
     Preset {
         name: "poplar-fine",
-        about: "The poplar with segments a third as long: secondaries curve as in the figure",
+        about: "The poplar with segments a third as long: smoother secondaries, a finer net",
         source: "Table 1 of Runions et al. 2005, 3 units to a segment; outline by eye",
         row: None,
         plan: runions::poplar_fine,

@@ -176,7 +176,7 @@ pub(super) static DEVELOPMENTAL: Row = Row {
     initial_length: 23.0,
     final_length: 184.0,
     growth: RowGrowth::Nonuniform(
-        &[[0.0, 0.022], [0.4, 0.028], [1.0, 0.016]],
+        &[[0.0, 0.024], [1.0, 0.02]],
         &[[0.0, 0.015], [0.5, 0.012], [1.0, 0.008]],
     ),
     darts: 5000.0,
@@ -226,7 +226,7 @@ pub(super) fn ginkgo() -> LeafPlan {
     const COARSER: f64 = 10.0;
     let venation = VenationPlan {
         kill_distance: GINKGO.kill_distance / COARSER,
-        darts_per_area: GINKGO.darts * 1e-6 * COARSER * COARSER,
+        darts_per_area: GINKGO.darts / 1e6 * COARSER * COARSER,
         growth: Growth::Marginal {
             initial_length: GINKGO.initial_length / GINKGO.leaf_unit,
             length_step: 1.0,

@@ -52,7 +52,7 @@ impl Row {
             kill_distance: self.kill_distance,
             source_birth_distance: self.birth_distance,
             vein_birth_distance: self.birth_distance,
-            darts_per_area: self.darts * 1e-6,
+            darts_per_area: self.darts / 1e6,
             growth: match self.growth {
                 RowGrowth::None => Growth::None,
                 RowGrowth::Marginal(step) => Growth::Marginal {

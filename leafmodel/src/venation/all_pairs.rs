@@ -1,8 +1,9 @@
 //! The algorithm as the definitions read, by comparing everything with everything: the oracle that the
 //! fast code has to agree with, node for node.
 //!
-//! It shares with the fast code only what is no algorithm: the random numbers, the clock and the map of the
-//! lamina, the outline, and the curve on which stretched edges are cut.
+//! It shares with the fast code what the tests of other modules prove: where darts land and when the margin passes
+//! over them, the clock and the map of the lamina, the outline, where arches are laid out, the curve on which
+//! stretched edges are cut; and the two constants that say when to give up.
 
 use glam::DVec2;
 
@@ -162,7 +163,7 @@ impl Oracle<'_> {
     fn remember(&mut self, clock: &LaminaClock, age: u32) {
         if self.wanted.contains(&self.step) {
             let size = clock.size(age);
-            self.young.push(self.state(size, Ending::StepLimit));
+            self.young.push(self.state(size, Ending::Growing));
         }
     }
 

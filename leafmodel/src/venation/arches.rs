@@ -141,11 +141,12 @@ pub(crate) fn rounds(
             rounds[leg as usize].extend(curves.iter().map(|&curve| at(curve, t)));
         }
         for pair in curves.windows(2) {
-            // Half-way from an end to the outer part of the next vein: both are its relative neighbours there.
+            // Close to the outer part of the next vein, between it and the end: both are its relative neighbours there,
+            // and the vein that comes goes on until it meets the other.
             let end = pair[0][2];
             let outer = (5..=10).map(|i| at(pair[1], 0.1 * f64::from(i)));
             let near = outer.min_by(|p, q| (*p - end).length().total_cmp(&(*q - end).length()));
-            rounds[LEGS as usize + 1].extend(near.map(|near| (end + near) * 0.5));
+            rounds[LEGS as usize + 1].extend(near.map(|near| end.lerp(near, 0.85)));
         }
     }
     rounds

@@ -60,6 +60,8 @@ pub struct VeinEdge {
 pub enum Ending {
     /// No source was left that could still draw a vein.
     Settled,
+    /// It had not come to its end when this was taken: a stage of a leaf, or a leaf whose growth was stopped.
+    Growing,
     /// The pattern had not settled after far more steps than veins need to cross the leaf.
     StepLimit,
 }

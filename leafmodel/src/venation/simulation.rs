@@ -178,21 +178,17 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Adds what there is now to `young` if its step is one of `steps`.
-    pub(crate) fn remember(&self, steps: &[u32], young: &mut Vec<Grown>) {
-        if steps.contains(&self.step) {
-            young.push(self.state(Ending::StepLimit));
-        }
-    }
-
-    /// Steps until nothing is left to do, and calls `look` after each step.
-    pub(crate) fn run(&mut self, mut look: impl FnMut(&Self)) -> Ending {
+    /// Steps until nothing is left to do, or `look`, called after each step,
+    /// says no.
+    pub(crate) fn run(&mut self, mut look: impl FnMut(&Self) -> bool) -> Ending {
         let growth = f64::from(self.clock.last_growth_step());
         // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets there.
         let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
         while self.step < limit {
             let grown = self.advance();
-            look(self);
+            if !look(self) {
+                return Ending::Growing;
+            }
             self.idle_steps = if grown == 0 { self.idle_steps + 1 } else { 0 };
             let last = self.clock.stage(self.age(self.step - 1));
             let nothing_new = !last.still_growing && self.is_saturated();
@@ -335,7 +331,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// Before the lamina grows: lets sources at `places` draw veins until they are used up, and calls `look` after each
     /// step.
-    pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self)) {
+    pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self) -> bool) {
         self.is_laying_out = true;
         self.notice();
         for &place in places {
@@ -348,7 +344,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let mut idle = 0;
         while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
             idle = if self.advance() == 0 { idle + 1 } else { 0 };
-            look(self);
+            if !look(self) {
+                break;
+            }
         }
         for source in self.sources.drain(..) {
             self.source_tree.remove(source.id, source.place);

@@ -15,7 +15,8 @@ use leafmodel::leaf::{Leaf, LeafPlan};
 use leafmodel::measure::measure;
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
-use leafmodel::venation::network::VenationNetwork;
+use leafmodel::venation::network::{Ending, VenationNetwork};
+use leafmodel::venation::{VenationError, grow_unless};
 use serde_json::json;
 
 use self::frames::Page;
@@ -77,7 +78,7 @@ fn carry_out(
         return Ok(());
     }
     let growing = Instant::now();
-    let grown = Grown::new(plan, outputs.blade)?;
+    let grown = Grown::new(plan, outputs.blade, stop)?;
     let build_seconds = growing.elapsed().as_secs_f64();
     let (outline, network) = grown.veins();
     for (path, kind) in &outputs.whole {
@@ -101,6 +102,9 @@ fn carry_out(
         frames::write(plan, outline, network, outputs, count, arguments.size, stop)?;
     }
     if let Some(path) = &arguments.measure {
+        if !network.map().is_flat() {
+            eprintln!("note: the blade is curved; measures are those of its conformal map");
+        }
         let measures = measure(outline, network, plan.venation.murray_exponent);
         eprint!("{}", measures.table());
         finish(path, format!("{:#}\n", measures.json()).as_bytes(), stop)?;
@@ -139,13 +143,36 @@ enum Grown {
 }
 
 impl Grown {
-    fn new(plan: &LeafPlan, blade: bool) -> Result<Self, Failure> {
+    fn new(plan: &LeafPlan, blade: bool, stop: &AtomicBool) -> Result<Self, Failure> {
         if blade {
-            let leaf = Leaf::grow(plan).map_err(Failure::bad)?;
-            return Ok(Self::Leaf(Box::new(leaf)));
+            plan.tissue.validate().map_err(Failure::bad)?;
+            plan.form.validate().map_err(Failure::bad)?;
         }
         let outline = plan.grow_outline().map_err(Failure::bad)?;
-        let network = plan.grow_veins(&outline).map_err(Failure::bad)?;
+        let is_stopped = || stop.load(Ordering::Relaxed);
+        let network = grow_unless(&outline, &plan.venation, plan.seed, &is_stopped);
+        let network = network.map_err(|error| match error {
+            VenationError::Stopped => Failure::Interrupted,
+            VenationError::Plan(_) => Failure::bad(error),
+        })?;
+        match network.ending() {
+            Ending::Settled | Ending::Growing => {}
+            Ending::StepLimit => {
+                eprintln!(
+                    "warning: the pattern had not settled after {} steps",
+                    network.steps()
+                );
+            }
+        }
+        if network.edges().is_empty() {
+            eprintln!(
+                "warning: no vein grew; more darts or smaller birth distances let sources appear"
+            );
+        }
+        if blade {
+            let leaf = Leaf::from_veins(plan, outline, network).map_err(Failure::bad)?;
+            return Ok(Self::Leaf(Box::new(leaf)));
+        }
         Ok(Self::Veins(Box::new((outline, network))))
     }
 

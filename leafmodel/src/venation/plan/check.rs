@@ -1,17 +1,19 @@
 //! What a plan may ask for.
 
+use glam::DVec2;
 use thiserror::Error;
 
 use super::{Growth, Pattern, VenationPlan};
 use crate::shape::growth::GrowthError;
 use crate::shape::outline::Outline;
+use crate::venation::veins::COINCIDENT;
 
 /// A number: its name, its value, least and greatest, and both in words.
 type Check = (&'static str, f64, f64, f64, &'static str);
 
 const DISTANCE: &str = "0.01 to 10000 (segments)";
 
-/// Darts that one step, or the whole of marginal growth, may throw. More would take minutes and add nothing.
+/// Darts that all steps of growth together, or one step without growth, may throw. More would take minutes and add nothing.
 const MOST_DARTS: f64 = 1e8;
 
 /// Why a plan cannot be carried out.
@@ -35,6 +37,22 @@ pub enum PlanError {
         /// Steps that it takes.
         steps: f64,
     },
+    /// A leaf that would start far larger than it ends, or with no width at all.
+    #[error(
+        "with these growth functions the young leaf is {times} times as wide or as long as the full-grown one; 0.000001 to 2 is possible"
+    )]
+    YoungLeaf {
+        /// The worse of the two ratios.
+        times: f64,
+    },
+    /// Two origins in one place.
+    #[error("origins {first} and {second} of the veins lie in one place")]
+    OriginsMeet {
+        /// The first of the two, from 0.
+        first: usize,
+        /// The second.
+        second: usize,
+    },
     /// Two rules that do not go together.
     #[error("{key} does not go together with {other}")]
     Incompatible {
@@ -57,7 +75,7 @@ pub enum PlanError {
         y: f64,
     },
     /// The blade and `darts_per_area` together ask for too many darts.
-    #[error("darts_per_area asks for {darts} darts on this blade, more than 100000000")]
+    #[error("the darts per area ask for {darts:.0} darts on this blade, more than 100000000")]
     TooManyDarts {
         /// How many.
         darts: f64,
@@ -277,6 +295,12 @@ impl VenationPlan {
             let [x, y] = self.origins[index];
             return Err(PlanError::OriginOffBlade { index, x, y });
         }
+        for (second, p) in origins.iter().enumerate() {
+            let near = |q: &DVec2| (*q - *p).length() < COINCIDENT;
+            if let Some(first) = origins[..second].iter().position(near) {
+                return Err(PlanError::OriginsMeet { first, second });
+            }
+        }
         // The map of a saddle ends where lengths vanish.
         let middle = (blade.base() + blade.apex()) * 0.5;
         let (low, high) = blade.bounds();
@@ -291,7 +315,17 @@ impl VenationPlan {
         Ok(())
     }
 
-    /// Checks what `darts` in one go would cost.
+    /// Checks the size of the young leaf over that of the full-grown one, across and along.
+    pub(crate) fn validate_young(ratios: DVec2) -> Result<(), PlanError> {
+        let (low, high) = (ratios.min_element(), ratios.max_element());
+        if low >= 1e-6 && high <= 2.0 {
+            return Ok(());
+        }
+        let times = if high <= 2.0 { low } else { high };
+        Err(PlanError::YoungLeaf { times })
+    }
+
+    /// Checks what `darts` in all would cost.
     pub(crate) fn validate_darts(darts: f64) -> Result<(), PlanError> {
         if darts <= MOST_DARTS {
             Ok(())

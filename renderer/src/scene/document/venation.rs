@@ -182,7 +182,15 @@ fn report(block: &Block<'_>, error: &PlanError) {
             | GrowthError::BadPlace { .. }
             | GrowthError::BadRate { .. },
         ) => (&["growth"], "mend the growth functions"),
-        PlanError::TooManyDarts { .. } => (&["darts_per_segment2"], "use fewer darts"),
+        PlanError::TooManyDarts { .. } => (
+            &["darts_per_segment2"],
+            "use fewer darts, or larger segments or steps",
+        ),
+        PlanError::OriginsMeet { .. } => (&["origins"], "veins start from different places"),
+        PlanError::YoungLeaf { .. } => (
+            &["growth", "across"],
+            "let tissue expand: rates above 0 across and along the leaf, of the same kind",
+        ),
         PlanError::OutOfRange {
             key: "gaussian_curvature",
             ..
