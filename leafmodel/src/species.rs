@@ -11,6 +11,8 @@ mod contours;
 mod list;
 mod runions;
 pub mod table_1;
+mod trees;
+mod trees_contours;
 
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;

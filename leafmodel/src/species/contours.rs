@@ -5,10 +5,10 @@ use crate::shape::outline_plan::{Contour, OutlinePlan};
 use crate::shape::teeth::ToothWave;
 
 /// A point of a contour: across and along, in shares of the midrib's length.
-type Place = (f64, f64);
+pub(super) type Place = (f64, f64);
 
 /// A contour through `places`, smooth but at `corners` (numbers of places).
-fn curve(places: &[Place], corners: &[usize], mirrored: bool) -> Contour {
+pub(super) fn curve(places: &[Place], corners: &[usize], mirrored: bool) -> Contour {
     let point = |(i, &(x, y)): (usize, &Place)| ControlPoint {
         place: [x, y],
         corner: corners.contains(&i),
@@ -20,12 +20,12 @@ fn curve(places: &[Place], corners: &[usize], mirrored: bool) -> Contour {
 }
 
 /// A symmetrical contour with corners at base and apex only.
-fn pointed(places: &[Place]) -> Contour {
+pub(super) fn pointed(places: &[Place]) -> Contour {
     curve(places, &[0, places.len() - 1], true)
 }
 
 /// At `degrees` from the midrib, `radius` from the base.
-fn polar(degrees: f64, radius: f64) -> Place {
+pub(super) fn polar(degrees: f64, radius: f64) -> Place {
     let angle = degrees.to_radians();
     (radius * libm::sin(angle), radius * libm::cos(angle))
 }
@@ -273,7 +273,7 @@ pub(super) fn orbicular() -> OutlinePlan {
 }
 
 /// Teeth all along the margin but for its ends.
-fn teeth(per_side: u32, height: f64, lean: f64) -> ToothWave {
+pub(super) fn teeth(per_side: u32, height: f64, lean: f64) -> ToothWave {
     ToothWave {
         per_side,
         height,

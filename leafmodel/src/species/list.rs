@@ -1,8 +1,9 @@
 //! The presets, in the order in which a list shows them.
 
-use super::{Preset, beyond, runions};
+use super::{Preset, beyond, runions, trees};
 
-/// All presets: the figures of Runions et al. 2005 in their order, then what goes beyond.
+/// All presets: the figures of Runions et al. 2005 in their order, then what goes beyond, then trees
+/// and shrubs.
 pub static PRESETS: &[Preset] = &[
     Preset {
         name: "runions-9a",
@@ -192,5 +193,61 @@ pub static PRESETS: &[Preset] = &[
         source: "ours: Gaussian curvature 6 over the length squared; outline by eye",
         row: None,
         plan: beyond::cupped,
+    },
+    Preset {
+        name: "maple",
+        about: "A maple with five pointed lobes; a primary vein into each",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::maple,
+    },
+    Preset {
+        name: "white-oak",
+        about: "White oak: rounded lobes, pinnate veins",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::white_oak,
+    },
+    Preset {
+        name: "red-oak",
+        about: "Red oak: lobes with bristle-pointed teeth",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::red_oak,
+    },
+    Preset {
+        name: "birch",
+        about: "Silver birch: twice toothed, a vein into each large tooth",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::birch,
+    },
+    Preset {
+        name: "willow",
+        about: "White willow: narrow, finely toothed",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::willow,
+    },
+    Preset {
+        name: "ivy",
+        about: "Ivy: five shallow lobes, thick and dark",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::ivy,
+    },
+    Preset {
+        name: "magnolia",
+        about: "Magnolia: large, leathery, secondaries in arches, veinlets that end freely",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::magnolia,
+    },
+    Preset {
+        name: "croton",
+        about: "Croton, green",
+        source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
+        row: None,
+        plan: trees::croton,
     },
 ];
