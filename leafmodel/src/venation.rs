@@ -30,7 +30,7 @@ mod lamina;
 mod lamina_clock;
 pub mod network;
 mod open;
-mod order;
+pub(crate) mod order;
 pub mod plan;
 pub mod planar;
 mod point_tree;
