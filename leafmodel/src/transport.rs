@@ -14,16 +14,21 @@
 //!
 //! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is settled.
 
+mod blade;
 mod cells;
+mod contour;
 mod cost;
 mod growth;
 mod leaf;
 mod optimiser;
 mod plan;
 mod revenue;
+mod secondaries;
 mod tree;
 
+pub use self::blade::VeinStyle;
 pub use self::cells::Cell;
 pub use self::cost::TransportSystem;
 pub use self::leaf::{Stage, TransportLeaf};
 pub use self::plan::{Ladder, TransportError, TransportPlan};
+pub use self::secondaries::Secondary;

@@ -48,7 +48,7 @@ impl<'a> TransportSystem<'a> {
     }
 
     /// Numbers of all cells so that each comes after its parent.
-    fn root_to_tip(&self) -> Vec<usize> {
+    pub(crate) fn root_to_tip(&self) -> Vec<usize> {
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); self.cells.len()];
         for v in 1..self.cells.len() {
             children[self.parents[v] as usize].push(v);

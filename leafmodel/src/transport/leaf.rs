@@ -92,8 +92,12 @@ impl TransportPlan {
     /// The root alone, ready to grow.
     pub(crate) fn seedling(&self, seed: u64) -> Growth {
         let revenue = self.revenue(seed);
-        let mirrored = self.mirrored && revenue.is_uniform();
-        Growth::new([self.alpha, self.beta], mirrored, revenue, self.most_cells)
+        Growth::new(
+            [self.alpha, self.beta],
+            self.is_mirrored(),
+            revenue,
+            self.most_cells,
+        )
     }
 
     pub(crate) fn revenue(&self, seed: u64) -> Revenue {
@@ -157,6 +161,16 @@ impl TransportLeaf {
     /// The cell that supplies a cell; none supplies the root.
     pub fn parent(&self, v: usize) -> Option<usize> {
         (self.parents[v] != NONE).then_some(self.parents[v] as usize)
+    }
+
+    /// All cells, each after the one that supplies it.
+    pub fn root_to_tip(&self) -> Vec<usize> {
+        self.system().root_to_tip()
+    }
+
+    /// Whether both sides are exact mirror images.
+    pub fn is_mirrored(&self) -> bool {
+        self.plan.is_mirrored()
     }
 
     /// How many cells are supplied through each cell, itself included: `w(e_v)/h²`, ≥ 1.

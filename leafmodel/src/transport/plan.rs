@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::shape::outline::OutlineError;
+
 /// Cells that a plan may allow.
 const MOST_CELLS: usize = 1_000_000;
 
@@ -82,6 +84,9 @@ pub enum TransportError {
         /// The plan's `α`.
         alpha: f64,
     },
+    /// The cells have no margin that an outline could be.
+    #[error("no outline comes of the cells: {0}")]
+    Outline(#[from] OutlineError),
 }
 
 impl TransportPlan {
@@ -137,6 +142,11 @@ impl TransportPlan {
             return Err(TransportError::OutOfRange { key, value, range });
         }
         Ok(())
+    }
+
+    /// Whether both sides are grown as one.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.mirrored && self.noise == 0.0
     }
 
     /// `ε h^{1−2α}`: a revenue in the unit in which a cell is as long as wide as 1. The first cell comes at 1.

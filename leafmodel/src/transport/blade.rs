@@ -1,0 +1,232 @@
+//! The cell leaf as an outline and a network of veins, like those of any other leaf.
+
+use glam::DVec2;
+
+use super::contour::{contour, first_hit, place, smoothed};
+use super::leaf::TransportLeaf;
+use super::plan::TransportError;
+use crate::shape::outline::{Outline, OutlineError};
+use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::order;
+use crate::venation::topology::Topology;
+
+/// How far a point of the margin may be smoothed away from the middle between two cells, in cells. Other parts of
+/// the margin are never nearer than 0.7, so that with the second figure they cannot meet.
+const TETHERS: [f64; 2] = [0.45, 0.3];
+
+/// How far a point of a vein may be smoothed away from the centre of its cell, in cells.
+const VEIN_TETHER: f64 = 0.4;
+
+/// Rounds of smoothing of veins.
+const VEIN_ROUNDS: usize = 3;
+
+/// How veins are drawn from weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VeinStyle {
+    /// Radius of the midrib at the base, mm, 0.0001 to 100. Elsewhere `r ∝ w^½`.
+    pub base_radius_mm: f64,
+    /// Veins that supply fewer cells are left out; with 1 every cell has a vein. 1 to 1 000 000.
+    pub least_cells: u32,
+}
+
+/// Where the blade lies in the grid.
+struct Frame {
+    margin: Vec<DVec2>,
+    base: DVec2,
+    apex: DVec2,
+    /// Direction of the midrib.
+    up: DVec2,
+    /// Millimetres a cell.
+    scale: f64,
+}
+
+impl Frame {
+    fn to_mm(&self, p: DVec2) -> DVec2 {
+        let from_base = p - self.base;
+        DVec2::new(from_base.perp_dot(self.up), from_base.dot(self.up)) * self.scale
+    }
+
+    fn outline(&self) -> Result<Outline, OutlineError> {
+        let margin = self.margin.iter().map(|&p| self.to_mm(p)).collect();
+        Outline::new(margin, DVec2::ZERO, self.to_mm(self.apex))
+    }
+}
+
+impl TransportLeaf {
+    /// A smooth margin around the cells: base below the root at the origin, apex where the midrib comes to the margin, `length_mm`
+    /// above it (0.001 to 100 000). Holes in the leaf are filled.
+    ///
+    /// # Errors
+    ///
+    /// [`TransportError::OutOfRange`]; [`TransportError::Outline`] should no margin come of it.
+    pub fn outline(&self, length_mm: f64) -> Result<Outline, TransportError> {
+        Ok(self.framed(length_mm)?.1)
+    }
+
+    /// The veins, in the frame of [`TransportLeaf::outline`] for the same length.
+    ///
+    /// A vein runs through the centres of the cells it supplies, but for less than half a cell by which it is smoothed. The first node is
+    /// the base. Orders are given as to any other network.
+    ///
+    /// # Errors
+    ///
+    /// As [`TransportLeaf::outline`].
+    pub fn network(
+        &self,
+        length_mm: f64,
+        style: VeinStyle,
+    ) -> Result<VenationNetwork, TransportError> {
+        let radius = style.base_radius_mm;
+        check("base_radius_mm", radius, 1e-4, 100.0, "0.0001 to 100 mm")?;
+        let least = f64::from(style.least_cells);
+        check("least_cells", least, 1.0, 1e6, "1 to 1000000")?;
+        let (frame, outline) = self.framed(length_mm)?;
+        let places = self.vein_places(style.least_cells);
+        let widest = f64::from(self.counts()[0]);
+        let width = |v: usize| radius * (f64::from(self.counts()[v]) / widest).sqrt();
+
+        let mut nodes = vec![VeinNode {
+            position: DVec2::ZERO,
+            born: 0,
+        }];
+        let mut pairs: Vec<[u32; 2]> = Vec::new();
+        let mut flows = vec![radius];
+        let mut radii = Vec::new();
+        let mut numbers: Vec<Option<u32>> = vec![None; self.cells().len()];
+        // Where the margin has been smoothed past the root's centre, the base stands for it.
+        for v in self.root_to_tip() {
+            let parent = self.parent(v).and_then(|p| numbers[p]);
+            let position = frame.to_mm(places[v]);
+            let lies_inside = outline.contains(position);
+            if self.parent(v).is_none() && !(lies_inside && position.y > 0.0) {
+                numbers[v] = Some(0);
+                continue;
+            }
+            let from = if self.parent(v).is_none() {
+                Some(0)
+            } else {
+                parent
+            };
+            let Some(from) = from else { continue };
+            if self.counts()[v] < style.least_cells || !lies_inside {
+                continue;
+            }
+            let number = nodes.len() as u32;
+            numbers[v] = Some(number);
+            nodes.push(VeinNode {
+                position,
+                born: self.generations()[v],
+            });
+            pairs.push([from, number]);
+            radii.push(width(v));
+            flows.push(width(v));
+        }
+        let positions: Vec<DVec2> = nodes.iter().map(|node| node.position).collect();
+        let topology = Topology::new(nodes.len(), &pairs);
+        let base_to_tip: Vec<u32> = (0..nodes.len() as u32).collect();
+        let orders = order::orders(&topology, &positions, &radii, &base_to_tip);
+        let edges = (0..).zip(&pairs).map(|(edge, &[from, to])| {
+            let radius_to = radii[edge as usize];
+            // A lateral starts as wide as it goes on; only the vein itself tapers where it gives one off.
+            let continues = orders.continuations[from as usize] == Some(edge);
+            VeinEdge {
+                from,
+                to,
+                radius_from: if continues {
+                    flows[from as usize]
+                } else {
+                    radius_to
+                },
+                radius_to,
+                order: orders.edges[edge as usize],
+            }
+        });
+        let network = VenationNetwork::from_parts(nodes, edges.collect(), frame.scale);
+        Ok(network.expect("a tree whose weights fall from root to tip is a network"))
+    }
+
+    fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), TransportError> {
+        let range = "0.001 to 100000 (millimetres)";
+        check("length_mm", length_mm, 0.001, 100_000.0, range)?;
+        let steps = contour(self.cells());
+        let midrib = self.midrib();
+        let mut result = Err(OutlineError::NoMidrib);
+        for tether in TETHERS {
+            let Some(mut frame) = self.frame(smoothed(&steps, tether), &midrib) else {
+                continue;
+            };
+            frame.scale = length_mm / (frame.apex - frame.base).length();
+            result = frame.outline().map(|outline| (frame, outline));
+            if result.is_ok() {
+                break;
+            }
+        }
+        Ok(result?)
+    }
+
+    /// Base and apex on the margin: back from the first cell of the midrib inside it, and on from the last.
+    fn frame(&self, margin: Vec<DVec2>, midrib: &[usize]) -> Option<Frame> {
+        let centre = |v: &usize| place(self.cells()[*v]);
+        let inside = |v: &usize| {
+            let hits = [DVec2::Y, DVec2::NEG_Y, DVec2::X, DVec2::NEG_X]
+                .map(|way| first_hit(&margin, centre(v), way));
+            hits.iter().all(Option::is_some)
+        };
+        let first = midrib.iter().position(|v| inside(v))?;
+        let last = midrib.iter().rposition(|v| inside(v))?;
+        let step_to = |i: usize| match i.checked_sub(1) {
+            Some(before) => centre(&midrib[i]) - centre(&midrib[before]),
+            None => DVec2::Y,
+        };
+        let base = first_hit(&margin, centre(&midrib[first]), -step_to(first))?;
+        let apex = first_hit(&margin, centre(&midrib[last]), step_to(last))?;
+        let up = (apex - base).try_normalize()?;
+        Some(Frame {
+            margin,
+            base,
+            apex,
+            up,
+            scale: 1.0,
+        })
+    }
+
+    /// Where veins run: cells' centres, smoothed along each vein.
+    fn vein_places(&self, least_cells: u32) -> Vec<DVec2> {
+        let cells = self.cells();
+        let centres: Vec<DVec2> = cells.iter().map(|&cell| place(cell)).collect();
+        let mut main = vec![None; cells.len()];
+        for v in (1..cells.len()).filter(|&v| self.counts()[v] >= least_cells) {
+            if let Some(p) = self.parent(v) {
+                let wider = |best: usize| self.counts()[v] > self.counts()[best];
+                if main[p].is_none_or(wider) {
+                    main[p] = Some(v);
+                }
+            }
+        }
+        let mut places = centres.clone();
+        for _ in 0..VEIN_ROUNDS {
+            let smooth = |v: usize| match (self.parent(v), main[v]) {
+                // The axis of a mirrored leaf is straight, and its widest branch may be one of a pair.
+                (Some(p), Some(next)) if !(self.is_mirrored() && cells[v].m == 0) => {
+                    let moved = 0.5 * (places[v] + 0.5 * (places[p] + places[next]));
+                    centres[v] + (moved - centres[v]).clamp_length_max(VEIN_TETHER)
+                }
+                _ => places[v],
+            };
+            places = (0..cells.len()).map(smooth).collect();
+        }
+        places
+    }
+}
+
+fn check(
+    key: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+    range: &'static str,
+) -> Result<(), TransportError> {
+    let good = (low..=high).contains(&value);
+    good.then_some(())
+        .ok_or(TransportError::OutOfRange { key, value, range })
+}
