@@ -18,17 +18,22 @@ mod blade;
 mod cells;
 mod contour;
 mod cost;
+mod examples;
 mod growth;
 mod leaf;
 mod optimiser;
 mod plan;
 mod revenue;
+mod seasons;
 mod secondaries;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 pub use self::blade::VeinStyle;
 pub use self::cells::Cell;
 pub use self::cost::TransportSystem;
+pub use self::examples::example;
 pub use self::leaf::{Stage, TransportLeaf};
 pub use self::plan::{Ladder, TransportError, TransportPlan};
 pub use self::secondaries::Secondary;

@@ -30,7 +30,8 @@ pub(crate) struct Growth {
     disc_radius: f64,
     potentials: Vec<f64>,
     order: Vec<u32>,
-    offers: Vec<Offer>,
+    /// The cells that came last, in the order of their numbers.
+    pub(crate) offers: Vec<Offer>,
     offered: CellIndex,
 }
 

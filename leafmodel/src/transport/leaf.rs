@@ -32,6 +32,7 @@ impl Stage {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransportLeaf {
     plan: TransportPlan,
+    seed: u64,
     cells: Vec<Cell>,
     parents: Vec<u32>,
     counts: Vec<u32>,
@@ -80,6 +81,7 @@ impl TransportPlan {
         let generations = copied.iter().map(|&v| growth.generations[v as usize]);
         Ok(TransportLeaf {
             plan: self.clone(),
+            seed,
             counts: counts.collect(),
             generations: generations.collect(),
             cells,
@@ -153,6 +155,11 @@ impl TransportLeaf {
         &self.plan
     }
 
+    /// The seed of its light.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
     /// Its cells; the first is the root.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
@@ -198,21 +205,28 @@ impl TransportLeaf {
         let Some(then) = self.stages.get(stage) else {
             return self.clone();
         };
-        let count = then.cells();
-        let mut young = Self {
-            plan: TransportPlan {
-                epsilon: then.epsilon,
-                ..self.plan.clone()
-            },
-            cells: self.cells[..count].to_vec(),
-            parents: then.parents.clone(),
-            counts: Vec::new(),
-            generations: self.generations[..count].to_vec(),
-            cost: then.cost,
-            stages: self.stages[..=stage].to_vec(),
-        };
-        young.counts = young.system().counts();
+        let kept: Vec<usize> = (0..then.cells()).collect();
+        let mut young = self.part(&kept, |v| then.parents[v]);
+        young.plan.epsilon = then.epsilon;
+        young.stages.truncate(stage + 1);
         young
+    }
+
+    /// The leaf with some of its cells only, ascending, and the numbers of their parents among them.
+    pub(crate) fn part(&self, kept: &[usize], parent: impl Fn(usize) -> u32) -> Self {
+        let mut part = Self {
+            plan: self.plan.clone(),
+            seed: self.seed,
+            cells: kept.iter().map(|&v| self.cells[v]).collect(),
+            parents: kept.iter().map(|&v| parent(v)).collect(),
+            counts: Vec::new(),
+            generations: kept.iter().map(|&v| self.generations[v]).collect(),
+            cost: 0.0,
+            stages: self.stages.clone(),
+        };
+        part.counts = part.system().counts();
+        part.cost = part.system().cost();
+        part
     }
 
     /// The same as a system of which everything can be computed from the definitions.
