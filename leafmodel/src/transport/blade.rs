@@ -230,3 +230,143 @@ fn check(
     good.then_some(())
         .ok_or(TransportError::OutOfRange { key, value, range })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::blade::BladeForm;
+    use crate::blade::mesh::BladeMesh;
+    use crate::transport::{TransportPlan, example};
+
+    const STYLE: VeinStyle = VeinStyle {
+        base_radius_mm: 0.6,
+        least_cells: 3,
+    };
+
+    fn leaves() -> Vec<TransportLeaf> {
+        let grown = |plan: TransportPlan| plan.grow(1).expect("a good plan");
+        let uneven = TransportPlan {
+            noise: 0.4,
+            ..TransportPlan::default()
+        };
+        let mut leaves: Vec<TransportLeaf> = (1..=5).filter_map(example).map(grown).collect();
+        leaves.push(grown(uneven));
+        leaves
+    }
+
+    #[test]
+    fn margins_keep_the_area_of_the_cells_and_start_at_the_root() {
+        for leaf in leaves() {
+            let outline = leaf.outline(80.0).expect("a margin");
+            let network = leaf.network(80.0, STYLE).expect("veins");
+            let cell = network.segment_mm() * network.segment_mm();
+            let ratio = outline.area() / (leaf.cells().len() as f64 * cell);
+            // Holes are filled, which adds a few cells.
+            assert!((0.99..1.02).contains(&ratio), "{ratio}");
+            assert_eq!(outline.base(), DVec2::ZERO);
+            assert!(outline.apex().x.abs() < 1e-9 && (outline.apex().y - 80.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn margins_and_veins_of_mirrored_leaves_are_exact_mirror_images() {
+        for leaf in leaves().into_iter().filter(TransportLeaf::is_mirrored) {
+            let key = |p: DVec2| [p.x.to_bits(), (p.y + 0.0).to_bits()];
+            let sorted = |points: Vec<DVec2>| {
+                let mut keys: Vec<[u64; 2]> = points.into_iter().map(key).collect();
+                keys.sort_unstable();
+                keys
+            };
+            let image = |p: &DVec2| DVec2::new(0.0 - p.x, p.y);
+            let outline = leaf.outline(50.0).expect("a margin");
+            let network = leaf.network(50.0, STYLE).expect("veins");
+            let veins: Vec<DVec2> = network.nodes().iter().map(|node| node.position).collect();
+            for points in [outline.points().to_vec(), veins] {
+                let images = points.iter().map(image).collect();
+                let points = points.iter().map(|p| *p + DVec2::ZERO).collect();
+                assert_eq!(sorted(points), sorted(images));
+            }
+        }
+    }
+
+    #[test]
+    fn veins_lie_on_the_blade_taper_and_start_as_wide_as_asked() {
+        for leaf in leaves() {
+            let outline = leaf.outline(80.0).expect("a margin");
+            let network = leaf.network(80.0, STYLE).expect("veins");
+            assert_eq!(network.validate(), Ok(()));
+            assert_eq!(
+                (network.components(), network.loops(), network.origins()),
+                (1, 0, 1)
+            );
+            assert!(
+                network.nodes()[1..]
+                    .iter()
+                    .all(|node| outline.contains(node.position))
+            );
+            assert_eq!(network.edges()[0].radius_from, 0.6);
+            let finest = 0.6 * (3.0 / leaf.cells().len() as f64).sqrt();
+            for edge in network.edges() {
+                assert!(edge.radius_to >= finest * (1.0 - 1e-12) && edge.radius_from <= 0.6);
+            }
+            let order = |order: u8| network.edges().iter().filter(|e| e.order == order).count();
+            assert!(order(1) > 5 && order(2) > 5);
+            let every = VeinStyle {
+                least_cells: 1,
+                ..STYLE
+            };
+            let all = leaf.network(80.0, every).expect("veins").nodes().len();
+            assert!(all as f64 > 0.95 * leaf.cells().len() as f64 && all <= leaf.cells().len() + 1);
+        }
+    }
+
+    #[test]
+    fn every_example_can_be_meshed_like_any_other_leaf() {
+        let form = BladeForm {
+            fold: 0.3,
+            curl: 0.4,
+            ruffle: 0.01,
+            ruffle_waves: 3.0,
+            relief: 0.5,
+            thickness_mm: 0.2,
+            max_edge_mm: 3.0,
+            meshed_vein_radius_mm: 0.1,
+        };
+        for leaf in leaves() {
+            let outline = leaf.outline(60.0).expect("a margin");
+            let network = leaf.network(60.0, STYLE).expect("veins");
+            let mesh = BladeMesh::build(&outline, &network, &form).expect("a mesh");
+            assert_eq!(mesh.validate(outline.area()), Ok(()));
+        }
+    }
+
+    #[test]
+    fn the_smallest_leaves_have_margins_and_bad_numbers_are_refused() {
+        let plan = TransportPlan {
+            epsilon: 0.5,
+            ..TransportPlan::default()
+        };
+        let root = plan.grow(0).expect("a good plan");
+        assert_eq!(root.cells().len(), 1);
+        assert!(root.outline(10.0).is_ok());
+        assert!(
+            root.network(10.0, STYLE)
+                .is_ok_and(|network| network.edges().len() <= 1)
+        );
+        let refused = |length: f64, style: VeinStyle| {
+            let message = root.network(length, style).expect_err("out of range");
+            message.to_string()
+        };
+        assert!(refused(0.0, STYLE).starts_with("length_mm is 0, outside 0.001"));
+        let thin = VeinStyle {
+            base_radius_mm: f64::NAN,
+            ..STYLE
+        };
+        assert!(refused(10.0, thin).starts_with("base_radius_mm is NaN"));
+        let none = VeinStyle {
+            least_cells: 0,
+            ..STYLE
+        };
+        assert!(refused(10.0, none).starts_with("least_cells is 0"));
+    }
+}

@@ -119,7 +119,7 @@ mod tests {
     fn cells_that_touch_by_a_corner_stay_together_and_holes_are_filled() {
         let diagonal = [(0, 0), (1, 1), (2, 0)].map(|(m, n)| Cell::new(m, n));
         assert_eq!(contour(&diagonal).len(), 12);
-    
+
         assert_eq!(area(&contour(&diagonal)), 3.0 * 0.5 + 2.0 * 0.5);
         let ring: Vec<Cell> = Cell::ROOT.neighbours().collect();
         assert_eq!(area(&contour(&ring)), 9.0 - 0.5);

@@ -17,7 +17,7 @@ pub fn example(number: usize) -> Option<TransportPlan> {
     match number {
         1 => Some(plan(0.6, 0.5, 5.0)),
         2 => Some(plan(0.5, 0.8, 5.0)),
-        3 => Some(plan(0.66, 0.5, 8.0)),
+        3 => Some(plan(0.64, 0.15, 6.0)),
         4 => Some(plan(0.6, 0.5, 5.0)),
         5 => Some(plan(0.65, 0.5, 7.0)),
         _ => None,

@@ -50,7 +50,7 @@ impl Default for TransportPlan {
             beta: 0.5,
             epsilon: 5.0,
             cell: 1.0,
-            ladder: Ladder::Equal(40),
+            ladder: Ladder::Equal(80),
             mirrored: true,
             noise: 0.0,
             noise_cells: 4.0,

@@ -373,7 +373,6 @@ fn remark_3_7_leaves_are_rounder_for_larger_alpha() {
         }
         roundness(&leaf(alpha, low))
     });
-    println!("{same_revenue:.3?} {same_size:.3?}");
     // Ten ranks: above 0.56 is significant at 5 % (one-sided).
     let (by_revenue, by_size) = (
         rank_correlation(&same_revenue),
