@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::contour::{contour, first_hit, place, smoothed};
+use super::contour::{contour, first_hit, is_inside, place, smoothed};
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 use crate::shape::outline::{Outline, OutlineError};
@@ -167,13 +167,9 @@ impl TransportLeaf {
     /// Base and apex on the margin: back from the first cell of the midrib inside it, and on from the last.
     fn frame(&self, margin: Vec<DVec2>, midrib: &[usize]) -> Option<Frame> {
         let centre = |v: &usize| place(self.cells()[*v]);
-        let inside = |v: &usize| {
-            let hits = [DVec2::Y, DVec2::NEG_Y, DVec2::X, DVec2::NEG_X]
-                .map(|way| first_hit(&margin, centre(v), way));
-            hits.iter().all(Option::is_some)
-        };
-        let first = midrib.iter().position(|v| inside(v))?;
-        let last = midrib.iter().rposition(|v| inside(v))?;
+        let inside = |v: &usize| is_inside(&margin, centre(v));
+        let first = midrib.iter().position(inside)?;
+        let last = midrib.iter().rposition(inside)?;
         let step_to = |i: usize| match i.checked_sub(1) {
             Some(before) => centre(&midrib[i]) - centre(&midrib[before]),
             None => DVec2::Y,

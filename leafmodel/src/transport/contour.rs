@@ -80,17 +80,26 @@ pub(crate) fn place(cell: Cell) -> DVec2 {
 
 /// Where the ray from `start` first meets a closed polygon.
 pub(crate) fn first_hit(polygon: &[DVec2], start: DVec2, direction: DVec2) -> Option<DVec2> {
+    let nearest = hits(polygon, start, direction).min_by(f64::total_cmp)?;
+    Some(start + direction * (nearest / direction.length_squared()))
+}
+
+/// Whether a point lies inside a closed polygon.
+pub(crate) fn is_inside(polygon: &[DVec2], point: DVec2) -> bool {
+    hits(polygon, point, DVec2::Y).count() % 2 == 1
+}
+
+/// How far along a ray it meets each edge of a closed polygon, times the length of `direction`.
+fn hits(polygon: &[DVec2], start: DVec2, direction: DVec2) -> impl Iterator<Item = f64> + '_ {
     let edges = (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]));
-    let along = edges.filter_map(|(a, b)| {
+    edges.filter_map(move |(a, b)| {
         let (side_a, side_b) = (direction.perp_dot(a - start), direction.perp_dot(b - start));
         // Half-open, so that a ray through a corner meets one of its two edges.
         let crosses = (side_a < 0.0) != (side_b < 0.0);
         let at = a + (b - a) * (side_a / (side_a - side_b));
         let along = direction.dot(at - start);
         (crosses && along > 0.0).then_some(along)
-    });
-    let nearest = along.min_by(f64::total_cmp)?;
-    Some(start + direction * (nearest / direction.length_squared()))
+    })
 }
 
 #[cfg(test)]
@@ -146,5 +155,7 @@ mod tests {
         assert_eq!(hit((0.5, 1.0), (3.0, 0.0)), Some(DVec2::new(2.0, 1.0)));
         assert_eq!(hit((1.0, 1.0), (0.5, 0.5)), Some(DVec2::new(2.0, 2.0)));
         assert_eq!(hit((3.0, 1.0), (1.0, 0.0)), None);
+        assert!(is_inside(&square, DVec2::new(1.0, 0.5)));
+        assert!(!is_inside(&square, DVec2::new(1.0, -0.5)));
     }
 }

@@ -70,8 +70,13 @@ impl TransportPlan {
             }
             Ladder::Events => {
                 while let Some(epsilon) = growth.next_event(last) {
+                    let before = growth.cells();
                     growth.settle(epsilon).map_err(outgrown)?;
                     stages.push(self.stage(&growth, self.epsilon * (epsilon / last)));
+                    // A cell that would just break even may not come, by rounding.
+                    if growth.cells() == before {
+                        break;
+                    }
                 }
                 stages.push(self.stage(&growth, self.epsilon));
             }

@@ -366,9 +366,9 @@ fn remark_3_7_leaves_are_rounder_for_larger_alpha() {
                 ..TransportPlan::default()
             };
             if plan.grow(0).is_ok() {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         roundness(&leaf(alpha, low))
