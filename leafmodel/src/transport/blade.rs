@@ -54,7 +54,8 @@ impl Frame {
 
 impl TransportLeaf {
     /// A smooth margin around the cells: base below the root at the origin, apex where the midrib comes to the margin, `length_mm`
-    /// above it (0.001 to 100 000). Holes in the leaf are filled.
+    /// above it (0.001 to 100 000). If the blade has closed below the root, the base is the root itself. Holes in the leaf are
+    /// filled.
     ///
     /// # Errors
     ///
@@ -164,7 +165,7 @@ impl TransportLeaf {
         Ok(result?)
     }
 
-    /// Base and apex on the margin: back from the first cell of the midrib inside it, and on from the last.
+    /// Base and apex: where the midrib comes to the margin, back from its first cell inside and on from its last.
     fn frame(&self, margin: Vec<DVec2>, midrib: &[usize]) -> Option<Frame> {
         let centre = |v: &usize| place(self.cells()[*v]);
         let inside = |v: &usize| is_inside(&margin, centre(v));
@@ -174,7 +175,11 @@ impl TransportLeaf {
             Some(before) => centre(&midrib[i]) - centre(&midrib[before]),
             None => DVec2::Y,
         };
-        let base = first_hit(&margin, centre(&midrib[first]), -step_to(first))?;
+        let start = centre(&midrib[first]);
+        let below = first_hit(&margin, start, -step_to(first))?;
+        // A blade that has closed around the petiole is attached inside the margin.
+        let closed = (start - below).length() > 1.0;
+        let base = if closed { start } else { below };
         let apex = first_hit(&margin, centre(&midrib[last]), step_to(last))?;
         let up = (apex - base).try_normalize()?;
         Some(Frame {
@@ -314,6 +319,28 @@ mod tests {
             let all = leaf.network(80.0, every).expect("veins").nodes().len();
             assert!(all as f64 > 0.95 * leaf.cells().len() as f64 && all <= leaf.cells().len() + 1);
         }
+    }
+
+    #[test]
+    fn a_blade_that_closes_around_the_petiole_is_attached_at_the_root() {
+        let plan = TransportPlan {
+            alpha: 0.64,
+            beta: 0.15,
+            epsilon: 6.0,
+            noise: 0.2,
+            noise_cells: 12.0,
+            ladder: crate::transport::Ladder::Equal(20),
+            ..TransportPlan::default()
+        };
+        let leaf = plan.grow(3).expect("a good plan");
+        let below = super::super::Cell::new(0, -1);
+        assert!(leaf.cells().contains(&below), "this one does");
+        let outline = leaf.outline(80.0).expect("a margin");
+        let network = leaf.network(80.0, STYLE).expect("veins");
+        assert!(outline.distance_to_margin(outline.base()) > 5.0 * network.segment_mm());
+        let root = network.edges().iter().filter(|edge| edge.from == 0);
+        assert!(root.count() > 2 && network.nodes()[0].position == DVec2::ZERO);
+        assert_eq!(network.validate(), Ok(()));
     }
 
     #[test]
