@@ -179,7 +179,10 @@ impl Optimiser {
         }
         let mut value = self.relative[z as usize];
         while let Some(z) = self.way.pop() {
-            value += candidate.share(z, false);
+            // Below v there is nothing to compute: its weight cannot come on top of itself.
+            if value < f64::INFINITY {
+                value += candidate.share(z, false);
+            }
             self.know(z, value);
         }
         value

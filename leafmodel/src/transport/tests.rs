@@ -1,5 +1,7 @@
 //! The paper's propositions, on real runs.
 
+mod extremes;
+
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
