@@ -41,10 +41,10 @@ fn is_sound(leaf: &TransportLeaf) -> bool {
     let mut open = vec![Cell::ROOT];
     while let Some(cell) = open.pop() {
         for near in cell.neighbours() {
-            if let Ok(place) = cells.binary_search(&near) {
-                if !std::mem::replace(&mut reached[place], true) {
-                    open.push(near);
-                }
+            if let Ok(place) = cells.binary_search(&near)
+                && !std::mem::replace(&mut reached[place], true)
+            {
+                open.push(near);
             }
         }
     }
