@@ -10,4 +10,5 @@ pub mod measure;
 pub mod optics;
 pub mod shape;
 pub mod species;
+pub mod transport;
 pub mod venation;

@@ -32,7 +32,7 @@ mod lamina_clock;
 mod length_queue;
 pub mod network;
 mod open;
-mod order;
+pub(crate) mod order;
 pub mod plan;
 pub mod planar;
 mod point_tree;

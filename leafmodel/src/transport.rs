@@ -1,0 +1,39 @@
+//! A leaf grown as the cheapest transport network.
+//!
+//! Water comes in at the root and goes to square cells. It is cheaper to carry much together (`α`) and to carry it
+//! straight on (`β`). A cell comes into being wherever what it earns, `ε` per area, pays for its transport; then cells look for
+//! better parents; and as `ε` rises, the leaf grows. Its shape and its veins are what comes of that.
+//!
+//! - **In**: a [`TransportPlan`].
+//! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a network as of any other leaf.
+//! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent (in mirrored leaves of a
+//!   pair) makes the transport cheaper; with even light both sides are mirror images; same plan and seed, same bits.
+//! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is cheapest among its neighbours.
+//!
+//! # Source
+//!
+//! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is settled.
+
+mod blade;
+mod cells;
+mod contour;
+mod cost;
+mod examples;
+mod growth;
+mod leaf;
+mod optimiser;
+mod plan;
+mod revenue;
+mod seasons;
+mod secondaries;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use self::blade::VeinStyle;
+pub use self::cells::Cell;
+pub use self::cost::TransportSystem;
+pub use self::examples::example;
+pub use self::leaf::{Stage, TransportLeaf};
+pub use self::plan::{Ladder, TransportError, TransportPlan};
+pub use self::secondaries::Secondary;

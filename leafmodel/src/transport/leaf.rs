@@ -1,0 +1,244 @@
+//! The grown leaf: cells, who supplies whom, what it cost, and how it came to be.
+
+use super::cells::{Cell, NONE};
+use super::cost::TransportSystem;
+use super::growth::{Growth, Outgrown};
+use super::plan::{Ladder, TransportError, TransportPlan};
+use super::revenue::Revenue;
+use super::tree::Tree;
+
+/// The leaf when its revenue had risen to a step of the ladder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// `ε` of the step.
+    pub epsilon: f64,
+    /// `F` of the leaf at that time.
+    pub cost: f64,
+    /// The parent of each cell that it had then: the first ones of the full-grown leaf.
+    pub(crate) parents: Vec<u32>,
+}
+
+impl Stage {
+    /// How many cells the leaf had.
+    pub fn cells(&self) -> usize {
+        self.parents.len()
+    }
+}
+
+/// A leaf that is the cheapest transport network of its cells, as far as small changes can tell.
+///
+/// Cells are numbered in the order in which they came, the root is 0; every other has a parent. Mirrored leaves number a cell of
+/// the right half just before its image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransportLeaf {
+    plan: TransportPlan,
+    seed: u64,
+    cells: Vec<Cell>,
+    parents: Vec<u32>,
+    counts: Vec<u32>,
+    generations: Vec<u32>,
+    cost: f64,
+    stages: Vec<Stage>,
+}
+
+impl TransportPlan {
+    /// Grows the leaf: an (`ε`, `h`) leaf of Definition 3.5 of \[xia2007\]. `seed` matters to uneven light only.
+    ///
+    /// # Errors
+    ///
+    /// [`TransportError::OutOfRange`]; [`TransportError::TooManyCells`] as soon as the leaf outgrows `most_cells`.
+    pub fn grow(&self, seed: u64) -> Result<TransportLeaf, TransportError> {
+        self.validate()?;
+        let outgrown = |Outgrown { cells }| TransportError::TooManyCells {
+            cells,
+            limit: self.most_cells,
+            alpha: self.alpha,
+        };
+        let mut growth = self.seedling(seed);
+        let last = self.in_cells(self.epsilon);
+        let mut stages = Vec::new();
+        match self.ladder {
+            Ladder::Equal(steps) => {
+                // With uneven light the first cell may come as early as this.
+                let first = last.min(1.0 / self.revenue(seed).greatest());
+                for step in 0..=steps {
+                    let share = f64::from(step) / f64::from(steps);
+                    let epsilon = first * (1.0 - share) + last * share;
+                    growth.settle(epsilon).map_err(outgrown)?;
+                    stages.push(self.stage(&growth, self.epsilon * (epsilon / last)));
+                }
+            }
+            Ladder::Events => {
+                while let Some(epsilon) = growth.next_event(last) {
+                    let before = growth.cells();
+                    growth.settle(epsilon).map_err(outgrown)?;
+                    stages.push(self.stage(&growth, self.epsilon * (epsilon / last)));
+                    // A cell that would just break even may not come, by rounding.
+                    if growth.cells() == before {
+                        break;
+                    }
+                }
+                stages.push(self.stage(&growth, self.epsilon));
+            }
+        }
+        let (cells, parents, copied) = unfolded(&growth.tree);
+        let counts = copied.iter().map(|&v| growth.tree.nodes[v as usize].weight);
+        let generations = copied.iter().map(|&v| growth.generations[v as usize]);
+        Ok(TransportLeaf {
+            plan: self.clone(),
+            seed,
+            counts: counts.collect(),
+            generations: generations.collect(),
+            cells,
+            parents,
+            cost: self.to_scale(growth.tree.cost()),
+            stages,
+        })
+    }
+
+    /// The root alone, ready to grow.
+    pub(crate) fn seedling(&self, seed: u64) -> Growth {
+        let revenue = self.revenue(seed);
+        Growth::new(
+            [self.alpha, self.beta],
+            self.is_mirrored(),
+            revenue,
+            self.most_cells,
+        )
+    }
+
+    pub(crate) fn revenue(&self, seed: u64) -> Revenue {
+        Revenue {
+            noise: self.noise,
+            patch: self.noise_cells,
+            seed,
+        }
+    }
+
+    /// A cost in the plan's unit of length from one in cells: `h^{2α+1}` times as much.
+    pub(crate) fn to_scale(&self, cost: f64) -> f64 {
+        cost * libm::pow(self.cell, 2.0 * self.alpha + 1.0)
+    }
+
+    fn stage(&self, growth: &Growth, epsilon: f64) -> Stage {
+        Stage {
+            epsilon,
+            cost: self.to_scale(growth.tree.cost()),
+            parents: unfolded(&growth.tree).1,
+        }
+    }
+}
+
+/// Cells and parents of the whole leaf, and which node of the tree each stands for.
+pub(crate) fn unfolded(tree: &Tree) -> (Vec<Cell>, Vec<u32>, Vec<u32>) {
+    let (mut cells, mut parents, mut copied) = (Vec::new(), Vec::new(), Vec::new());
+    // First number of each node's cells. A parent may be younger than its child.
+    let mut numbers = Vec::with_capacity(tree.nodes.len());
+    let mut next = 0;
+    for node in &tree.nodes {
+        numbers.push(next);
+        next += node.copies;
+    }
+    for (v, (&cell, node)) in (0_u32..).zip(tree.cells.iter().zip(&tree.nodes)) {
+        for image in 0..node.copies {
+            cells.push(if image == 0 { cell } else { cell.mirrored() });
+            copied.push(v);
+            parents.push(if node.parent == NONE {
+                NONE
+            } else {
+                let across = image.min(tree.nodes[node.parent as usize].copies - 1);
+                numbers[node.parent as usize] + across
+            });
+        }
+    }
+    (cells, parents, copied)
+}
+
+impl TransportLeaf {
+    /// What it was grown from.
+    pub fn plan(&self) -> &TransportPlan {
+        &self.plan
+    }
+
+    /// The seed of its light.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Its cells; the first is the root.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// The cell that supplies a cell; none supplies the root.
+    pub fn parent(&self, v: usize) -> Option<usize> {
+        (self.parents[v] != NONE).then_some(self.parents[v] as usize)
+    }
+
+    /// All cells, each after the one that supplies it.
+    pub fn root_to_tip(&self) -> Vec<usize> {
+        self.system().root_to_tip()
+    }
+
+    /// Whether both sides are exact mirror images.
+    pub fn is_mirrored(&self) -> bool {
+        self.plan.is_mirrored()
+    }
+
+    /// How many cells are supplied through each cell, itself included: `w(e_v)/h²`, ≥ 1.
+    pub fn counts(&self) -> &[u32] {
+        &self.counts
+    }
+
+    /// In which step of generation each cell came; 0 is the root, and a ladder's step takes several.
+    pub fn generations(&self) -> &[u32] {
+        &self.generations
+    }
+
+    /// `F`, what its transport costs, in the unit of `h^{2α+1}`.
+    pub fn cost(&self) -> f64 {
+        self.cost
+    }
+
+    /// The leaf at each step of the ladder, the last full-grown.
+    pub fn stages(&self) -> &[Stage] {
+        &self.stages
+    }
+
+    /// The leaf as it was at a stage; beyond the last it is full-grown.
+    pub fn at_stage(&self, stage: usize) -> Self {
+        let Some(then) = self.stages.get(stage) else {
+            return self.clone();
+        };
+        let kept: Vec<usize> = (0..then.cells()).collect();
+        let mut young = self.part(&kept, |v| then.parents[v]);
+        young.plan.epsilon = then.epsilon;
+        young.stages.truncate(stage + 1);
+        young
+    }
+
+    /// The leaf with some of its cells only, ascending, and the numbers of their parents among them.
+    pub(crate) fn part(&self, kept: &[usize], parent: impl Fn(usize) -> u32) -> Self {
+        let mut part = Self {
+            plan: self.plan.clone(),
+            seed: self.seed,
+            cells: kept.iter().map(|&v| self.cells[v]).collect(),
+            parents: kept.iter().map(|&v| parent(v)).collect(),
+            counts: Vec::new(),
+            generations: kept.iter().map(|&v| self.generations[v]).collect(),
+            cost: 0.0,
+            stages: self.stages.clone(),
+        };
+        part.counts = part.system().counts();
+        part.cost = part.system().cost();
+        part
+    }
+
+    /// The same as a system of which everything can be computed from the definitions.
+    pub fn system(&self) -> TransportSystem<'_> {
+        let TransportPlan {
+            alpha, beta, cell, ..
+        } = self.plan;
+        TransportSystem::new(&self.cells, &self.parents, [alpha, beta, cell])
+    }
+}

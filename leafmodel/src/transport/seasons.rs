@@ -1,0 +1,85 @@
+//! Autumn: revenue falls, and cells that no longer pay die (Remark 3.6 of \[xia2007\]).
+
+use super::cells::NONE;
+use super::leaf::TransportLeaf;
+use super::plan::TransportError;
+
+impl TransportLeaf {
+    /// At which share of the full-grown leaf's revenue `ε` each cell dies while `ε` falls from there to 0: 1 dies first, 0 last.
+    ///
+    /// A tip dies when its transport, `F` less what `F` would be without it, costs more than it earns; then what supplied it may
+    /// be a tip. The share is one of `steps` (1 to 10 000) equal steps. The veins that are left stay where they
+    /// are. The root, from which everything comes, has 0. For a revenue that is a periodic function of time, a
+    /// cell is alive in the falling half of a period while the share is above this.
+    ///
+    /// # Errors
+    ///
+    /// [`TransportError::OutOfRange`] for `steps`.
+    ///
+    /// # Source
+    ///
+    /// \[xia2007\], Remark 3.6, which says that, not how; the expense of a cell that is there is ours.
+    pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
+        if !(1..=10_000).contains(&steps) {
+            let (key, range) = ("steps", "1 to 10000");
+            let value = f64::from(steps);
+            return Err(TransportError::OutOfRange { key, value, range });
+        }
+        let plan = self.plan();
+        let order = self.root_to_tip();
+        let multiples = self.system().multiples();
+        let powers: Vec<f64> = (0..=self.cells().len())
+            .map(|w| libm::pow(w as f64, plan.alpha))
+            .collect();
+        let light = plan.revenue(self.seed());
+        let earned: Vec<f64> = self.cells().iter().map(|&cell| light.of(cell)).collect();
+        let full = plan.in_cells(plan.epsilon);
+        let mut counts = self.counts().to_vec();
+        let mut deaths = vec![0.0; order.len()];
+        let mut alive = vec![true; order.len()];
+        let mut expenses = vec![0.0; order.len()];
+        for step in 0..=steps {
+            let share = 1.0 - f64::from(step) / f64::from(steps);
+            loop {
+                for &v in &order[1..] {
+                    if !alive[v] {
+                        continue;
+                    }
+                    let p = self.parent(v).unwrap_or(0);
+                    let length = (self.cells()[v] - self.cells()[p]).length();
+                    let w = counts[v] as usize;
+                    let saved = multiples[v] * length * (powers[w] - powers[w - 1]);
+                    expenses[v] = expenses[p] + saved;
+                }
+                let fallen = |v: usize| counts[v] == 1 && expenses[v] > full * share * earned[v];
+                let fallen: Vec<usize> = (1..order.len())
+                    .filter(|&v| alive[v] && fallen(v))
+                    .collect();
+                for &v in &fallen {
+                    alive[v] = false;
+                    deaths[v] = share;
+                    let mut z = Some(v);
+                    while let Some(at) = z {
+                        counts[at] -= 1;
+                        z = self.parent(at);
+                    }
+                }
+                if fallen.is_empty() {
+                    break;
+                }
+            }
+        }
+        Ok(deaths)
+    }
+
+    /// The leaf without the cells that are dead at this share of its revenue, by their [`TransportLeaf::deaths`].
+    pub fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
+        let mut numbers = vec![NONE; self.cells().len()];
+        let alive = (0..self.cells().len()).filter(|&v| v == 0 || deaths[v] < share);
+        let kept: Vec<usize> = alive.collect();
+        for (number, &v) in (0..).zip(&kept) {
+            numbers[v] = number;
+        }
+        self.part(&kept, |v| self.parent(v).map_or(NONE, |p| numbers[p]))
+    }
+}
