@@ -122,7 +122,7 @@ impl GrowthShape {
     }
 
     /// Checks every parameter; gives the veins as (row, slope), rows counted from 0.
-    fn checked_veins(&self) -> Result<Vec<(usize, f64)>, GrowthShapeError> {
+    pub(super) fn checked_veins(&self) -> Result<Vec<(usize, f64)>, GrowthShapeError> {
         in_range("rows", self.rows as f64, 3.0..=1e4, "3 to 10000")?;
         in_range("axial_rate", self.axial_rate, 1e-3..=1.0, "0.001 to 1")?;
         in_range("rate_ratio", self.rate_ratio, 0.5..=100.0, "0.5 to 100")?;
