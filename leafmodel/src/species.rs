@@ -7,6 +7,7 @@
 mod beyond;
 mod contours;
 mod list;
+pub mod maple;
 mod runions;
 pub mod table_1;
 pub mod young;
