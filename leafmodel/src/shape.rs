@@ -2,7 +2,7 @@
 
 mod cell_rows;
 pub mod contour_curve;
-mod crossing;
+pub(crate) mod crossing;
 pub(crate) mod cubic;
 pub mod growth;
 pub mod growth_form;

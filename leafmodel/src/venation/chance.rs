@@ -20,6 +20,8 @@ pub(crate) enum Use {
     DartKept = 6,
     /// Where along the margin a secondary vein ends.
     Arch = 7,
+    /// Where a vein of an arcuate pattern starts.
+    ArcuateStart = 8,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
     /// Where the distance to the nearest vein is measured, across the leaf.
