@@ -7,7 +7,8 @@
 //! - **In**: growth rates, where they peak, how they fall off, and rows that are veins.
 //! - **Out**: an [`Outline`], base at the origin, midrib along +y.
 //! - **Always true**: the outline is mirror symmetric and never crosses itself.
-//! - **Left out**: unlike halves, curved veins, palmate and compound leaves.
+//! - **Left out**: unlike halves, curved veins and other growth laws, which [`super::growth_form`] has; palmate leaves
+//!   ([`super::palmate`]) and compound ones ([`crate::compound`]).
 
 use glam::DVec2;
 use thiserror::Error;

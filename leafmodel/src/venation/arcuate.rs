@@ -12,7 +12,7 @@
 //!
 //! # Source
 //!
-//! \[arcuate2015\]; `docs/src/theory/arcuate-veins.md` tells where we depart from its code.
+//! \[oslveins\]; `docs/src/theory/arcuate-veins.md` tells where we depart from its code.
 
 mod fields;
 mod graph;

@@ -287,6 +287,9 @@ fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i:
         start += delta / 4.0 * plan.variation * noise(17) * plan.squish3;
     }
     let [from, to] = sector.margin;
+    // Where primaries share the margin, laterals leave the lower part of their axis bare; alone, the midrib has none such.
+    let bare = 0.5 * from.min(to) / from.max(to);
+    let start = bare + (1.0 - bare) * start;
     let margin = |squish: f64| {
         let t = (at + half) * squish + 1.0 - squish;
         sides.at(sector.up, from + (to - from) * t)
