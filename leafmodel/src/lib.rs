@@ -4,6 +4,7 @@
 //! paths or images.
 
 pub mod blade;
+pub mod compound;
 pub mod export;
 pub mod leaf;
 pub mod measure;

@@ -1,6 +1,6 @@
-//! What biologists measure on a leaf's veins.
+//! What biologists measure on a leaf's shape and veins.
 //!
-//! - **In**: an [`Outline`], a [`VenationNetwork`], the exponent of Murray's law.
+//! - **In**: an [`Outline`]; for veins also a [`VenationNetwork`] and the exponent of Murray's law.
 //! - **Out**: [`Measures`]: a list of keys, units and values, from which JSON and a table are made.
 //! - **Always true**: no value is NaN or infinite; what does not exist (the median area of no areoles) is missing.
 //!   The same network gives the same bits on every machine.
@@ -9,8 +9,12 @@
 //! `docs/src/theory/measures.md` defines every measure.
 
 mod forks;
+mod fourier;
 mod hierarchy;
+mod margin;
 mod nesting;
+#[cfg(test)]
+mod shape_tests;
 mod skeleton;
 mod spanning;
 mod statistics;
@@ -38,6 +42,9 @@ const PROBES: usize = 1 << 14;
 /// Veins from this order on are minor veins.
 const FIRST_MINOR_ORDER: usize = 4;
 
+/// Numbers of a list that a table shows.
+const LONGEST_LIST: usize = 12;
+
 /// A measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -45,7 +52,7 @@ pub enum Value {
     Count(u64),
     /// A finite number, or nothing where the leaf has nothing to measure.
     Number(Option<f64>),
-    /// One number an order, from order 1.
+    /// Several numbers that belong together: one an order, from order 1, or the coefficients of a series.
     List(Vec<f64>),
 }
 
@@ -66,7 +73,21 @@ pub struct Measures {
     entries: Vec<Entry>,
 }
 
-/// Measures the veins of a leaf.
+/// Measures the shape of a blade.
+///
+/// \[kuhl1982\] for the elliptic Fourier descriptors; `docs/src/theory/measures.md` defines all.
+pub fn shape(outline: &Outline) -> Measures {
+    let mut list = List {
+        entries: Vec::new(),
+        area: outline.area(),
+    };
+    list.shape(outline);
+    Measures {
+        entries: list.entries,
+    }
+}
+
+/// Measures the shape and the veins of a leaf.
 ///
 /// `murray_exponent` is the exponent `n` for which `murray_ratio_median` is taken; without a finite one above 0 that value is
 /// missing. Takes about as long as finding the areoles twice.
@@ -83,6 +104,7 @@ pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f6
         entries: Vec::new(),
         area: outline.area(),
     };
+    list.shape(outline);
     list.count("crossing_count", found.graph().crossings());
     list.number("blade_area_mm2", "mm²", Some(outline.area()));
     list.veins(&skeleton);
@@ -116,6 +138,28 @@ impl List {
         // Adding 0 turns the negative zero of an empty sum into zero.
         let value = Value::Number(value.filter(|v| v.is_finite()).map(|v| v + 0.0));
         self.entries.push(Entry { key, unit, value });
+    }
+
+    fn shape(&mut self, outline: &Outline) {
+        let (length, perimeter) = (outline.length(), outline.perimeter());
+        let extent = margin::extent(outline);
+        let round = 4.0 * std::f64::consts::PI * self.area / (perimeter * perimeter);
+        let (low, high) = extent.along;
+        self.number("length_mm", "mm", Some(length));
+        self.number("width_mm", "mm", Some(extent.width));
+        self.number("width_over_length", "", Some(extent.width / length));
+        self.number("extent_over_length", "", Some((high - low) / length));
+        self.number("widest_at", "", Some(extent.widest / length));
+        self.number("area_mm2", "mm²", Some(self.area));
+        self.number("perimeter_mm", "mm", Some(perimeter));
+        self.number("circularity", "", Some(round));
+        let solidity = self.area / margin::hull_area(outline);
+        self.number("solidity", "", Some(solidity));
+        self.entries.push(Entry {
+            key: "elliptic_fourier",
+            unit: "",
+            value: Value::List(fourier::descriptors(outline)),
+        });
     }
 
     fn veins(&mut self, skeleton: &Skeleton) {
@@ -239,15 +283,22 @@ impl Measures {
         Json::Object(members.collect::<Map<String, Json>>())
     }
 
-    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a dash.
+    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a dash; long lists are
+    /// cut short.
     pub fn table(&self) -> String {
         let text = |value: &Value| match value {
             Value::Count(count) => count.to_string(),
             Value::Number(None) => "–".to_owned(),
             Value::Number(Some(number)) => four_digits(*number),
             Value::List(list) => {
-                let parts: Vec<String> = list.iter().map(|&number| four_digits(number)).collect();
-                parts.join(" ")
+                let shown = list.iter().take(LONGEST_LIST);
+                let parts: Vec<String> = shown.map(|&number| four_digits(number)).collect();
+                let rest = if list.len() > LONGEST_LIST {
+                    " …"
+                } else {
+                    ""
+                };
+                parts.join(" ") + rest
             }
         };
         let wide = self.entries.iter().map(|e| e.key.len()).max().unwrap_or(0);

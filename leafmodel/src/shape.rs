@@ -2,14 +2,16 @@
 
 mod cell_rows;
 pub mod contour_curve;
-mod crossing;
+pub(crate) mod crossing;
 pub(crate) mod cubic;
 pub mod growth;
+pub mod growth_form;
 pub mod growth_shape;
 mod interior_grid;
 mod outer_boundary;
 pub mod outline;
 pub mod outline_plan;
+pub mod palmate;
 mod slabs;
 pub mod svg_path;
 pub mod teeth;

@@ -9,10 +9,12 @@ mod beyond;
 mod claims;
 mod contours;
 mod list;
+pub mod maple;
 mod runions;
 pub mod table_1;
 mod trees;
 mod trees_contours;
+pub mod young;
 
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
@@ -23,6 +25,7 @@ use crate::venation::plan::VenationPlan;
 
 pub use self::list::PRESETS;
 use self::table_1::Row;
+use self::young::Form;
 
 /// A leaf by name.
 #[derive(Clone, Copy, Debug)]
@@ -36,13 +39,25 @@ pub struct Preset {
     /// The row of Table 1 of Runions et al. 2005 that it stands for, if it does.
     pub row: Option<&'static Row>,
     /// Makes the plan.
-    plan: fn() -> LeafPlan,
+    plan: PlanOf,
+}
+
+/// How a preset's plan is made.
+#[derive(Clone, Copy, Debug)]
+enum PlanOf {
+    /// By a function of its own.
+    Function(fn() -> LeafPlan),
+    /// From the parameters of a figure.
+    Form(&'static Form),
 }
 
 impl Preset {
     /// The whole plan of the leaf.
     pub fn plan(&self) -> LeafPlan {
-        (self.plan)()
+        match self.plan {
+            PlanOf::Function(plan) => plan(),
+            PlanOf::Form(form) => form.plan(),
+        }
     }
 }
 

@@ -19,6 +19,7 @@ mod agreement;
 #[cfg(test)]
 mod all_pairs;
 mod arches;
+pub mod arcuate;
 pub mod areole;
 mod auxin;
 pub(crate) mod chance;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::growth_shape::GrowthShape;
+use super::growth_shape::{GrowthShape, GrowthShapeError};
 
 /// Growth in length from primordium to maturity: 0.1 mm to 100 mm in the paper (section III).
 pub(super) const ENLARGEMENT: f64 = 1000.0;
@@ -38,6 +38,19 @@ impl GrowthShape {
                 DVec2::new(half_widths[j], y + slopes[j] * half_widths[j])
             })
             .collect()
+    }
+
+    /// Lateral growth rate along the midrib (Fig. 2, lower panel): `[y, gL]` of each row, `y` from 0 at the petiole to 1
+    /// at the tip, `gL` per step.
+    ///
+    /// # Errors
+    ///
+    /// As [`GrowthShape::grow`].
+    pub fn rate_curve(&self) -> Result<Vec<[f64; 2]>, GrowthShapeError> {
+        let veins = self.checked_veins()?;
+        let last = (self.rows - 1) as f64;
+        let row = |j: usize| [j as f64 / last, self.row_rate(&veins, j)];
+        Ok((0..self.rows).map(row).collect())
     }
 
     /// `gL` of row `j` (from 0): Eq. 3, times Eq. 4 where there are veins.

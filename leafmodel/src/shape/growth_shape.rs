@@ -7,7 +7,8 @@
 //! - **In**: growth rates, where they peak, how they fall off, and rows that are veins.
 //! - **Out**: an [`Outline`], base at the origin, midrib along +y.
 //! - **Always true**: the outline is mirror symmetric and never crosses itself.
-//! - **Left out**: unlike halves, curved veins, palmate and compound leaves.
+//! - **Left out**: unlike halves, curved veins and other growth laws, which [`super::growth_form`] has; palmate leaves
+//!   ([`super::palmate`]) and compound ones ([`crate::compound`]).
 
 use glam::DVec2;
 use thiserror::Error;
@@ -122,7 +123,7 @@ impl GrowthShape {
     }
 
     /// Checks every parameter; gives the veins as (row, slope), rows counted from 0.
-    fn checked_veins(&self) -> Result<Vec<(usize, f64)>, GrowthShapeError> {
+    pub(super) fn checked_veins(&self) -> Result<Vec<(usize, f64)>, GrowthShapeError> {
         in_range("rows", self.rows as f64, 3.0..=1e4, "3 to 10000")?;
         in_range("axial_rate", self.axial_rate, 1e-3..=1.0, "0.001 to 1")?;
         in_range("rate_ratio", self.rate_ratio, 0.5..=100.0, "0.5 to 100")?;

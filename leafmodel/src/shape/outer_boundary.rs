@@ -1,4 +1,4 @@
-//! The outside of a curve that crosses itself.
+//! The outside of a curve that crosses itself, or of several curves that cross each other.
 //!
 //! Rows of unlike slope can pass over each other, and then the polyline of their ends crosses
 //! itself. The blade is what the rows sweep over together, so its margin is the outer boundary of
@@ -14,8 +14,8 @@ use super::crossing::crossing;
 /// the first on it as well (the midrib of a half leaf is). Holes between crossing pieces are
 /// filled; loops that hang on to the rest by a single crossing point are cut off.
 pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
-    let web = Web::new(points);
-    let (start, last) = (0, points.len() - 1);
+    let web = Web::new(&[points]);
+    let (start, last) = (web.same[0], web.same[points.len() - 1]);
     let mut path: Vec<usize> = vec![start];
     let mut arrival = web.corners[start] - web.corners[last];
     let mut previous = last;
@@ -40,47 +40,93 @@ pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
     path.into_iter().map(|corner| web.corners[corner]).collect()
 }
 
-/// A polyline and its crossings as a plane graph.
+/// The outer boundary of the union of simple counter-clockwise polygons, as far as it hangs together with the lowest point;
+/// what hangs on to that by a single point only is cut off. Holes are filled. Counter-clockwise from the lowest point.
+///
+/// Polygons may share corners; edges that lie on each other are not expected, and may leave a boundary that crosses itself.
+pub(crate) fn union_boundary(polygons: &[&[DVec2]]) -> Vec<DVec2> {
+    let web = Web::new(polygons);
+    let lower = |&p: &usize, &q: &usize| {
+        let (p, q) = (web.corners[p], web.corners[q]);
+        p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x))
+    };
+    let Some(start) = (0..web.corners.len())
+        .filter(|&i| !web.neighbours[i].is_empty())
+        .min_by(lower)
+    else {
+        return Vec::new();
+    };
+    let mut path: Vec<usize> = vec![start];
+    // As if coming from outside, below.
+    let (mut arrival, mut previous) = (DVec2::X, usize::MAX);
+    for _ in 0..2 * web.corners.len() + 2 {
+        let here = path[path.len() - 1];
+        let Some(next) = web.rightmost(here, previous, arrival) else {
+            break;
+        };
+        if next == start {
+            break;
+        }
+        if let Some(at) = path.iter().position(|&corner| corner == next) {
+            path.truncate(at + 1);
+        } else {
+            path.push(next);
+        }
+        arrival = web.corners[next] - web.corners[here];
+        previous = here;
+    }
+    path.into_iter().map(|corner| web.corners[corner]).collect()
+}
+
+/// Closed polylines and their crossings as a plane graph.
 struct Web {
     corners: Vec<DVec2>,
     /// Neighbours of each corner: two, or four at a crossing.
     neighbours: Vec<Vec<usize>>,
+    /// For each corner the one that stands for all at its place.
+    same: Vec<usize>,
 }
 
 impl Web {
-    fn new(points: &[DVec2]) -> Self {
-        let n = points.len();
-        let mut corners = points.to_vec();
+    fn new(rings: &[&[DVec2]]) -> Self {
+        let mut corners = rings.concat();
+        let mut edges: Vec<[usize; 2]> = Vec::with_capacity(corners.len());
+        let mut first = 0;
+        for ring in rings {
+            let n = ring.len();
+            edges.extend((0..n).map(|i| [first + i, first + (i + 1) % n]));
+            first += n;
+        }
         // For each edge the crossings on it, as (how far along, corner).
-        let mut on_edge: Vec<Vec<(f64, usize)>> = vec![Vec::new(); n];
-        for i in 0..n {
-            for j in i + 2..n {
-                if i == 0 && j == n - 1 {
-                    continue;
-                }
-                let (a, b) = (points[i], points[i + 1]);
-                let (c, d) = (points[j], points[(j + 1) % n]);
-                if let Some((along_first, along_second)) = crossing(a, b, c, d) {
-                    let corner = corners.len();
-                    corners.push(a + (b - a) * along_first);
-                    on_edge[i].push((along_first, corner));
-                    on_edge[j].push((along_second, corner));
-                }
+        let mut on_edge: Vec<Vec<(f64, usize)>> = vec![Vec::new(); edges.len()];
+        for (i, j) in near_pairs(&corners, &edges) {
+            let [a, b] = edges[i].map(|corner| corners[corner]);
+            let [c, d] = edges[j].map(|corner| corners[corner]);
+            if let Some((along_first, along_second)) = crossing(a, b, c, d) {
+                let corner = corners.len();
+                corners.push(a + (b - a) * along_first);
+                on_edge[i].push((along_first, corner));
+                on_edge[j].push((along_second, corner));
             }
         }
+        let same = one_of_equals(&corners);
         let mut neighbours = vec![Vec::new(); corners.len()];
-        for (i, crossings) in on_edge.iter_mut().enumerate() {
+        for (&[from, end], crossings) in edges.iter().zip(&mut on_edge) {
             crossings.sort_by(|p, q| p.0.total_cmp(&q.0));
-            let mut from = i;
-            for to in crossings.iter().map(|c| c.1).chain([(i + 1) % n]) {
-                neighbours[from].push(to);
-                neighbours[to].push(from);
+            let mut from = same[from];
+            for to in crossings.iter().map(|c| c.1).chain([end]) {
+                let to = same[to];
+                if to != from {
+                    neighbours[from].push(to);
+                    neighbours[to].push(from);
+                }
                 from = to;
             }
         }
         Self {
             corners,
             neighbours,
+            same,
         }
     }
 
@@ -105,6 +151,53 @@ impl Web {
     }
 }
 
+/// Pairs of edges, smaller number first, whose bounding boxes overlap and that share no corner; in rising order.
+fn near_pairs(corners: &[DVec2], edges: &[[usize; 2]]) -> Vec<(usize, usize)> {
+    let mut boxes: Vec<(DVec2, DVec2, usize)> = edges
+        .iter()
+        .enumerate()
+        .map(|(i, edge)| {
+            let [a, b] = edge.map(|corner| corners[corner]);
+            (a.min(b), a.max(b), i)
+        })
+        .collect();
+    boxes.sort_by(|p, q| p.0.y.total_cmp(&q.0.y).then(p.2.cmp(&q.2)));
+    let mut pairs = Vec::new();
+    for (k, &(low, high, i)) in boxes.iter().enumerate() {
+        for &(other_low, other_high, j) in &boxes[k + 1..] {
+            if other_low.y > high.y {
+                break;
+            }
+            let joined = edges[i].iter().any(|corner| edges[j].contains(corner));
+            if other_low.x <= high.x && low.x <= other_high.x && !joined {
+                pairs.push((i.min(j), i.max(j)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// For each corner the first one at the same place.
+fn one_of_equals(corners: &[DVec2]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..corners.len()).collect();
+    // Adding 0 makes −0 and 0 one place.
+    let key = |i: usize| corners[i] + DVec2::ZERO;
+    order.sort_by(|&p, &q| {
+        let (a, b) = (key(p), key(q));
+        a.x.total_cmp(&b.x)
+            .then(a.y.total_cmp(&b.y))
+            .then(p.cmp(&q))
+    });
+    let mut first: Vec<usize> = (0..corners.len()).collect();
+    for pair in order.windows(2) {
+        if key(pair[0]) == key(pair[1]) {
+            first[pair[1]] = first[pair[0]];
+        }
+    }
+    first
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,6 +210,41 @@ mod tests {
     fn a_simple_curve_is_its_own_boundary() {
         let curve = points(&[(0.0, 0.0), (2.0, 0.5), (1.0, 1.0), (2.0, 2.0), (0.0, 3.0)]);
         assert_eq!(outer_boundary(&curve), curve);
+    }
+
+    #[test]
+    fn the_union_of_two_squares_is_walked_around() {
+        let square =
+            |x: f64, y: f64| points(&[(x, y), (x + 2.0, y), (x + 2.0, y + 2.0), (x, y + 2.0)]);
+        let (one, other) = (square(0.0, 0.0), square(1.0, 1.0));
+        let expected = points(&[
+            (0.0, 0.0),
+            (2.0, 0.0),
+            (2.0, 1.0),
+            (3.0, 1.0),
+            (3.0, 3.0),
+            (1.0, 3.0),
+            (1.0, 2.0),
+            (0.0, 2.0),
+        ]);
+        assert_eq!(union_boundary(&[&one, &other]), expected);
+        assert_eq!(union_boundary(&[&other, &one]), expected);
+        let inside = points(&[(0.5, 0.5), (1.5, 0.5), (1.0, 1.5)]);
+        assert_eq!(union_boundary(&[&inside, &one]), one);
+    }
+
+    #[test]
+    fn lobes_that_share_a_corner_are_walked_around_through_it() {
+        // Two triangles that overlap above, and meet in the origin.
+        let (one, other) = (
+            points(&[(0.0, 0.0), (3.0, 2.0), (-1.0, 2.0)]),
+            points(&[(0.0, 0.0), (1.0, 2.5), (-3.0, 2.5)]),
+        );
+        let boundary = union_boundary(&[&one, &other]);
+        assert_eq!(boundary[0], DVec2::ZERO);
+        assert!(boundary.contains(&DVec2::new(3.0, 2.0)));
+        assert!(boundary.contains(&DVec2::new(-3.0, 2.5)));
+        assert_eq!(boundary.iter().filter(|p| **p == DVec2::ZERO).count(), 1);
     }
 
     #[test]

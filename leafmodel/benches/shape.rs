@@ -1,0 +1,69 @@
+//! How long outlines and their measures take: `cargo bench -p leafmodel --bench shape`.
+//!
+//! One thread. The growth algorithm's Figs. 3b and 8d, the same with curved veins and unlike halves, a maple of five
+//! lobes; and the measures of that.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use leafmodel::measure;
+use leafmodel::shape::growth_form::{CurvedVein, GrowthForm, HalfForm, LateralGrowth};
+use leafmodel::species::maple::maple;
+use leafmodel::species::young::FORMS;
+
+/// Unlike halves with veins that bend.
+fn oblique() -> GrowthForm {
+    let half = |rate_ratio| HalfForm {
+        lateral: LateralGrowth::Peak {
+            rate_ratio,
+            widest_at: 0.35,
+            falloff: 3.0,
+        },
+        lobe_decay: 0.004,
+        lobe_exponent: 1.0,
+        veins: [0.1, 0.3, 0.5, 0.7, 0.9]
+            .map(|position| CurvedVein {
+                position,
+                slope: 0.4 + position,
+                bend: 2.0,
+            })
+            .to_vec(),
+    };
+    GrowthForm {
+        rows: 150,
+        axial_rate: 0.1,
+        right: half(1.2),
+        left: Some(half(1.3)),
+    }
+}
+
+fn outlines(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("outline");
+    group.measurement_time(Duration::from_secs(3));
+    for form in FORMS
+        .iter()
+        .filter(|form| ["young-3b", "young-8d"].contains(&form.name))
+    {
+        let shape = form.shape();
+        group.bench_function(form.name, |bencher| {
+            bencher.iter(|| black_box(&shape).grow(80.0));
+        });
+    }
+    let form = oblique();
+    group.bench_function("curved veins", |bencher| {
+        bencher.iter(|| black_box(&form).grow(80.0));
+    });
+    let palm = maple();
+    group.bench_function("maple", |bencher| {
+        bencher.iter(|| black_box(&palm).grow(80.0));
+    });
+    let outline = palm.grow(80.0).expect("a good form");
+    group.bench_function("measures of the maple", |bencher| {
+        bencher.iter(|| measure::shape(black_box(&outline)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, outlines);
+criterion_main!(benches);

@@ -1,0 +1,265 @@
+//! Compound leaves: leaflets on a rachis, as data for whoever places blades in space.
+//!
+//! - **In**: a [`CompoundPlan`]: how leaflets are arranged, and the plan of the largest one.
+//! - **Out**: a [`CompoundLeaf`]: plans of leaflets with their places, and the stalks as polylines with radii. Lengths are
+//!   millimetres; the petiole starts at the origin and goes along +y.
+//! - **Always true**: no leaflet crosses another or a stalk but its own; stalks taper; the same plan gives the same leaf.
+//! - **Left out**: the third dimension. Leaves whose leaflets overlap in nature lie flat here, or are refused.
+
+mod arrange;
+mod overlap;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+use thiserror::Error;
+
+use crate::leaf::{LeafError, LeafPlan};
+
+/// Leaflets that a leaf may have.
+pub const MOST_LEAFLETS: usize = 2000;
+
+/// Leaflets, or pinnae, in two rows along a rachis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feather {
+    /// Pairs, 1 to 200.
+    pub pairs: u32,
+    /// Whether one more stands at the rachis' end (imparipinnate).
+    pub terminal: bool,
+    /// Length of the rachis from the first pair to its end, relative to its owner: see [`Arrangement`]; 0.01 to 100.
+    pub rachis: f64,
+    /// How far the left ones stand towards the tip, in shares of the gap between pairs: 0 opposite, 0.5 alternate; 0 to 0.9.
+    pub alternation: f64,
+    /// Angle from the rachis of the first pair and of the last, radians, 0.05 to 3; linear between.
+    pub angles: [f64; 2],
+    /// Size of the first pair, of one half-way and of the last, relative to the largest leaflet; 0.01 to 1, linear
+    /// between.
+    pub sizes: [f64; 3],
+    /// Curvature of the rachis: the angle by which it turns to the right from end to end, radians, −2 to 2.
+    pub turn: f64,
+}
+
+/// How leaflets stand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrangement {
+    /// In two rows along the rachis, whose length is relative to the largest leaflet's.
+    Pinnate(Feather),
+    /// All at the petiole's end.
+    Palmate {
+        /// How many, 2 to 100.
+        leaflets: u32,
+        /// Angle between the two outermost, radians, 0.05 to 6.2.
+        spread: f64,
+        /// Size of the outermost and of the middle ones relative to the largest; 0.01 to 1, linear in the angle between.
+        sizes: [f64; 2],
+    },
+    /// Twice feathered: pinnae along the rachis, leaflets along each pinna. Rachides of pinnae are relative to the largest
+    /// leaflet and to the pinna's size, the main one to the rachis of the largest pinna.
+    Bipinnate {
+        /// Pinnae along the rachis.
+        pinnae: Feather,
+        /// Leaflets along a pinna.
+        leaflets: Feather,
+        /// Length of a pinna's stalk, from the rachis to its first leaflets, relative to the largest leaflet and to the
+        /// pinna's size; 0.01 to 100.
+        stalk: f64,
+    },
+}
+
+/// Everything that decides a compound leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompoundPlan {
+    /// How leaflets stand.
+    pub arrangement: Arrangement,
+    /// The largest leaflet; its seed is the leaf's.
+    pub leaflet: LeafPlan,
+    /// Petiole, from the origin to the first pair, or to where all leaflets stand; relative to the largest leaflet, 0 to
+    /// 100.
+    pub petiole: f64,
+    /// Stalks of leaflets (petiolules) relative to the leaflet, 0 to 10.
+    pub petiolule: f64,
+    /// Radius of the largest leaflet's stalk, mm, 0.001 to 100.
+    pub stalk_radius_mm: f64,
+}
+
+/// A leaflet in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedLeaflet {
+    /// Its plan, at the size of the largest leaflet, with a seed of its own.
+    pub plan: LeafPlan,
+    /// Where its base is.
+    pub base: DVec2,
+    /// Direction of its midrib, radians from +y towards +x (clockwise).
+    pub angle: f64,
+    /// By how much to scale the plan's leaf, in (0, 1].
+    pub scale: f64,
+    /// Whether it is the mirror image (x negated first): leaflets on the left are, so that unlike halves match.
+    pub mirrored: bool,
+}
+
+/// What a stalk is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StalkKind {
+    /// From the stem to the first leaflets.
+    Petiole,
+    /// The axis that bears leaflets or pinnae.
+    Rachis,
+    /// The axis of a pinna, with its stalk.
+    Pinna,
+    /// Of one leaflet.
+    Petiolule,
+}
+
+/// A stalk as a polyline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stalk {
+    /// What it is.
+    pub kind: StalkKind,
+    /// From its base to its tip, at least two.
+    pub points: Vec<DVec2>,
+    /// Radius at each point, mm, > 0, never growing towards the tip.
+    pub radii_mm: Vec<f64>,
+}
+
+/// A compound leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompoundLeaf {
+    /// Leaflets, from the base on, right before left.
+    pub leaflets: Vec<PlacedLeaflet>,
+    /// Petiole and rachis first.
+    pub stalks: Vec<Stalk>,
+}
+
+/// Why no compound leaf can be made.
+#[derive(Debug, Error)]
+pub enum CompoundError {
+    /// A number out of its range.
+    #[error("{key} is {value}, outside {range}")]
+    OutOfRange {
+        /// Which parameter.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// Two leaflets overlap.
+    #[error(
+        "leaflets {first} and {second} overlap; make the rachis longer, or leaflets narrower or fewer"
+    )]
+    Overlap {
+        /// Number of the first leaflet, from 0.
+        first: usize,
+        /// Number of the second.
+        second: usize,
+    },
+    /// A leaflet lies over a stalk that is not its own.
+    #[error("leaflet {leaflet} lies over a stalk; make petiolules longer or angles wider")]
+    OnStalk {
+        /// Number of the leaflet, from 0.
+        leaflet: usize,
+    },
+    /// The leaflet has no outline.
+    #[error("leaflet: {0}")]
+    Leaflet(#[from] LeafError),
+}
+
+impl PlacedLeaflet {
+    /// A point of the plan's leaf (mm, base at the origin, midrib along +y) in the compound leaf.
+    pub fn place(&self, p: DVec2) -> DVec2 {
+        let x = if self.mirrored { -p.x } else { p.x };
+        let axis = direction(self.angle);
+        self.base + (-axis.perp() * x + axis * p.y) * self.scale
+    }
+}
+
+impl CompoundPlan {
+    /// Places the leaflets.
+    ///
+    /// # Errors
+    ///
+    /// [`CompoundError`], naming the parameter and its range, or which leaflets are in each other's way.
+    pub fn arrange(&self) -> Result<CompoundLeaf, CompoundError> {
+        self.validate()?;
+        let outline = self.leaflet.grow_outline()?;
+        let leaf = arrange::arrange(self);
+        overlap::check(&leaf, &outline)?;
+        Ok(leaf)
+    }
+
+    fn validate(&self) -> Result<(), CompoundError> {
+        in_range("petiole", self.petiole, [0.0, 100.0], "0 to 100")?;
+        in_range("petiolule", self.petiolule, [0.0, 10.0], "0 to 10")?;
+        let radius = self.stalk_radius_mm;
+        in_range("stalk_radius_mm", radius, [1e-3, 100.0], "0.001 to 100")?;
+        let leaflets = match &self.arrangement {
+            Arrangement::Pinnate(feather) => {
+                feather.validate()?;
+                feather.count()
+            }
+            Arrangement::Palmate {
+                leaflets,
+                spread,
+                sizes,
+            } => {
+                in_range("leaflets", f64::from(*leaflets), [2.0, 100.0], "2 to 100")?;
+                in_range("spread", *spread, [0.05, 6.2], "0.05 to 6.2 (radians)")?;
+                for size in sizes {
+                    in_range("sizes", *size, [0.01, 1.0], "0.01 to 1")?;
+                }
+                *leaflets as usize
+            }
+            Arrangement::Bipinnate {
+                pinnae,
+                leaflets,
+                stalk,
+            } => {
+                in_range("stalk", *stalk, [0.01, 100.0], "0.01 to 100")?;
+                pinnae.validate()?;
+                leaflets.validate()?;
+                pinnae.count() * leaflets.count()
+            }
+        };
+        let most = [1.0, MOST_LEAFLETS as f64];
+        in_range("leaflets in all", leaflets as f64, most, "1 to 2000")
+    }
+}
+
+impl Feather {
+    fn count(&self) -> usize {
+        2 * self.pairs as usize + usize::from(self.terminal)
+    }
+
+    fn validate(&self) -> Result<(), CompoundError> {
+        in_range("pairs", f64::from(self.pairs), [1.0, 200.0], "1 to 200")?;
+        in_range("rachis", self.rachis, [0.01, 100.0], "0.01 to 100")?;
+        in_range("alternation", self.alternation, [0.0, 0.9], "0 to 0.9")?;
+        in_range("turn", self.turn, [-2.0, 2.0], "-2 to 2 (radians)")?;
+        for angle in self.angles {
+            in_range("angles", angle, [0.05, 3.0], "0.05 to 3 (radians)")?;
+        }
+        for size in self.sizes {
+            in_range("sizes", size, [0.01, 1.0], "0.01 to 1")?;
+        }
+        Ok(())
+    }
+}
+
+/// `value` must lie in a range, which NaN never does.
+fn in_range(
+    key: &'static str,
+    value: f64,
+    [low, high]: [f64; 2],
+    range: &'static str,
+) -> Result<(), CompoundError> {
+    if (low..=high).contains(&value) {
+        Ok(())
+    } else {
+        Err(CompoundError::OutOfRange { key, value, range })
+    }
+}
+
+/// The unit vector at an angle from +y towards +x.
+fn direction(angle: f64) -> DVec2 {
+    DVec2::new(libm::sin(angle), libm::cos(angle))
+}

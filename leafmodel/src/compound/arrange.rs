@@ -1,0 +1,270 @@
+//! Where leaflets and stalks are.
+
+use glam::DVec2;
+
+use super::{
+    Arrangement, CompoundLeaf, CompoundPlan, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
+};
+use crate::venation::chance::{Use, bits};
+
+/// Straight pieces of a rachis between two leaflets.
+const PIECES: u32 = 4;
+
+/// Where something stands on an axis, and how it leaves it.
+struct Insertion {
+    /// Point and direction of the axis there.
+    at: DVec2,
+    heading: f64,
+    /// Distance along the axis.
+    along: f64,
+    /// Angle from the axis, > 0 to the right; 0 at its end.
+    angle: f64,
+    size: f64,
+}
+
+/// A point on an axis that starts at `base` towards `heading`, is `length` long and turns evenly; with its direction there.
+fn on_arc(base: DVec2, heading: f64, length: f64, turn: f64, along: f64) -> (DVec2, f64) {
+    let turned = turn * along / length;
+    // Chord of the arc: sin(t/2)/(t/2) of its length, half-way between the directions.
+    let half = 0.5 * turned;
+    let chord = if half.abs() < 1e-6 {
+        along
+    } else {
+        along * libm::sin(half) / half
+    };
+    (base + direction(heading + half) * chord, heading + turned)
+}
+
+impl Feather {
+    /// Linear between first, middle and last.
+    fn size(&self, share: f64) -> f64 {
+        let [first, middle, last] = self.sizes;
+        if share < 0.5 {
+            first + (middle - first) * 2.0 * share
+        } else {
+            middle + (last - middle) * (2.0 * share - 1.0)
+        }
+    }
+
+    /// What stands on a rachis of this length, from its base on.
+    fn insertions(&self, base: DVec2, heading: f64, length: f64) -> Vec<Insertion> {
+        let pairs = f64::from(self.pairs);
+        // A terminal leaflet stands a gap beyond the last pair, which else is the rachis' end.
+        let gaps =
+            (pairs - 1.0 + self.alternation + if self.terminal { 1.0 } else { 0.0 }).max(1e-9);
+        let gap = length / gaps;
+        let mut all = Vec::with_capacity(self.count());
+        for i in 0..self.pairs {
+            let share = if self.pairs > 1 {
+                f64::from(i) / (pairs - 1.0)
+            } else {
+                0.5
+            };
+            for (side, offset) in [(1.0, 0.0), (-1.0, self.alternation)] {
+                let along = ((f64::from(i) + offset) * gap).min(length);
+                let (at, heading) = on_arc(base, heading, length, self.turn, along);
+                let [first, last] = self.angles;
+                all.push(Insertion {
+                    at,
+                    heading,
+                    along,
+                    angle: side * (first + (last - first) * share),
+                    size: self.size(share),
+                });
+            }
+        }
+        if self.terminal {
+            let (at, heading) = on_arc(base, heading, length, self.turn, length);
+            all.push(Insertion {
+                at,
+                heading,
+                along: length,
+                angle: 0.0,
+                size: self.sizes[2],
+            });
+        }
+        all
+    }
+}
+
+/// A compound leaf under construction.
+struct Builder<'p> {
+    plan: &'p CompoundPlan,
+    leaf: CompoundLeaf,
+}
+
+/// Carries out a checked plan.
+pub(super) fn arrange(plan: &CompoundPlan) -> CompoundLeaf {
+    let mut builder = Builder {
+        plan,
+        leaf: CompoundLeaf {
+            leaflets: Vec::new(),
+            stalks: Vec::new(),
+        },
+    };
+    let unit = plan.leaflet.length_mm;
+    let end = DVec2::new(0.0, plan.petiole * unit);
+    // Its radius is that of all it bears, which is known in the end.
+    let has_petiole = plan.petiole > 0.0;
+    if has_petiole {
+        builder.stalk(StalkKind::Petiole, vec![DVec2::ZERO, end], Vec::new());
+    }
+    let flow = match &plan.arrangement {
+        Arrangement::Pinnate(feather) => {
+            let length = feather.rachis * unit;
+            builder.feather(
+                StalkKind::Rachis,
+                feather,
+                (end, 0.0),
+                length,
+                |builder, insertion| builder.leaflet(insertion, insertion.size),
+            )
+        }
+        Arrangement::Palmate {
+            leaflets,
+            spread,
+            sizes,
+        } => builder.fan(end, *leaflets, *spread, *sizes),
+        Arrangement::Bipinnate {
+            pinnae,
+            leaflets,
+            stalk,
+        } => {
+            let pinna = leaflets.rachis * unit;
+            builder.feather(
+                StalkKind::Rachis,
+                pinnae,
+                (end, 0.0),
+                pinnae.rachis * pinna,
+                |builder, insertion| builder.pinna(leaflets, insertion, stalk * unit, pinna),
+            )
+        }
+    };
+    if has_petiole {
+        let radius = builder.radius(flow);
+        builder.leaf.stalks[0].radii_mm = vec![radius; 2];
+    }
+    builder.leaf
+}
+
+impl Builder<'_> {
+    fn stalk(&mut self, kind: StalkKind, points: Vec<DVec2>, radii_mm: Vec<f64>) {
+        self.leaf.stalks.push(Stalk {
+            kind,
+            points,
+            radii_mm,
+        });
+    }
+
+    /// Cross-sections add up: a stalk is as thick as all the petiolules together that it bears.
+    fn radius(&self, flow: f64) -> f64 {
+        self.plan.stalk_radius_mm * flow.sqrt()
+    }
+
+    /// A leaflet and its stalk; gives what it needs of its rachis, in units of the largest leaflet's.
+    fn leaflet(&mut self, insertion: &Insertion, scale: f64) -> f64 {
+        let angle = insertion.heading + insertion.angle;
+        let stalk = self.plan.petiolule * scale * self.plan.leaflet.length_mm;
+        let base = insertion.at + direction(angle) * stalk;
+        let flow = scale * scale;
+        if stalk > 0.0 {
+            let radius = self.radius(flow);
+            self.stalk(
+                StalkKind::Petiolule,
+                vec![insertion.at, base],
+                vec![radius; 2],
+            );
+        }
+        let number = self.leaf.leaflets.len() as u64;
+        let mut plan = self.plan.leaflet.clone();
+        plan.seed = bits(self.plan.leaflet.seed, Use::Leaflet, number);
+        self.leaf.leaflets.push(PlacedLeaflet {
+            plan,
+            base,
+            angle,
+            scale,
+            mirrored: insertion.angle < 0.0,
+        });
+        flow
+    }
+
+    /// An axis and what stands on it; gives what it needs of the stalk below.
+    fn feather(
+        &mut self,
+        kind: StalkKind,
+        feather: &Feather,
+        (base, heading): (DVec2, f64),
+        length: f64,
+        mut bear: impl FnMut(&mut Self, &Insertion) -> f64,
+    ) -> f64 {
+        let insertions = feather.insertions(base, heading, length);
+        let place = self.leaf.stalks.len();
+        self.stalk(kind, Vec::new(), Vec::new());
+        let flows: Vec<f64> = insertions
+            .iter()
+            .map(|insertion| bear(self, insertion))
+            .collect();
+        let pieces = PIECES * (feather.pairs + 1);
+        let (mut points, mut radii) = (Vec::new(), Vec::new());
+        for i in 0..=pieces {
+            let along = length * f64::from(i) / f64::from(pieces);
+            points.push(on_arc(base, heading, length, feather.turn, along).0);
+            // What stands farther out; at the very end, what stands there.
+            let beyond = insertions.iter().zip(&flows);
+            let reached = along.min(length * (1.0 - 1e-9));
+            let flow: f64 = beyond
+                .filter(|(insertion, _)| insertion.along >= reached)
+                .map(|(_, flow)| flow)
+                .sum();
+            radii.push(self.radius(flow));
+        }
+        self.leaf.stalks[place].points = points;
+        self.leaf.stalks[place].radii_mm = radii;
+        flows.iter().sum()
+    }
+
+    /// A pinna: its leaflets, after a bare stalk.
+    fn pinna(&mut self, leaflets: &Feather, insertion: &Insertion, stalk: f64, length: f64) -> f64 {
+        let heading = insertion.heading + insertion.angle;
+        let size = insertion.size;
+        let base = insertion.at + direction(heading) * (stalk * size);
+        let place = self.leaf.stalks.len();
+        // Pinnae on the left are mirror images.
+        let mirrored = insertion.angle < 0.0;
+        let turn = if mirrored {
+            -leaflets.turn
+        } else {
+            leaflets.turn
+        };
+        let own = Feather { turn, ..*leaflets };
+        let flow = self.feather(
+            StalkKind::Pinna,
+            &own,
+            (base, heading),
+            length * size,
+            |builder, on| builder.leaflet(on, on.size * size),
+        );
+        let radius = self.radius(flow);
+        self.leaf.stalks[place].points.insert(0, insertion.at);
+        self.leaf.stalks[place].radii_mm.insert(0, radius);
+        flow
+    }
+
+    /// Leaflets around the petiole's end, from right to left.
+    fn fan(&mut self, at: DVec2, leaflets: u32, spread: f64, [outer, middle]: [f64; 2]) -> f64 {
+        let mut flow = 0.0;
+        for i in 0..leaflets {
+            let share = 1.0 - 2.0 * f64::from(i) / f64::from(leaflets - 1);
+            let size = middle + (outer - middle) * share.abs();
+            let insertion = Insertion {
+                at,
+                heading: 0.0,
+                along: 0.0,
+                angle: 0.5 * spread * share,
+                size,
+            };
+            flow += self.leaflet(&insertion, size);
+        }
+        flow
+    }
+}

@@ -1,0 +1,73 @@
+//! Whether leaflets are in each other's way.
+
+use glam::DVec2;
+
+use super::{CompoundError, CompoundLeaf, StalkKind};
+use crate::shape::outline::Outline;
+
+/// Refuses leaflets that overlap each other or lie over an axis.
+pub(super) fn check(leaf: &CompoundLeaf, outline: &Outline) -> Result<(), CompoundError> {
+    let base = outline.base();
+    let placed: Vec<(Vec<DVec2>, DVec2, DVec2)> = leaf
+        .leaflets
+        .iter()
+        .map(|leaflet| {
+            let points: Vec<DVec2> = outline
+                .points()
+                .iter()
+                .map(|&p| leaflet.place(p - base))
+                .collect();
+            let low = points.iter().fold(DVec2::INFINITY, |low, &p| low.min(p));
+            let high = points
+                .iter()
+                .fold(DVec2::NEG_INFINITY, |high, &p| high.max(p));
+            (points, low, high)
+        })
+        .collect();
+    // In the leaflet's own frame its margin answers quickly.
+    let back = |number: usize, p: DVec2| {
+        let leaflet = &leaf.leaflets[number];
+        let axis = super::direction(leaflet.angle);
+        let p = (p - leaflet.base) / leaflet.scale;
+        let x = p.dot(-axis.perp());
+        base + DVec2::new(if leaflet.mirrored { -x } else { x }, p.dot(axis))
+    };
+    for (second, (points, low, high)) in placed.iter().enumerate() {
+        for (first, (_, other_low, other_high)) in placed[..second].iter().enumerate() {
+            if low.cmpgt(*other_high).any() || other_low.cmpgt(*high).any() {
+                continue;
+            }
+            let own: Vec<DVec2> = points.iter().map(|&p| back(first, p)).collect();
+            let n = own.len();
+            let crosses = (0..n).any(|i| outline.is_crossed_by(own[i], own[(i + 1) % n]));
+            // One may lie inside the other: then a corner does, whichever it is.
+            if crosses || outline.contains(own[n / 2]) {
+                return Err(CompoundError::Overlap { first, second });
+            }
+        }
+    }
+    let axes = leaf
+        .stalks
+        .iter()
+        .filter(|stalk| stalk.kind != StalkKind::Petiolule);
+    for stalk in axes {
+        for piece in stalk.points.windows(2) {
+            let (from, to) = (piece[0].min(piece[1]), piece[0].max(piece[1]));
+            for (leaflet, (_, low, high)) in placed.iter().enumerate() {
+                if from.cmpgt(*high).any() || low.cmpgt(to).any() {
+                    continue;
+                }
+                // The end of a stalk may touch a base that sits on it.
+                let [a, b] = [piece[0], piece[1]].map(|p| back(leaflet, p));
+                let inside = |share: f64| {
+                    let p = a.lerp(b, share);
+                    outline.contains(p) && outline.distance_to_margin(p) > 1e-6 * outline.length()
+                };
+                if [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(inside) {
+                    return Err(CompoundError::OnStalk { leaflet });
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,247 @@
+//! Ash, horse chestnut, mimosa: leaves with leaflets of the growth algorithm.
+
+use super::*;
+use crate::species;
+
+fn leaflet() -> LeafPlan {
+    let lanceolate = species::find("young-3c").expect("a preset");
+    LeafPlan {
+        length_mm: 40.0,
+        ..lanceolate.plan()
+    }
+}
+
+fn feather() -> Feather {
+    Feather {
+        pairs: 5,
+        terminal: true,
+        rachis: 2.2,
+        alternation: 0.0,
+        angles: [1.2, 0.8],
+        sizes: [0.7, 1.0, 0.8],
+        turn: 0.0,
+    }
+}
+
+fn plan(arrangement: Arrangement) -> CompoundPlan {
+    CompoundPlan {
+        arrangement,
+        leaflet: leaflet(),
+        petiole: 0.5,
+        petiolule: 0.08,
+        stalk_radius_mm: 0.4,
+    }
+}
+
+fn bipinnate() -> Arrangement {
+    let small = Feather {
+        pairs: 6,
+        rachis: 2.4,
+        ..feather()
+    };
+    let pinnae = Feather {
+        pairs: 3,
+        rachis: 5.0,
+        sizes: [0.9, 1.0, 0.8],
+        ..feather()
+    };
+    Arrangement::Bipinnate {
+        pinnae,
+        leaflets: small,
+        stalk: 1.0,
+    }
+}
+
+fn palmate() -> Arrangement {
+    Arrangement::Palmate {
+        leaflets: 7,
+        spread: 4.2,
+        sizes: [0.5, 1.0],
+    }
+}
+
+fn arranged(arrangement: Arrangement) -> CompoundLeaf {
+    plan(arrangement).arrange().expect("a good plan")
+}
+
+#[test]
+fn a_pinnate_leaf_is_paired_along_its_rachis_and_ends_in_a_leaflet() {
+    let leaf = arranged(Arrangement::Pinnate(feather()));
+    assert_eq!(leaf.leaflets.len(), 11);
+    for pair in leaf.leaflets[..10].chunks(2) {
+        let (right, left) = (&pair[0], &pair[1]);
+        assert!(!right.mirrored && left.mirrored && right.scale == left.scale);
+        for p in [DVec2::new(3.0, 10.0), DVec2::new(-1.0, 40.0)] {
+            let (q, r) = (right.place(p), left.place(p));
+            assert!((q - DVec2::new(-r.x, r.y)).length() < 1e-12, "{q} {r}");
+        }
+    }
+    let end = &leaf.leaflets[10];
+    assert_eq!((end.angle, end.base.x), (0.0, 0.0));
+    // Petiole, rachis, petiolule.
+    assert!((end.base.y - 40.0 * (0.5 + 2.2 + 0.08 * 0.8)).abs() < 1e-9);
+}
+
+#[test]
+fn cross_sections_of_stalks_add_up() {
+    for arrangement in [Arrangement::Pinnate(feather()), palmate(), bipinnate()] {
+        let leaf = arranged(arrangement);
+        let sum: f64 = leaf
+            .leaflets
+            .iter()
+            .map(|leaflet| leaflet.scale * leaflet.scale)
+            .sum();
+        assert_eq!(leaf.stalks[0].kind, StalkKind::Petiole);
+        assert!((leaf.stalks[0].radii_mm[0] - 0.4 * sum.sqrt()).abs() < 1e-12);
+        for stalk in &leaf.stalks {
+            assert!(stalk.points.len() >= 2 && stalk.points.len() == stalk.radii_mm.len());
+            assert!(
+                stalk
+                    .radii_mm
+                    .windows(2)
+                    .all(|pair| pair[0] >= pair[1] && pair[1] > 0.0)
+            );
+        }
+    }
+}
+
+#[test]
+fn a_palmate_leaf_fans_out_from_one_point() {
+    let leaf = arranged(palmate());
+    let point = DVec2::new(0.0, 20.0);
+    let mut before = 4.2 / 2.0 + 0.7;
+    for leaflet in &leaf.leaflets {
+        assert!((before - leaflet.angle - 0.7).abs() < 1e-12);
+        before = leaflet.angle;
+        let stalk = (leaflet.base - point).length();
+        assert!((stalk - 0.08 * 40.0 * leaflet.scale).abs() < 1e-12);
+    }
+    assert_eq!(leaf.leaflets.len(), 7);
+}
+
+#[test]
+fn a_bipinnate_leaf_has_leaflets_on_every_pinna() {
+    let leaf = arranged(bipinnate());
+    assert_eq!(leaf.leaflets.len(), 7 * 13);
+    let pinnae = leaf
+        .stalks
+        .iter()
+        .filter(|stalk| stalk.kind == StalkKind::Pinna);
+    assert_eq!(pinnae.count(), 7);
+    let mut seeds: Vec<u64> = leaf
+        .leaflets
+        .iter()
+        .map(|leaflet| leaflet.plan.seed)
+        .collect();
+    seeds.sort_unstable();
+    seeds.dedup();
+    assert_eq!(seeds.len(), 7 * 13);
+}
+
+#[test]
+fn alternate_leaflets_on_a_curved_rachis_stand_on_its_arc() {
+    let leaf = arranged(Arrangement::Pinnate(Feather {
+        alternation: 0.5,
+        turn: 0.8,
+        ..feather()
+    }));
+    let rachis = leaf
+        .stalks
+        .iter()
+        .find(|stalk| stalk.kind == StalkKind::Rachis);
+    let rachis = rachis.expect("it has one");
+    let length: f64 = rachis
+        .points
+        .windows(2)
+        .map(|edge| (edge[1] - edge[0]).length())
+        .sum();
+    // Chords of 24 pieces over 0.8 radians are shorter by (0.8/24)²/24.
+    assert!((length / 88.0 - 1.0).abs() < 5e-5, "{length}");
+    let radius = 88.0 / 0.8;
+    for p in &rachis.points {
+        let away = (*p - DVec2::new(radius, 20.0)).length();
+        assert!((away - radius).abs() < 1e-9, "{p}");
+    }
+}
+
+#[test]
+fn leaflets_in_each_others_way_are_refused() {
+    let crowded = Feather {
+        pairs: 14,
+        ..feather()
+    };
+    assert!(matches!(
+        plan(Arrangement::Pinnate(crowded)).arrange(),
+        Err(CompoundError::Overlap { .. })
+    ));
+    let steep = Feather {
+        pairs: 1,
+        angles: [0.05, 0.05],
+        rachis: 6.0,
+        ..feather()
+    };
+    assert!(matches!(
+        plan(Arrangement::Pinnate(steep)).arrange(),
+        Err(CompoundError::OnStalk { leaflet: 0 } | CompoundError::Overlap { .. })
+    ));
+}
+
+#[test]
+fn every_bad_number_is_named() {
+    let with = |change: fn(&mut Feather)| {
+        let mut feather = feather();
+        change(&mut feather);
+        plan(Arrangement::Pinnate(feather))
+    };
+    let bad = [
+        ("pairs", with(|f| f.pairs = 0)),
+        ("rachis", with(|f| f.rachis = f64::NAN)),
+        ("alternation", with(|f| f.alternation = 1.0)),
+        ("angles", with(|f| f.angles[1] = 0.0)),
+        ("sizes", with(|f| f.sizes[2] = 1.1)),
+        ("turn", with(|f| f.turn = 3.0)),
+        (
+            "petiole",
+            CompoundPlan {
+                petiole: -1.0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "petiolule",
+            CompoundPlan {
+                petiolule: 11.0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "stalk_radius_mm",
+            CompoundPlan {
+                stalk_radius_mm: 0.0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "leaflets",
+            plan(Arrangement::Palmate {
+                leaflets: 1,
+                spread: 1.0,
+                sizes: [1.0, 1.0],
+            }),
+        ),
+        (
+            "spread",
+            plan(Arrangement::Palmate {
+                leaflets: 3,
+                spread: 7.0,
+                sizes: [1.0, 1.0],
+            }),
+        ),
+    ];
+    for (expected, plan) in bad {
+        match plan.arrange() {
+            Err(CompoundError::OutOfRange { key, .. }) => assert_eq!(key, expected),
+            other => panic!("{expected}: {other:?}"),
+        }
+    }
+}

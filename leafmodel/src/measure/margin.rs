@@ -1,0 +1,97 @@
+//! The blade seen from its midrib: how wide it is at each height, and its convex hull.
+
+use glam::DVec2;
+
+use crate::shape::outline::Outline;
+
+/// Widths that differ by less than this share are equally wide: rounding only.
+const EQUALLY_WIDE: f64 = 1e-9;
+
+/// Size of a margin in the frame of its midrib.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extent {
+    /// Lowest and highest point of the margin along the midrib, mm from the base.
+    pub(super) along: (f64, f64),
+    /// Largest distance across the midrib of two points of the margin at one height, mm.
+    pub(super) width: f64,
+    /// That height, mm from the base; the middle of the lowest and the highest of equally wide ones.
+    pub(super) widest: f64,
+}
+
+/// Measures a margin across and along its midrib. Between two corners neighbouring in height both edges of the blade
+/// are straight, so that it is widest at the height of a corner.
+pub(super) fn extent(outline: &Outline) -> Extent {
+    let midrib = (outline.apex() - outline.base()) / outline.length();
+    let in_frame = |p: &DVec2| {
+        let p = *p - outline.base();
+        DVec2::new(-midrib.perp_dot(p), midrib.dot(p))
+    };
+    let points: Vec<DVec2> = outline.points().iter().map(in_frame).collect();
+    let mut edges: Vec<(DVec2, DVec2)> = (0..points.len())
+        .map(|i| (points[i], points[(i + 1) % points.len()]))
+        .map(|(a, b)| if a.y <= b.y { (a, b) } else { (b, a) })
+        .collect();
+    edges.sort_by(|p, q| p.0.y.total_cmp(&q.0.y));
+    let mut heights: Vec<f64> = points.iter().map(|p| p.y).collect();
+    heights.sort_by(f64::total_cmp);
+    let (mut open, mut next) = (Vec::new(), 0);
+    let mut widths: Vec<(f64, f64)> = Vec::with_capacity(heights.len());
+    for &height in &heights {
+        while let Some(&edge) = edges.get(next).filter(|edge| edge.0.y <= height) {
+            open.push(edge);
+            next += 1;
+        }
+        open.retain(|edge| edge.1.y >= height);
+        let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (low, high) in &open {
+            if low.y < high.y {
+                let x = low.x + (high.x - low.x) * ((height - low.y) / (high.y - low.y));
+                (left, right) = (left.min(x), right.max(x));
+            } else {
+                (left, right) = (left.min(low.x).min(high.x), right.max(low.x).max(high.x));
+            }
+        }
+        widths.push((height, right - left));
+    }
+    let width = widths.iter().map(|w| w.1).fold(0.0, f64::max);
+    let mut widest = widths
+        .iter()
+        .filter(|w| w.1 >= width * (1.0 - EQUALLY_WIDE))
+        .map(|w| w.0);
+    let lowest = widest.next().unwrap_or(0.0);
+    Extent {
+        along: (heights[0], heights[heights.len() - 1]),
+        width,
+        widest: 0.5 * (lowest + widest.next_back().unwrap_or(lowest)),
+    }
+}
+
+/// Area of the smallest convex polygon around the margin, mm², > 0 (monotone chains).
+pub(super) fn hull_area(outline: &Outline) -> f64 {
+    let mut points = outline.points().to_vec();
+    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    let mut hull = chain(points.iter().copied());
+    hull.extend(chain(points.iter().rev().copied()));
+    let origin = hull[0];
+    let doubled: f64 = hull
+        .windows(2)
+        .map(|edge| (edge[0] - origin).perp_dot(edge[1] - origin))
+        .sum();
+    0.5 * doubled
+}
+
+/// Half of the hull of points sorted one way, without its last point, which starts the other half.
+fn chain(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
+    let mut hull: Vec<DVec2> = Vec::new();
+    for p in points {
+        while let [.., a, b] = hull[..] {
+            if (b - a).perp_dot(p - a) > 0.0 {
+                break;
+            }
+            hull.pop();
+        }
+        hull.push(p);
+    }
+    hull.pop();
+    hull
+}

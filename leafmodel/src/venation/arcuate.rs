@@ -1,0 +1,315 @@
+//! Veins as splines: pinnate to arcuate patterns in closed form, without simulation.
+//!
+//! Each lateral vein is a quadratic spline from the midrib to the margin whose control point lies on a copy of the margin that is
+//! narrowed towards the midrib. How start, control and end points are bunched up decides between straight pinnate veins and
+//! arcuate ones that sweep along the margin to the tip.
+//!
+//! - **In**: an [`ArcuatePlan`], and any [`Outline`] or the plan's own, which is made of two cubic splines.
+//! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], whose fields Vein, Net and Fac can be had at any point.
+//! - **Always true**: every vein of the network starts on the midrib or a primary and ends on the margin, or where it meets
+//!   another vein; no vein crosses the margin or another vein.
+//! - **Left out**: veins of the third order and above. Net says where they would be.
+//!
+//! # Source
+//!
+//! \[oslveins\]; `docs/src/theory/arcuate-veins.md` tells where we depart from its code.
+
+mod fields;
+mod graph;
+mod layout;
+mod spline;
+#[cfg(test)]
+mod tests;
+
+use std::ops::RangeInclusive;
+
+use glam::DVec2;
+use thiserror::Error;
+
+pub use self::fields::ArcuateFields;
+use self::layout::{Frame, Sides, Vein, lay_out};
+use super::network::{NetworkError, VenationNetwork};
+use crate::shape::cubic::{Cubic, FLATNESS};
+use crate::shape::outline::{Outline, OutlineError};
+
+/// Primary veins that fan out from the petiole beside the midrib.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PalmateVeins {
+    /// How many a side, 1 to 12.
+    pub per_side: u32,
+    /// How far down the margin they end: 1 spreads them evenly from base to tip, less bunches them towards the tip; 0.05 to 1.
+    pub spread: f64,
+    /// How much they bow outwards, in shares of half their length: 0 straight, above 0 running along the margin; −0.8 to 0.8.
+    pub bow: f64,
+}
+
+/// Parameters of the pattern. Lengths are in units of the leaf's length; the names are the article's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArcuatePlan {
+    /// `Angle1`: direction of the own margin's first handle from the midrib, degrees, 0 to 180, both excluded.
+    pub angle1_deg: f64,
+    /// `L1`: length of that handle, 0.01 to 10.
+    pub length1: f64,
+    /// `Angle2`: direction of the handle at the tip, degrees, 0 to 180, both excluded.
+    pub angle2_deg: f64,
+    /// `L2`: length of that handle, 0.01 to 10.
+    pub length2: f64,
+    /// `Veins`: lateral veins a side of each primary, 1 to 100.
+    pub veins: u32,
+    /// `Seed` of the variation.
+    pub seed: u32,
+    /// `Var`: how irregularly laterals start, 0 to 1.
+    pub variation: f64,
+    /// `Width`: half width of the midrib at the base, 0.0001 to 0.5.
+    pub width: f64,
+    /// `NWidth`: how far from veins the finer net reaches, 0 to 1.
+    pub net_width: f64,
+    /// `Squish`: how end points are spread over the margin, 0 (all at the tip) to 1 (evenly).
+    pub squish: f64,
+    /// `Squish2`: how control points are spread, 0 (all at the tip) to 1.
+    pub squish2: f64,
+    /// `Squish3`: how starting points are spread over the midrib, 0 (all near the base) to 1.
+    pub squish3: f64,
+    /// `Up`: how far control points are from the midrib, as a share of the margin's distance; 0 to 2.
+    pub up: f64,
+    /// Share of a vein's width that is left at its tip, 0 to 1; 0 in the article, whose author wished for control here.
+    pub tip_width: f64,
+    /// Primaries beside the midrib; none in the article, whose author wished for them.
+    pub palmate: Option<PalmateVeins>,
+}
+
+impl Default for ArcuatePlan {
+    /// The article's defaults.
+    fn default() -> Self {
+        Self {
+            angle1_deg: 70.0,
+            length1: 1.0,
+            angle2_deg: 70.0,
+            length2: 1.0,
+            veins: 7,
+            seed: 42,
+            variation: 0.0,
+            width: 0.05,
+            net_width: 0.25,
+            squish: 0.5,
+            squish2: 0.5,
+            squish3: 0.5,
+            up: 0.5,
+            tip_width: 0.0,
+            palmate: None,
+        }
+    }
+}
+
+/// Why there are no such veins.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ArcuateError {
+    /// A number out of its range.
+    #[error("{key} is {value}, outside {range}")]
+    OutOfRange {
+        /// Which parameter.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A vein that is not there.
+    #[error("vein index {index} is outside 0 to {last}")]
+    NoSuchVein {
+        /// The number asked for.
+        index: usize,
+        /// The last there is.
+        last: usize,
+    },
+    /// The plan's own margin crosses itself or encloses nothing.
+    #[error("the margin of these angles and lengths is none: {0}")]
+    Margin(#[from] OutlineError),
+    /// No veins fit on the blade.
+    #[error("no veins fit on this blade: {0}")]
+    Network(#[from] NetworkError),
+}
+
+/// Veins laid out on a blade.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcuateVeins {
+    frame: Frame,
+    plan: ArcuatePlan,
+    /// Midrib first, then the primaries beside it.
+    axes: Vec<Vein>,
+    /// In the order in which the article's code looks at them: base to tip, up before down.
+    laterals: Vec<Vein>,
+}
+
+impl ArcuatePlan {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError::OutOfRange`] of the first that is out of range.
+    pub fn validate(&self) -> Result<(), ArcuateError> {
+        let angles = "0 to 180 degrees, both excluded";
+        in_range("angle1_deg", self.angle1_deg, 1e-6..=180.0 - 1e-6, angles)?;
+        in_range("length1", self.length1, 0.01..=10.0, "0.01 to 10")?;
+        in_range("angle2_deg", self.angle2_deg, 1e-6..=180.0 - 1e-6, angles)?;
+        in_range("length2", self.length2, 0.01..=10.0, "0.01 to 10")?;
+        in_range("veins", f64::from(self.veins), 1.0..=100.0, "1 to 100")?;
+        in_range("variation", self.variation, 0.0..=1.0, "0 to 1")?;
+        in_range("width", self.width, 1e-4..=0.5, "0.0001 to 0.5")?;
+        in_range("net_width", self.net_width, 0.0..=1.0, "0 to 1")?;
+        in_range("squish", self.squish, 0.0..=1.0, "0 to 1")?;
+        in_range("squish2", self.squish2, 0.0..=1.0, "0 to 1")?;
+        in_range("squish3", self.squish3, 0.0..=1.0, "0 to 1")?;
+        in_range("up", self.up, 0.0..=2.0, "0 to 2")?;
+        in_range("tip_width", self.tip_width, 0.0..=1.0, "0 to 1")?;
+        if let Some(palmate) = &self.palmate {
+            let per_side = f64::from(palmate.per_side);
+            in_range("palmate.per_side", per_side, 1.0..=12.0, "1 to 12")?;
+            in_range("palmate.spread", palmate.spread, 0.05..=1.0, "0.05 to 1")?;
+            in_range("palmate.bow", palmate.bow, -0.8..=0.8, "-0.8 to 0.8")?;
+        }
+        Ok(())
+    }
+
+    /// The plan's own margin: a cubic spline from base to tip and its mirror image.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError`], naming what is out of range, or why the spline is no margin.
+    pub fn outline(&self, length_mm: f64) -> Result<Outline, ArcuateError> {
+        self.validate()?;
+        let lengths = "0.001 to 100000 (millimetres)";
+        in_range("length_mm", length_mm, 1e-3..=1e5, lengths)?;
+        let frame = Frame::upright(length_mm);
+        let (left, _) = self.flat_margin();
+        let (base, apex) = (frame.to_mm(DVec2::ZERO), frame.to_mm(DVec2::X));
+        let right = left.iter().map(|p| DVec2::new(p.x, -p.y));
+        let back = left[1..left.len() - 1].iter().rev().copied();
+        let points = right.chain(back).map(|p| frame.to_mm(p)).collect();
+        Ok(Outline::new(points, base, apex)?)
+    }
+
+    /// The plan's own margin and the network on it.
+    ///
+    /// # Errors
+    ///
+    /// As [`ArcuatePlan::outline`].
+    pub fn grow(&self, length_mm: f64) -> Result<(Outline, VenationNetwork), ArcuateError> {
+        let outline = self.outline(length_mm)?;
+        let (points, shares) = self.flat_margin();
+        let sides = Sides::mirrored(points, shares);
+        let veins = self.veins_between(Frame::upright(length_mm), &sides, Some(&outline));
+        let network = graph::network(&veins, &outline)?;
+        Ok((outline, network))
+    }
+
+    /// The network on any margin, whose two sides from base to apex, by arc length, stand for the article's splines.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError`], naming what is out of range.
+    pub fn network(&self, outline: &Outline) -> Result<VenationNetwork, ArcuateError> {
+        let veins = self.veins_on(outline)?;
+        Ok(graph::network(&veins, outline)?)
+    }
+
+    /// The veins as splines on the plan's own margin, exactly those of the article's code.
+    ///
+    /// # Errors
+    ///
+    /// As [`ArcuatePlan::outline`], but that the margin may cross itself.
+    pub fn own_veins(&self, length_mm: f64) -> Result<ArcuateVeins, ArcuateError> {
+        self.validate()?;
+        let lengths = "0.001 to 100000 (millimetres)";
+        in_range("length_mm", length_mm, 1e-3..=1e5, lengths)?;
+        let sides = Sides::Cubic(self.cubic());
+        let outline = self.outline(length_mm).ok();
+        let frame = Frame::upright(length_mm);
+        Ok(self.veins_between(frame, &sides, outline.as_ref()))
+    }
+
+    /// The veins as splines on any margin.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError::OutOfRange`].
+    pub fn veins_on(&self, outline: &Outline) -> Result<ArcuateVeins, ArcuateError> {
+        self.validate()?;
+        let frame = Frame::of(outline);
+        Ok(self.veins_between(frame, &Sides::of(outline, frame), Some(outline)))
+    }
+
+    /// Veins between two sides; primaries keep to the blade if there is one.
+    fn veins_between(&self, frame: Frame, sides: &Sides, blade: Option<&Outline>) -> ArcuateVeins {
+        let on_blade = |p: DVec2| blade.is_none_or(|blade| blade.contains(frame.to_mm(p)));
+        let (axes, laterals) = lay_out(self, sides, &on_blade);
+        ArcuateVeins {
+            frame,
+            plan: *self,
+            axes,
+            laterals,
+        }
+    }
+
+    /// The own margin's left side in leaf units, x along the midrib.
+    fn cubic(&self) -> Cubic {
+        let handle = |degrees: f64| {
+            let angle = degrees.to_radians();
+            DVec2::new(libm::cos(angle), libm::sin(angle))
+        };
+        let (first, second) = (handle(self.angle1_deg), handle(self.angle2_deg));
+        Cubic([
+            DVec2::ZERO,
+            first * self.length1,
+            DVec2::new(1.0 - second.x * self.length2, second.y * self.length2),
+            DVec2::X,
+        ])
+    }
+
+    /// That side as a polyline, with the spline's parameter at each point.
+    fn flat_margin(&self) -> (Vec<DVec2>, Vec<f64>) {
+        let mut points = vec![DVec2::ZERO];
+        self.cubic().flatten(FLATNESS, &mut points);
+        let last = (points.len() - 1) as f64;
+        let shares = (0..points.len()).map(|i| i as f64 / last).collect();
+        (points, shares)
+    }
+}
+
+impl ArcuateVeins {
+    /// Lateral veins, both sides together.
+    pub fn laterals(&self) -> usize {
+        self.laterals.len()
+    }
+
+    /// Start, control and end point of a lateral, mm. Laterals of the midrib come first, from base to tip, left before right.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError::NoSuchVein`].
+    pub fn lateral(&self, index: usize) -> Result<[DVec2; 3], ArcuateError> {
+        let vein = self.laterals.get(index).ok_or(ArcuateError::NoSuchVein {
+            index,
+            last: self.laterals.len().saturating_sub(1),
+        })?;
+        Ok(vein.curve.0.map(|p| self.frame.to_mm(p)))
+    }
+}
+
+/// `value` must lie in `range`, which NaN never does.
+fn in_range(
+    key: &'static str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    words: &'static str,
+) -> Result<(), ArcuateError> {
+    if range.contains(&value) {
+        Ok(())
+    } else {
+        Err(ArcuateError::OutOfRange {
+            key,
+            value,
+            range: words,
+        })
+    }
+}

@@ -1,0 +1,310 @@
+//! Where veins start, bend and end.
+//!
+//! Leaf units: x along the midrib from 0 at the base to 1 at the apex, y across it, positive on the left, which the article draws
+//! upwards.
+
+use glam::DVec2;
+
+use super::ArcuatePlan;
+use super::spline::Quadratic;
+use crate::shape::cubic::Cubic;
+use crate::shape::outline::Outline;
+use crate::venation::chance::{Use, uniform};
+
+/// A vein as a spline in leaf units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vein {
+    pub(super) curve: Quadratic,
+    /// Number of the axis it starts from, and where on it; for the midrib its own, 0, and 0.
+    pub(super) axis: usize,
+    pub(super) start: f64,
+}
+
+/// From leaf units to millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    base: DVec2,
+    midrib: DVec2,
+}
+
+impl Frame {
+    /// Base at the origin, midrib along +y.
+    pub(super) fn upright(length_mm: f64) -> Self {
+        Self {
+            base: DVec2::ZERO,
+            midrib: DVec2::new(0.0, length_mm),
+        }
+    }
+
+    pub(super) fn of(outline: &Outline) -> Self {
+        Self {
+            base: outline.base(),
+            midrib: outline.apex() - outline.base(),
+        }
+    }
+
+    pub(super) fn to_mm(self, p: DVec2) -> DVec2 {
+        self.base + self.midrib * p.x + self.midrib.perp() * p.y
+    }
+
+    pub(super) fn to_leaf(self, p: DVec2) -> DVec2 {
+        let off = p - self.base;
+        DVec2::new(self.midrib.dot(off), self.midrib.perp_dot(off)) / self.midrib.length_squared()
+    }
+
+    /// Length of the midrib, mm.
+    pub(super) fn length(self) -> f64 {
+        self.midrib.length()
+    }
+}
+
+/// A polyline with a parameter from 0 to 1 at each point.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    points: Vec<DVec2>,
+    shares: Vec<f64>,
+}
+
+impl Line {
+    fn at(&self, t: f64) -> DVec2 {
+        let last = self.points.len() - 1;
+        let i = self
+            .shares
+            .partition_point(|&share| share <= t)
+            .clamp(1, last);
+        let (from, to) = (self.shares[i - 1], self.shares[i]);
+        let share = if to > from {
+            (t - from) / (to - from)
+        } else {
+            0.0
+        };
+        self.points[i - 1].lerp(self.points[i], share.clamp(0.0, 1.0))
+    }
+
+    /// Parameters by arc length.
+    fn by_length(points: Vec<DVec2>) -> Self {
+        let mut walked = vec![0.0];
+        for edge in points.windows(2) {
+            walked.push(walked[walked.len() - 1] + (edge[1] - edge[0]).length());
+        }
+        let all = walked[walked.len() - 1];
+        Self {
+            points,
+            shares: walked.into_iter().map(|w| w / all).collect(),
+        }
+    }
+}
+
+/// Both sides of a margin from base to apex.
+#[derive(Clone, Debug)]
+pub(super) enum Sides {
+    /// The article's spline on the left and its mirror image.
+    Cubic(Cubic),
+    /// Any two lines, left and right.
+    Lines([Line; 2]),
+}
+
+impl Sides {
+    /// A left side and its mirror image.
+    pub(super) fn mirrored(points: Vec<DVec2>, shares: Vec<f64>) -> Self {
+        let right = points.iter().map(|p| DVec2::new(p.x, -p.y)).collect();
+        let left = Line {
+            points,
+            shares: shares.clone(),
+        };
+        Self::Lines([
+            left,
+            Line {
+                points: right,
+                shares,
+            },
+        ])
+    }
+
+    /// The two ways along a margin between the places nearest to the ends of its midrib.
+    pub(super) fn of(outline: &Outline, frame: Frame) -> Self {
+        let points = outline.points();
+        let n = points.len();
+        let (base, start) = nearest_edge(points, outline.base());
+        let (apex, end) = nearest_edge(points, outline.apex());
+        // Counter-clockwise from the base is the right side.
+        let walk = |from: usize, first: DVec2, to: usize, last: DVec2| {
+            let mut way = vec![first];
+            // Both on one edge: straight on if the end lies ahead, else all the way round.
+            let ahead =
+                (last - points[from]).length_squared() >= (first - points[from]).length_squared();
+            if from != to || !ahead {
+                let mut corner = (from + 1) % n;
+                loop {
+                    way.push(points[corner]);
+                    if corner == to {
+                        break;
+                    }
+                    corner = (corner + 1) % n;
+                }
+            }
+            way.push(last);
+            way.into_iter()
+                .map(|p| frame.to_leaf(p))
+                .collect::<Vec<_>>()
+        };
+        let right = walk(base, start, apex, end);
+        let mut left = walk(apex, end, base, start);
+        left.reverse();
+        Self::Lines([Line::by_length(left), Line::by_length(right)])
+    }
+
+    /// The point at `t` on the left (`up`) or right side.
+    fn at(&self, up: bool, t: f64) -> DVec2 {
+        match self {
+            Self::Cubic(cubic) => {
+                let p = cubic.at(t);
+                if up { p } else { DVec2::new(p.x, -p.y) }
+            }
+            Self::Lines([left, right]) => if up { left } else { right }.at(t),
+        }
+    }
+}
+
+/// The edge nearest to `p`, and the point of it nearest to `p`.
+fn nearest_edge(points: &[DVec2], p: DVec2) -> (usize, DVec2) {
+    let n = points.len();
+    let foot = |i: usize| {
+        let (a, b) = (points[i], points[(i + 1) % n]);
+        let share = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        a + (b - a) * share
+    };
+    let nearest = (0..n).min_by(|&i, &j| {
+        let (i, j) = (
+            (foot(i) - p).length_squared(),
+            (foot(j) - p).length_squared(),
+        );
+        i.total_cmp(&j)
+    });
+    let edge = nearest.unwrap_or(0);
+    (edge, foot(edge))
+}
+
+/// Places of a primary that must lie on the blade.
+const CHECKS: u32 = 24;
+
+/// The lowest of these starting points along the midrib that fits; the base if none does.
+fn first_start(fits: impl Fn(f64) -> bool) -> f64 {
+    let mut starts = (0..40).map(|i| f64::from(i) / 80.0);
+    starts.find(|&start| fits(start)).unwrap_or(0.0)
+}
+
+/// A primary from the midrib to a point of the margin.
+fn primary(start: f64, tip: DVec2, up: bool, bow: f64) -> Quadratic {
+    let from = DVec2::new(start, 0.0);
+    let chord = tip - from;
+    let outwards = if up { chord.perp() } else { -chord.perp() };
+    Quadratic([from, from + (chord + outwards * bow) * 0.5, tip])
+}
+
+/// A stretch of one side of the margin whose laterals an axis sends out.
+struct Sector {
+    axis: usize,
+    up: bool,
+    /// Parameter of the margin that belongs to the base of the axis, and to its tip.
+    margin: [f64; 2],
+    /// Laterals of the article's upper side vary in one more way.
+    upper: bool,
+}
+
+/// Midrib and primaries, and the laterals of all. Primaries start at the base, or as far up the midrib as it takes to lie on the
+/// blade.
+pub(super) fn lay_out(
+    plan: &ArcuatePlan,
+    sides: &Sides,
+    on_blade: &dyn Fn(DVec2) -> bool,
+) -> (Vec<Vein>, Vec<Vein>) {
+    let mut axes = vec![Vein {
+        curve: Quadratic::line(DVec2::ZERO, DVec2::X),
+        axis: 0,
+        start: 0.0,
+    }];
+    // Margin up to here belongs to primaries beside the midrib.
+    let mut lower = 0.0;
+    let mut sectors = Vec::new();
+    if let Some(palmate) = &plan.palmate {
+        let count = palmate.per_side;
+        let end = |k: u32| 1.0 - palmate.spread * (1.0 - f64::from(k) / f64::from(count + 1));
+        for k in 1..=count {
+            // Neighbours share the margin between their ends.
+            let upper = 0.5 * (end(k) + end(k + 1));
+            let start = first_start(|start| {
+                [true, false].into_iter().all(|up| {
+                    let curve = primary(start, sides.at(up, end(k)), up, palmate.bow);
+                    (1..CHECKS).all(|i| on_blade(curve.at(f64::from(i) / f64::from(CHECKS))))
+                })
+            });
+            for up in [true, false] {
+                let axis = axes.len();
+                axes.push(Vein {
+                    curve: primary(start, sides.at(up, end(k)), up, palmate.bow),
+                    axis: 0,
+                    start,
+                });
+                let sector = |from: f64, outer: bool| Sector {
+                    axis,
+                    up,
+                    margin: [from, end(k)],
+                    upper: outer,
+                };
+                sectors.extend([sector(lower, true), sector(upper, false)]);
+            }
+            lower = upper;
+        }
+    }
+    let midrib = |up: bool| Sector {
+        axis: 0,
+        up,
+        margin: [lower, 1.0],
+        upper: up,
+    };
+    let mut laterals = Vec::new();
+    for i in 0..plan.veins {
+        for sector in [midrib(true), midrib(false)] {
+            laterals.push(lateral(plan, sides, &axes, &sector, i));
+        }
+    }
+    for sector in &sectors {
+        laterals.extend((0..plan.veins).map(|i| lateral(plan, sides, &axes, sector, i)));
+    }
+    (axes, laterals)
+}
+
+/// Lateral `i` of a sector, by the article's formulas; its midrib's are those with the whole margin for a sector.
+fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i: u32) -> Vein {
+    let delta = 1.0 / f64::from(plan.veins + 1);
+    let half = delta / 2.0;
+    let counter = u64::from(i) + u64::from(plan.seed) + 1000 * sector.axis as u64;
+    let noise = |offset: u64| uniform(0, Use::ArcuateStart, counter + offset);
+    let at = f64::from(i) * delta;
+    let mut start = half + (at + half * plan.variation * noise(10)) * plan.squish3;
+    if sector.upper {
+        start += delta / 4.0 * plan.variation * noise(17) * plan.squish3;
+    }
+    let [from, to] = sector.margin;
+    // Where primaries share the margin, laterals leave the lower part of their axis bare; alone, the midrib has none such.
+    let bare = 0.5 * from.min(to) / from.max(to);
+    let start = bare + (1.0 - bare) * start;
+    let margin = |squish: f64| {
+        let t = (at + half) * squish + 1.0 - squish;
+        sides.at(sector.up, from + (to - from) * t)
+    };
+    let axis = axes[sector.axis].curve;
+    let chord = axis.0[2] - axis.0[0];
+    let above = margin(plan.squish2);
+    let foot = axis.0[0] + chord * ((above - axis.0[0]).dot(chord) / chord.length_squared());
+    Vein {
+        curve: Quadratic([
+            axis.at(start),
+            foot + (above - foot) * plan.up,
+            margin(plan.squish),
+        ]),
+        axis: sector.axis,
+        start,
+    }
+}
