@@ -64,10 +64,7 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         ..leaf.plan.clone()
     });
     let as_large = chance.stages(&steps);
-    let as_large = as_large
-        .iter()
-        .filter(|s| size(s) <= 1.1 * size(laid_out))
-        .next_back();
+    let as_large = as_large.iter().rfind(|s| size(s) <= 1.1 * size(laid_out));
     assert!(as_large.is_some_and(|stage| 2 * stage.network.loops() < loops));
 }
 
