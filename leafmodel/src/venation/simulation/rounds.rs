@@ -1,0 +1,106 @@
+//! What comes before and after the loop: arches that are laid out, and veinlets that end freely.
+
+use glam::DVec2;
+
+use super::{PATIENCE, Simulation};
+use crate::venation::arches;
+use crate::venation::auxin::Darts;
+use crate::venation::influence::Influence;
+use crate::venation::lamina_clock::LaminaClock;
+use crate::venation::open::NearestNode;
+use crate::venation::plan::{FreeEndings, Growth, VenationPlan};
+
+impl<'a, I: Influence> Simulation<'a, I> {
+    /// The last round, in which veinlets grow that end freely, by the plan `rest`.
+    pub(crate) fn with_free_endings<'b>(
+        self,
+        rest: &'b VenationPlan,
+        free: &FreeEndings,
+    ) -> Simulation<'b, NearestNode>
+    where
+        'a: 'b,
+    {
+        let darts = Darts::at_once(free, &self.lamina, self.seed);
+        let clock = LaminaClock::new(rest).expect("nothing grows any more");
+        let mut veins = self.veins;
+        veins.stop_stretching();
+        let mut simulation = Simulation::resume(rest, self.lamina, clock, self.seed, veins, darts);
+        simulation.step = self.step;
+        simulation.first_step = self.step;
+        simulation.sources_born = self.sources_born;
+        simulation
+    }
+
+    /// Before the lamina grows: lets sources at `places` draw veins until they are used up, and calls `look` after each
+    /// step.
+    pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self) -> bool) {
+        self.is_laying_out = true;
+        self.notice();
+        for &place in places {
+            if self.lamina.contains(place) {
+                self.add_source(place);
+            }
+        }
+        // Far more than a vein takes to cross the young leaf.
+        let end = self.step + 1000 + (50.0 * self.plan.final_length) as u32;
+        let mut idle = 0;
+        while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
+            idle = if self.advance() == 0 { idle + 1 } else { 0 };
+            if !look(self) {
+                break;
+            }
+        }
+        for source in self.sources.drain(..) {
+            self.source_tree.remove(source.id, source.place);
+        }
+        self.is_laying_out = false;
+        self.first_step = self.step;
+    }
+
+    /// The rounds of sources that lay out arches, if the plan asks for them.
+    pub(crate) fn arch_rounds(&self) -> Vec<Vec<DVec2>> {
+        match self.plan.margin_clearance {
+            Some(rule) if rule.arches > 0 => {
+                let (margin, apex) = self.young_margin();
+                arches::rounds(&rule, &margin, DVec2::ZERO, apex, self.seed)
+            }
+            Some(_) | None => Vec::new(),
+        }
+    }
+
+    /// The same veins under sources of another kind; those there are given up.
+    pub(crate) fn under<J: Influence>(self) -> Simulation<'a, J> {
+        Simulation {
+            plan: self.plan,
+            lamina: self.lamina,
+            seed: self.seed,
+            clock: self.clock,
+            darts: self.darts,
+            veins: self.veins,
+            sources: Vec::new(),
+            source_tree: self.source_tree,
+            origins: self.origins,
+            first_step: self.first_step,
+            is_laying_out: self.is_laying_out,
+            noticed: self.noticed,
+            sources_born: self.sources_born,
+            step: self.step,
+            idle_steps: self.idle_steps,
+            darts_in_vain: self.darts_in_vain,
+            pulls: self.pulls,
+            is_driven: self.is_driven,
+        }
+    }
+
+    /// Margin and apex at the start, in the frame of the simulation.
+    fn young_margin(&self) -> (Vec<DVec2>, DVec2) {
+        // Only marginal growth has a margin that its frame does not follow.
+        let scale = match self.plan.growth {
+            Growth::Marginal { .. } => self.clock.size(0),
+            Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => 1.0,
+        };
+        let margin = self.lamina.margin_now().into_iter().map(|p| p * scale);
+        let apex = self.lamina.now_of_full_grown(self.lamina.blade.apex()) * scale;
+        (margin.collect(), apex)
+    }
+}
