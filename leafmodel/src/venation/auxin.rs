@@ -199,3 +199,46 @@ fn first_step(last: u32, reached: impl Fn(u32) -> bool) -> u32 {
     }
     low
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    use super::*;
+    use crate::shape::outline::Outline;
+    use crate::venation::plan::Growth;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+
+        #[test]
+        fn a_source_appears_when_the_growing_margin_first_holds_it(
+            radii in proptest::collection::vec(0.3..1.0, 5..14), x in -1.0..1.0, y in -1.0..1.0,
+            initial in 5.0..40.0, length_step in 0.3..4.0,
+        ) {
+            // A lobed margin about a point beside the base, so that rays from the base cross it several times.
+            let n = radii.len();
+            let corners = radii.iter().enumerate().map(|(i, r)| {
+                let angle = std::f64::consts::TAU * i as f64 / n as f64;
+                DVec2::new(20.0 + 50.0 * r * libm::cos(angle), 45.0 + 50.0 * r * libm::sin(angle))
+            });
+            let inside = DVec2::new(20.0, 45.0);
+            let outline = Outline::new(corners.collect(), inside, inside + DVec2::Y);
+            prop_assume!(outline.is_ok());
+            let outline = outline.expect("just assumed");
+            let plan = VenationPlan {
+                final_length: 100.0,
+                growth: Growth::Marginal { initial_length: initial, length_step },
+                ..VenationPlan::default()
+            };
+            let clock = LaminaClock::new(&plan).expect("it grows");
+            let p = inside + DVec2::new(x, y) * 50.0;
+            prop_assume!(outline.contains(p));
+            // Step by step: the margin of each step, scaled about the origin.
+            let held = |step: &u32| outline.contains(p / clock.size(*step));
+            let first = (0..=clock.last_growth_step()).find(held);
+            prop_assert_eq!(Some(appearance(outline.points(), &clock, p)), first);
+        }
+    }
+}
