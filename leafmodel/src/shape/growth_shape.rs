@@ -237,28 +237,8 @@ mod tests {
 
     /// Share of its convex hull that the outline fills.
     fn solidity(outline: &Outline) -> f64 {
-        let mut points = outline.points().to_vec();
-        points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-        let chain = |points: &mut dyn Iterator<Item = DVec2>| {
-            let mut hull: Vec<DVec2> = Vec::new();
-            for p in points {
-                while let [.., a, b] = hull[..] {
-                    if (b - a).perp_dot(p - a) > 0.0 {
-                        break;
-                    }
-                    hull.pop();
-                }
-                hull.push(p);
-            }
-            hull.pop();
-            hull
-        };
-        let mut hull = chain(&mut points.iter().copied());
-        hull.extend(chain(&mut points.iter().rev().copied()));
-        let doubled: f64 = (0..hull.len())
-            .map(|i| hull[i].perp_dot(hull[(i + 1) % hull.len()]))
-            .sum();
-        outline.area() / (0.5 * doubled)
+        let measures = crate::measure::shape(outline);
+        measures.number("solidity").expect("every outline has one")
     }
 
     #[test]
