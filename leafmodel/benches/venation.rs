@@ -14,7 +14,7 @@ use leafmodel::shape::growth_shape::{GrowthShape, VeinRow};
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::venation::grow;
-use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+use leafmodel::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
 /// A broad ovate leaf, 80 mm long.
 fn outline() -> Outline {
@@ -33,9 +33,9 @@ fn outline() -> Outline {
 }
 
 /// An isogonic closed plan; all lengths in segments.
-fn plan(lengths: [f64; 3], birth_distance: f64, darts_per_area: f64) -> VenationPlan {
+fn plan(lengths: [f64; 3], birth_distance: f64, darts_per_area: f64) -> AuxinPlan {
     let [initial_length, length_step, final_length] = lengths;
-    VenationPlan {
+    AuxinPlan {
         pattern: Pattern::Closed(Neighbourhood::Relative),
         final_length,
         kill_distance: 1.0,
@@ -48,19 +48,19 @@ fn plan(lengths: [f64; 3], birth_distance: f64, darts_per_area: f64) -> Venation
         },
         murray_exponent: 2.0,
         veinlet_radius_mm: 0.015,
-        ..VenationPlan::default()
+        ..AuxinPlan::default()
     }
 }
 
 /// The poplar so many segments long.
-fn poplar(length: f64) -> VenationPlan {
+fn poplar(length: f64) -> AuxinPlan {
     let share = length / 3500.0;
     plan([115.0 * share, 0.9, length], 2.0, 2e-5 / share)
 }
 
 /// Marginal growth with many sources.
-fn marginal() -> VenationPlan {
-    VenationPlan {
+fn marginal() -> AuxinPlan {
+    AuxinPlan {
         growth: Growth::Marginal {
             initial_length: 60.0,
             length_step: 2.0,
@@ -69,8 +69,8 @@ fn marginal() -> VenationPlan {
     }
 }
 
-fn open(plan: &VenationPlan) -> VenationPlan {
-    VenationPlan {
+fn open(plan: &AuxinPlan) -> AuxinPlan {
+    AuxinPlan {
         pattern: Pattern::Open,
         ..plan.clone()
     }
@@ -80,7 +80,7 @@ fn rows(criterion: &mut Criterion) {
     let outline = outline();
     let broad = plan([60.0, 2.5, 600.0], 3.5, 0.01);
     let mut group = criterion.benchmark_group("venation");
-    let mut run = |name: &str, plan: &VenationPlan, seconds: u64| {
+    let mut run = |name: &str, plan: &AuxinPlan, seconds: u64| {
         group.measurement_time(Duration::from_secs(seconds));
         group.sample_size(10);
         group.bench_function(name, |bencher| {
@@ -107,13 +107,16 @@ fn presets(criterion: &mut Criterion) {
     for preset in PRESETS {
         let plan = preset.plan();
         let outline = plan.grow_outline().expect("a good outline");
-        let grow_it = || grow(&outline, &plan.venation, plan.seed).expect("a good plan");
+        let Some(auxin) = plan.venation.auxin() else {
+            continue;
+        };
+        let grow_it = || grow(&outline, auxin, plan.seed).expect("a good plan");
         let is_fine = preset.name == "poplar-x10";
         group.measurement_time(Duration::from_secs(if is_fine { 15 } else { 1 }));
         group.bench_function(preset.name, |bencher| bencher.iter(grow_it));
         if is_fine {
             let network = grow_it();
-            let exponent = plan.venation.murray_exponent;
+            let exponent = auxin.murray_exponent;
             group.bench_function("poplar-x10, measures", |bencher| {
                 bencher.iter(|| measure(&outline, black_box(&network), exponent));
             });

@@ -1,18 +1,23 @@
 //! One leaf from plan to data: outline → veins → blade and contents.
 
+mod lamina;
+pub mod outline_plan;
+pub mod venation_plan;
+
 use thiserror::Error;
 
+pub use self::lamina::Lamina;
+use self::outline_plan::{OutlinePlan, OutlinePlanError};
+use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::tissue::{Tissue, TissueError};
-use crate::shape::outline::Outline;
-use crate::shape::outline_plan::{OutlinePlan, OutlinePlanError};
-use crate::venation;
+use crate::transport::TransportError;
 use crate::venation::VenationError;
-use crate::venation::network::{VeinSegment, VenationNetwork};
-use crate::venation::plan::VenationPlan;
+use crate::venation::arcuate::ArcuateError;
+use crate::venation::network::VeinSegment;
 
 /// Everything that decides a leaf.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,10 +41,8 @@ pub struct LeafPlan {
 /// A grown leaf. Lengths are millimetres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leaf {
-    /// The margin of the flat lamina.
-    pub outline: Outline,
-    /// Its veins.
-    pub network: VenationNetwork,
+    /// Margin and veins.
+    pub lamina: Lamina,
     /// The blade in space.
     pub mesh: BladeMesh,
     /// Where texture coordinates are measured.
@@ -54,35 +57,24 @@ pub enum LeafError {
     /// The outline.
     #[error("outline: {0}")]
     Outline(#[from] OutlinePlanError),
-    /// The veins.
+    /// Veins that grow towards auxin.
     #[error("venation: {0}")]
     Venation(#[from] VenationError),
+    /// Veins that are splines.
+    #[error("venation: {0}")]
+    Arcuate(#[from] ArcuateError),
+    /// Veins of a transport leaf.
+    #[error("venation: {0}")]
+    Cells(#[from] TransportError),
+    /// Veins of a transport leaf on another contour.
+    #[error("venation: veins of the cells need the outline of a transport leaf")]
+    NoCells,
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
     /// The tissue.
     #[error("tissue: {0}")]
     Tissue(#[from] TissueError),
-}
-
-impl LeafPlan {
-    /// The margin alone.
-    ///
-    /// # Errors
-    ///
-    /// [`LeafError::Outline`].
-    pub fn grow_outline(&self) -> Result<Outline, LeafError> {
-        Ok(self.outline.grow(self.length_mm)?)
-    }
-
-    /// The veins on a margin from [`LeafPlan::grow_outline`].
-    ///
-    /// # Errors
-    ///
-    /// [`LeafError::Venation`].
-    pub fn grow_veins(&self, outline: &Outline) -> Result<VenationNetwork, LeafError> {
-        Ok(venation::grow(outline, &self.venation, self.seed)?)
-    }
 }
 
 impl Leaf {
@@ -92,31 +84,36 @@ impl Leaf {
     ///
     /// [`LeafError`] of the first stage whose numbers are out of range.
     pub fn grow(plan: &LeafPlan) -> Result<Self, LeafError> {
+        Self::grow_unless(plan, &|| false)
+    }
+
+    /// As [`Leaf::grow`], but gives up when `is_stopped` says so.
+    ///
+    /// # Errors
+    ///
+    /// As [`Leaf::grow`], and [`VenationError::Stopped`].
+    pub fn grow_unless(plan: &LeafPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, LeafError> {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
         plan.tissue.validate()?;
         plan.form.validate()?;
-        let outline = plan.grow_outline()?;
-        let network = plan.grow_veins(&outline)?;
-        Self::from_veins(plan, outline, network)
+        Self::from_lamina(plan, plan.grow_lamina_unless(is_stopped)?)
     }
 
-    /// Blade and contents about a margin and veins that the plan has brought forth.
+    /// Blade and contents of a lamina that the plan has brought forth.
     ///
     /// # Errors
     ///
     /// [`LeafError::Blade`], [`LeafError::Tissue`].
-    pub fn from_veins(
-        plan: &LeafPlan,
-        outline: Outline,
-        network: VenationNetwork,
-    ) -> Result<Self, LeafError> {
-        let mesh = BladeMesh::build(&outline, &network, &plan.form)?;
+    pub fn from_lamina(plan: &LeafPlan, lamina: Lamina) -> Result<Self, LeafError> {
+        let Lamina {
+            outline, network, ..
+        } = &lamina;
+        let mesh = BladeMesh::build(outline, network, &plan.form)?;
         let frame = UvFrame::around(outline.points());
         let veins: Vec<VeinSegment> = network.segments().collect();
         let contents = ContentsMap::paint(&frame, &veins, &plan.tissue, plan.map_size, plan.seed)?;
         Ok(Self {
-            outline,
-            network,
+            lamina,
             mesh,
             frame,
             contents,
@@ -129,10 +126,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::leaf::outline_plan::Contour;
     use crate::optics::Contents;
     use crate::shape::growth_shape::{GrowthShape, VeinRow};
-    use crate::shape::outline_plan::Contour;
-    use crate::venation::plan::{Growth, Neighbourhood, Pattern};
+    use crate::transport::VeinStyle;
+    use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
     fn ovate() -> GrowthShape {
         GrowthShape {
@@ -147,27 +145,31 @@ mod tests {
         }
     }
 
+    fn auxin() -> AuxinPlan {
+        AuxinPlan {
+            pattern: Pattern::Closed(Neighbourhood::Relative),
+            final_length: 100.0,
+            kill_distance: 1.5,
+            source_birth_distance: 3.0,
+            vein_birth_distance: 3.0,
+            darts_per_area: 0.01,
+            growth: Growth::Marginal {
+                initial_length: 15.0,
+                length_step: 1.0,
+            },
+            murray_exponent: 2.0,
+            veinlet_radius_mm: 0.03,
+            ..AuxinPlan::default()
+        }
+    }
+
     /// A small broad leaf with everything that a leaf can have.
     fn plan() -> LeafPlan {
         LeafPlan {
             length_mm: 50.0,
             seed: 3,
             outline: Contour::GrowthAlgorithm(ovate()).into(),
-            venation: VenationPlan {
-                pattern: Pattern::Closed(Neighbourhood::Relative),
-                final_length: 100.0,
-                kill_distance: 1.5,
-                source_birth_distance: 3.0,
-                vein_birth_distance: 3.0,
-                darts_per_area: 0.01,
-                growth: Growth::Marginal {
-                    initial_length: 15.0,
-                    length_step: 1.0,
-                },
-                murray_exponent: 2.0,
-                veinlet_radius_mm: 0.03,
-                ..VenationPlan::default()
-            },
+            venation: auxin().into(),
             tissue: Tissue {
                 lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.01, 0.01, 0.006]),
                 vein_factors: Contents::from_array([1.3, 0.25, 0.25, 1.0, 1.0, 2.0, 2.5]),
@@ -210,8 +212,8 @@ mod tests {
             plan.outline = Contour::GrowthAlgorithm(shape).into();
             plan.seed = seed;
             let leaf = Leaf::grow(&plan).expect("a good plan");
-            prop_assert_eq!(leaf.network.validate(), Ok(()));
-            prop_assert_eq!(leaf.mesh.validate(leaf.outline.area()), Ok(()));
+            prop_assert_eq!(leaf.lamina.network.validate(), Ok(()));
+            prop_assert_eq!(leaf.mesh.validate(leaf.lamina.outline.area()), Ok(()));
             prop_assert!(leaf.mesh.uvs.iter().all(|uv| uv.min_element() >= -1e-12 && uv.max_element() <= 1.0 + 1e-12));
             let longer = leaf.contents.width.max(leaf.contents.height);
             prop_assert_eq!(longer, plan.map_size);
@@ -233,9 +235,28 @@ mod tests {
     #[test]
     fn each_stage_refuses_in_its_own_name() {
         type Spoil = fn(&mut LeafPlan);
-        let spoils: [(Spoil, &str); 5] = [
+        let spoils: [(Spoil, &str); 6] = [
             (|p| p.length_mm = f64::NAN, "outline: length_mm"),
-            (|p| p.venation.kill_distance = -1.0, "venation: "),
+            (
+                |p| {
+                    p.venation = AuxinPlan {
+                        kill_distance: -1.0,
+                        ..auxin()
+                    }
+                    .into();
+                },
+                "venation: kill_distance is -1",
+            ),
+            (
+                |p| {
+                    let style = VeinStyle {
+                        base_radius_mm: 0.4,
+                        least_cells: 3,
+                    };
+                    p.venation = VenationPlan::Cells(style);
+                },
+                "venation: veins of the cells need",
+            ),
             (|p| p.form.curl = f64::INFINITY, "blade: curl is inf"),
             (|p| p.tissue.mottle = 2.0, "tissue: mottle is 2"),
             (|p| p.map_size = 3, "tissue: map_size is 3"),

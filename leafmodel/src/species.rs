@@ -19,9 +19,9 @@ pub mod young;
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::OutlinePlan;
 use crate::optics::Contents;
-use crate::shape::outline_plan::OutlinePlan;
-use crate::venation::plan::VenationPlan;
+use crate::venation::plan::AuxinPlan;
 
 pub use self::list::PRESETS;
 use self::table_1::Row;
@@ -68,13 +68,13 @@ pub fn find(name: &str) -> Option<&'static Preset> {
 
 /// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Figures for species come with
 /// presets of their own; these are the middle of what is usual (`docs/src/theory/tissue.md`).
-fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: VenationPlan) -> LeafPlan {
+fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
     let veinlet = venation.veinlet_radius_mm;
     LeafPlan {
         length_mm,
         seed,
         outline,
-        venation,
+        venation: venation.into(),
         tissue: Tissue {
             lamina: Contents {
                 structure: 1.5,
@@ -131,8 +131,7 @@ mod tests {
             let plan = preset.plan();
             assert_eq!(plan.tissue.validate(), Ok(()));
             plan.form.validate().expect("a good form");
-            let outline = plan.outline.grow(plan.length_mm).expect("a good outline");
-            crate::venation::check(&outline, &plan.venation).expect("a good plan");
+            plan.check_lamina().expect("a good outline and venation");
         }
         assert!(find("popplar").is_none());
     }

@@ -4,7 +4,7 @@
 //! veins have reached are used up; and the lamina grows meanwhile, which makes room for more. [`grow`] runs
 //! that loop, gives each vein its width and its order, and returns the network.
 //!
-//! - **In**: an [`Outline`], a [`VenationPlan`], a seed.
+//! - **In**: an [`Outline`], a [`AuxinPlan`], a seed.
 //! - **Out**: a [`VenationNetwork`] in millimetres, in the frame of the outline.
 //! - **Always true**: every node lies inside the outline; every vein is connected to an origin; the network passes its own
 //!   [`VenationNetwork::validate`]; the same input gives the same bits on every machine.
@@ -58,7 +58,7 @@ use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
 use self::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 use self::open::NearestNode;
-use self::plan::{Growth, Neighbourhood, Pattern, PlanError, VenationPlan};
+use self::plan::{AuxinPlan, Growth, Neighbourhood, Pattern, PlanError};
 use self::relative_neighbourhood::RelativeNeighbourhood;
 use self::simulation::Simulation;
 use self::topology::Topology;
@@ -89,7 +89,7 @@ pub enum VenationError {
 /// \[runions2005\], sections 3 and 4.
 pub fn grow(
     outline: &Outline,
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     seed: u64,
 ) -> Result<VenationNetwork, VenationError> {
     grow_unless(outline, plan, seed, &|| false)
@@ -102,7 +102,7 @@ pub fn grow(
 /// As [`grow`], and [`VenationError::Stopped`].
 pub fn grow_unless(
     outline: &Outline,
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     seed: u64,
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<VenationNetwork, VenationError> {
@@ -129,7 +129,7 @@ pub struct Stage {
 /// As [`grow`].
 pub fn grow_stages(
     outline: &Outline,
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     seed: u64,
     steps: &[u32],
 ) -> Result<Vec<Stage>, VenationError> {
@@ -150,7 +150,7 @@ pub fn grow_stages(
 /// The full-grown network, and the stages after `steps` as far as there are so many.
 fn develop(
     outline: &Outline,
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     seed: u64,
     steps: &[u32],
     is_stopped: &dyn Fn() -> bool,
@@ -187,14 +187,14 @@ fn develop(
 /// # Errors
 ///
 /// As [`grow`].
-pub fn check(outline: &Outline, plan: &VenationPlan) -> Result<(), VenationError> {
+pub fn check(outline: &Outline, plan: &AuxinPlan) -> Result<(), VenationError> {
     plan.validate()?;
     prepared(&in_segments(outline, plan), plan)?;
     Ok(())
 }
 
 /// The full-grown blade in segments, base at the origin.
-fn in_segments(outline: &Outline, plan: &VenationPlan) -> Outline {
+fn in_segments(outline: &Outline, plan: &AuxinPlan) -> Outline {
     let segment_mm = outline.length() / plan.final_length;
     outline.moved_and_scaled(outline.base(), 1.0 / segment_mm)
 }
@@ -202,7 +202,7 @@ fn in_segments(outline: &Outline, plan: &VenationPlan) -> Outline {
 /// The lamina and its clock, if a plan whose numbers are in range can be carried out on this blade.
 fn prepared<'b>(
     blade: &'b Outline,
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
 ) -> Result<(Lamina<'b>, LaminaClock), VenationError> {
     plan.validate_on(blade)?;
     let clock = LaminaClock::new(plan).map_err(PlanError::from)?;
@@ -213,12 +213,12 @@ fn prepared<'b>(
 }
 
 /// Refuses plans whose darts would take forever.
-fn check_darts(plan: &VenationPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
+fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let (low, high) = lamina.blade.bounds();
     let area = (high - low).x * (high - low).y * lamina.surplus();
     let steps = clock.last_growth_step();
     let per_step = plan.darts_per_area * area;
-    VenationPlan::validate_darts(match plan.growth {
+    AuxinPlan::validate_darts(match plan.growth {
         Growth::None => per_step,
         Growth::Isogonic { .. } => {
             // The mean of the squared size, which grows linearly up to 1.
@@ -229,7 +229,7 @@ fn check_darts(plan: &VenationPlan, lamina: &Lamina, clock: &LaminaClock) -> Res
         Growth::Marginal { .. } => waiting_darts(plan, lamina, steps),
     })?;
     let free = plan.free_endings.map_or(0.0, |free| free.darts_per_area);
-    VenationPlan::validate_darts(free * area)
+    AuxinPlan::validate_darts(free * area)
 }
 
 /// Refuses growth that comes from nowhere: a young leaf far larger than the full-grown one, or without any size.
@@ -240,7 +240,7 @@ fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let size = |(low, high): (DVec2, DVec2)| high - low;
     let mut young = lamina.clone();
     young.carry(first);
-    VenationPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
+    AuxinPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
 }
 
 /// A simulation's state, in segments of its time, base at the origin; no widths yet.
@@ -261,7 +261,7 @@ pub(crate) struct Grown {
 
 /// Runs a plan that has been checked; gives the full-grown state and those after `steps`.
 pub(crate) fn carry_out(
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     lamina: Lamina,
     clock: LaminaClock,
     seed: u64,
@@ -305,7 +305,7 @@ impl Watch<'_> {
 }
 
 fn simulate<I: Influence>(
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     lamina: Lamina,
     clock: LaminaClock,
     seed: u64,
@@ -341,7 +341,7 @@ fn simulate<I: Influence>(
 
 impl Grown {
     /// Widths, orders, and millimetres.
-    fn into_network(self, plan: &VenationPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
+    fn into_network(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
         let apex = self.map_apex * segment_mm;
         let curvature = plan.gaussian_curvature / apex.length_squared();
         let map = ConformalMap::new(curvature, base + apex * 0.5);

@@ -1,9 +1,12 @@
 //! What valid scenes mean: the values that they resolve to.
 
 use glam::{DMat4, DVec3};
+use leafmodel::leaf::LeafPlan;
+use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
 use leafmodel::shape::growth::RateCurve;
-use leafmodel::shape::outline_plan::{Contour, OutlinePlan};
-use leafmodel::venation::plan::{FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern};
+use leafmodel::venation::plan::{
+    AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
+};
 use renderer::scene::description::{
     Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
 };
@@ -18,6 +21,11 @@ fn assert_near(value: f64, expected: f64) {
         (value - expected).abs() <= 1e-14 * expected.abs().max(1.0),
         "{value} is not {expected}"
     );
+}
+
+/// The plan of veins that grow towards auxin.
+fn auxin(plan: &LeafPlan) -> &AuxinPlan {
+    plan.venation.auxin().expect("the leaf has such veins")
 }
 
 #[test]
@@ -210,7 +218,7 @@ fn spectra_are_read_in_every_form() {
 fn a_leaf_is_planned_as_written() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let beech = &scene.leaves[0].value;
-    let venation = &beech.plan.venation;
+    let venation = auxin(&beech.plan);
     assert_eq!(
         (venation.pattern, venation.final_length),
         (Pattern::Closed(Neighbourhood::Relative), 350.0)
@@ -234,7 +242,7 @@ fn a_leaf_is_planned_as_written() {
     );
     assert_eq!((abaxial.alpha_across, abaxial.alpha_along), (0.45, 0.3));
     let simple = &scene.leaves[1].value;
-    assert_eq!(simple.plan.venation.vein_birth_distance, 4.0);
+    assert_eq!(auxin(&simple.plan).vein_birth_distance, 4.0);
     let Contour::GrowthAlgorithm(shape) = &simple.plan.outline.contour else {
         panic!("the outline is {:?}", simple.plan.outline);
     };
@@ -287,7 +295,7 @@ fn an_outline_may_be_drawn_or_traced_and_toothed() {
 #[test]
 fn veins_are_planned_as_written() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let drawn = &scene.leaves[2].value.plan.venation;
+    let drawn = auxin(&scene.leaves[2].value.plan);
     assert_eq!(drawn.pattern, Pattern::Closed(Neighbourhood::Urquhart));
     assert_eq!(drawn.origins, [[0.0, 0.0], [0.1, 0.2]]);
     assert_eq!(
@@ -312,7 +320,7 @@ fn veins_are_planned_as_written() {
         across: curve(&[[0.0, 0.02], [1.0, 0.01]]),
         along: curve(&[[0.0, 0.01], [0.5, 0.03], [1.0, 0.01]]),
     };
-    let traced = &scene.leaves[3].value.plan.venation;
+    let traced = auxin(&scene.leaves[3].value.plan);
     assert_eq!(
         (&traced.pattern, &traced.growth),
         (&Pattern::Open, &anisotropic)

@@ -2,11 +2,11 @@
 
 use super::{contours, green_leaf};
 use crate::leaf::LeafPlan;
-use crate::venation::plan::{FreeEndings, Growth, MarginClearance, VenationPlan};
+use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
 /// A closed net on isogonic growth that starts with a leaf long enough for its secondaries to form together.
-fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> VenationPlan {
-    VenationPlan {
+fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> AuxinPlan {
+    AuxinPlan {
         final_length,
         source_birth_distance: 3.5,
         vein_birth_distance: 3.5,
@@ -17,12 +17,12 @@ fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> VenationPlan 
         },
         murray_exponent: 2.3,
         veinlet_radius_mm: veinlet_mm,
-        ..VenationPlan::default()
+        ..AuxinPlan::default()
     }
 }
 
 pub(super) fn brochidodromous() -> LeafPlan {
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         source_birth_distance: 4.0,
         vein_birth_distance: 4.0,
         murray_exponent: 3.2,
@@ -37,7 +37,7 @@ pub(super) fn brochidodromous() -> LeafPlan {
 }
 
 pub(super) fn free_endings() -> LeafPlan {
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         source_birth_distance: 5.0,
         vein_birth_distance: 5.0,
         free_endings: Some(FreeEndings {
@@ -51,7 +51,7 @@ pub(super) fn free_endings() -> LeafPlan {
 }
 
 pub(super) fn cupped() -> LeafPlan {
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         gaussian_curvature: 6.0,
         ..net(300.0, 60.0, 0.012)
     };

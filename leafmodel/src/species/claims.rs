@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use super::find;
-use crate::leaf::LeafPlan;
+use crate::leaf::{Lamina, LeafPlan};
 use crate::measure::{Measures, measure};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
-use crate::venation::plan::{Pattern, VenationPlan};
-use crate::venation::{Stage, grow, grow_stages};
+use crate::venation::plan::{AuxinPlan, Pattern};
+use crate::venation::{Stage, grow_stages};
 
 mod beyond;
 mod open;
@@ -26,8 +26,10 @@ impl Grown {
     }
 
     fn of(plan: LeafPlan) -> Self {
-        let outline = plan.outline.grow(plan.length_mm).expect("a good outline");
-        let network = grow(&outline, &plan.venation, plan.seed).expect("a good plan");
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let Lamina {
+            outline, network, ..
+        } = lamina;
         Self {
             plan,
             outline,
@@ -35,8 +37,21 @@ impl Grown {
         }
     }
 
+    fn auxin(&self) -> &AuxinPlan {
+        let auxin = self.plan.venation.auxin();
+        auxin.expect("the figures' veins grow towards auxin")
+    }
+
+    /// The same leaf but for its veins.
+    fn with_veins(&self, veins: AuxinPlan) -> Self {
+        Self::of(LeafPlan {
+            venation: veins.into(),
+            ..self.plan.clone()
+        })
+    }
+
     fn measures(&self) -> Measures {
-        let exponent = self.plan.venation.murray_exponent;
+        let exponent = self.plan.venation.murray_exponent();
         measure(&self.outline, &self.network, exponent)
     }
 
@@ -55,8 +70,7 @@ impl Grown {
     }
 
     fn stages(&self, steps: &[u32]) -> Vec<Stage> {
-        let plan = &self.plan;
-        grow_stages(&self.outline, &plan.venation, plan.seed, steps).expect("a good plan")
+        grow_stages(&self.outline, self.auxin(), self.plan.seed, steps).expect("a good plan")
     }
 }
 
@@ -315,7 +329,7 @@ fn fig_21_the_petal_has_fewer_areoles_than_the_leaf_for_its_veins() {
 }
 
 /// Whether a plan's veins may meet.
-fn is_closed(plan: &VenationPlan) -> bool {
+fn is_closed(plan: &AuxinPlan) -> bool {
     plan.pattern != Pattern::Open
 }
 
@@ -334,12 +348,12 @@ fn every_preset_settles_is_sound_and_has_loops_only_if_it_is_closed() {
             preset.name
         );
         assert!(
-            is_closed(&leaf.plan.venation) || leaf.network.loops() == 0,
+            is_closed(leaf.auxin()) || leaf.network.loops() == 0,
             "{}",
             preset.name
         );
         if let Some(row) = preset.row {
-            let venation = &leaf.plan.venation;
+            let venation = leaf.auxin();
             assert_eq!(venation.pattern, row.pattern, "{}", preset.name);
             assert_eq!(venation.murray_exponent, row.murray_exponent);
         }

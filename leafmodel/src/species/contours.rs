@@ -1,7 +1,7 @@
 //! Outlines of the presets, drawn by eye after the figures' captions and the plants themselves; none is measured.
 
+use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
-use crate::shape::outline_plan::{Contour, OutlinePlan};
 use crate::shape::teeth::ToothWave;
 
 /// A point of a contour: across and along, in shares of the midrib's length.

@@ -3,8 +3,8 @@
 use super::table_1::{Row, RowGrowth};
 use super::{contours, green_leaf};
 use crate::leaf::LeafPlan;
-use crate::shape::outline_plan::OutlinePlan;
-use crate::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
 const CLOSED: Pattern = Pattern::Closed(Neighbourhood::Relative);
 
@@ -212,7 +212,7 @@ pub(super) fn searched(row: &Row) -> LeafPlan {
 }
 
 pub(super) fn slow() -> LeafPlan {
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         source_birth_distance: 5.0,
         vein_birth_distance: 5.0,
         ..SLOW.plan(SLOW.leaf_unit, 0.03)
@@ -224,7 +224,7 @@ pub(super) fn slow() -> LeafPlan {
 /// does the number of steps, and the margin still moves one segment in each.
 pub(super) fn ginkgo() -> LeafPlan {
     const COARSER: f64 = 10.0;
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         kill_distance: GINKGO.kill_distance / COARSER,
         darts_per_area: GINKGO.darts / 1e6 * COARSER * COARSER,
         growth: Growth::Marginal {
@@ -261,7 +261,7 @@ pub(super) fn reticulate() -> LeafPlan {
 }
 
 pub(super) fn cherry() -> LeafPlan {
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         unseen_veinlets: 0.1,
         ..CHERRY.plan(CHERRY.leaf_unit, 0.03)
     };
@@ -271,7 +271,7 @@ pub(super) fn cherry() -> LeafPlan {
 pub(super) fn grass() -> LeafPlan {
     // A source's birth distance apart.
     let apart = GRASS.birth_distance / (GRASS.final_length / GRASS.leaf_unit);
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         origins: (-6..=6).map(|i| [f64::from(i) * apart, 0.0]).collect(),
         ..GRASS.plan(GRASS.leaf_unit, 0.025)
     };

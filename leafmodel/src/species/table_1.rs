@@ -4,7 +4,7 @@
 //! says why). [`Row::leaf_unit`] is our reading: so many units of the table to a segment.
 
 use crate::shape::growth::RateCurve;
-use crate::venation::plan::{Growth, Pattern, VenationPlan};
+use crate::venation::plan::{AuxinPlan, Growth, Pattern};
 
 /// How the leaf of a row grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,9 +44,9 @@ pub struct Row {
 
 impl Row {
     /// The plan of this row for another number of units to a segment; the finest veins have `veinlet_radius_mm`.
-    pub fn plan(&self, leaf_unit: f64, veinlet_radius_mm: f64) -> VenationPlan {
+    pub fn plan(&self, leaf_unit: f64, veinlet_radius_mm: f64) -> AuxinPlan {
         let initial_length = self.initial_length / leaf_unit;
-        VenationPlan {
+        AuxinPlan {
             pattern: self.pattern,
             final_length: self.final_length / leaf_unit,
             kill_distance: self.kill_distance,
@@ -76,7 +76,7 @@ impl Row {
             },
             murray_exponent: self.murray_exponent,
             veinlet_radius_mm,
-            ..VenationPlan::default()
+            ..AuxinPlan::default()
         }
     }
 }

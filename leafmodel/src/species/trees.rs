@@ -5,12 +5,12 @@
 
 use super::{green_leaf, trees_contours as contours};
 use crate::leaf::LeafPlan;
-use crate::shape::outline_plan::OutlinePlan;
-use crate::venation::plan::{FreeEndings, Growth, MarginClearance, VenationPlan};
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
 /// A closed net on isogonic growth; the young leaf is `initial_length` segments long, the grown one `final_length`.
-fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> VenationPlan {
-    VenationPlan {
+fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
+    AuxinPlan {
         final_length,
         source_birth_distance: birth_distance,
         vein_birth_distance: birth_distance,
@@ -20,7 +20,7 @@ fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> VenationP
             length_step: 2.5,
         },
         murray_exponent: 2.3,
-        ..VenationPlan::default()
+        ..AuxinPlan::default()
     }
 }
 
@@ -40,11 +40,11 @@ fn leaf(
     length_mm: f64,
     seed: u64,
     outline: OutlinePlan,
-    venation: VenationPlan,
+    venation: AuxinPlan,
     look: &Look,
 ) -> LeafPlan {
     // The finest veins are a fifth of a segment across.
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         veinlet_radius_mm: 0.09 * length_mm / venation.final_length,
         ..venation
     };
@@ -132,7 +132,7 @@ pub(super) fn magnolia() -> LeafPlan {
         mass: [0.020, 0.012],
         bend: [10.0, 25.0, 0.008],
     };
-    let venation = VenationPlan {
+    let venation = AuxinPlan {
         margin_clearance: Some(MarginClearance {
             distance: 0.05,
             until: 0.3,

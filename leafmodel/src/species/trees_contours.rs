@@ -1,7 +1,7 @@
 //! Outlines of the trees and shrubs of `trees`, drawn by eye after the plants; none is measured.
 
 use super::contours::{curve, pointed, polar, teeth};
-use crate::shape::outline_plan::OutlinePlan;
+use crate::leaf::outline_plan::OutlinePlan;
 
 /// A maple's: five lobes about the petiole, each with shoulders and pointed teeth (Norway and sugar maple).
 pub(super) fn maple() -> OutlinePlan {

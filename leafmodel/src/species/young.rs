@@ -8,9 +8,9 @@ mod tests;
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::Contour;
 use crate::shape::growth_shape::{GrowthShape, VeinRow};
-use crate::shape::outline_plan::Contour;
-use crate::venation::plan::{Growth, VenationPlan};
+use crate::venation::plan::{AuxinPlan, Growth};
 
 /// Rows of cells, the paper's typical value.
 const ROWS: u16 = 150;
@@ -167,7 +167,7 @@ impl Form {
 
     /// A green leaf 80 mm long with a closed net of veins.
     pub(super) fn plan(&self) -> LeafPlan {
-        let venation = VenationPlan {
+        let venation = AuxinPlan {
             final_length: 350.0,
             source_birth_distance: 3.5,
             vein_birth_distance: 3.5,
@@ -178,7 +178,7 @@ impl Form {
             },
             murray_exponent: 2.3,
             veinlet_radius_mm: 0.015,
-            ..VenationPlan::default()
+            ..AuxinPlan::default()
         };
         let outline = Contour::GrowthAlgorithm(self.shape()).into();
         green_leaf(80.0, 1, outline, venation)

@@ -29,6 +29,20 @@ pub struct VeinStyle {
     pub least_cells: u32,
 }
 
+impl VeinStyle {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`TransportError::OutOfRange`].
+    pub fn validate(&self) -> Result<(), TransportError> {
+        let radius = self.base_radius_mm;
+        check("base_radius_mm", radius, 1e-4, 100.0, "0.0001 to 100 mm")?;
+        let least = f64::from(self.least_cells);
+        check("least_cells", least, 1.0, 1e6, "1 to 1000000")
+    }
+}
+
 /// Where the blade lies in the grid.
 struct Frame {
     margin: Vec<DVec2>,
@@ -77,10 +91,8 @@ impl TransportLeaf {
         length_mm: f64,
         style: VeinStyle,
     ) -> Result<VenationNetwork, TransportError> {
+        style.validate()?;
         let radius = style.base_radius_mm;
-        check("base_radius_mm", radius, 1e-4, 100.0, "0.0001 to 100 mm")?;
-        let least = f64::from(style.least_cells);
-        check("least_cells", least, 1.0, 1e6, "1 to 1000000")?;
         let (frame, outline) = self.framed(length_mm)?;
         let places = self.vein_places(style.least_cells);
         let widest = f64::from(self.counts()[0]);

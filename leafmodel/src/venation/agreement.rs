@@ -9,7 +9,7 @@ use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::{Ending, VenationNetwork};
 use super::plan::{
-    FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError, VenationPlan,
+    AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError,
 };
 use super::{Grown, VenationError, all_pairs, carry_out, grow};
 use crate::shape::growth::RateCurve;
@@ -36,11 +36,11 @@ fn outline(slope: f64, lobe_decay: f64) -> Outline {
 }
 
 /// The poplar row of Table 1 at 10 units of the table to a segment.
-fn poplar() -> VenationPlan {
-    VenationPlan::default()
+fn poplar() -> AuxinPlan {
+    AuxinPlan::default()
 }
 
-fn network(plan: &VenationPlan, seed: u64) -> VenationNetwork {
+fn network(plan: &AuxinPlan, seed: u64) -> VenationNetwork {
     grow(&outline(0.3, 0.0), plan, seed).expect("a good plan")
 }
 
@@ -74,7 +74,7 @@ fn growths(final_length: f64) -> impl Strategy<Value = Growth> {
 }
 
 /// Leaves of every kind, so many segments long.
-fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = VenationPlan> {
+fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = AuxinPlan> {
     let distances = (0.4..4.0, 0.7..4.0, 0.7..4.0);
     let extras = (0_u8..3, 0_u8..3, 0_u8..3, -1.0..6.0);
     let growth = lengths.prop_flat_map(|length| growths(length).prop_map(move |g| (length, g)));
@@ -82,7 +82,7 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = VenationPlan> {
         |(pattern, (final_length, growth), (kill, bs, bv), darts_per_area, extras)| {
             let (row, free, clearance, curvature) = extras;
             let moves = matches!(growth, Growth::Anisotropic { .. });
-            VenationPlan {
+            AuxinPlan {
                 pattern: match pattern {
                     0 => Pattern::Open,
                     1 => Pattern::Closed(Neighbourhood::Relative),
@@ -128,7 +128,7 @@ fn alike(fast: &Grown, slow: &Grown) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn agrees(plan: &VenationPlan, slope: f64, lobes: f64, seed: u64) -> Result<(), TestCaseError> {
+fn agrees(plan: &AuxinPlan, slope: f64, lobes: f64, seed: u64) -> Result<(), TestCaseError> {
     let outline = outline(slope, lobes);
     let blade = outline.moved_and_scaled(outline.base(), plan.final_length / outline.length());
     let clock = LaminaClock::new(plan).expect("a good plan");
@@ -215,7 +215,7 @@ fn no_vein_starts_after_growth_but_those_that_are_left() {
 
 #[test]
 fn open_patterns_have_no_loops_and_closed_ones_do() {
-    let open = VenationPlan {
+    let open = AuxinPlan {
         pattern: Pattern::Open,
         ..poplar()
     };
@@ -238,7 +238,7 @@ fn the_midvein_of_an_isogonic_leaf_reaches_its_tip() {
 fn veins_get_denser_as_the_kill_distance_falls() {
     // Fig. 9a–e at 4 units of the table to a segment.
     let nodes = [40.0, 20.0, 10.0, 5.0, 1.0].map(|kill_distance| {
-        let plan = VenationPlan {
+        let plan = AuxinPlan {
             kill_distance,
             source_birth_distance: 10.0,
             vein_birth_distance: 10.0,
@@ -259,7 +259,7 @@ fn veins_get_denser_as_the_kill_distance_falls() {
 #[test]
 fn radii_obey_murrays_law_at_every_fork_of_a_tree() {
     for murray_exponent in [2.0, 3.0] {
-        let plan = VenationPlan {
+        let plan = AuxinPlan {
             pattern: Pattern::Open,
             murray_exponent,
             ..poplar()
@@ -318,7 +318,7 @@ fn the_midrib_is_of_order_1_and_the_widest_vein() {
 
 #[test]
 fn one_seed_gives_one_network_and_another_seed_another() {
-    let plan = VenationPlan {
+    let plan = AuxinPlan {
         final_length: 120.0,
         ..poplar()
     };
@@ -328,7 +328,7 @@ fn one_seed_gives_one_network_and_another_seed_another() {
 
 #[test]
 fn the_network_follows_its_outline_to_any_place_and_size() {
-    let plan = VenationPlan {
+    let plan = AuxinPlan {
         final_length: 60.0,
         growth: Growth::None,
         darts_per_area: 0.01,
@@ -354,7 +354,7 @@ fn the_network_follows_its_outline_to_any_place_and_size() {
 
 #[test]
 fn every_bad_number_is_named() {
-    type Break = fn(&mut VenationPlan);
+    type Break = fn(&mut AuxinPlan);
     let break_one: [(&str, Break); 9] = [
         ("final_length", |p| p.final_length = 1.0),
         ("kill_distance", |p| p.kill_distance = 0.0),
@@ -390,14 +390,14 @@ fn every_bad_number_is_named() {
 
 #[test]
 fn endless_plans_are_refused() {
-    let slow = VenationPlan {
+    let slow = AuxinPlan {
         growth: Growth::Marginal {
             initial_length: 10.0,
             length_step: 1e-5,
         },
         ..poplar()
     };
-    let crowded = VenationPlan {
+    let crowded = AuxinPlan {
         final_length: 1e5,
         darts_per_area: 1e3,
         ..poplar()

@@ -12,7 +12,7 @@ use super::auxin::Darts;
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
-use super::plan::{Growth, Pattern, VenationPlan};
+use super::plan::{AuxinPlan, Growth, Pattern};
 use super::simulation::{NO_DIRECTION, PATIENCE};
 
 mod rounds;
@@ -36,7 +36,7 @@ enum Outcome {
 }
 
 struct Oracle<'a> {
-    plan: VenationPlan,
+    plan: AuxinPlan,
     lamina: Lamina<'a>,
     seed: u64,
     nodes: Vec<DVec2>,
@@ -59,7 +59,7 @@ struct Oracle<'a> {
 
 /// What [`super::simulate`] gives, the slow way.
 pub(crate) fn simulate(
-    plan: &VenationPlan,
+    plan: &AuxinPlan,
     lamina: Lamina,
     clock: &LaminaClock,
     seed: u64,

@@ -4,7 +4,7 @@
 //! narrowed towards the midrib. How start, control and end points are bunched up decides between straight pinnate veins and
 //! arcuate ones that sweep along the margin to the tip.
 //!
-//! - **In**: an [`ArcuatePlan`], and any [`Outline`] or the plan's own, which is made of two cubic splines.
+//! - **In**: an [`ArcuatePlan`], and any [`Outline`] or the article's own, a [`CubicMargin`].
 //! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], whose fields Vein, Net and Fac can be had at any point.
 //! - **Always true**: every vein of the network starts on the midrib or a primary and ends on the margin, or where it meets
 //!   another vein; no vein crosses the margin or another vein.
@@ -29,8 +29,8 @@ use thiserror::Error;
 pub use self::fields::ArcuateFields;
 use self::layout::{Frame, Sides, Vein, lay_out};
 use super::network::{NetworkError, VenationNetwork};
-use crate::shape::cubic::{Cubic, FLATNESS};
-use crate::shape::outline::{Outline, OutlineError};
+use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
+use crate::shape::outline::Outline;
 
 /// Primary veins that fan out from the petiole beside the midrib.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,14 +46,6 @@ pub struct PalmateVeins {
 /// Parameters of the pattern. Lengths are in units of the leaf's length; the names are the article's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcuatePlan {
-    /// `Angle1`: direction of the own margin's first handle from the midrib, degrees, 0 to 180, both excluded.
-    pub angle1_deg: f64,
-    /// `L1`: length of that handle, 0.01 to 10.
-    pub length1: f64,
-    /// `Angle2`: direction of the handle at the tip, degrees, 0 to 180, both excluded.
-    pub angle2_deg: f64,
-    /// `L2`: length of that handle, 0.01 to 10.
-    pub length2: f64,
     /// `Veins`: lateral veins a side of each primary, 1 to 100.
     pub veins: u32,
     /// `Seed` of the variation.
@@ -82,10 +74,6 @@ impl Default for ArcuatePlan {
     /// The article's defaults.
     fn default() -> Self {
         Self {
-            angle1_deg: 70.0,
-            length1: 1.0,
-            angle2_deg: 70.0,
-            length2: 1.0,
             veins: 7,
             seed: 42,
             variation: 0.0,
@@ -122,9 +110,9 @@ pub enum ArcuateError {
         /// The last there is.
         last: usize,
     },
-    /// The plan's own margin crosses itself or encloses nothing.
-    #[error("the margin of these angles and lengths is none: {0}")]
-    Margin(#[from] OutlineError),
+    /// The margin that they belong to.
+    #[error(transparent)]
+    Margin(#[from] CubicMarginError),
     /// No veins fit on the blade.
     #[error("no veins fit on this blade: {0}")]
     Network(#[from] NetworkError),
@@ -148,11 +136,6 @@ impl ArcuatePlan {
     ///
     /// [`ArcuateError::OutOfRange`] of the first that is out of range.
     pub fn validate(&self) -> Result<(), ArcuateError> {
-        let angles = "0 to 180 degrees, both excluded";
-        in_range("angle1_deg", self.angle1_deg, 1e-6..=180.0 - 1e-6, angles)?;
-        in_range("length1", self.length1, 0.01..=10.0, "0.01 to 10")?;
-        in_range("angle2_deg", self.angle2_deg, 1e-6..=180.0 - 1e-6, angles)?;
-        in_range("length2", self.length2, 0.01..=10.0, "0.01 to 10")?;
         in_range("veins", f64::from(self.veins), 1.0..=100.0, "1 to 100")?;
         in_range("variation", self.variation, 0.0..=1.0, "0 to 1")?;
         in_range("width", self.width, 1e-4..=0.5, "0.0001 to 0.5")?;
@@ -171,36 +154,21 @@ impl ArcuatePlan {
         Ok(())
     }
 
-    /// The plan's own margin: a cubic spline from base to tip and its mirror image.
+    /// The network on the margin that the article draws, whose points are told by the spline's own parameter.
     ///
     /// # Errors
     ///
-    /// [`ArcuateError`], naming what is out of range, or why the spline is no margin.
-    pub fn outline(&self, length_mm: f64) -> Result<Outline, ArcuateError> {
+    /// [`ArcuateError`], naming what is out of range, or why the splines are no margin.
+    pub fn network_within(
+        &self,
+        margin: &CubicMargin,
+        length_mm: f64,
+    ) -> Result<VenationNetwork, ArcuateError> {
         self.validate()?;
-        let lengths = "0.001 to 100000 (millimetres)";
-        in_range("length_mm", length_mm, 1e-3..=1e5, lengths)?;
-        let frame = Frame::upright(length_mm);
-        let (left, _) = self.flat_margin();
-        let (base, apex) = (frame.to_mm(DVec2::ZERO), frame.to_mm(DVec2::X));
-        let right = left.iter().map(|p| DVec2::new(p.x, -p.y));
-        let back = left[1..left.len() - 1].iter().rev().copied();
-        let points = right.chain(back).map(|p| frame.to_mm(p)).collect();
-        Ok(Outline::new(points, base, apex)?)
-    }
-
-    /// The plan's own margin and the network on it.
-    ///
-    /// # Errors
-    ///
-    /// As [`ArcuatePlan::outline`].
-    pub fn grow(&self, length_mm: f64) -> Result<(Outline, VenationNetwork), ArcuateError> {
-        let outline = self.outline(length_mm)?;
-        let (points, shares) = self.flat_margin();
-        let sides = Sides::mirrored(points, shares);
+        let outline = margin.grow(length_mm)?;
+        let sides = Sides::mirrored(margin.flat());
         let veins = self.veins_between(Frame::upright(length_mm), &sides, Some(&outline));
-        let network = graph::network(&veins, &outline)?;
-        Ok((outline, network))
+        Ok(graph::network(&veins, &outline)?)
     }
 
     /// The network on any margin, whose two sides from base to apex, by arc length, stand for the article's splines.
@@ -213,19 +181,24 @@ impl ArcuatePlan {
         Ok(graph::network(&veins, outline)?)
     }
 
-    /// The veins as splines on the plan's own margin, exactly those of the article's code.
+    /// The veins as splines, exactly those of the article's code, on the margin that it draws.
     ///
     /// # Errors
     ///
-    /// As [`ArcuatePlan::outline`], but that the margin may cross itself.
-    pub fn own_veins(&self, length_mm: f64) -> Result<ArcuateVeins, ArcuateError> {
+    /// As [`ArcuatePlan::network_within`], but that the margin may cross itself.
+    pub fn veins_within(
+        &self,
+        margin: &CubicMargin,
+        length_mm: f64,
+    ) -> Result<ArcuateVeins, ArcuateError> {
         self.validate()?;
-        let lengths = "0.001 to 100000 (millimetres)";
-        in_range("length_mm", length_mm, 1e-3..=1e5, lengths)?;
-        let sides = Sides::Cubic(self.cubic());
-        let outline = self.outline(length_mm).ok();
-        let frame = Frame::upright(length_mm);
-        Ok(self.veins_between(frame, &sides, outline.as_ref()))
+        let blade = match margin.grow(length_mm) {
+            Err(error @ CubicMarginError::OutOfRange { .. }) => return Err(error.into()),
+            Err(CubicMarginError::Margin(_)) => None,
+            Ok(outline) => Some(outline),
+        };
+        let sides = Sides::Cubic(margin.spline());
+        Ok(self.veins_between(Frame::upright(length_mm), &sides, blade.as_ref()))
     }
 
     /// The veins as splines on any margin.
@@ -249,30 +222,6 @@ impl ArcuatePlan {
             axes,
             laterals,
         }
-    }
-
-    /// The own margin's left side in leaf units, x along the midrib.
-    fn cubic(&self) -> Cubic {
-        let handle = |degrees: f64| {
-            let angle = degrees.to_radians();
-            DVec2::new(libm::cos(angle), libm::sin(angle))
-        };
-        let (first, second) = (handle(self.angle1_deg), handle(self.angle2_deg));
-        Cubic([
-            DVec2::ZERO,
-            first * self.length1,
-            DVec2::new(1.0 - second.x * self.length2, second.y * self.length2),
-            DVec2::X,
-        ])
-    }
-
-    /// That side as a polyline, with the spline's parameter at each point.
-    fn flat_margin(&self) -> (Vec<DVec2>, Vec<f64>) {
-        let mut points = vec![DVec2::ZERO];
-        self.cubic().flatten(FLATNESS, &mut points);
-        let last = (points.len() - 1) as f64;
-        let shares = (0..points.len()).map(|i| i as f64 / last).collect();
-        (points, shares)
     }
 }
 

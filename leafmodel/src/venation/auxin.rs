@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::chance::{Use, uniform};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
-use super::plan::{FreeEndings, Growth, VenationPlan};
+use super::plan::{AuxinPlan, FreeEndings, Growth};
 use super::point_tree::PointTree;
 
 /// Darts per square of the birth distance beyond which more of them find next to no room: the
@@ -36,12 +36,7 @@ pub(crate) enum Darts {
 
 impl Darts {
     /// The darts of a plan.
-    pub(crate) fn new(
-        plan: &VenationPlan,
-        lamina: &Lamina,
-        clock: &LaminaClock,
-        seed: u64,
-    ) -> Self {
+    pub(crate) fn new(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock, seed: u64) -> Self {
         let thrown = |until| Self::Thrown {
             per_area: plan.darts_per_area,
             due: 0.0,
@@ -137,7 +132,7 @@ impl Darts {
 }
 
 /// How many darts the whole growth at the margin asks for. [`super::plan`] bounds it.
-pub(crate) fn waiting_darts(plan: &VenationPlan, lamina: &Lamina, steps: u32) -> f64 {
+pub(crate) fn waiting_darts(plan: &AuxinPlan, lamina: &Lamina, steps: u32) -> f64 {
     let (low, high) = lamina.bounds_now();
     let size = high - low;
     let area = size.x * size.y * lamina.surplus();
@@ -227,10 +222,10 @@ mod tests {
             let outline = Outline::new(corners.collect(), inside, inside + DVec2::Y);
             prop_assume!(outline.is_ok());
             let outline = outline.expect("just assumed");
-            let plan = VenationPlan {
+            let plan = AuxinPlan {
                 final_length: 100.0,
                 growth: Growth::Marginal { initial_length: initial, length_step },
-                ..VenationPlan::default()
+                ..AuxinPlan::default()
             };
             let clock = LaminaClock::new(&plan).expect("it grows");
             let p = inside + DVec2::new(x, y) * 50.0;

@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::conformal_map::ConformalMap;
-use super::plan::VenationPlan;
+use super::plan::AuxinPlan;
 use crate::shape::growth::TissueMap;
 use crate::shape::outline::Outline;
 
@@ -25,7 +25,7 @@ pub(crate) struct Lamina<'a> {
 
 impl<'a> Lamina<'a> {
     /// The lamina of a plan, with the map of the full-grown leaf if its tissue moves.
-    pub(crate) fn new(plan: &VenationPlan, blade: &'a Outline, last: Option<TissueMap>) -> Self {
+    pub(crate) fn new(plan: &AuxinPlan, blade: &'a Outline, last: Option<TissueMap>) -> Self {
         let length = plan.final_length;
         Self {
             blade,

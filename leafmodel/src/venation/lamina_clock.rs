@@ -9,7 +9,7 @@
 //!
 //! Anisotropic growth has no such frame: there positions are those of the step, and move.
 
-use super::plan::{Growth, VenationPlan};
+use super::plan::{AuxinPlan, Growth};
 use crate::shape::growth::{GrowthError, TissueMap, arrival};
 
 /// The lamina at one step.
@@ -36,7 +36,7 @@ impl LaminaClock {
     /// # Errors
     ///
     /// [`GrowthError`] if anisotropic growth never reaches the final length.
-    pub(crate) fn new(plan: &VenationPlan) -> Result<Self, GrowthError> {
+    pub(crate) fn new(plan: &AuxinPlan) -> Result<Self, GrowthError> {
         let arrival = match &plan.growth {
             Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => 0.0,
             Growth::Anisotropic {

@@ -82,7 +82,7 @@ pub struct MarginClearance {
 
 /// Parameters of Runions et al. 2005; the letters are the paper's.
 #[derive(Clone, Debug, PartialEq)]
-pub struct VenationPlan {
+pub struct AuxinPlan {
     /// Open or closed.
     pub pattern: Pattern,
     /// Where veins start, as shares of the midrib's length: across it (to the right) and along it from the base.
@@ -116,7 +116,7 @@ pub struct VenationPlan {
     pub gaussian_curvature: f64,
 }
 
-impl VenationPlan {
+impl AuxinPlan {
     /// Where veins start, in segments, base at the origin.
     pub(crate) fn origins_in_segments(&self) -> Vec<DVec2> {
         if self.origins.is_empty() {
@@ -129,8 +129,8 @@ impl VenationPlan {
 
 impl FreeEndings {
     /// What the last round is told: an open pattern on the full-grown leaf.
-    pub(crate) fn as_plan(&self, plan: &VenationPlan) -> VenationPlan {
-        VenationPlan {
+    pub(crate) fn as_plan(&self, plan: &AuxinPlan) -> AuxinPlan {
+        AuxinPlan {
             pattern: Pattern::Open,
             kill_distance: self.kill_distance,
             source_birth_distance: self.birth_distance,
@@ -143,7 +143,7 @@ impl FreeEndings {
     }
 }
 
-impl Default for VenationPlan {
+impl Default for AuxinPlan {
     /// A closed pattern on a leaf of 350 segments that grows isogonically: the paper's poplar at ten units of
     /// its Table 1 to a segment.
     fn default() -> Self {

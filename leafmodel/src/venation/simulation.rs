@@ -15,7 +15,7 @@ use super::influence::{Fate, Influence, Surroundings};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
-use super::plan::{Growth, VenationPlan};
+use super::plan::{AuxinPlan, Growth};
 use super::point_tree::PointTree;
 use super::veins::{COINCIDENT, Veins};
 
@@ -48,7 +48,7 @@ struct Source<I> {
 
 /// A venation simulation under way, in the frame of [`super::lamina_clock`].
 pub(crate) struct Simulation<'a, I> {
-    plan: &'a VenationPlan,
+    plan: &'a AuxinPlan,
     pub(crate) lamina: Lamina<'a>,
     seed: u64,
     clock: LaminaClock,
@@ -78,7 +78,7 @@ pub(crate) struct Simulation<'a, I> {
 impl<'a, I: Influence> Simulation<'a, I> {
     /// Before the first step: nodes where veins start, on a lamina as it is at step 0.
     pub(crate) fn new(
-        plan: &'a VenationPlan,
+        plan: &'a AuxinPlan,
         mut lamina: Lamina<'a>,
         clock: LaminaClock,
         seed: u64,
@@ -102,7 +102,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
 
     /// Goes on with veins that are there.
     pub(crate) fn resume(
-        plan: &'a VenationPlan,
+        plan: &'a AuxinPlan,
         lamina: Lamina<'a>,
         clock: LaminaClock,
         seed: u64,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::network::{VeinEdge, VeinNode, VenationNetwork};
-use super::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+use super::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 use crate::shape::outline::Outline;
 
 /// A network of veins of radius 0.01 mm and order 1, resolved at 0.1 mm.
@@ -58,7 +58,7 @@ pub(crate) fn poplar(seed: u64) -> (Outline, VenationNetwork) {
         DVec2::new(0.0, 40.0),
     )
     .expect("an ellipse is a margin");
-    let plan = VenationPlan {
+    let plan = AuxinPlan {
         pattern: Pattern::Closed(Neighbourhood::Relative),
         final_length: 200.0,
         kill_distance: 1.0,
@@ -71,7 +71,7 @@ pub(crate) fn poplar(seed: u64) -> (Outline, VenationNetwork) {
         },
         murray_exponent: 2.5,
         veinlet_radius_mm: 0.015,
-        ..VenationPlan::default()
+        ..AuxinPlan::default()
     };
     let network = super::grow(&outline, &plan, seed).expect("a plan that can be carried out");
     (outline, network)

@@ -241,7 +241,7 @@ mod tests {
     use super::*;
 
     use crate::shape::outline::Outline;
-    use crate::venation::plan::VenationPlan;
+    use crate::venation::plan::AuxinPlan;
 
     fn blade() -> Outline {
         let corners = [(-50.0, 0.0), (50.0, 0.0), (50.0, 100.0), (-50.0, 100.0)];
@@ -250,7 +250,7 @@ mod tests {
     }
 
     fn lamina(blade: &Outline) -> Lamina<'_> {
-        Lamina::new(&VenationPlan::default(), blade, None)
+        Lamina::new(&AuxinPlan::default(), blade, None)
     }
 
     /// A chain of nodes two apart, as tissue stretched to twice its size leaves it.

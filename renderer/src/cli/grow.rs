@@ -11,12 +11,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use leafmodel::export::{self, SvgStyle};
-use leafmodel::leaf::{Leaf, LeafPlan};
+use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::measure::measure;
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
+use leafmodel::venation::VenationError;
 use leafmodel::venation::network::{Ending, VenationNetwork};
-use leafmodel::venation::{VenationError, grow_unless};
 use serde_json::json;
 
 use self::frames::Page;
@@ -80,7 +80,9 @@ fn carry_out(
     let growing = Instant::now();
     let grown = Grown::new(plan, outputs.blade, stop)?;
     let build_seconds = growing.elapsed().as_secs_f64();
-    let (outline, network) = grown.veins();
+    let Lamina {
+        outline, network, ..
+    } = grown.lamina();
     for (path, kind) in &outputs.whole {
         let bytes = match kind {
             Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson => {
@@ -89,7 +91,7 @@ fn carry_out(
             Kind::Ply | Kind::Obj => match &grown {
                 Grown::Leaf(leaf) if *kind == Kind::Ply => blade_files::ply(&leaf.mesh),
                 Grown::Leaf(leaf) => blade_files::obj(&leaf.mesh).into_bytes(),
-                Grown::Veins(..) => continue,
+                Grown::Flat(_) => continue,
             },
             Kind::Toml => continue,
         };
@@ -105,7 +107,7 @@ fn carry_out(
         if !network.map().is_flat() {
             eprintln!("note: the blade is curved; measures are those of its conformal map");
         }
-        let measures = measure(outline, network, plan.venation.murray_exponent);
+        let measures = measure(outline, network, plan.venation.murray_exponent());
         eprint!("{}", measures.table());
         finish(path, format!("{:#}\n", measures.json()).as_bytes(), stop)?;
     }
@@ -138,7 +140,7 @@ fn carry_out(
 
 /// As much of a leaf as is asked for.
 enum Grown {
-    Veins(Box<(Outline, VenationNetwork)>),
+    Flat(Box<Lamina>),
     Leaf(Box<Leaf>),
 }
 
@@ -148,13 +150,16 @@ impl Grown {
             plan.tissue.validate().map_err(Failure::bad)?;
             plan.form.validate().map_err(Failure::bad)?;
         }
-        let outline = plan.grow_outline().map_err(Failure::bad)?;
         let is_stopped = || stop.load(Ordering::Relaxed);
-        let network = grow_unless(&outline, &plan.venation, plan.seed, &is_stopped);
-        let network = network.map_err(|error| match error {
-            VenationError::Stopped => Failure::Interrupted,
-            VenationError::Plan(_) => Failure::bad(error),
+        let lamina = plan.grow_lamina_unless(&is_stopped);
+        let lamina = lamina.map_err(|error| {
+            if matches!(error, LeafError::Venation(VenationError::Stopped)) {
+                Failure::Interrupted
+            } else {
+                Failure::bad(error)
+            }
         })?;
+        let network = &lamina.network;
         match network.ending() {
             Ending::Settled | Ending::Growing => {}
             Ending::StepLimit => {
@@ -170,22 +175,22 @@ impl Grown {
             );
         }
         if blade {
-            let leaf = Leaf::from_veins(plan, outline, network).map_err(Failure::bad)?;
+            let leaf = Leaf::from_lamina(plan, lamina).map_err(Failure::bad)?;
             return Ok(Self::Leaf(Box::new(leaf)));
         }
-        Ok(Self::Veins(Box::new((outline, network))))
+        Ok(Self::Flat(Box::new(lamina)))
     }
 
-    fn veins(&self) -> (&Outline, &VenationNetwork) {
+    fn lamina(&self) -> &Lamina {
         match self {
-            Self::Veins(veins) => (&veins.0, &veins.1),
-            Self::Leaf(leaf) => (&leaf.outline, &leaf.network),
+            Self::Flat(lamina) => lamina,
+            Self::Leaf(leaf) => &leaf.lamina,
         }
     }
 
     fn triangles(&self) -> Option<usize> {
         match self {
-            Self::Veins(..) => None,
+            Self::Flat(_) => None,
             Self::Leaf(leaf) => Some(leaf.mesh.triangles.len()),
         }
     }

@@ -8,8 +8,7 @@ use crate::venation::plan::MarginClearance;
 fn secondaries_join_in_arches_before_the_leaf_grows() {
     let leaf = Grown::preset("brochidodromous");
     let rule = leaf
-        .plan
-        .venation
+        .auxin()
         .margin_clearance
         .expect("it is what the preset shows");
     // The first stage with as many loops as there ever are before darts fall.
@@ -56,12 +55,9 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         "{arch} in arches, {secondary} in secondaries"
     );
     // Left to chance, a leaf as large as this one is when its veins have met has fewer loops.
-    let chance = Grown::of(LeafPlan {
-        venation: VenationPlan {
-            margin_clearance: Some(MarginClearance { arches: 0, ..rule }),
-            ..leaf.plan.venation.clone()
-        },
-        ..leaf.plan.clone()
+    let chance = leaf.with_veins(AuxinPlan {
+        margin_clearance: Some(MarginClearance { arches: 0, ..rule }),
+        ..leaf.auxin().clone()
     });
     let as_large = chance.stages(&steps);
     let as_large = as_large.iter().rfind(|s| size(s) <= 1.1 * size(laid_out));
@@ -71,12 +67,9 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
 #[test]
 fn veinlets_end_freely_inside_areoles() {
     let with = Grown::preset("free-endings");
-    let without = Grown::of(LeafPlan {
-        venation: VenationPlan {
-            free_endings: None,
-            ..with.plan.venation.clone()
-        },
-        ..with.plan.clone()
+    let without = with.with_veins(AuxinPlan {
+        free_endings: None,
+        ..with.auxin().clone()
     });
     // The last round adds to the net and changes nothing of it.
     let old = without.network.nodes();

@@ -19,11 +19,11 @@ fn tips(network: &VenationNetwork) -> Vec<DVec2> {
 fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
     // Median distance of the nodes of the last steps from the margin of their time, over the leaf's length then.
     let lag = |leaf: &Grown| -> Vec<f64> {
-        let Growth::Marginal { length_step, .. } = leaf.plan.venation.growth else {
+        let Growth::Marginal { length_step, .. } = leaf.auxin().growth else {
             panic!("the margin grows");
         };
         // When the leaf is a quarter, a half and three quarters of its final length.
-        let final_length = leaf.plan.venation.final_length;
+        let final_length = leaf.auxin().final_length;
         let steps = [0.25, 0.5, 0.75].map(|share| (share * final_length / length_step) as u32);
         let median = |stage: &Stage| {
             let nodes = stage.network.nodes().iter();
@@ -37,12 +37,12 @@ fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
     };
     let slow = Grown::preset("runions-9i");
     // The same leaf grown ten times as fast: its tips fall behind.
-    let mut plan = slow.plan.clone();
-    let Growth::Marginal { length_step, .. } = &mut plan.venation.growth else {
+    let mut veins = slow.auxin().clone();
+    let Growth::Marginal { length_step, .. } = &mut veins.growth else {
         panic!("the margin grows");
     };
     *length_step *= 10.0;
-    let (slow, fast) = (lag(&slow), lag(&Grown::of(plan)));
+    let (slow, fast) = (lag(&slow), lag(&slow.with_veins(veins)));
     assert!(slow.iter().all(|&lag| lag < 0.08), "{slow:?}");
     let mean = |lags: &[f64]| lags.iter().sum::<f64>() / lags.len() as f64;
     assert!(2.0 * mean(&slow) < mean(&fast), "{slow:?} {fast:?}");
@@ -182,12 +182,9 @@ fn fig_12_a_major_vein_runs_to_the_tip_of_every_lobe() {
 #[test]
 fn fig_16_unseen_veinlets_widen_the_major_veins_only() {
     let leaf = Grown::preset("cherry");
-    let bare = Grown::of(LeafPlan {
-        venation: VenationPlan {
-            unseen_veinlets: 0.0,
-            ..leaf.plan.venation.clone()
-        },
-        ..leaf.plan.clone()
+    let bare = leaf.with_veins(AuxinPlan {
+        unseen_veinlets: 0.0,
+        ..leaf.auxin().clone()
     });
     assert_eq!(leaf.network.loops(), 0);
     assert_eq!(leaf.network.nodes(), bare.network.nodes());

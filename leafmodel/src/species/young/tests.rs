@@ -222,7 +222,7 @@ fn every_form_becomes_a_leaf() {
         let leaf = crate::leaf::Leaf::grow(&form.plan());
         let leaf = leaf.unwrap_or_else(|error| panic!("{}: {error}", form.name));
         assert_eq!(
-            leaf.mesh.validate(leaf.outline.area()),
+            leaf.mesh.validate(leaf.lamina.outline.area()),
             Ok(()),
             "{}",
             form.name

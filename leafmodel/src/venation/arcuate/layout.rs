@@ -105,8 +105,10 @@ pub(super) enum Sides {
 }
 
 impl Sides {
-    /// A left side and its mirror image.
-    pub(super) fn mirrored(points: Vec<DVec2>, shares: Vec<f64>) -> Self {
+    /// A left side at even steps of its parameter, and its mirror image.
+    pub(super) fn mirrored(points: Vec<DVec2>) -> Self {
+        let last = (points.len() - 1) as f64;
+        let shares: Vec<f64> = (0..points.len()).map(|i| i as f64 / last).collect();
         let right = points.iter().map(|p| DVec2::new(p.x, -p.y)).collect();
         let left = Line {
             points,

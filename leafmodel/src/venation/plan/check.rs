@@ -3,7 +3,7 @@
 use glam::DVec2;
 use thiserror::Error;
 
-use super::{Growth, Pattern, VenationPlan};
+use super::{AuxinPlan, Growth, Pattern};
 use crate::shape::growth::GrowthError;
 use crate::shape::outline::Outline;
 use crate::venation::veins::COINCIDENT;
@@ -82,7 +82,7 @@ pub enum PlanError {
     },
 }
 
-impl VenationPlan {
+impl AuxinPlan {
     /// Checks every number by itself, and that growth comes to an end.
     ///
     /// # Errors

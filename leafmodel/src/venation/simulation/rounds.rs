@@ -8,13 +8,13 @@ use crate::venation::auxin::Darts;
 use crate::venation::influence::Influence;
 use crate::venation::lamina_clock::LaminaClock;
 use crate::venation::open::NearestNode;
-use crate::venation::plan::{FreeEndings, Growth, VenationPlan};
+use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
 
 impl<'a, I: Influence> Simulation<'a, I> {
     /// The last round, in which veinlets grow that end freely, by the plan `rest`.
     pub(crate) fn with_free_endings<'b>(
         self,
-        rest: &'b VenationPlan,
+        rest: &'b AuxinPlan,
         free: &FreeEndings,
     ) -> Simulation<'b, NearestNode>
     where

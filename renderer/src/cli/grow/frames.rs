@@ -30,12 +30,16 @@ pub(super) fn write(
     pixels: u32,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
+    let Some(auxin) = plan.venation.auxin() else {
+        return Err(Failure::bad(
+            "--frames needs veins that grow: venation.closed or venation.open",
+        ));
+    };
     let steps = steps(network.steps(), count);
     let page = outline.bounds();
     let group = (MOST_NODES / network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
-        let stages =
-            grow_stages(outline, &plan.venation, plan.seed, group_steps).map_err(Failure::bad)?;
+        let stages = grow_stages(outline, auxin, plan.seed, group_steps).map_err(Failure::bad)?;
         for (path, kind) in &outputs.staged {
             let draw =
                 |stage: &Stage| veins_file(*kind, page, &stage.outline, &stage.network, pixels);

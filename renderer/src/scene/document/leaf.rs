@@ -35,8 +35,8 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     let length_mm = block.number("length_mm", Limits::closed(0.1, 10_000.0));
     let seed = block.integer_or("seed", 0, u64::MAX, 0);
     let map_size = block.integer_or("map_size", 16, 8192, MAP_SIZE) as u32;
-    let (outline, grown) = read_outline(block).unzip();
-    let venation = read_venation(block, grown.as_ref());
+    let outline = read_outline(block, seed);
+    let venation = read_venation(block, outline.as_ref());
     let contents = block
         .block("contents", &[])
         .and_then(|inner| read_contents(&inner));
@@ -53,7 +53,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         plan: LeafPlan {
             length_mm: length_mm?,
             seed,
-            outline: outline?,
+            outline: outline?.plan,
             venation: venation?,
             tissue: tissue?,
             form,

@@ -30,6 +30,22 @@ impl Limits {
         }
     }
 
+    /// From `low` up to below `high`.
+    pub(crate) const fn below(low: f64, high: f64) -> Self {
+        Self {
+            high_included: false,
+            ..Self::closed(low, high)
+        }
+    }
+
+    /// Above `low` and below `high`.
+    pub(crate) const fn open(low: f64, high: f64) -> Self {
+        Self {
+            low_included: false,
+            ..Self::below(low, high)
+        }
+    }
+
     /// Whether a number lies in the range; NaN never does.
     pub(crate) fn contain(&self, value: f64) -> bool {
         let above = value > self.low || (self.low_included && value == self.low);

@@ -1,35 +1,48 @@
 //! `[leaves.NAME.outline.…]`: the margin of a leaf.
 
+mod cubic;
 mod curve;
 mod growth_algorithm;
 mod svg;
 mod teeth;
+mod transport;
 
+use leafmodel::leaf::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
 use leafmodel::shape::outline::Outline;
-use leafmodel::shape::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
+use leafmodel::transport::TransportError;
 
+pub(crate) use self::transport::STEPS;
 use super::reader::Block;
 use crate::scene::error::SceneError;
 
 /// The kinds of contour.
-const KINDS: [&str; 3] = ["growth_algorithm", "curve", "svg"];
+const KINDS: [&str; 5] = ["growth_algorithm", "curve", "svg", "cubic", "transport"];
 
-/// Reads `outline` of a leaf, and tries it: the outline that comes with the plan is one of length 1 mm.
-pub(crate) fn read_outline(leaf: &Block<'_>) -> Option<(OutlinePlan, Outline)> {
+/// An outline that can be grown: its plan, and one of length 1 mm.
+#[derive(Debug)]
+pub(crate) struct GrownOutline {
+    pub(crate) plan: OutlinePlan,
+    pub(crate) grown: Outline,
+}
+
+/// Reads `outline` of a leaf, and tries it.
+pub(crate) fn read_outline(leaf: &Block<'_>, seed: u64) -> Option<GrownOutline> {
     let outline = leaf.block("outline", &KINDS)?;
     let teeth = teeth::read_teeth(&outline);
     let (variant, block) = outline.variant(&KINDS)?;
     let contour = match variant {
         "curve" => curve::read_curve(&block).map(Contour::Curve),
         "svg" => svg::read_svg(&block).map(Contour::Svg),
+        "cubic" => Some(Contour::Cubic(cubic::read_cubic(&block))),
+        "transport" => transport::read_transport(&block).map(Contour::Transport),
         _ => growth_algorithm::read_growth_shape(&block).map(Contour::GrowthAlgorithm),
     };
     let plan = OutlinePlan {
         contour: contour?,
         teeth: teeth?,
     };
-    match plan.grow(1.0) {
-        Ok(grown) => Some((plan, grown)),
+    match plan.grow(1.0, seed) {
+        Ok(grown) => Some(GrownOutline { plan, grown }),
         Err(error) => {
             report(&outline, &block, &error);
             None
@@ -56,6 +69,22 @@ fn report(outline: &Block<'_>, block: &Block<'_>, error: &OutlinePlanError) {
             "path",
             "draw one closed curve that does not cross itself",
         ),
+        OutlinePlanError::Cubic(_) => (
+            block,
+            "angle1_deg",
+            "use shorter handles, or angles that lead away from the midrib",
+        ),
+        OutlinePlanError::Transport(TransportError::OutOfRange { .. }) => {
+            (block, "epsilon", "use a lower revenue, or a larger cell")
+        }
+        OutlinePlanError::Transport(TransportError::TooManyCells { .. }) => (
+            block,
+            "epsilon",
+            "use a lower revenue, a larger alpha, or allow more cells",
+        ),
+        OutlinePlanError::Transport(TransportError::Outline(_)) => {
+            (block, "epsilon", "let the leaf grow larger")
+        }
         OutlinePlanError::GrowthAlgorithm(_) | OutlinePlanError::Length { .. } => (
             block,
             "veins",

@@ -5,15 +5,21 @@
 use leafmodel::blade::BladeForm;
 use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
+use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
+use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 use leafmodel::shape::contour_curve::ContourCurve;
+use leafmodel::shape::cubic_margin::CubicMargin;
 use leafmodel::shape::growth_shape::GrowthShape;
-use leafmodel::shape::outline_plan::{Contour, OutlinePlan};
 use leafmodel::shape::svg_path::SvgContour;
-use leafmodel::venation::plan::{Growth, Neighbourhood, Pattern, VenationPlan};
+use leafmodel::transport::{Ladder, TransportPlan, VeinStyle};
+use leafmodel::venation::arcuate::ArcuatePlan;
+use leafmodel::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
+use super::outline::STEPS;
 use super::tree::{Entry, Node, Table, Value};
+use super::venation::LEAST_CELLS;
 use super::write;
 use crate::scene::source::Place;
 
@@ -106,7 +112,12 @@ fn leaf(plan: &LeafPlan) -> Keys {
         keys.integer("map_size", plan.map_size.into());
     }
     keys.block("outline", outline(&plan.outline));
-    keys.block("venation", venation(&plan.venation));
+    let (kind, block) = match &plan.venation {
+        VenationPlan::Auxin(plan) => auxin(plan),
+        VenationPlan::Arcuate(plan) => ("arcuate", arcuate(plan)),
+        VenationPlan::Cells(style) => ("cells", vein_style(*style)),
+    };
+    keys.block("venation", Keys::default().with(kind, block));
     keys.block("contents", contents(&plan.tissue.lamina));
     let (veins, mottle) = tissue(&plan.tissue);
     keys.block_if_any("veins", veins);
@@ -133,6 +144,8 @@ fn outline(plan: &OutlinePlan) -> Keys {
         Contour::GrowthAlgorithm(shape) => keys.block("growth_algorithm", growth_shape(shape)),
         Contour::Curve(contour) => keys.block("curve", curve(contour)),
         Contour::Svg(contour) => keys.block("svg", svg(contour)),
+        Contour::Cubic(margin) => keys.block("cubic", cubic(margin)),
+        Contour::Transport(plan) => keys.block("transport", transport(plan)),
     }
     keys
 }
@@ -186,7 +199,78 @@ fn svg(contour: &SvgContour) -> Keys {
     keys
 }
 
-fn venation(plan: &VenationPlan) -> Keys {
+fn cubic(margin: &CubicMargin) -> Keys {
+    let usual = CubicMargin::default();
+    let mut keys = Keys::default();
+    keys.number_unless("angle1_deg", margin.angle1_deg, usual.angle1_deg);
+    keys.number_unless("length1", margin.length1, usual.length1);
+    keys.number_unless("angle2_deg", margin.angle2_deg, usual.angle2_deg);
+    keys.number_unless("length2", margin.length2, usual.length2);
+    keys
+}
+
+fn transport(plan: &TransportPlan) -> Keys {
+    let usual = TransportPlan::default();
+    let mut keys = Keys::default();
+    keys.number("alpha", plan.alpha);
+    keys.number("beta", plan.beta);
+    keys.number("epsilon", plan.epsilon);
+    keys.number_unless("cell", plan.cell, usual.cell);
+    match plan.ladder {
+        Ladder::Equal(STEPS) => {}
+        Ladder::Equal(steps) => keys.integer("steps", steps.into()),
+        Ladder::Events => keys.value("events", Value::Flag(true)),
+    }
+    if !plan.mirrored {
+        keys.value("mirrored", Value::Flag(false));
+    }
+    keys.number_unless("noise", plan.noise, usual.noise);
+    keys.number_unless("noise_cells", plan.noise_cells, usual.noise_cells);
+    if plan.most_cells != usual.most_cells {
+        keys.integer("most_cells", plan.most_cells as u64);
+    }
+    keys
+}
+
+fn arcuate(plan: &ArcuatePlan) -> Keys {
+    let usual = ArcuatePlan::default();
+    let mut keys = Keys::default();
+    for (key, value, usual) in [
+        ("veins", plan.veins, usual.veins),
+        ("seed", plan.seed, usual.seed),
+    ] {
+        if value != usual {
+            keys.integer(key, value.into());
+        }
+    }
+    keys.number_unless("variation", plan.variation, usual.variation);
+    keys.number_unless("width", plan.width, usual.width);
+    keys.number_unless("net_width", plan.net_width, usual.net_width);
+    keys.number_unless("squish", plan.squish, usual.squish);
+    keys.number_unless("squish2", plan.squish2, usual.squish2);
+    keys.number_unless("squish3", plan.squish3, usual.squish3);
+    keys.number_unless("up", plan.up, usual.up);
+    keys.number_unless("tip_width", plan.tip_width, usual.tip_width);
+    if let Some(palmate) = &plan.palmate {
+        let mut block = Keys::default();
+        block.integer("per_side", palmate.per_side.into());
+        block.number("spread", palmate.spread);
+        block.number_unless("bow", palmate.bow, 0.0);
+        keys.block("palmate", block);
+    }
+    keys
+}
+
+fn vein_style(style: VeinStyle) -> Keys {
+    let mut keys = Keys::default();
+    keys.number("base_radius_mm", style.base_radius_mm);
+    if style.least_cells != LEAST_CELLS {
+        keys.integer("least_cells", style.least_cells.into());
+    }
+    keys
+}
+
+fn auxin(plan: &AuxinPlan) -> (&'static str, Keys) {
     let mut keys = Keys::default();
     keys.number("final_length_segments", plan.final_length);
     keys.number("kill_distance_segments", plan.kill_distance);
@@ -229,7 +313,7 @@ fn venation(plan: &VenationPlan) -> Keys {
         keys.block("margin_clearance", block);
     }
     keys.block("growth", growth(&plan.growth));
-    Keys::default().with(pattern, keys)
+    (pattern, keys)
 }
 
 fn growth(growth: &Growth) -> Keys {

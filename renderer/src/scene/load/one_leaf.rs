@@ -188,9 +188,9 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::leaf::outline_plan::Contour;
     use leafmodel::shape::growth_shape::GrowthShape;
-    use leafmodel::shape::outline_plan::Contour;
-    use leafmodel::venation::plan::VenationPlan;
+    use leafmodel::venation::plan::AuxinPlan;
 
     use super::*;
 
@@ -208,13 +208,17 @@ mod tests {
             veins: Vec::new(),
         };
         plan.outline = Contour::GrowthAlgorithm(shape).into();
-        plan.venation = VenationPlan::default();
+        plan.venation = AuxinPlan::default().into();
         let file = LeafFile::Plan {
             name: "poplar",
             plan: &plan,
         };
         let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
         load_one_leaf(file, &[], &settings).map(|leaf| leaf.value.plan)
+    }
+
+    fn auxin(plan: &LeafPlan) -> &AuxinPlan {
+        plan.venation.auxin().expect("the poplar's veins grow")
     }
 
     fn refusal(setting: &str) -> String {
@@ -244,7 +248,7 @@ mod tests {
         ]);
         let plan = plan.expect("good settings");
         assert_eq!(
-            (plan.seed, plan.venation.kill_distance, plan.form.fold),
+            (plan.seed, auxin(&plan).kill_distance, plan.form.fold),
             (3, 2.0, 0.0)
         );
         let plan = set(&["isogonic.length_step_segments=2", "veins.structure=1.1"])
@@ -252,13 +256,8 @@ mod tests {
         assert_eq!(plan.tissue.vein_factors.structure, 1.1);
         // In a block that the plan does not have.
         let clearance = set(&["venation.closed.margin_clearance={ distance = 0.1, until = 1 }"]);
-        assert!(
-            clearance
-                .expect("a good block")
-                .venation
-                .margin_clearance
-                .is_some()
-        );
+        let clearance = clearance.expect("a good block");
+        assert!(auxin(&clearance).margin_clearance.is_some());
         assert_eq!(
             set(&["alpha_along=0.3"])
                 .expect_err("two coats")

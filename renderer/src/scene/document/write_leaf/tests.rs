@@ -2,6 +2,7 @@ use leafmodel::shape::contour_curve::ControlPoint;
 use leafmodel::shape::growth::RateCurve;
 use leafmodel::shape::growth_shape::VeinRow;
 use leafmodel::shape::teeth::ToothWave;
+use leafmodel::venation::arcuate::PalmateVeins;
 use leafmodel::venation::plan::{FreeEndings, MarginClearance};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -30,13 +31,56 @@ fn plain() -> LeafPlan {
         length_mm: 80.0,
         seed: 0,
         outline: Contour::GrowthAlgorithm(ovate()).into(),
-        venation: VenationPlan::default(),
+        venation: AuxinPlan::default().into(),
         tissue: default_tissue(Contents::from_array([
             1.5, 40.0, 9.0, 0.0, 0.0, 0.01, 0.006,
         ])),
         form: default_form(80.0),
         map_size: 1024,
     }
+}
+
+fn cubic() -> impl Strategy<Value = Contour> {
+    (20.0..110.0, 0.1..0.8, 20.0..110.0, 0.1..0.8).prop_map(
+        |(angle1_deg, length1, angle2_deg, length2)| {
+            Contour::Cubic(CubicMargin {
+                angle1_deg,
+                length1,
+                angle2_deg,
+                length2,
+            })
+        },
+    )
+}
+
+fn transport() -> impl Strategy<Value = Contour> {
+    let ladder = prop_oneof![
+        Just(Ladder::Events),
+        Just(Ladder::Equal(STEPS)),
+        (1_u32..30).prop_map(Ladder::Equal),
+    ];
+    let numbers = (
+        0.55..0.9,
+        0.1..2.0,
+        1.5..3.0,
+        prop_oneof![Just(1.0), 0.5..2.0],
+    );
+    let light = (any::<bool>(), prop_oneof![Just(0.0), 0.1..0.5], 1.0..9.0);
+    (numbers, ladder, light, 5000_usize..20_001).prop_map(
+        |((alpha, beta, epsilon, cell), ladder, (mirrored, noise, noise_cells), most_cells)| {
+            Contour::Transport(TransportPlan {
+                alpha,
+                beta,
+                epsilon,
+                cell,
+                ladder,
+                mirrored,
+                noise,
+                noise_cells,
+                most_cells,
+            })
+        },
+    )
 }
 
 fn contour() -> impl Strategy<Value = Contour> {
@@ -107,7 +151,7 @@ fn contour() -> impl Strategy<Value = Contour> {
         }
         Contour::Svg(contour)
     });
-    prop_oneof![grown, drawn, traced]
+    prop_oneof![grown, drawn, traced, cubic(), transport()]
 }
 
 fn growth() -> impl Strategy<Value = Growth> {
@@ -139,6 +183,46 @@ fn growth() -> impl Strategy<Value = Growth> {
 }
 
 fn venation() -> impl Strategy<Value = VenationPlan> {
+    let cells = (0.01..1.0, 1_u32..9).prop_map(|(base_radius_mm, least_cells)| {
+        VenationPlan::Cells(VeinStyle {
+            base_radius_mm,
+            least_cells,
+        })
+    });
+    prop_oneof![
+        4 => auxin_plan().prop_map(VenationPlan::Auxin),
+        2 => arcuate_plan().prop_map(VenationPlan::Arcuate),
+        1 => cells,
+    ]
+}
+
+fn arcuate_plan() -> impl Strategy<Value = ArcuatePlan> {
+    let share = || prop_oneof![Just(0.5), 0.0..1.0];
+    let palmate = prop::option::of((1_u32..12, 0.1..1.0, prop_oneof![Just(0.0), -0.5..0.5]));
+    let shape = (share(), share(), share(), 0.0..2.0);
+    let look = (0.001..0.1, share(), share(), share());
+    ((1_u32..20, any::<u32>()), shape, look, palmate).prop_map(
+        |((veins, seed), shape, look, palmate)| ArcuatePlan {
+            veins,
+            seed,
+            variation: look.1,
+            width: look.0,
+            net_width: look.2,
+            squish: shape.0,
+            squish2: shape.1,
+            squish3: shape.2,
+            up: shape.3,
+            tip_width: look.3,
+            palmate: palmate.map(|(per_side, spread, bow)| PalmateVeins {
+                per_side,
+                spread,
+                bow,
+            }),
+        },
+    )
+}
+
+fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
     let pattern = prop_oneof![
         Just(Pattern::Open),
         Just(Pattern::Closed(Neighbourhood::Relative)),
@@ -165,7 +249,7 @@ fn venation() -> impl Strategy<Value = VenationPlan> {
             let (final_length, kill_distance, birth, same, darts_per_area) = numbers;
             let (murray_exponent, veinlet_radius_mm, unseen_veinlets, gaussian_curvature) = more;
             let free = free.filter(|_| pattern != Pattern::Open);
-            VenationPlan {
+            AuxinPlan {
                 pattern,
                 origins,
                 final_length,
@@ -274,10 +358,7 @@ proptest! {
         let outline = OutlinePlan { contour, teeth };
         let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, form, map_size };
         // What cannot be grown is refused by the reader, as it should be.
-        let Ok(outline) = plan.outline.grow(80.0) else {
-            return Err(TestCaseError::reject("no margin"));
-        };
-        prop_assume!(leafmodel::venation::check(&outline, &plan.venation).is_ok());
+        prop_assume!(plan.check_lamina().is_ok());
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("leaf.svg"), SVG).expect("the folder was just made");
         let text = leaf_to_toml("beech", &plan);

@@ -2,11 +2,13 @@
 
 use thiserror::Error;
 
-use super::contour_curve::{ContourCurve, ContourCurveError};
-use super::growth_shape::{GrowthShape, GrowthShapeError};
-use super::outline::{Outline, OutlineError};
-use super::svg_path::SvgContour;
-use super::teeth::{TeethError, ToothWave, toothed};
+use crate::shape::contour_curve::{ContourCurve, ContourCurveError};
+use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
+use crate::shape::growth_shape::{GrowthShape, GrowthShapeError};
+use crate::shape::outline::{Outline, OutlineError};
+use crate::shape::svg_path::SvgContour;
+use crate::shape::teeth::{TeethError, ToothWave, toothed};
+use crate::transport::{TransportError, TransportLeaf, TransportPlan};
 
 /// Where the smooth contour comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +19,10 @@ pub enum Contour {
     Curve(ContourCurve),
     /// A path of an SVG file.
     Svg(SvgContour),
+    /// Two cubic splines by their angles and lengths.
+    Cubic(CubicMargin),
+    /// A leaf that grows as the cheapest transport network.
+    Transport(TransportPlan),
 }
 
 /// Everything that decides an outline.
@@ -63,6 +69,12 @@ pub enum OutlinePlanError {
         /// Likewise, downwards.
         y: f64,
     },
+    /// Cubic splines.
+    #[error(transparent)]
+    Cubic(#[from] CubicMarginError),
+    /// The transport leaf.
+    #[error(transparent)]
+    Transport(#[from] TransportError),
     /// Teeth.
     #[error(transparent)]
     Teeth(#[from] TeethError),
@@ -79,23 +91,53 @@ impl From<Contour> for OutlinePlan {
 }
 
 impl OutlinePlan {
-    /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`).
+    /// The two splines that are the whole margin, if they are.
+    pub(super) fn plain_cubic(&self) -> Option<&CubicMargin> {
+        match &self.contour {
+            Contour::Cubic(margin) if self.teeth.is_empty() => Some(margin),
+            Contour::Cubic(_)
+            | Contour::Curve(_)
+            | Contour::GrowthAlgorithm(_)
+            | Contour::Svg(_)
+            | Contour::Transport(_) => None,
+        }
+    }
+
+    /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters to transport leaves in uneven
+    /// light only.
     ///
     /// # Errors
     ///
     /// [`OutlinePlanError`], naming what is out of range or why the curve is no margin.
-    pub fn grow(&self, length_mm: f64) -> Result<Outline, OutlinePlanError> {
+    pub fn grow(&self, length_mm: f64, seed: u64) -> Result<Outline, OutlinePlanError> {
+        Ok(self.grow_with_cells(length_mm, seed)?.0)
+    }
+
+    /// The outline, and the transport leaf whose margin it is if it is one.
+    pub(super) fn grow_with_cells(
+        &self,
+        length_mm: f64,
+        seed: u64,
+    ) -> Result<(Outline, Option<TransportLeaf>), OutlinePlanError> {
         if !(1e-3..=1e5).contains(&length_mm) {
             return Err(OutlinePlanError::Length { value: length_mm });
         }
+        let mut cells = None;
         let smooth = match &self.contour {
             Contour::GrowthAlgorithm(shape) => shape.grow(length_mm)?,
             Contour::Curve(curve) => curve.grow(length_mm)?,
             Contour::Svg(contour) => contour
                 .grow(length_mm)
                 .map_err(|problem| refused(contour, problem))?,
+            Contour::Cubic(margin) => margin.grow(length_mm)?,
+            Contour::Transport(plan) => {
+                let leaf = plan.grow(seed)?;
+                let outline = leaf.outline(length_mm)?;
+                cells = Some(leaf);
+                outline
+            }
         };
-        Ok(toothed(&smooth, &self.teeth)?)
+        Ok((toothed(&smooth, &self.teeth)?, cells))
     }
 }
 

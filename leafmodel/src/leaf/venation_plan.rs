@@ -1,0 +1,44 @@
+//! What veins are made from: one of several kinds of venation.
+
+use crate::transport::VeinStyle;
+use crate::venation::arcuate::ArcuatePlan;
+use crate::venation::plan::AuxinPlan;
+
+/// How the veins of a leaf come to be. Each kind goes with every contour, but that [`VenationPlan::Cells`] needs the cells of a
+/// transport leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VenationPlan {
+    /// They grow towards sources of auxin.
+    Auxin(AuxinPlan),
+    /// They are splines from the midrib to the margin.
+    Arcuate(ArcuatePlan),
+    /// They are the transport network that the contour was grown with.
+    Cells(VeinStyle),
+}
+
+impl From<AuxinPlan> for VenationPlan {
+    fn from(plan: AuxinPlan) -> Self {
+        Self::Auxin(plan)
+    }
+}
+
+impl From<ArcuatePlan> for VenationPlan {
+    fn from(plan: ArcuatePlan) -> Self {
+        Self::Arcuate(plan)
+    }
+}
+
+impl VenationPlan {
+    /// The plan of veins that grow towards auxin, if these do.
+    pub fn auxin(&self) -> Option<&AuxinPlan> {
+        match self {
+            Self::Auxin(plan) => Some(plan),
+            Self::Arcuate(_) | Self::Cells(_) => None,
+        }
+    }
+
+    /// The exponent of Murray's law that its veins keep to: the plan's own, or 2 (areas add up) where there is none.
+    pub fn murray_exponent(&self) -> f64 {
+        self.auxin().map_or(2.0, |plan| plan.murray_exponent)
+    }
+}
