@@ -1,11 +1,13 @@
 //! One leaf from plan to data: outline → veins → blade and contents.
 
+mod fields;
 mod lamina;
 pub mod outline_plan;
 pub mod venation_plan;
 
 use thiserror::Error;
 
+pub use self::fields::Fields;
 pub use self::lamina::Lamina;
 use self::outline_plan::{OutlinePlan, OutlinePlanError};
 use self::venation_plan::VenationPlan;

@@ -4,6 +4,7 @@
 //! - **Out**: a [`LeafPlan`] with every number in it.
 //! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and changed.
 
+mod arcuate;
 mod beyond;
 #[cfg(test)]
 mod claims;

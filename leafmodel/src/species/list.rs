@@ -1,7 +1,7 @@
 //! The presets, in the order in which a list shows them.
 
 use super::young::FORMS;
-use super::{PlanOf, Preset, beyond, runions, trees};
+use super::{PlanOf, Preset, arcuate, beyond, runions, trees};
 
 /// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, then
 /// the figures of Young 2010.
@@ -275,5 +275,54 @@ static GROWN: &[Preset] = &[
         source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
         row: None,
         plan: PlanOf::Function(trees::croton),
+    },
+    Preset {
+        name: "arcuate-default",
+        about: "every parameter of the article's shader at its default",
+        source: "the article's defaults, outline too",
+        row: None,
+        plan: PlanOf::Function(arcuate::defaults),
+    },
+    Preset {
+        name: "pinnate",
+        about: "straight secondary veins all along the midrib, as splines",
+        source: "by eye; the article prints no numbers for its pictures",
+        row: None,
+        plan: PlanOf::Function(arcuate::pinnate),
+    },
+    Preset {
+        name: "pinnate-to-arcuate-1",
+        about: "a quarter of the way from pinnate to arcuate",
+        source: "by eye, even steps between `pinnate` and `arcuate`",
+        row: None,
+        plan: PlanOf::Function(|| arcuate::between(0.25)),
+    },
+    Preset {
+        name: "pinnate-to-arcuate-2",
+        about: "half of the way from pinnate to arcuate",
+        source: "by eye, even steps between `pinnate` and `arcuate`",
+        row: None,
+        plan: PlanOf::Function(|| arcuate::between(0.5)),
+    },
+    Preset {
+        name: "pinnate-to-arcuate-3",
+        about: "three quarters of the way from pinnate to arcuate",
+        source: "by eye, even steps between `pinnate` and `arcuate`",
+        row: None,
+        plan: PlanOf::Function(|| arcuate::between(0.75)),
+    },
+    Preset {
+        name: "arcuate",
+        about: "secondary veins that sweep along the margin to the tip, as in dogwood or plantain",
+        source: "by eye; the article prints no numbers for its pictures",
+        row: None,
+        plan: PlanOf::Function(arcuate::arcuate),
+    },
+    Preset {
+        name: "palmate-splines",
+        about: "five primaries from the petiole, each with laterals: what the article wishes for",
+        source: "by eye",
+        row: None,
+        plan: PlanOf::Function(arcuate::palmate),
     },
 ];

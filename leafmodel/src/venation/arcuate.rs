@@ -14,6 +14,7 @@
 //!
 //! \[oslveins\]; `docs/src/theory/arcuate-veins.md` tells where we depart from its code.
 
+mod cell_noise;
 mod fields;
 mod graph;
 mod layout;

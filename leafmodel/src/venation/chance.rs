@@ -22,8 +22,6 @@ pub(crate) enum Use {
     Arch = 7,
     /// How brightly a patch of a transport leaf is lit.
     Light = 8,
-    /// Where a vein of an arcuate pattern starts.
-    ArcuateStart = 10,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
     /// Where the distance to the nearest vein is measured, across the leaf.

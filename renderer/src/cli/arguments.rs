@@ -168,6 +168,9 @@ pub struct GrowArguments {
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,
+    /// Write what the venation tells about every point of the blade, such as `net` of arcuate veins, as an EXR texture
+    #[arg(long, value_name = "FILE.exr")]
+    pub fields: Option<PathBuf>,
     /// Write the maps of contents into a folder
     #[arg(long, value_name = "DIR")]
     pub contents: Option<PathBuf>,

@@ -2,6 +2,7 @@
 
 mod blade_files;
 mod choice;
+mod fields;
 mod frames;
 mod outputs;
 
@@ -99,6 +100,9 @@ fn carry_out(
     }
     if let (Some(folder), Grown::Leaf(leaf)) = (&arguments.contents, &grown) {
         write_contents(folder, name, leaf, stop)?;
+    }
+    if let Some(path) = &arguments.fields {
+        fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
         frames::write(plan, outline, network, outputs, count, arguments.size, stop)?;

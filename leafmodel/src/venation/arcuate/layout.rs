@@ -6,10 +6,10 @@
 use glam::DVec2;
 
 use super::ArcuatePlan;
+use super::cell_noise::cell_noise;
 use super::spline::Quadratic;
 use crate::shape::cubic::Cubic;
 use crate::shape::outline::Outline;
-use crate::venation::chance::{Use, uniform};
 
 /// A vein as a spline in leaf units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -281,8 +281,9 @@ pub(super) fn lay_out(
 fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i: u32) -> Vein {
     let delta = 1.0 / f64::from(plan.veins + 1);
     let half = delta / 2.0;
-    let counter = u64::from(i) + u64::from(plan.seed) + 1000 * sector.axis as u64;
-    let noise = |offset: u64| uniform(0, Use::ArcuateStart, counter + offset);
+    // The article has but one axis; the others count on from far away.
+    let first = plan.seed.wrapping_add(1000 * sector.axis as u32);
+    let noise = |offset: u32| cell_noise(first.wrapping_add(i + offset));
     let at = f64::from(i) * delta;
     let mut start = half + (at + half * plan.variation * noise(10)) * plan.squish3;
     if sector.upper {

@@ -76,7 +76,8 @@ impl Outputs {
                 "--frames needs an --out that shows veins: svg, png, json, graphml or geojson",
             ));
         }
-        let reports = arguments.measure.iter().chain(&arguments.stats);
+        let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
+        let reports = reports.into_iter().flatten();
         let mut seen: Vec<&PathBuf> = Vec::new();
         for path in arguments.out.iter().chain(reports) {
             if seen.contains(&path) {
@@ -94,7 +95,8 @@ impl Outputs {
         let blade =
             arguments.contents.is_some() || whole.iter().any(|(_, kind)| kind.needs_blade());
         let only_plan = !whole.is_empty() && whole.iter().all(|(_, kind)| *kind == Kind::Toml);
-        let counts = arguments.measure.is_some() || arguments.stats.is_some();
+        let counts =
+            arguments.measure.is_some() || arguments.stats.is_some() || arguments.fields.is_some();
         Ok(Self {
             veins: blade || counts || in_stages || !only_plan,
             whole,

@@ -236,7 +236,7 @@ fn arcuate(plan: &ArcuatePlan) -> Keys {
     let usual = ArcuatePlan::default();
     let mut keys = Keys::default();
     for (key, value, usual) in [
-        ("veins", plan.veins, usual.veins),
+        ("laterals", plan.veins, usual.veins),
         ("seed", plan.seed, usual.seed),
     ] {
         if value != usual {

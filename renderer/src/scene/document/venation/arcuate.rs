@@ -11,7 +11,7 @@ const SHARES: Limits = Limits::closed(0.0, 1.0);
 pub(super) fn read_arcuate(block: &Block<'_>) -> Option<ArcuatePlan> {
     let usual = ArcuatePlan::default();
     let plan = ArcuatePlan {
-        veins: block.integer_or("veins", 1, 100, usual.veins.into()) as u32,
+        veins: block.integer_or("laterals", 1, 100, usual.veins.into()) as u32,
         seed: block.integer_or("seed", 0, u32::MAX.into(), usual.seed.into()) as u32,
         variation: block.number_or("variation", SHARES, usual.variation),
         width: block.number_or("width", Limits::closed(1e-4, 0.5), usual.width),
