@@ -64,7 +64,11 @@ impl CubicMargin {
     ///
     /// [`CubicMarginError::OutOfRange`] of the first that is out of range.
     pub fn validate(&self) -> Result<(), CubicMarginError> {
-        let angles = (1e-6..=180.0 - 1e-6, "0 to 180 degrees, both excluded");
+        // Exclusive ends are the numbers next to them.
+        let angles = (
+            f64::MIN_POSITIVE..=180.0_f64.next_down(),
+            "0 to 180 degrees, both excluded",
+        );
         let lengths = (0.01..=10.0, "0.01 to 10");
         for (key, value, (allowed, range)) in [
             ("angle1_deg", self.angle1_deg, &angles),

@@ -7,7 +7,7 @@ use crate::scene::document::reader::Block;
 
 /// Reads the block; every key may be left out.
 pub(super) fn read_cubic(block: &Block<'_>) -> CubicMargin {
-    const ANGLES: Limits = Limits::closed(1e-6, 180.0 - 1e-6);
+    const ANGLES: Limits = Limits::open(0.0, 180.0);
     const LENGTHS: Limits = Limits::closed(0.01, 10.0);
     let usual = CubicMargin::default();
     let margin = CubicMargin {
