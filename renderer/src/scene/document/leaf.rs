@@ -53,11 +53,15 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         matches!(outline.plan.contour, Contour::Transport(_))
             || matches!(venation, VenationPlan::Transport(_))
     });
+    let is_aged = block.entry("senescence").is_some();
     let senescence = read_senescence(block, earns);
     let form = read_form(block, length_mm.unwrap_or(100.0));
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     block.finish();
+    if is_aged && senescence.is_none() {
+        return None;
+    }
     Some(Leaf {
         plan: LeafPlan {
             length_mm: length_mm?,
@@ -65,7 +69,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
             outline: outline?.plan,
             venation: venation?,
             tissue: tissue?,
-            senescence: senescence?,
+            senescence,
             form,
             map_size,
         },

@@ -10,24 +10,17 @@ use crate::scene::error::SceneError;
 /// Width of the transition from living to dead where nothing is said.
 pub(crate) const BLEND: f64 = 0.08;
 
-/// Reads the block, if there is one; `None` where it has an error. `earns` tells whether the leaf has cells that earn
+/// Reads the block; `None` where it is left out, or has an error. `earns` tells whether the leaf has cells that earn
 /// anything, if that is known.
-pub(super) fn read_senescence(leaf: &Block<'_>, earns: Option<bool>) -> Option<Option<Senescence>> {
-    let is_there = leaf.entry("senescence").is_some();
-    let Some(block) = leaf.optional_block("senescence") else {
-        // Something else than a block has been reported.
-        return (!is_there).then_some(None);
-    };
+pub(super) fn read_senescence(leaf: &Block<'_>, earns: Option<bool>) -> Option<Senescence> {
+    let block = leaf.optional_block("senescence")?;
     let share = block.number("revenue_share", Limits::closed(0.0, 1.0));
     let blend = block.number_or("blend", Limits::closed(0.001, 1.0), BLEND);
     let contents = block
         .block("contents", &[])
         .and_then(|inner| read_contents(&inner));
     block.finish();
-    if !is_there {
-        return Some(None);
-    }
-    if earns == Some(false) {
+    if earns == Some(false) && share.is_some() {
         let error = SceneError::Impossible {
             key: "revenue_share".to_owned(),
             problem: "no cell of this leaf earns any revenue: it is not a transport leaf"
@@ -41,9 +34,9 @@ pub(super) fn read_senescence(leaf: &Block<'_>, earns: Option<bool>) -> Option<O
         block.cx.error(at, error);
         return None;
     }
-    Some(Some(Senescence {
+    Some(Senescence {
         source: AgeSource::Revenue { share: share? },
         blend,
         contents: contents?,
-    }))
+    })
 }
