@@ -84,20 +84,20 @@ pub(super) fn example_4() -> LeafPlan {
     leaf(plan(4), &look)
 }
 
-/// Example 1 when two fifths of its cells have died, which the paper foresees (Remark 3.6) and does not show.
+/// Example 1 when about half of its cells have died, which the paper foresees (Remark 3.6) and does not show.
 pub(super) fn autumn() -> LeafPlan {
     let mut leaf = example_1();
-    leaf.tissue.lamina.chlorophyll = 24.0;
+    leaf.tissue.lamina.chlorophyll = 20.0;
     leaf.tissue.lamina.carotenoids = 8.0;
     leaf.senescence = Some(Senescence {
-        source: AgeSource::Revenue { share: 0.86 },
-        blend: 0.1,
+        source: AgeSource::Revenue { share: 0.84 },
+        blend: 0.09,
         contents: Contents {
             structure: 2.0,
-            chlorophyll: 1.0,
-            carotenoids: 4.0,
+            chlorophyll: 0.5,
+            carotenoids: 6.0,
             anthocyanins: 1.0,
-            brown: 0.8,
+            brown: 0.7,
             water: 0.002,
             dry_matter: 0.005,
         },
