@@ -1,12 +1,14 @@
 //! How long transport leaves take to grow: `cargo bench -p leafmodel --bench transport`.
 //!
-//! One thread. Examples 1 and 2 of Xia 2007, a leaf of about ten thousand cells, and the first as an outline and veins.
+//! One thread. Examples 1 and 2 of Xia 2007, a leaf of about ten thousand cells, and the first as an outline and veins;
+//! and the maple's blade filled with the cheapest veins.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use leafmodel::transport::{TransportPlan, VeinStyle, example};
+use leafmodel::species;
+use leafmodel::transport::{FilledPlan, TransportPlan, VeinStyle, example};
 
 fn rows(criterion: &mut Criterion) {
     let plans = [
@@ -32,6 +34,19 @@ fn rows(criterion: &mut Criterion) {
         base_radius_mm: 0.5,
         least_cells: 3,
     };
+    let maple = species::find("maple").expect("a preset").plan();
+    let maple = maple.grow_outline().expect("a good outline");
+    for cells_along in [40, 111] {
+        let plan = FilledPlan {
+            cells_along,
+            ..FilledPlan::default()
+        };
+        let blade = plan.fill(&maple).expect("a good plan");
+        let name = format!("maple filled with {} cells", blade.leaf().cells().len());
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| plan.fill(black_box(&maple)));
+        });
+    }
     group.bench_function("example 1 as outline and veins", |bencher| {
         bencher.iter(|| (leaf.outline(80.0), leaf.network(80.0, style)));
     });

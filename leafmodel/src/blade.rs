@@ -15,6 +15,7 @@ pub mod mesh;
 pub mod mottle;
 mod refine;
 mod relief;
+pub mod senescence;
 mod size_field;
 mod skeleton;
 pub mod tissue;

@@ -3,18 +3,21 @@
 mod fields;
 mod lamina;
 pub mod outline_plan;
+mod stages;
 pub mod venation_plan;
 
 use thiserror::Error;
 
 pub use self::fields::Fields;
 pub use self::lamina::Lamina;
-use self::outline_plan::{OutlinePlan, OutlinePlanError};
+use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
+pub use self::stages::LeafStage;
 use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mesh::{BladeError, BladeMesh};
+use crate::blade::senescence::{AgeSource, Senescence, Withering};
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::transport::TransportError;
 use crate::venation::VenationError;
@@ -34,6 +37,8 @@ pub struct LeafPlan {
     pub venation: VenationPlan,
     /// What the tissue holds, and how veins change it.
     pub tissue: Tissue,
+    /// How far it has aged; a leaf in summer has not.
+    pub senescence: Option<Senescence>,
     /// How the blade lies in space.
     pub form: BladeForm,
     /// Texels of the content maps along the longer side of the leaf, 16 to 8192.
@@ -71,12 +76,53 @@ pub enum LeafError {
     /// Veins of a transport leaf on another contour.
     #[error("venation: veins of the cells need the outline of a transport leaf")]
     NoCells,
+    /// Stages of a leaf that has none.
+    #[error("there are no stages of growth: {0}")]
+    NoStages(&'static str),
+    /// Ageing by revenue where no cell earns any.
+    #[error(
+        "senescence: revenue_share needs the cells of a transport leaf: outline.transport or venation.transport"
+    )]
+    NoRevenue,
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
     /// The tissue.
     #[error("tissue: {0}")]
     Tissue(#[from] TissueError),
+}
+
+impl LeafPlan {
+    /// Whether the leaf can age as it should, as far as can be told without growing it.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::Tissue`], [`LeafError::NoRevenue`].
+    pub fn check_senescence(&self) -> Result<(), LeafError> {
+        let Some(senescence) = &self.senescence else {
+            return Ok(());
+        };
+        senescence.validate()?;
+        let AgeSource::Revenue { .. } = senescence.source;
+        let earns = matches!(self.venation, VenationPlan::Transport(_))
+            || matches!(self.outline.contour, Contour::Transport(_));
+        earns.then_some(()).ok_or(LeafError::NoRevenue)
+    }
+
+    /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of its margin.
+    fn withering(&self, lamina: &Lamina) -> Result<Option<Withering>, LeafError> {
+        self.check_senescence()?;
+        let Some(Senescence {
+            source: AgeSource::Revenue { share },
+            blend,
+            contents,
+        }) = self.senescence
+        else {
+            return Ok(None);
+        };
+        let field = self.death_field(lamina)?.ok_or(LeafError::NoRevenue)?;
+        Ok(Some(Withering::by_revenue(field, share, blend, contents)))
+    }
 }
 
 impl Leaf {
@@ -98,6 +144,7 @@ impl Leaf {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
         plan.tissue.validate()?;
         plan.form.validate()?;
+        plan.check_senescence()?;
         Self::from_lamina(plan, plan.grow_lamina_unless(is_stopped)?)
     }
 
@@ -113,7 +160,15 @@ impl Leaf {
         let mesh = BladeMesh::build(outline, network, &plan.form)?;
         let frame = UvFrame::around(outline.points());
         let veins: Vec<VeinSegment> = network.segments().collect();
-        let contents = ContentsMap::paint(&frame, &veins, &plan.tissue, plan.map_size, plan.seed)?;
+        let withering = plan.withering(&lamina)?;
+        let contents = ContentsMap::paint_withering(
+            &frame,
+            &veins,
+            &plan.tissue,
+            withering.as_ref(),
+            plan.map_size,
+            plan.seed,
+        )?;
         Ok(Self {
             lamina,
             mesh,
@@ -180,6 +235,7 @@ mod tests {
                 mottle: 0.1,
                 mottle_scale_mm: 2.0,
             },
+            senescence: None,
             form: BladeForm {
                 fold: 0.3,
                 curl: 0.5,

@@ -15,6 +15,7 @@ mod runions;
 pub mod table_1;
 mod trees;
 mod trees_contours;
+mod xia;
 pub mod young;
 
 use crate::blade::BladeForm;
@@ -100,6 +101,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             mottle: 0.1,
             mottle_scale_mm: 1.5,
         },
+        senescence: None,
         form: BladeForm {
             fold: 8.0_f64.to_radians(),
             curl: 20.0_f64.to_radians(),
@@ -132,6 +134,7 @@ mod tests {
             let plan = preset.plan();
             assert_eq!(plan.tissue.validate(), Ok(()));
             plan.form.validate().expect("a good form");
+            plan.check_senescence().expect("a good old age");
             plan.check_lamina().expect("a good outline and venation");
         }
         assert!(find("popplar").is_none());

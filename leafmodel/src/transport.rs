@@ -6,6 +6,7 @@
 //!
 //! - **In**: a [`TransportPlan`].
 //! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a network as of any other leaf.
+//!   A [`FilledPlan`] turns it around: the outline is given, and the network that supplies it is looked for.
 //! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent (in mirrored leaves of a
 //!   pair) makes the transport cheaper; with even light both sides are mirror images; same plan and seed, same bits.
 //! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is cheapest among its neighbours.
@@ -18,7 +19,9 @@ mod blade;
 mod cells;
 mod contour;
 mod cost;
+mod death_field;
 mod examples;
+mod filled;
 mod growth;
 mod leaf;
 mod optimiser;
@@ -29,11 +32,17 @@ mod secondaries;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod vein_network;
+mod walls;
+mod year;
 
-pub use self::blade::VeinStyle;
 pub use self::cells::Cell;
 pub use self::cost::TransportSystem;
+pub use self::death_field::DeathField;
 pub use self::examples::example;
+pub use self::filled::{FilledBlade, FilledPlan};
 pub use self::leaf::{Stage, TransportLeaf};
 pub use self::plan::{Ladder, TransportError, TransportPlan};
 pub use self::secondaries::Secondary;
+pub use self::vein_network::VeinStyle;
+pub use self::year::Year;

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::frame::UvFrame;
 use super::mottle::Mottle;
+use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use super::vein_field::VeinField;
 use crate::venation::network::VeinSegment;
@@ -37,6 +38,22 @@ impl ContentsMap {
         map_size: u32,
         seed: u64,
     ) -> Result<Self, TissueError> {
+        Self::paint_withering(frame, veins, tissue, None, map_size, seed)
+    }
+
+    /// As [`ContentsMap::paint`], of a leaf that has aged.
+    ///
+    /// # Errors
+    ///
+    /// As [`ContentsMap::paint`].
+    pub fn paint_withering(
+        frame: &UvFrame,
+        veins: &[VeinSegment],
+        tissue: &Tissue,
+        withering: Option<&Withering>,
+        map_size: u32,
+        seed: u64,
+    ) -> Result<Self, TissueError> {
         let valid = (16..=8192).contains(&map_size);
         TissueError::unless(valid, "map_size", f64::from(map_size), "from 16 to 8192")?;
         for value in frame.min.to_array() {
@@ -55,6 +72,7 @@ impl ContentsMap {
         let painter = Painter {
             frame,
             tissue,
+            withering,
             field,
             mottle: (tissue.mottle > 0.0).then(|| Mottle::new(seed, tissue.mottle_scale_mm)),
         };
@@ -77,6 +95,7 @@ impl ContentsMap {
 struct Painter<'a> {
     frame: &'a UvFrame,
     tissue: &'a Tissue,
+    withering: Option<&'a Withering>,
     field: VeinField,
     mottle: Option<Mottle>,
 }
@@ -85,7 +104,12 @@ impl Painter<'_> {
     fn texel(&self, uv: DVec2) -> [f32; 7] {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
-        let contents = self.tissue.contents(self.field.cover(point), mottle);
+        let living = self.tissue.lamina;
+        let lamina = self
+            .withering
+            .map_or(living, |withering| withering.contents(living, point));
+        let cover = self.field.cover(point);
+        let contents = self.tissue.contents_of(lamina, cover, mottle);
         contents.to_array().map(|value| value as f32)
     }
 }

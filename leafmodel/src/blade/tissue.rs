@@ -125,9 +125,15 @@ impl Tissue {
     /// multiplied by `1 + mottle share × mottle`. Structure is at least 1, the others at least 0.
     #[must_use]
     pub fn contents(&self, cover: VeinCover, mottle: f64) -> Contents {
+        self.contents_of(self.lamina, cover, mottle)
+    }
+
+    /// As [`Tissue::contents`] where the tissue between veins holds `lamina`.
+    #[must_use]
+    pub fn contents_of(&self, lamina: Contents, cover: VeinCover, mottle: f64) -> Contents {
         let patch = 1.0 + self.mottle * mottle;
         let factors = self.vein_factors.to_array();
-        let mut values = self.lamina.to_array();
+        let mut values = lamina.to_array();
         for (index, (value, factor)) in values.iter_mut().zip(factors).enumerate() {
             let thick = BULK[index] && factor > 1.0;
             let share = cover.weight + if thick { cover.excess } else { 0.0 };

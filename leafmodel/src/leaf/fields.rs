@@ -1,9 +1,10 @@
-//! Fields over the lamina: what a kind of venation tells about points, for textures.
+//! Fields over the lamina: what splines and cells tell about points, for textures.
 
 use glam::DVec2;
 
 use super::{Lamina, LeafError, LeafPlan};
 use crate::leaf::venation_plan::VenationPlan;
+use crate::transport::DeathField;
 use crate::venation::arcuate::ArcuateVeins;
 
 /// Numbers at every point of the plane.
@@ -11,10 +12,12 @@ use crate::venation::arcuate::ArcuateVeins;
 pub enum Fields {
     /// `Vein`, `Net` and `Fac` of veins that are splines: 0 or 1, 0 or 1, and 0 to 1.
     Arcuate(ArcuateVeins),
+    /// `death`: at which share of the full-grown leaf's revenue the cells there die as it falls, 1 first, 0 last.
+    Deaths(DeathField),
 }
 
 impl LeafPlan {
-    /// The fields of a lamina that this plan has brought forth, if its venation has any.
+    /// The fields of a lamina that this plan has brought forth, if its veins or its margin have any.
     ///
     /// # Errors
     ///
@@ -28,8 +31,19 @@ impl LeafPlan {
                 };
                 Ok(Some(Fields::Arcuate(veins)))
             }
-            VenationPlan::Auxin(_) | VenationPlan::Cells(_) => Ok(None),
+            VenationPlan::Auxin(_) | VenationPlan::Cells(_) | VenationPlan::Transport(_) => {
+                Ok(self.death_field(lamina)?.map(Fields::Deaths))
+            }
         }
+    }
+
+    /// Where the cells of a lamina die first, if it has any; those that its veins supply come before those of its margin.
+    pub(super) fn death_field(&self, lamina: &Lamina) -> Result<Option<DeathField>, LeafError> {
+        Ok(match (&lamina.filled, &lamina.cells) {
+            (Some(blade), _) => Some(blade.death_field()),
+            (None, Some(leaf)) => Some(leaf.death_field(self.length_mm)?),
+            (None, None) => None,
+        })
     }
 }
 
@@ -38,6 +52,7 @@ impl Fields {
     pub fn names(&self) -> &'static [&'static str] {
         match self {
             Self::Arcuate(_) => &["vein", "net", "fac"],
+            Self::Deaths(_) => &["death"],
         }
     }
 
@@ -50,6 +65,7 @@ impl Fields {
                 let flag = |is: bool| if is { 1.0 } else { 0.0 };
                 values.extend([flag(fields.vein), flag(fields.net), fields.fac]);
             }
+            Self::Deaths(field) => values.push(field.at(point)),
         }
     }
 }

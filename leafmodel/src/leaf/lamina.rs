@@ -3,7 +3,7 @@
 use super::{LeafError, LeafPlan};
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
-use crate::transport::TransportLeaf;
+use crate::transport::{FilledBlade, TransportLeaf};
 use crate::venation::network::VenationNetwork;
 use crate::venation::{self, grow_unless};
 
@@ -16,6 +16,8 @@ pub struct Lamina {
     pub network: VenationNetwork,
     /// The transport leaf whose margin this is, if it is one.
     pub cells: Option<TransportLeaf>,
+    /// The cells that its veins supply, if they are the cheapest network that fills the margin.
+    pub filled: Option<FilledBlade>,
 }
 
 impl LeafPlan {
@@ -51,6 +53,7 @@ impl LeafPlan {
                 style.validate()?;
                 cells.ok_or(LeafError::NoCells)?;
             }
+            VenationPlan::Transport(plan) => plan.check(&outline)?,
         }
         Ok(())
     }
@@ -62,6 +65,7 @@ impl LeafPlan {
     /// As [`LeafPlan::grow_lamina`], and [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
         let (outline, cells) = self.outline.grow_with_cells(self.length_mm, self.seed)?;
+        let mut filled = None;
         let network = match &self.venation {
             VenationPlan::Auxin(plan) => grow_unless(&outline, plan, self.seed, is_stopped)?,
             VenationPlan::Arcuate(plan) => match self.outline.plain_cubic() {
@@ -72,11 +76,18 @@ impl LeafPlan {
                 let cells = cells.as_ref().ok_or(LeafError::NoCells)?;
                 cells.network(self.length_mm, *style)?
             }
+            VenationPlan::Transport(plan) => {
+                let blade = plan.fill(&outline)?;
+                let network = blade.network(&outline, plan.style)?;
+                filled = Some(blade);
+                network
+            }
         };
         Ok(Lamina {
             outline,
             network,
             cells,
+            filled,
         })
     }
 }

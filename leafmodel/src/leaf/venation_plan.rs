@@ -1,6 +1,6 @@
 //! What veins are made from: one of several kinds of venation.
 
-use crate::transport::VeinStyle;
+use crate::transport::{FilledPlan, VeinStyle};
 use crate::venation::arcuate::ArcuatePlan;
 use crate::venation::plan::AuxinPlan;
 
@@ -14,6 +14,14 @@ pub enum VenationPlan {
     Arcuate(ArcuatePlan),
     /// They are the transport network that the contour was grown with.
     Cells(VeinStyle),
+    /// They are the cheapest transport network that supplies the blade.
+    Transport(FilledPlan),
+}
+
+impl From<FilledPlan> for VenationPlan {
+    fn from(plan: FilledPlan) -> Self {
+        Self::Transport(plan)
+    }
 }
 
 impl From<AuxinPlan> for VenationPlan {
@@ -33,7 +41,7 @@ impl VenationPlan {
     pub fn auxin(&self) -> Option<&AuxinPlan> {
         match self {
             Self::Auxin(plan) => Some(plan),
-            Self::Arcuate(_) | Self::Cells(_) => None,
+            Self::Arcuate(_) | Self::Cells(_) | Self::Transport(_) => None,
         }
     }
 

@@ -1,68 +1,49 @@
-//! The cell leaf as an outline and a network of veins, like those of any other leaf.
+//! Where a cell leaf lies in millimetres, and its outline, like that of any other leaf.
 
 use glam::DVec2;
 
 use super::contour::{contour, first_hit, is_inside, place, smoothed};
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
+use super::vein_network::VeinStyle;
 use crate::shape::outline::{Outline, OutlineError};
-use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
-use crate::venation::order;
-use crate::venation::topology::Topology;
+use crate::venation::network::VenationNetwork;
 
 /// How far a point of the margin may be smoothed away from the middle between two cells, in cells. Other parts of
 /// the margin are never nearer than 0.7, so that with the second figure they cannot meet.
 const TETHERS: [f64; 2] = [0.45, 0.3];
 
-/// How far a point of a vein may be smoothed away from the centre of its cell, in cells.
-const VEIN_TETHER: f64 = 0.4;
-
-/// Rounds of smoothing of veins.
-const VEIN_ROUNDS: usize = 3;
-
-/// How veins are drawn from weights.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VeinStyle {
-    /// Radius of the midrib at the base, mm, 0.0001 to 100. Elsewhere `r ∝ w^½`.
-    pub base_radius_mm: f64,
-    /// Veins that supply fewer cells are left out; with 1 every cell has a vein. 1 to 1 000 000.
-    pub least_cells: u32,
-}
-
-impl VeinStyle {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TransportError::OutOfRange`].
-    pub fn validate(&self) -> Result<(), TransportError> {
-        let radius = self.base_radius_mm;
-        check("base_radius_mm", radius, 1e-4, 100.0, "0.0001 to 100 mm")?;
-        let least = f64::from(self.least_cells);
-        check("least_cells", least, 1.0, 1e6, "1 to 1000000")
-    }
-}
-
-/// Where the blade lies in the grid.
-struct Frame {
-    margin: Vec<DVec2>,
-    base: DVec2,
-    apex: DVec2,
+/// Where a blade lies in the grid, and the grid in millimetres. All but the scale is in cells.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    pub(crate) margin: Vec<DVec2>,
+    pub(crate) base: DVec2,
+    pub(crate) apex: DVec2,
+    /// The origin of millimetres: the base of the leaf when full-grown.
+    pub(crate) origin: DVec2,
     /// Direction of the midrib.
-    up: DVec2,
+    pub(crate) up: DVec2,
     /// Millimetres a cell.
-    scale: f64,
+    pub(crate) scale: f64,
+    /// Whether veins must not cross the margin, which is then no contour of the cells.
+    pub(crate) is_walled: bool,
 }
 
 impl Frame {
-    fn to_mm(&self, p: DVec2) -> DVec2 {
-        let from_base = p - self.base;
-        DVec2::new(from_base.perp_dot(self.up), from_base.dot(self.up)) * self.scale
+    pub(crate) fn to_mm(&self, p: DVec2) -> DVec2 {
+        let from_origin = p - self.origin;
+        DVec2::new(from_origin.perp_dot(self.up), from_origin.dot(self.up)) * self.scale
+    }
+
+    /// The inverse of [`Frame::to_mm`].
+    pub(crate) fn to_cells(&self, mm: DVec2) -> DVec2 {
+        let p = mm / self.scale;
+        self.origin + self.up * p.y - self.up.perp() * p.x
     }
 
     fn outline(&self) -> Result<Outline, OutlineError> {
         let margin = self.margin.iter().map(|&p| self.to_mm(p)).collect();
-        Outline::new(margin, DVec2::ZERO, self.to_mm(self.apex))
+        Outline::new(margin, self.to_mm(self.base), self.to_mm(self.apex))
     }
 }
 
@@ -78,89 +59,43 @@ impl TransportLeaf {
         Ok(self.framed(length_mm)?.1)
     }
 
-    /// The veins, in the frame of [`TransportLeaf::outline`] for the same length.
-    ///
-    /// A vein runs through the centres of the cells it supplies, but for less than half a cell by which it is smoothed. The first node is
-    /// the base. Orders are given as to any other network.
+    /// Margin and veins at each of some stages, all true to the scale of the full-grown leaf of this length, with the root in one place.
+    /// Stages beyond the last are the full-grown leaf.
     ///
     /// # Errors
     ///
     /// As [`TransportLeaf::outline`].
-    pub fn network(
+    pub fn at_scale(
         &self,
         length_mm: f64,
         style: VeinStyle,
-    ) -> Result<VenationNetwork, TransportError> {
+        stages: &[usize],
+    ) -> Result<Vec<(Outline, VenationNetwork)>, TransportError> {
         style.validate()?;
-        let radius = style.base_radius_mm;
-        let (frame, outline) = self.framed(length_mm)?;
-        let places = self.vein_places(style.least_cells);
-        let widest = f64::from(self.counts()[0]);
-        let width = |v: usize| radius * (f64::from(self.counts()[v]) / widest).sqrt();
-
-        let mut nodes = vec![VeinNode {
-            position: DVec2::ZERO,
-            born: 0,
-        }];
-        let mut pairs: Vec<[u32; 2]> = Vec::new();
-        let mut flows = vec![radius];
-        let mut radii = Vec::new();
-        let mut numbers: Vec<Option<u32>> = vec![None; self.cells().len()];
-        // Where the margin has been smoothed past the root's centre, the base stands for it.
-        for v in self.root_to_tip() {
-            let parent = self.parent(v).and_then(|p| numbers[p]);
-            let position = frame.to_mm(places[v]);
-            let lies_inside = outline.contains(position);
-            if self.parent(v).is_none() && !(lies_inside && position.y > 0.0) {
-                numbers[v] = Some(0);
-                continue;
-            }
-            let from = if self.parent(v).is_none() {
-                Some(0)
-            } else {
-                parent
-            };
-            let Some(from) = from else { continue };
-            if self.counts()[v] < style.least_cells || !lies_inside {
-                continue;
-            }
-            let number = nodes.len() as u32;
-            numbers[v] = Some(number);
-            nodes.push(VeinNode {
-                position,
-                born: self.generations()[v],
-            });
-            pairs.push([from, number]);
-            radii.push(width(v));
-            flows.push(width(v));
-        }
-        let positions: Vec<DVec2> = nodes.iter().map(|node| node.position).collect();
-        let topology = Topology::new(nodes.len(), &pairs);
-        let base_to_tip: Vec<u32> = (0..nodes.len() as u32).collect();
-        let orders = order::orders(&topology, &positions, &radii, &base_to_tip);
-        let edges = (0..).zip(&pairs).map(|(edge, &[from, to])| {
-            let radius_to = radii[edge as usize];
-            // A lateral starts as wide as it goes on; only the vein itself tapers where it gives one off.
-            let continues = orders.continuations[from as usize] == Some(edge);
-            VeinEdge {
-                from,
-                to,
-                radius_from: if continues {
-                    flows[from as usize]
-                } else {
-                    radius_to
-                },
-                radius_to,
-                order: orders.edges[edge as usize],
-            }
-        });
-        let network = VenationNetwork::from_parts(nodes, edges.collect(), frame.scale);
-        Ok(network.expect("a tree whose weights fall from root to tip is a network"))
+        let (grown, _) = self.framed(length_mm)?;
+        let widest = self.counts()[0];
+        let at = |&stage: &usize| {
+            let young = self.at_stage(stage);
+            let (frame, outline) = young.framed_in(|frame| {
+                frame.origin = grown.origin;
+                frame.up = grown.up;
+                frame.scale = grown.scale;
+            })?;
+            let network = young.network_in(&frame, &outline, style, widest);
+            Ok((outline, network))
+        };
+        stages.iter().map(at).collect()
     }
 
-    fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), TransportError> {
+    /// The blade's frame and outline when its midrib has this length.
+    pub(crate) fn framed(&self, length_mm: f64) -> Result<(Frame, Outline), TransportError> {
         let range = "0.001 to 100000 (millimetres)";
         check("length_mm", length_mm, 0.001, 100_000.0, range)?;
+        self.framed_in(|frame| frame.scale = length_mm / (frame.apex - frame.base).length())
+    }
+
+    /// The frame as `settle` leaves it, and the outline in it.
+    fn framed_in(&self, settle: impl Fn(&mut Frame)) -> Result<(Frame, Outline), TransportError> {
         let steps = contour(self.cells());
         let midrib = self.midrib();
         let mut result = Err(OutlineError::NoMidrib);
@@ -168,7 +103,7 @@ impl TransportLeaf {
             let Some(mut frame) = self.frame(smoothed(&steps, tether), &midrib) else {
                 continue;
             };
-            frame.scale = length_mm / (frame.apex - frame.base).length();
+            settle(&mut frame);
             result = frame.outline().map(|outline| (frame, outline));
             if result.is_ok() {
                 break;
@@ -198,41 +133,15 @@ impl TransportLeaf {
             margin,
             base,
             apex,
+            origin: base,
             up,
             scale: 1.0,
+            is_walled: false,
         })
-    }
-
-    /// Where veins run: cells' centres, smoothed along each vein.
-    fn vein_places(&self, least_cells: u32) -> Vec<DVec2> {
-        let cells = self.cells();
-        let centres: Vec<DVec2> = cells.iter().map(|&cell| place(cell)).collect();
-        let mut main = vec![None; cells.len()];
-        for v in (1..cells.len()).filter(|&v| self.counts()[v] >= least_cells) {
-            if let Some(p) = self.parent(v) {
-                let wider = |best: usize| self.counts()[v] > self.counts()[best];
-                if main[p].is_none_or(wider) {
-                    main[p] = Some(v);
-                }
-            }
-        }
-        let mut places = centres.clone();
-        for _ in 0..VEIN_ROUNDS {
-            let smooth = |v: usize| match (self.parent(v), main[v]) {
-                // The axis of a mirrored leaf is straight, and its widest branch may be one of a pair.
-                (Some(p), Some(next)) if !(self.is_mirrored() && cells[v].m == 0) => {
-                    let moved = 0.5 * (places[v] + 0.5 * (places[p] + places[next]));
-                    centres[v] + (moved - centres[v]).clamp_length_max(VEIN_TETHER)
-                }
-                _ => places[v],
-            };
-            places = (0..cells.len()).map(smooth).collect();
-        }
-        places
     }
 }
 
-fn check(
+pub(crate) fn check(
     key: &'static str,
     value: f64,
     low: f64,

@@ -198,14 +198,18 @@ impl Growth {
     fn room(&self, b: u32, most: f64) -> Option<f64> {
         let room = (most - self.potentials[b as usize]) / self.tree.nodes[b as usize].multiple;
         let cell = self.tree.cells[b as usize];
-        let outside = |place: Cell| self.tree.find(place) == NONE;
-        (room >= 1.0 && (b == 0 || cell.neighbours().any(outside))).then_some(room)
+        let is_free = |place: Cell| self.tree.is_free(place);
+        // Between walls a cell may be beside others that can only be supplied from a little farther away.
+        let reach = self.tree.reach();
+        let is_boundary = reach.is_some() || b == 0 || cell.neighbours().any(is_free);
+        let longest = reach.map_or(f64::INFINITY, |reach| f64::from(2 * reach * reach).sqrt());
+        (room >= 1.0 && is_boundary).then_some(room.min(longest))
     }
 
     /// `C_Ω(x, b)` (Eq. 3.2) for a cell outside that `b` may supply.
     fn expense(&self, b: u32, from: Cell, step: Cell, length: f64) -> Option<f64> {
         let cell = from + step;
-        if !self.tree.may_join(from, cell) || self.tree.find(cell) != NONE {
+        if self.tree.has(cell) || !self.tree.may_join(from, cell) {
             return None;
         }
         let node = &self.tree.nodes[b as usize];

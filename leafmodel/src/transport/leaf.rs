@@ -81,10 +81,15 @@ impl TransportPlan {
                 stages.push(self.stage(&growth, self.epsilon));
             }
         }
+        Ok(self.leaf_of(&growth, seed, stages))
+    }
+
+    /// The leaf as it stands.
+    pub(crate) fn leaf_of(&self, growth: &Growth, seed: u64, stages: Vec<Stage>) -> TransportLeaf {
         let (cells, parents, copied) = unfolded(&growth.tree);
         let counts = copied.iter().map(|&v| growth.tree.nodes[v as usize].weight);
         let generations = copied.iter().map(|&v| growth.generations[v as usize]);
-        Ok(TransportLeaf {
+        TransportLeaf {
             plan: self.clone(),
             seed,
             counts: counts.collect(),
@@ -93,7 +98,7 @@ impl TransportPlan {
             parents,
             cost: self.to_scale(growth.tree.cost()),
             stages,
-        })
+        }
     }
 
     /// The root alone, ready to grow.
@@ -120,7 +125,7 @@ impl TransportPlan {
         cost * libm::pow(self.cell, 2.0 * self.alpha + 1.0)
     }
 
-    fn stage(&self, growth: &Growth, epsilon: f64) -> Stage {
+    pub(crate) fn stage(&self, growth: &Growth, epsilon: f64) -> Stage {
         Stage {
             epsilon,
             cost: self.to_scale(growth.tree.cost()),

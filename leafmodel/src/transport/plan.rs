@@ -84,6 +84,14 @@ pub enum TransportError {
         /// The plan's `α`.
         alpha: f64,
     },
+    /// A grid too fine for the blade that it is to fill.
+    #[error("the blade takes {cells} cells, more than {limit}")]
+    TooFine {
+        /// How many cells it takes, about.
+        cells: usize,
+        /// How many it may take.
+        limit: usize,
+    },
     /// The cells have no margin that an outline could be.
     #[error("no outline comes of the cells: {0}")]
     Outline(#[from] OutlineError),

@@ -5,6 +5,7 @@
 
 use super::cells::{Cell, CellIndex, NONE};
 use super::cost::turn;
+use super::walls::{REACH, Walls};
 
 /// Steps of up to this many cells have their turns in a table.
 const SHORT: i32 = 3;
@@ -98,6 +99,8 @@ pub(crate) struct Tree {
     pub(crate) index: CellIndex,
     pub(crate) tables: CostTables,
     mirrored: bool,
+    /// The blade that cells must keep to, if there is one.
+    walls: Option<Walls>,
 }
 
 impl Tree {
@@ -109,6 +112,7 @@ impl Tree {
             index: CellIndex::new(),
             tables: CostTables::new(alpha, beta),
             mirrored,
+            walls: None,
         };
         tree.push(Cell::ROOT);
         tree.refresh();
@@ -139,9 +143,30 @@ impl Tree {
     }
 
     /// Whether `u` may supply `v` without the two sides of a mirrored leaf becoming unlike: no edge crosses
-    /// the axis, none leads to it from one side.
+    /// the axis, none leads to it from one side. And without a way through a wall.
     pub(crate) fn may_join(&self, u: Cell, v: Cell) -> bool {
-        !self.mirrored || (u.m >= 0 && v.m >= 0 && (v.m > 0 || u.m == 0))
+        let keeps_sides = !self.mirrored || (u.m >= 0 && v.m >= 0 && (v.m > 0 || u.m == 0));
+        keeps_sides && self.walls.as_ref().is_none_or(|walls| walls.allow(u, v))
+    }
+
+    /// From now on cells keep to a blade, which holds those that there are.
+    pub(crate) fn enclose(&mut self, walls: Walls) {
+        self.walls = Some(walls);
+    }
+
+    /// Columns and rows that an edge may span, if that is limited.
+    pub(crate) fn reach(&self) -> Option<i32> {
+        self.walls.as_ref().map(|_| REACH)
+    }
+
+    /// Whether the leaf has a cell.
+    pub(crate) fn has(&self, cell: Cell) -> bool {
+        self.find(cell) != NONE
+    }
+
+    /// Whether a cell could come here.
+    pub(crate) fn is_free(&self, cell: Cell) -> bool {
+        !self.has(cell) && self.walls.as_ref().is_none_or(|walls| walls.hold(cell))
     }
 
     fn push(&mut self, cell: Cell) {

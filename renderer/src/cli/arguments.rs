@@ -168,7 +168,7 @@ pub struct GrowArguments {
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,
-    /// Write what the venation tells about every point of the blade, such as `net` of arcuate veins, as an EXR texture
+    /// Write what splines (`vein`, `net`, `fac`) or the cells of a transport leaf (`death`) tell about every point, as an EXR texture
     #[arg(long, value_name = "FILE.exr")]
     pub fields: Option<PathBuf>,
     /// Write the maps of contents into a folder

@@ -105,7 +105,7 @@ fn carry_out(
         fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
-        frames::write(plan, outline, network, outputs, count, arguments.size, stop)?;
+        frames::write(plan, grown.lamina(), outputs, count, arguments.size, stop)?;
     }
     if let Some(path) = &arguments.measure {
         if !network.map().is_flat() {
@@ -153,6 +153,7 @@ impl Grown {
         if blade {
             plan.tissue.validate().map_err(Failure::bad)?;
             plan.form.validate().map_err(Failure::bad)?;
+            plan.check_senescence().map_err(Failure::bad)?;
         }
         let is_stopped = || stop.load(Ordering::Relaxed);
         let lamina = plan.grow_lamina_unless(&is_stopped);

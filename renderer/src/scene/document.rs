@@ -24,6 +24,7 @@ mod outline;
 pub(crate) mod overrides;
 mod path;
 mod reader;
+mod senescence;
 mod spectrum;
 mod table_file;
 pub(crate) mod tree;

@@ -20,7 +20,7 @@ pub(super) fn write(
 ) -> Result<(), Failure> {
     let Some(fields) = plan.fields(lamina).map_err(Failure::bad)? else {
         return Err(Failure::bad(
-            "--fields needs veins that are splines (venation.arcuate): others have no fields but their contents",
+            "--fields needs veins that are splines (venation.arcuate) or a transport leaf: others have no fields but their contents",
         ));
     };
     let frame = UvFrame::around(lamina.outline.points());

@@ -3,10 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
-use leafmodel::leaf::LeafPlan;
-use leafmodel::shape::outline::Outline;
-use leafmodel::venation::network::VenationNetwork;
-use leafmodel::venation::{Stage, grow_stages};
+use leafmodel::leaf::{Lamina, LeafPlan, LeafStage};
 use rayon::prelude::*;
 
 use super::outputs::{Outputs, numbered};
@@ -23,26 +20,21 @@ const MOST_STAGES: usize = 64;
 /// Each group of stages grows the leaf anew, which costs far less than to keep them all.
 pub(super) fn write(
     plan: &LeafPlan,
-    outline: &Outline,
-    network: &VenationNetwork,
+    lamina: &Lamina,
     outputs: &Outputs,
     count: u32,
     pixels: u32,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    let Some(auxin) = plan.venation.auxin() else {
-        return Err(Failure::bad(
-            "--frames needs veins that grow: venation.closed or venation.open",
-        ));
-    };
-    let steps = steps(network.steps(), count);
-    let page = outline.bounds();
-    let group = (MOST_NODES / network.nodes().len().max(1)).clamp(1, MOST_STAGES);
+    let no_stages = |error| Failure::bad(format!("--frames: {error}"));
+    let steps = steps(plan.last_step(lamina).map_err(no_stages)?, count);
+    let page = lamina.outline.bounds();
+    let group = (MOST_NODES / lamina.network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
-        let stages = grow_stages(outline, auxin, plan.seed, group_steps).map_err(Failure::bad)?;
+        let stages = plan.stages(lamina, group_steps).map_err(no_stages)?;
         for (path, kind) in &outputs.staged {
             let draw =
-                |stage: &Stage| veins_file(*kind, page, &stage.outline, &stage.network, pixels);
+                |stage: &LeafStage| veins_file(*kind, page, &stage.outline, &stage.network, pixels);
             let files: Vec<Result<Vec<u8>, Failure>> = stages.par_iter().map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
                 if stop.load(Ordering::Relaxed) {

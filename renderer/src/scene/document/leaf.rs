@@ -3,6 +3,8 @@
 use leafmodel::blade::BladeForm;
 use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
+use leafmodel::leaf::outline_plan::Contour;
+use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
 use super::contents::read_contents;
@@ -10,6 +12,7 @@ use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
 use super::outline::read_outline;
 use super::reader::Block;
+use super::senescence::read_senescence;
 use super::spectrum::require_prospect;
 use super::venation::read_venation;
 use crate::scene::description::Leaf;
@@ -45,10 +48,20 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         // Its blocks are read all the same, so that their errors are found too.
         read_tissue(block, VEIN_FACTORS);
     }
+    let earns = outline.as_ref().zip(venation.as_ref());
+    let earns = earns.map(|(outline, venation)| {
+        matches!(outline.plan.contour, Contour::Transport(_))
+            || matches!(venation, VenationPlan::Transport(_))
+    });
+    let is_aged = block.entry("senescence").is_some();
+    let senescence = read_senescence(block, earns);
     let form = read_form(block, length_mm.unwrap_or(100.0));
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     block.finish();
+    if is_aged && senescence.is_none() {
+        return None;
+    }
     Some(Leaf {
         plan: LeafPlan {
             length_mm: length_mm?,
@@ -56,6 +69,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
             outline: outline?.plan,
             venation: venation?,
             tissue: tissue?,
+            senescence,
             form,
             map_size,
         },

@@ -82,9 +82,9 @@ fn report(outline: &Block<'_>, block: &Block<'_>, error: &OutlinePlanError) {
             "epsilon",
             "use a lower revenue, a larger alpha, or allow more cells",
         ),
-        OutlinePlanError::Transport(TransportError::Outline(_)) => {
-            (block, "epsilon", "let the leaf grow larger")
-        }
+        OutlinePlanError::Transport(
+            TransportError::Outline(_) | TransportError::TooFine { .. },
+        ) => (block, "epsilon", "let the leaf grow larger"),
         OutlinePlanError::GrowthAlgorithm(_) | OutlinePlanError::Length { .. } => (
             block,
             "veins",

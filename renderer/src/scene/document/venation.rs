@@ -4,6 +4,7 @@ mod arcuate;
 mod auxin;
 mod cells;
 mod growth;
+mod transport;
 
 use leafmodel::leaf::outline_plan::Contour;
 use leafmodel::leaf::venation_plan::VenationPlan;
@@ -14,7 +15,7 @@ use super::reader::Block;
 use crate::scene::error::SceneError;
 
 /// The kinds of venation.
-const KINDS: [&str; 4] = ["closed", "open", "arcuate", "cells"];
+const KINDS: [&str; 5] = ["closed", "open", "arcuate", "cells", "transport"];
 
 /// Reads `venation` of a leaf. With the outline of a leaf of any length, what needs it is checked too.
 pub(crate) fn read_venation(
@@ -25,6 +26,7 @@ pub(crate) fn read_venation(
     let (variant, block) = venation.variant(&KINDS)?;
     match variant {
         "arcuate" => arcuate::read_arcuate(&block).map(VenationPlan::Arcuate),
+        "transport" => transport::read_filled(&block, outline).map(VenationPlan::Transport),
         "cells" => {
             let style = cells::read_vein_style(&block);
             if let Some(outline) = outline

@@ -3,6 +3,7 @@
 //! The mirror image of [`super::leaf`], [`super::outline`] and [`super::venation`]: same keys, same defaults.
 
 use leafmodel::blade::BladeForm;
+use leafmodel::blade::senescence::{AgeSource, Senescence};
 use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
@@ -12,12 +13,13 @@ use leafmodel::shape::contour_curve::ContourCurve;
 use leafmodel::shape::cubic_margin::CubicMargin;
 use leafmodel::shape::growth_shape::GrowthShape;
 use leafmodel::shape::svg_path::SvgContour;
-use leafmodel::transport::{Ladder, TransportPlan, VeinStyle};
+use leafmodel::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
 use leafmodel::venation::arcuate::ArcuatePlan;
 use leafmodel::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
 use super::outline::STEPS;
+use super::senescence::BLEND;
 use super::tree::{Entry, Node, Table, Value};
 use super::venation::LEAST_CELLS;
 use super::write;
@@ -116,12 +118,16 @@ fn leaf(plan: &LeafPlan) -> Keys {
         VenationPlan::Auxin(plan) => auxin(plan),
         VenationPlan::Arcuate(plan) => ("arcuate", arcuate(plan)),
         VenationPlan::Cells(style) => ("cells", vein_style(*style)),
+        VenationPlan::Transport(plan) => ("transport", filled(plan)),
     };
     keys.block("venation", Keys::default().with(kind, block));
     keys.block("contents", contents(&plan.tissue.lamina));
     let (veins, mottle) = tissue(&plan.tissue);
     keys.block_if_any("veins", veins);
     keys.block_if_any("mottle", mottle);
+    if let Some(aged) = &plan.senescence {
+        keys.block("senescence", senescence(aged));
+    }
     keys.block_if_any("blade", form(&plan.form, plan.length_mm));
     keys
 }
@@ -270,6 +276,17 @@ fn vein_style(style: VeinStyle) -> Keys {
     keys
 }
 
+fn filled(plan: &FilledPlan) -> Keys {
+    let usual = FilledPlan::default();
+    let mut keys = vein_style(plan.style);
+    keys.number_unless("alpha", plan.alpha, usual.alpha);
+    keys.number_unless("beta", plan.beta, usual.beta);
+    if plan.cells_along != usual.cells_along {
+        keys.integer("cells_along", plan.cells_along.into());
+    }
+    keys
+}
+
 fn auxin(plan: &AuxinPlan) -> (&'static str, Keys) {
     let mut keys = Keys::default();
     keys.number("final_length_segments", plan.final_length);
@@ -385,6 +402,16 @@ fn tissue(tissue: &Tissue) -> (Keys, Keys) {
         mottle.number_unless("scale_mm", scale, default.mottle_scale_mm);
     }
     (veins, mottle)
+}
+
+/// The block `senescence`.
+fn senescence(senescence: &Senescence) -> Keys {
+    let mut keys = Keys::default();
+    let AgeSource::Revenue { share } = senescence.source;
+    keys.number("revenue_share", share);
+    keys.number_unless("blend", senescence.blend, BLEND);
+    keys.block("contents", contents(&senescence.contents));
+    keys
 }
 
 /// The block `blade`.

@@ -35,6 +35,7 @@ fn plain() -> LeafPlan {
         tissue: default_tissue(Contents::from_array([
             1.5, 40.0, 9.0, 0.0, 0.0, 0.01, 0.006,
         ])),
+        senescence: None,
         form: default_form(80.0),
         map_size: 1024,
     }
@@ -193,7 +194,26 @@ fn venation() -> impl Strategy<Value = VenationPlan> {
         4 => auxin_plan().prop_map(VenationPlan::Auxin),
         2 => arcuate_plan().prop_map(VenationPlan::Arcuate),
         1 => cells,
+        1 => filled_plan().prop_map(VenationPlan::Transport),
     ]
+}
+
+fn filled_plan() -> impl Strategy<Value = FilledPlan> {
+    let usual = FilledPlan::default();
+    let alpha = prop_oneof![Just(usual.alpha), 0.1..0.9];
+    let beta = prop_oneof![Just(usual.beta), 0.1..9.0];
+    let cells_along = prop_oneof![Just(usual.cells_along), 4_u32..90];
+    (alpha, beta, cells_along, 0.01..1.0, 1_u32..9).prop_map(
+        |(alpha, beta, cells_along, base_radius_mm, least_cells)| FilledPlan {
+            alpha,
+            beta,
+            cells_along,
+            style: VeinStyle {
+                base_radius_mm,
+                least_cells,
+            },
+        },
+    )
 }
 
 fn arcuate_plan() -> impl Strategy<Value = ArcuatePlan> {
@@ -304,6 +324,20 @@ fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
     prop::collection::vec(wave, 0..3)
 }
 
+fn senescence() -> impl Strategy<Value = Option<Senescence>> {
+    let blend = prop_oneof![Just(BLEND), 0.001..1.0];
+    let contents = (1.0..4.0, prop::array::uniform6(0.0..1.0)).prop_map(|(structure, rest)| {
+        let [a, b, c, d, e, f] = rest;
+        Contents::from_array([structure, a, b * 20.0, c, d, e, f])
+    });
+    let aged = (0.0..1.0, blend, contents).prop_map(|(share, blend, contents)| Senescence {
+        source: AgeSource::Revenue { share },
+        blend,
+        contents,
+    });
+    prop::option::of(aged)
+}
+
 fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
     let contents = (1.0..4.0, prop::array::uniform6(0.0..1.0)).prop_map(|(structure, rest)| {
         let [a, b, c, d, e, f] = rest;
@@ -353,10 +387,12 @@ proptest! {
     #[test]
     fn a_written_plan_reads_back_to_the_same(
         contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
-        seed in any::<u64>(), map_size in 16_u32..8192,
+        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(),
     ) {
         let outline = OutlinePlan { contour, teeth };
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, form, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, senescence, form, map_size };
+        // Only cells that earn anything die when they do not.
+        let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.
         prop_assume!(plan.check_lamina().is_ok());
         let folder = tempfile::tempdir().expect("a folder");

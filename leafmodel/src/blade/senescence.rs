@@ -1,0 +1,189 @@
+//! Ageing: tissue dies where and when an age field says, and then holds something else.
+
+use glam::DVec2;
+
+use super::tissue::TissueError;
+use crate::optics::Contents;
+use crate::transport::DeathField;
+
+/// How far a leaf has aged, and what its dead tissue holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Senescence {
+    /// What decides which tissue dies first, and how far it has come.
+    pub source: AgeSource,
+    /// Width of the transition from living to dead, in the unit of the source, 0.001 to 1.
+    pub blend: f64,
+    /// Contents of dead tissue between veins; veins change them as they do those of living tissue.
+    pub contents: Contents,
+}
+
+/// What decides which tissue dies first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AgeSource {
+    /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of \[xia2007\]).
+    Revenue {
+        /// What cells earn now, as a share of what they earned when the leaf was full-grown: 1 is summer, 0 all are dead.
+        share: f64,
+    },
+}
+
+impl Senescence {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for the first that is out of range, by name.
+    pub fn validate(&self) -> Result<(), TissueError> {
+        let AgeSource::Revenue { share } = self.source;
+        let valid = (0.0..=1.0).contains(&share);
+        TissueError::unless(valid, "senescence.revenue_share", share, "from 0 to 1")?;
+        let valid = (0.001..=1.0).contains(&self.blend);
+        let range = "from 0.001 to 1";
+        TissueError::unless(valid, "senescence.blend", self.blend, range)?;
+        for (index, value) in self.contents.to_array().into_iter().enumerate() {
+            let least = if index == 0 { 1.0 } else { 0.0 };
+            let valid = (least..=1000.0).contains(&value);
+            let range = if index == 0 {
+                "from 1 to 1000"
+            } else {
+                "from 0 to 1000"
+            };
+            TissueError::unless(valid, "senescence.contents", value, range)?;
+        }
+        Ok(())
+    }
+}
+
+/// An ageing leaf: where its tissue is how far.
+#[derive(Clone, Debug)]
+pub struct Withering {
+    field: DeathField,
+    /// Tissue with a greater age value than this has begun to die.
+    threshold: f64,
+    blend: f64,
+    dead: Contents,
+}
+
+impl Withering {
+    /// Ageing by the deaths of a transport leaf's cells.
+    pub fn by_revenue(field: DeathField, share: f64, blend: f64, dead: Contents) -> Self {
+        // So that at a share of 1 the first to die are still alive, and at 0 the last are dead.
+        let threshold = share * (1.0 + blend) - blend;
+        Self {
+            field,
+            threshold,
+            blend,
+            dead,
+        }
+    }
+
+    /// How dead the tissue at a point (mm) is: 0 alive, 1 dead, a smooth step over the blend between.
+    pub fn dead_share(&self, point: DVec2) -> f64 {
+        let t = ((self.field.at(point) - self.threshold) / self.blend).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    /// What the tissue at a point (mm) holds between veins if `living` is what it held alive.
+    pub fn contents(&self, living: Contents, point: DVec2) -> Contents {
+        let dead_share = self.dead_share(point);
+        let dead = self.dead.to_array();
+        let mut mixed = living.to_array();
+        for (value, dead) in mixed.iter_mut().zip(dead) {
+            *value += (dead - *value) * dead_share;
+        }
+        Contents::from_array(mixed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::example;
+
+    const DEAD: Contents = Contents {
+        structure: 2.0,
+        chlorophyll: 1.0,
+        carotenoids: 3.0,
+        anthocyanins: 0.0,
+        brown: 1.0,
+        water: 0.001,
+        dry_matter: 0.005,
+    };
+
+    const LIVING: Contents = Contents {
+        structure: 1.5,
+        chlorophyll: 40.0,
+        carotenoids: 9.0,
+        anthocyanins: 0.5,
+        brown: 0.0,
+        water: 0.01,
+        dry_matter: 0.005,
+    };
+
+    fn withering(share: f64, blend: f64) -> Withering {
+        let leaf = example(1)
+            .expect("there is one")
+            .grow(1)
+            .expect("a good plan");
+        let field = leaf.death_field(60.0).expect("a margin");
+        Withering::by_revenue(field, share, blend, DEAD)
+    }
+
+    fn points() -> impl Iterator<Item = DVec2> {
+        (-25..=25).flat_map(|x| (-5..=60).map(move |y| DVec2::new(f64::from(x), f64::from(y))))
+    }
+
+    #[test]
+    fn in_summer_all_is_alive_and_without_revenue_all_is_dead() {
+        for blend in [0.001, 0.1, 1.0] {
+            let (summer, end) = (withering(1.0, blend), withering(0.0, blend));
+            for p in points() {
+                assert_eq!(summer.contents(LIVING, p), LIVING);
+                assert_eq!(end.dead_share(p), 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn tissue_only_dies_as_revenue_falls() {
+        let stages = [1.0, 0.9, 0.7, 0.4, 0.1].map(|share| withering(share, 0.1));
+        let mut half_dead = 0;
+        for p in points() {
+            for pair in stages.windows(2) {
+                assert!(pair[1].dead_share(p) >= pair[0].dead_share(p));
+            }
+            half_dead += usize::from((0.1..0.9).contains(&stages[1].dead_share(p)));
+        }
+        assert!(half_dead > 50, "a transition has a width: {half_dead}");
+    }
+
+    #[test]
+    fn each_number_out_of_range_is_refused_by_name() {
+        let good = Senescence {
+            source: AgeSource::Revenue { share: 0.5 },
+            blend: 0.1,
+            contents: DEAD,
+        };
+        assert_eq!(good.validate(), Ok(()));
+        let field = |bad: Senescence| bad.validate().expect_err("out of range").field;
+        let source = AgeSource::Revenue { share: 1.1 };
+        assert_eq!(
+            field(Senescence { source, ..good }),
+            "senescence.revenue_share"
+        );
+        let source = AgeSource::Revenue { share: f64::NAN };
+        assert_eq!(
+            field(Senescence { source, ..good }),
+            "senescence.revenue_share"
+        );
+        assert_eq!(field(Senescence { blend: 0.0, ..good }), "senescence.blend");
+        let contents = Contents {
+            structure: 0.5,
+            ..DEAD
+        };
+        assert_eq!(
+            field(Senescence { contents, ..good }),
+            "senescence.contents"
+        );
+    }
+}

@@ -1,0 +1,215 @@
+//! A leaf at times of its growth, whatever it grows by.
+
+use super::{LeafError, LeafPlan};
+use crate::leaf::lamina::Lamina;
+use crate::leaf::venation_plan::VenationPlan;
+use crate::shape::outline::Outline;
+use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
+use crate::venation::grow_stages;
+use crate::venation::network::VenationNetwork;
+use crate::venation::plan::AuxinPlan;
+
+/// Margin and veins at one time of growth, true to the size they have then, mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeafStage {
+    /// The margin.
+    pub outline: Outline,
+    /// The veins.
+    pub network: VenationNetwork,
+}
+
+impl LeafPlan {
+    /// The last step of growth of a lamina that this plan has brought forth; the first is 0.
+    ///
+    /// Steps are those of the veins that grow towards auxin; those in which the revenue of a transport leaf rises or, if it rises from
+    /// event to event, the cells that come.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::NoStages`] if it comes to be all at once.
+    pub fn last_step(&self, lamina: &Lamina) -> Result<u32, LeafError> {
+        Ok(match self.growing(lamina)? {
+            Growing::Auxin(_) => lamina.network.steps(),
+            Growing::Cells(leaf, _) => leaf.last_step(),
+            Growing::Filled(blade, _) => blade.leaf().last_step(),
+        })
+    }
+
+    /// The lamina at each of some steps, up to the last; beyond it is full-grown.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError`], above all [`LeafError::NoStages`].
+    pub fn stages(&self, lamina: &Lamina, steps: &[u32]) -> Result<Vec<LeafStage>, LeafError> {
+        let outline = &lamina.outline;
+        let all = |stages: Vec<(Outline, VenationNetwork)>| {
+            let stages = stages.into_iter();
+            stages.map(|(outline, network)| LeafStage { outline, network })
+        };
+        Ok(match self.growing(lamina)? {
+            Growing::Auxin(plan) => {
+                let stages = grow_stages(outline, plan, self.seed, steps)?;
+                let stages = stages.into_iter();
+                all(stages.map(|stage| (stage.outline, stage.network)).collect()).collect()
+            }
+            Growing::Cells(leaf, style) => {
+                let stages: Vec<usize> = steps.iter().map(|&step| leaf.stage_of(step)).collect();
+                all(leaf.at_scale(self.length_mm, style, &stages)?).collect()
+            }
+            Growing::Filled(blade, style) => {
+                let stages: Vec<usize> = steps.iter().map(|&step| step as usize).collect();
+                let networks = blade.networks_at(outline, style, &stages)?;
+                let stages = networks.into_iter();
+                all(stages.map(|network| (outline.clone(), network)).collect()).collect()
+            }
+        })
+    }
+
+    fn growing<'a>(&'a self, lamina: &'a Lamina) -> Result<Growing<'a>, LeafError> {
+        match &self.venation {
+            VenationPlan::Auxin(plan) => Ok(Growing::Auxin(plan)),
+            VenationPlan::Arcuate(_) => {
+                Err(LeafError::NoStages("arcuate veins are there all at once"))
+            }
+            VenationPlan::Cells(_) if !self.outline.teeth.is_empty() => Err(LeafError::NoStages(
+                "teeth belong to the full-grown margin of a transport leaf",
+            )),
+            VenationPlan::Cells(style) => {
+                let leaf = lamina.cells.as_ref().ok_or(LeafError::NoCells)?;
+                Ok(Growing::Cells(leaf, *style))
+            }
+            VenationPlan::Transport(plan) => {
+                let blade = lamina.filled.as_ref().ok_or(LeafError::NoCells)?;
+                Ok(Growing::Filled(blade, plan.style))
+            }
+        }
+    }
+}
+
+/// What a lamina grows by.
+enum Growing<'a> {
+    Auxin(&'a AuxinPlan),
+    Cells(&'a TransportLeaf, VeinStyle),
+    /// On a margin that is there from the start.
+    Filled(&'a FilledBlade, VeinStyle),
+}
+
+impl TransportLeaf {
+    fn last_step(&self) -> u32 {
+        let last = match self.plan().ladder {
+            Ladder::Equal(_) => self.stages().len(),
+            Ladder::Events => self.cells().len(),
+        };
+        last.saturating_sub(1) as u32
+    }
+
+    /// The stage of a step as [`LeafPlan::last_step`] counts them.
+    fn stage_of(&self, step: u32) -> usize {
+        match self.plan().ladder {
+            Ladder::Equal(_) => step as usize,
+            Ladder::Events => {
+                let stages = self.stages();
+                stages.partition_point(|stage| stage.cells() <= step as usize)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::leaf::outline_plan::Contour;
+    use crate::shape::teeth::ToothWave;
+    use crate::species;
+    use crate::transport::{FilledPlan, TransportPlan};
+    use crate::venation::arcuate::ArcuatePlan;
+
+    fn preset(name: &str) -> LeafPlan {
+        species::find(name).expect("there is one").plan()
+    }
+
+    fn seedling_to_leaf(plan: &LeafPlan) -> (Lamina, Vec<LeafStage>) {
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let last = plan.last_step(&lamina).expect("it has stages");
+        let steps: Vec<u32> = (0..=5).map(|i| last * i / 5).collect();
+        let stages = plan.stages(&lamina, &steps).expect("it has stages");
+        (lamina, stages)
+    }
+
+    #[test]
+    fn a_transport_leaf_grows_to_scale_from_one_cell_with_its_root_in_one_place() {
+        for events in [false, true] {
+            let mut plan = preset("xia-1");
+            if events {
+                plan.outline = Contour::Transport(TransportPlan {
+                    ladder: Ladder::Events,
+                    ..TransportPlan::default()
+                })
+                .into();
+            }
+            let (lamina, stages) = seedling_to_leaf(&plan);
+            let cell = lamina.network.segment_mm();
+            for pair in stages.windows(2) {
+                assert!(pair[0].outline.area() < pair[1].outline.area());
+                // By at most a tether outside of what comes later.
+                for &p in pair[0].outline.points() {
+                    let outline = &pair[1].outline;
+                    assert!(outline.contains(p) || outline.distance_to_margin(p) < cell);
+                }
+            }
+            for stage in &stages {
+                assert!(stage.outline.base().length() < 1.5 * cell);
+                assert_eq!(stage.network.validate(), Ok(()));
+                let inside = |p| stage.outline.covers(p);
+                assert!(
+                    stage
+                        .network
+                        .nodes()
+                        .iter()
+                        .all(|node| inside(node.position))
+                );
+            }
+            // The first cell comes at once, above the root.
+            assert!(stages[0].outline.area() < 2.5 * cell * cell);
+            assert_eq!(stages[5].outline, lamina.outline);
+            assert_eq!(stages[5].network, lamina.network);
+        }
+    }
+
+    #[test]
+    fn veins_that_fill_a_blade_grow_on_the_blade_that_is_there() {
+        let mut plan = preset("young-4a");
+        plan.venation = FilledPlan {
+            cells_along: 30,
+            ..FilledPlan::default()
+        }
+        .into();
+        let (lamina, stages) = seedling_to_leaf(&plan);
+        let nodes = |stage: &LeafStage| stage.network.nodes().len();
+        for pair in stages.windows(2) {
+            assert!(nodes(&pair[0]) < nodes(&pair[1]));
+            assert_eq!(pair[0].outline, lamina.outline);
+        }
+        assert_eq!(stages[5].network, lamina.network);
+    }
+
+    #[test]
+    fn what_is_there_all_at_once_has_no_stages_and_says_so() {
+        let refused = |plan: &LeafPlan| {
+            let lamina = plan.grow_lamina().expect("a good plan");
+            plan.last_step(&lamina).expect_err("none").to_string()
+        };
+        let mut splines = preset("xia-1");
+        splines.venation = ArcuatePlan::default().into();
+        assert!(refused(&splines).contains("arcuate veins are there all at once"));
+        let mut toothed = preset("xia-1");
+        toothed.outline.teeth = vec![ToothWave {
+            per_side: 5,
+            height: 0.002,
+            lean: 0.0,
+            fade_base: 0.2,
+            fade_apex: 0.2,
+        }];
+        assert!(refused(&toothed).contains("teeth belong to the full-grown margin"));
+    }
+}
