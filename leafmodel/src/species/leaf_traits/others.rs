@@ -97,7 +97,7 @@ pub(in crate::species) static ORCHID: LeafTraits = LeafTraits {
 };
 
 const TRILLIUM_CHLOROPHYLL: Quantity = by_eye(
-    0.15,
+    0.1,
     [0.0, 1.0],
     "white petals hold next to none; no figure for the species",
 );
@@ -116,7 +116,7 @@ pub(in crate::species) static TRILLIUM: LeafTraits = LeafTraits {
     ),
     chlorophyll: TRILLIUM_CHLOROPHYLL,
     carotenoids: by_eye(
-        0.25,
+        0.08,
         [0.0, 1.0],
         "white petals hold next to none; no figure for the species",
     ),
@@ -129,7 +129,7 @@ pub(in crate::species) static TRILLIUM: LeafTraits = LeafTraits {
     dry_matter: by_eye(0.0018, [0.0005, 0.004], "no figure for the species"),
     lie: Lie::new(14.0, 55.0, [0.035, 2.5], 0.4),
     veins: VeinLook {
-        pigments: 5.0,
+        pigments: 3.0,
         full_over_finest: 5.0,
         sheath_over_finest: 5.0,
     },

@@ -97,7 +97,7 @@ pub(in crate::species) static RED_OAK: LeafTraits = LeafTraits {
 };
 
 const GINKGO_CHLOROPHYLL: Quantity = measured(
-    58.0,
+    48.0,
     [43.5, 77.0],
     "lichtenthaler2023",
     "435 to 770 mg/m² in trees that were not pruned",

@@ -88,7 +88,7 @@ mod tests {
             .find(|line| line.trim_start().starts_with("chlorophyll"));
         let row = chlorophyll.expect("it has a row");
         for part in [
-            "58 µg/cm²",
+            "48 µg/cm²",
             "43.5 to 77",
             "measured: ",
             "[lichtenthaler2023]",
