@@ -9,6 +9,7 @@ mod beyond;
 #[cfg(test)]
 mod claims;
 mod contours;
+pub mod leaf_traits;
 mod list;
 pub mod maple;
 mod runions;
@@ -68,8 +69,8 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Figures for species come with
-/// presets of their own; these are the middle of what is usual (`docs/src/theory/tissue.md`).
+/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Species have [`leaf_traits`]; these
+/// numbers are the middle of what is usual (`docs/src/theory/tissue.md`).
 fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
     let veinlet = venation.veinlet_radius_mm;
     LeafPlan {

@@ -1,5 +1,6 @@
 //! Presets for the figures and the rows of Table 1 of Runions et al. 2005.
 
+use super::leaf_traits::{self, LeafTraits};
 use super::table_1::{Row, RowGrowth};
 use super::{contours, green_leaf};
 use crate::leaf::LeafPlan;
@@ -206,6 +207,17 @@ fn leaf(row: &Row, length_mm: f64, seed: u64, veinlet_mm: f64, outline: OutlineP
     )
 }
 
+/// A leaf of a species whose veins are a row of the table as we read it.
+fn species(
+    traits: &LeafTraits,
+    row: &Row,
+    seed: u64,
+    veinlet_mm: f64,
+    outline: OutlinePlan,
+) -> LeafPlan {
+    traits.plan(seed, outline, row.plan(row.leaf_unit, veinlet_mm))
+}
+
 /// A leaf of the parameter searches.
 pub(super) fn searched(row: &Row) -> LeafPlan {
     leaf(row, 80.0, 1, 0.05, contours::lanceolate())
@@ -233,15 +245,27 @@ pub(super) fn ginkgo() -> LeafPlan {
         },
         ..GINKGO.plan(GINKGO.leaf_unit * COARSER, 0.03)
     };
-    green_leaf(60.0, 1, contours::fan(), venation)
+    leaf_traits::GINKGO.plan(1, contours::fan(), venation)
 }
 
 pub(super) fn alchemilla() -> LeafPlan {
-    leaf(&ALCHEMILLA, 50.0, 1, 0.02, contours::lobed_round())
+    species(
+        &leaf_traits::ALCHEMILLA,
+        &ALCHEMILLA,
+        1,
+        0.02,
+        contours::lobed_round(),
+    )
 }
 
 pub(super) fn sweetgum() -> LeafPlan {
-    leaf(&SWEETGUM, 90.0, 1, 0.006, contours::star())
+    species(
+        &leaf_traits::SWEETGUM,
+        &SWEETGUM,
+        1,
+        0.006,
+        contours::star(),
+    )
 }
 
 pub(super) fn toothed() -> LeafPlan {
@@ -253,7 +277,7 @@ pub(super) fn tertiary() -> LeafPlan {
 }
 
 pub(super) fn orchid() -> LeafPlan {
-    leaf(&ORCHID, 120.0, 1, 0.03, contours::elliptic())
+    species(&leaf_traits::ORCHID, &ORCHID, 1, 0.03, contours::elliptic())
 }
 
 pub(super) fn reticulate() -> LeafPlan {
@@ -265,7 +289,7 @@ pub(super) fn cherry() -> LeafPlan {
         unseen_veinlets: 0.1,
         ..CHERRY.plan(CHERRY.leaf_unit, 0.03)
     };
-    green_leaf(60.0, 2, contours::obovate(), venation)
+    leaf_traits::CHERRY.plan(2, contours::obovate(), venation)
 }
 
 pub(super) fn grass() -> LeafPlan {
@@ -275,15 +299,21 @@ pub(super) fn grass() -> LeafPlan {
         origins: (-6..=6).map(|i| [f64::from(i) * apart, 0.0]).collect(),
         ..GRASS.plan(GRASS.leaf_unit, 0.025)
     };
-    green_leaf(60.0, 1, contours::strip(), venation)
+    leaf_traits::GRASS.plan(1, contours::strip(), venation)
 }
 
 pub(super) fn poplar_leaf() -> LeafPlan {
-    leaf(&POPLAR, 70.0, 40, 0.02, contours::deltoid())
+    species(&leaf_traits::POPLAR, &POPLAR, 40, 0.02, contours::deltoid())
 }
 
 pub(super) fn poplar_urquhart() -> LeafPlan {
-    leaf(&POPLAR_URQUHART, 70.0, 40, 0.02, contours::deltoid())
+    species(
+        &leaf_traits::POPLAR,
+        &POPLAR_URQUHART,
+        40,
+        0.02,
+        contours::deltoid(),
+    )
 }
 
 pub(super) fn poplar_fine() -> LeafPlan {
@@ -291,7 +321,7 @@ pub(super) fn poplar_fine() -> LeafPlan {
         leaf_unit: 3.0,
         ..POPLAR
     };
-    leaf(&fine, 70.0, 24, 0.006, contours::deltoid())
+    species(&leaf_traits::POPLAR, &fine, 24, 0.006, contours::deltoid())
 }
 
 /// A tenth of the growth a step, so that veins keep up; a tenth of the darts, so that as many fall on the same tissue.
@@ -302,7 +332,7 @@ pub(super) fn poplar_x10() -> LeafPlan {
         darts: 20.0,
         ..POPLAR
     };
-    leaf(&fine, 70.0, 2, 0.0015, contours::deltoid())
+    species(&leaf_traits::POPLAR, &fine, 2, 0.0015, contours::deltoid())
 }
 
 pub(super) fn developmental() -> LeafPlan {
@@ -310,5 +340,11 @@ pub(super) fn developmental() -> LeafPlan {
 }
 
 pub(super) fn trillium() -> LeafPlan {
-    leaf(&TRILLIUM, 50.0, 1, 0.03, contours::petal())
+    species(
+        &leaf_traits::TRILLIUM,
+        &TRILLIUM,
+        1,
+        0.03,
+        contours::petal(),
+    )
 }

@@ -2,6 +2,7 @@
 
 use super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;
+use crate::shape::teeth::ToothWave;
 
 /// A maple's: five lobes about the petiole, each with shoulders and pointed teeth (Norway and sugar maple).
 pub(super) fn maple() -> OutlinePlan {
@@ -131,21 +132,33 @@ pub(super) fn red_oak() -> OutlinePlan {
     curve(&places, &[0, 4, 9, 11, 17, 19, 24, 27], true).into()
 }
 
-/// A silver birch's: a rhombic triangle, twice toothed.
+/// A silver birch's: a triangle with rounded corners below, twice toothed.
 pub(super) fn birch() -> OutlinePlan {
+    // None at the base, which is entire, and small ones towards the apex.
+    let wave = |per_side, height, lean, fade_base, fade_apex| ToothWave {
+        per_side,
+        height,
+        lean,
+        fade_base,
+        fade_apex,
+    };
     OutlinePlan {
         contour: pointed(&[
             (0.0, 0.0),
-            (0.11, 0.03),
-            (0.25, 0.12),
-            (0.345, 0.24),
-            (0.31, 0.38),
-            (0.20, 0.60),
-            (0.09, 0.82),
+            (0.08, 0.012),
+            (0.23, 0.07),
+            (0.33, 0.17),
+            (0.35, 0.26),
+            (0.29, 0.41),
+            (0.185, 0.62),
+            (0.085, 0.82),
             (0.03, 0.94),
             (0.0, 1.0),
         ]),
-        teeth: vec![teeth(9, 0.03, 0.6), teeth(36, 0.007, 0.5)],
+        teeth: vec![
+            wave(10, 0.024, 0.15, 0.45, 0.35),
+            wave(40, 0.01, 0.4, 0.4, 0.2),
+        ],
     }
 }
 
@@ -154,14 +167,15 @@ pub(super) fn willow() -> OutlinePlan {
     OutlinePlan {
         contour: pointed(&[
             (0.0, 0.0),
-            (0.025, 0.05),
-            (0.06, 0.20),
-            (0.078, 0.40),
-            (0.068, 0.62),
-            (0.035, 0.84),
+            (0.022, 0.04),
+            (0.058, 0.17),
+            (0.083, 0.38),
+            (0.074, 0.58),
+            (0.042, 0.80),
+            (0.016, 0.92),
             (0.0, 1.0),
         ]),
-        teeth: vec![teeth(50, 0.0025, 0.6)],
+        teeth: vec![teeth(76, 0.0035, 0.7)],
     }
 }
 
@@ -180,16 +194,17 @@ pub(super) fn magnolia() -> OutlinePlan {
     .into()
 }
 
-/// A croton's: narrow, widest above the middle.
+/// A croton's: an ellipse with a point.
 pub(super) fn croton() -> OutlinePlan {
     pointed(&[
         (0.0, 0.0),
-        (0.04, 0.06),
-        (0.095, 0.25),
-        (0.14, 0.50),
-        (0.145, 0.68),
-        (0.095, 0.88),
-        (0.035, 0.97),
+        (0.035, 0.045),
+        (0.098, 0.19),
+        (0.15, 0.38),
+        (0.16, 0.54),
+        (0.135, 0.72),
+        (0.075, 0.88),
+        (0.028, 0.96),
         (0.0, 1.0),
     ])
     .into()

@@ -153,6 +153,9 @@ pub struct GrowArguments {
     /// Name the presets
     #[arg(long, exclusive = true)]
     pub list: bool,
+    /// Tell what a preset is and where its numbers are from
+    #[arg(long, requires = "leaf")]
+    pub about: bool,
     /// Change a value of the leaf: --set blade.ruffle=0.02; the end of a path is enough where only one key has it
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,

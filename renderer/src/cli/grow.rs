@@ -1,5 +1,6 @@
 //! `lamina grow`: a leaf's veins, blade, contents and measures as files.
 
+mod about;
 mod blade_files;
 mod choice;
 mod fields;
@@ -39,6 +40,9 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             say(format!("{:<width$}  {}", preset.name, preset.about));
         }
         return Ok(());
+    }
+    if arguments.about {
+        return about::tell(arguments.leaf.as_deref().unwrap_or_default());
     }
     let started = Instant::now();
     let chosen = choice::choose(arguments)?;

@@ -32,7 +32,7 @@ pub(super) fn choose(arguments: &GrowArguments) -> Result<Named<Leaf>, Failure> 
     Ok(chosen)
 }
 
-fn unknown_preset(wanted: &str) -> Failure {
+pub(super) fn unknown_preset(wanted: &str) -> Failure {
     let names = species::PRESETS.iter().map(|preset| preset.name);
     let meant =
         nearest(wanted, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));

@@ -1,0 +1,286 @@
+//! What is known of each species' mature leaf in summer: sizes, contents, thickness, each number with where it is from.
+//!
+//! - **In**: the name of a preset.
+//! - **Out**: its [`LeafTraits`], from which the preset's plan is made, so that what is told is what is grown.
+//! - **Always true**: every value lies within its range.
+//! - **Left out**: what the plan holds as forms (fold, curl, ruffle, relief): all of that is by eye.
+
+mod others;
+mod sources;
+mod trees;
+
+use crate::blade::BladeForm;
+use crate::blade::tissue::Tissue;
+use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::optics::Contents;
+use crate::venation::plan::AuxinPlan;
+
+pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
+pub(super) use self::trees::{
+    BIRCH, CHERRY, GINKGO, MAGNOLIA, MAPLE, POPLAR, RED_OAK, SWEETGUM, WHITE_OAK, WILLOW,
+};
+
+/// All of them, in the order of the book.
+static SPECIES: [&LeafTraits; 16] = [
+    &POPLAR,
+    &MAPLE,
+    &WHITE_OAK,
+    &RED_OAK,
+    &GINKGO,
+    &BIRCH,
+    &WILLOW,
+    &CHERRY,
+    &SWEETGUM,
+    &ALCHEMILLA,
+    &IVY,
+    &MAGNOLIA,
+    &GRASS,
+    &ORCHID,
+    &TRILLIUM,
+    &CROTON,
+];
+
+/// Something published. Its key is that of `docs/references.bib`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Key of the bibliography.
+    pub key: &'static str,
+    /// What it says, and of what leaves.
+    pub says: &'static str,
+}
+
+/// How a number came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Provenance {
+    /// The range was measured on leaves of the species; the value is chosen in it.
+    Measured(Source),
+    /// The range is a flora's for the species; the value is chosen in it.
+    Flora(Source),
+    /// Computed from another number by a relation that was fitted to leaves of other species.
+    Fitted(Source),
+    /// The range is about what was measured on a near relative.
+    Relative(Source),
+    /// A choice by eye. The range is that of a collection of other leaves.
+    Estimate(Source),
+    /// A choice by eye, with nothing published behind it; says why so.
+    ByEye(&'static str),
+}
+
+/// A number, the range that its provenance allows, and that provenance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// What the preset has.
+    pub value: f64,
+    /// From least to greatest.
+    pub range: [f64; 2],
+    /// Where the range is from.
+    pub from: Provenance,
+}
+
+/// A range that a grown leaf has to meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// From least to greatest.
+    pub range: [f64; 2],
+    /// Where it is from.
+    pub from: Provenance,
+}
+
+/// How the blade lies in space, all by eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lie {
+    /// Angle by which each half is raised, degrees.
+    fold: f64,
+    /// Angle through which the midrib bends, degrees.
+    curl: f64,
+    /// Height of the wave along the margin over the length, and waves a side.
+    ruffle: [f64; 2],
+    /// Height of veins over their diameter.
+    relief: f64,
+}
+
+/// How veins differ from the lamina, all by eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct VeinLook {
+    /// Factor on chlorophyll and carotenoids over a fully developed vein.
+    pigments: f64,
+    /// Radius of a fully developed vein over that of the finest.
+    full_over_finest: f64,
+    /// Width over which a vein blends into the lamina, over the radius of the finest.
+    sheath_over_finest: f64,
+}
+
+impl Lie {
+    const fn new(fold: f64, curl: f64, ruffle: [f64; 2], relief: f64) -> Self {
+        Self {
+            fold,
+            curl,
+            ruffle,
+            relief,
+        }
+    }
+}
+
+/// A thin leaf with bundle sheath extensions, whose veins are bright against the light.
+const BRIGHT_VEINS: VeinLook = VeinLook {
+    pigments: 0.1,
+    full_over_finest: 4.0,
+    sheath_over_finest: 5.0,
+};
+/// A thick leaf, in which fine veins are buried.
+const BURIED_VEINS: VeinLook = VeinLook {
+    pigments: 0.15,
+    full_over_finest: 6.0,
+    sheath_over_finest: 5.0,
+};
+/// A leaf without bundle sheath extensions (homobaric).
+const HOMOBARIC_VEINS: VeinLook = VeinLook {
+    pigments: 0.3,
+    full_over_finest: 7.0,
+    sheath_over_finest: 4.0,
+};
+
+/// A species' leaf in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeafTraits {
+    /// Name of the preset.
+    pub preset: &'static str,
+    /// The species, in Latin, and what of it if not a whole leaf.
+    pub species: &'static str,
+    /// Length of the midrib, mm.
+    pub length_mm: Quantity,
+    /// Greatest width, mm.
+    pub width_mm: Span,
+    /// Where it is widest, as a share of the midrib from the base.
+    pub widest_at: Span,
+    /// Thickness between veins, mm.
+    pub thickness_mm: Quantity,
+    /// Structure of the mesophyll, PROSPECT's `N`.
+    pub structure: Quantity,
+    /// Chlorophyll a and b, µg/cm².
+    pub chlorophyll: Quantity,
+    /// Carotenoids, µg/cm².
+    pub carotenoids: Quantity,
+    /// Anthocyanins, µg/cm².
+    pub anthocyanins: Quantity,
+    /// Water, cm.
+    pub water: Quantity,
+    /// Dry matter, g/cm².
+    pub dry_matter: Quantity,
+    lie: Lie,
+    veins: VeinLook,
+}
+
+/// The traits of a preset that stands for a species.
+pub fn traits(preset: &str) -> Option<&'static LeafTraits> {
+    SPECIES
+        .iter()
+        .copied()
+        .find(|traits| traits.preset == preset)
+}
+
+/// All species, in the order of the book's table.
+pub fn all() -> impl Iterator<Item = &'static LeafTraits> {
+    SPECIES.iter().copied()
+}
+
+impl LeafTraits {
+    /// The numbers that a plan takes over, with name and unit.
+    pub fn quantities(&self) -> [(&'static str, &'static str, Quantity); 8] {
+        [
+            ("length", "mm", self.length_mm),
+            ("thickness", "mm", self.thickness_mm),
+            ("structure", "", self.structure),
+            ("chlorophyll", "µg/cm²", self.chlorophyll),
+            ("carotenoids", "µg/cm²", self.carotenoids),
+            ("anthocyanins", "µg/cm²", self.anthocyanins),
+            ("water", "cm", self.water),
+            ("dry matter", "g/cm²", self.dry_matter),
+        ]
+    }
+
+    /// What the grown outline is held against, with name and unit.
+    pub fn spans(&self) -> [(&'static str, &'static str, Span); 2] {
+        [
+            ("width", "mm", self.width_mm),
+            ("widest at", "", self.widest_at),
+        ]
+    }
+
+    /// The plan of a leaf of this species with another outline and venation than its preset's, perhaps.
+    pub fn plan(&self, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
+        let length_mm = self.length_mm.value;
+        let finest = venation.veinlet_radius_mm;
+        LeafPlan {
+            length_mm,
+            seed,
+            outline,
+            venation: venation.into(),
+            tissue: Tissue {
+                lamina: Contents {
+                    structure: self.structure.value,
+                    chlorophyll: self.chlorophyll.value,
+                    carotenoids: self.carotenoids.value,
+                    anthocyanins: self.anthocyanins.value,
+                    brown: 0.0,
+                    water: self.water.value,
+                    dry_matter: self.dry_matter.value,
+                },
+                vein_factors: Contents {
+                    structure: 1.3,
+                    chlorophyll: self.veins.pigments,
+                    carotenoids: 1.2 * self.veins.pigments,
+                    anthocyanins: 1.0,
+                    brown: 1.0,
+                    water: 2.0,
+                    dry_matter: 2.5,
+                },
+                full_vein_radius_mm: (self.veins.full_over_finest * finest).clamp(0.001, 0.2),
+                sheath_width_mm: (self.veins.sheath_over_finest * finest).clamp(0.001, 0.15),
+                mottle: 0.1,
+                mottle_scale_mm: 1.5,
+            },
+            form: BladeForm {
+                fold: self.lie.fold.to_radians(),
+                curl: self.lie.curl.to_radians(),
+                ruffle: self.lie.ruffle[0],
+                ruffle_waves: self.lie.ruffle[1],
+                relief: self.lie.relief,
+                thickness_mm: self.thickness_mm.value,
+                max_edge_mm: length_mm / 80.0,
+                meshed_vein_radius_mm: 0.12,
+            },
+            map_size: 1600,
+        }
+    }
+}
+
+impl Provenance {
+    /// One word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Measured(_) => "measured",
+            Self::Flora(_) => "flora",
+            Self::Fitted(_) => "fitted",
+            Self::Relative(_) => "relative",
+            Self::Estimate(_) => "estimate",
+            Self::ByEye(_) => "by eye",
+        }
+    }
+
+    /// What stands behind the number, with the bibliography's key if it is published.
+    pub fn words(self) -> String {
+        match self {
+            Self::Measured(source)
+            | Self::Flora(source)
+            | Self::Fitted(source)
+            | Self::Relative(source)
+            | Self::Estimate(source) => format!("{} [{}]", source.says, source.key),
+            Self::ByEye(why) => why.to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+//! What a preset is, and where its numbers are from.
+
+use leafmodel::species;
+use leafmodel::species::leaf_traits::{LeafTraits, Provenance, traits};
+
+use super::choice::unknown_preset;
+use crate::cli::{Failure, say};
+
+/// Prints a preset's words and, if it stands for a species, the table of its traits.
+pub(super) fn tell(name: &str) -> Result<(), Failure> {
+    let preset = species::find(name).ok_or_else(|| unknown_preset(name))?;
+    say(preset.name);
+    say(format!("  {}", preset.about));
+    say(format!("  source: {}", preset.source));
+    if let Some(traits) = traits(preset.name) {
+        say(table(traits));
+    }
+    Ok(())
+}
+
+/// The traits in columns that are two spaces or more apart.
+fn table(traits: &LeafTraits) -> String {
+    let values = traits.quantities().map(|(name, unit, q)| {
+        let value = with_unit(&number(q.value), unit);
+        [name.to_owned(), value, range(q.range), told(q.from)]
+    });
+    let spans = traits.spans().map(|(name, unit, span)| {
+        let value = if unit.is_empty() {
+            "as drawn".to_owned()
+        } else {
+            format!("as drawn, {unit}")
+        };
+        [name.to_owned(), value, range(span.range), told(span.from)]
+    });
+    let head = ["trait", "value", "range", "from"].map(str::to_owned);
+    let rows: Vec<[String; 4]> = std::iter::once(head).chain(values).chain(spans).collect();
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths = [width(0), width(1), width(2)];
+    let mut text = format!("  {}", traits.species);
+    for [name, value, range, from] in &rows {
+        let [a, b, c] = widths;
+        text += &format!("\n  {name:<a$}  {value:<b$}  {range:<c$}  {from}");
+    }
+    text
+}
+
+fn told(from: Provenance) -> String {
+    format!("{}: {}", from.word(), from.words())
+}
+
+fn range([low, high]: [f64; 2]) -> String {
+    format!("{} to {}", number(low), number(high))
+}
+
+fn with_unit(value: &str, unit: &str) -> String {
+    format!("{value} {unit}").trim_end().to_owned()
+}
+
+/// Four significant digits without trailing zeros.
+fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let whole_digits = libm::floor(libm::log10(value.abs())) as i32 + 1;
+    let decimals = usize::try_from(4 - whole_digits).unwrap_or(0);
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_tells_value_range_and_source_of_each_trait() {
+        let text = table(traits("ginkgo").expect("a species"));
+        let chlorophyll = text
+            .lines()
+            .find(|line| line.trim_start().starts_with("chlorophyll"));
+        let row = chlorophyll.expect("it has a row");
+        for part in [
+            "48 µg/cm²",
+            "43.5 to 77",
+            "measured: ",
+            "[lichtenthaler2023]",
+        ] {
+            assert!(row.contains(part), "{part} is not in {row}");
+        }
+    }
+
+    #[test]
+    fn numbers_have_four_digits_and_no_empty_ones() {
+        let told = [0.0088, 120.0, 14.006, 0.130_64, 1500.0].map(number);
+        assert_eq!(told, ["0.0088", "120", "14.01", "0.1306", "1500"]);
+    }
+}
