@@ -8,6 +8,7 @@ mod beyond;
 #[cfg(test)]
 mod claims;
 mod contours;
+mod extended;
 mod list;
 pub mod maple;
 mod runions;
