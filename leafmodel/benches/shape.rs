@@ -8,34 +8,28 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use leafmodel::measure;
-use leafmodel::shape::growth_form::{CurvedVein, GrowthForm, HalfForm, LateralGrowth};
+use leafmodel::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use leafmodel::species::maple::maple;
 use leafmodel::species::young::FORMS;
 
 /// Unlike halves with veins that bend.
 fn oblique() -> GrowthForm {
     let half = |rate_ratio| HalfForm {
-        lateral: LateralGrowth::Peak {
-            rate_ratio,
-            widest_at: 0.35,
-            falloff: 3.0,
-        },
         lobe_decay: 0.004,
         lobe_exponent: 1.0,
         veins: [0.1, 0.3, 0.5, 0.7, 0.9]
-            .map(|position| CurvedVein {
+            .map(|position| VeinRow {
                 position,
                 slope: 0.4 + position,
                 bend: 2.0,
             })
             .to_vec(),
+        ..HalfForm::entire(rate_ratio, 0.35, 3.0)
     };
-    GrowthForm {
-        rows: 150,
-        axial_rate: 0.1,
-        right: half(1.2),
+    GrowthForm::from(Axis {
         left: Some(half(1.3)),
-    }
+        ..half(1.2).into()
+    })
 }
 
 fn outlines(criterion: &mut Criterion) {

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use leafmodel::measure::measure;
-use leafmodel::shape::growth_shape::{GrowthShape, VeinRow};
+use leafmodel::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::venation::grow;
@@ -18,17 +18,14 @@ use leafmodel::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
 /// A broad ovate leaf, 80 mm long.
 fn outline() -> Outline {
-    let vein = |position, slope| VeinRow { position, slope };
-    let shape = GrowthShape {
-        rows: 200,
-        axial_rate: 0.1,
-        rate_ratio: 1.22,
-        widest_at: 0.32,
-        falloff: 3.0,
-        lobe_decay: 0.0,
-        lobe_exponent: 1.0,
-        veins: vec![vein(0.1, -0.35), vein(0.9, 0.45)],
+    let half = HalfForm {
+        veins: vec![VeinRow::straight(0.1, -0.35), VeinRow::straight(0.9, 0.45)],
+        ..HalfForm::entire(1.22, 0.32, 3.0)
     };
+    let shape = GrowthForm::from(Axis {
+        rows: 200,
+        ..half.into()
+    });
     shape.grow(80.0).expect("these rates bring forth a margin")
 }
 

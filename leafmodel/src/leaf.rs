@@ -185,21 +185,21 @@ mod tests {
     use super::*;
     use crate::leaf::outline_plan::Contour;
     use crate::optics::Contents;
-    use crate::shape::growth_shape::{GrowthShape, VeinRow};
+    use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
     use crate::transport::VeinStyle;
     use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
-    fn ovate() -> GrowthShape {
-        GrowthShape {
+    fn outline_of(half: HalfForm) -> OutlinePlan {
+        let midrib = Axis {
             rows: 80,
-            axial_rate: 0.1,
-            rate_ratio: 1.3,
-            widest_at: 0.4,
-            falloff: 3.0,
-            lobe_decay: 0.0,
-            lobe_exponent: 2.0,
-            veins: Vec::new(),
-        }
+            ..half.into()
+        };
+        let form: GrowthForm = midrib.into();
+        Contour::GrowthAlgorithm(form).into()
+    }
+
+    fn ovate() -> OutlinePlan {
+        outline_of(HalfForm::entire(1.3, 0.4, 3.0))
     }
 
     fn auxin() -> AuxinPlan {
@@ -225,7 +225,7 @@ mod tests {
         LeafPlan {
             length_mm: 50.0,
             seed: 3,
-            outline: Contour::GrowthAlgorithm(ovate()).into(),
+            outline: ovate(),
             venation: auxin().into(),
             tissue: Tissue {
                 lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.01, 0.01, 0.006]),
@@ -261,13 +261,12 @@ mod tests {
             seed in 0_u64..1000,
         ) {
             let mut plan = plan();
-            let lobe = |position| VeinRow { position, slope: 0.6 };
-            let shape = GrowthShape {
-                rate_ratio, widest_at, falloff, lobe_decay,
+            let lobe = |position| VeinRow::straight(position, 0.6);
+            plan.outline = outline_of(HalfForm {
+                lobe_decay,
                 veins: [0.2, 0.4, 0.6, 0.8].map(lobe).to_vec(),
-                ..ovate()
-            };
-            plan.outline = Contour::GrowthAlgorithm(shape).into();
+                ..HalfForm::entire(rate_ratio, widest_at, falloff)
+            });
             plan.seed = seed;
             let leaf = Leaf::grow(&plan).expect("a good plan");
             prop_assert_eq!(leaf.lamina.network.validate(), Ok(()));

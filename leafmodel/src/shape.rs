@@ -1,17 +1,14 @@
 //! The flat lamina: its margin, and how it comes to be.
 
-mod cell_rows;
 pub mod contour_curve;
 pub(crate) mod crossing;
 pub(crate) mod cubic;
 pub mod cubic_margin;
 pub mod growth;
 pub mod growth_form;
-pub mod growth_shape;
 mod interior_grid;
 mod outer_boundary;
 pub mod outline;
-pub mod palmate;
 mod slabs;
 pub mod svg_path;
 pub mod teeth;

@@ -9,6 +9,7 @@ mod beyond;
 #[cfg(test)]
 mod claims;
 mod contours;
+mod extended;
 pub mod leaf_traits;
 mod list;
 pub mod maple;

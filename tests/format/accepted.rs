@@ -246,7 +246,13 @@ fn a_leaf_is_planned_as_written() {
     let Contour::GrowthAlgorithm(shape) = &simple.plan.outline.contour else {
         panic!("the outline is {:?}", simple.plan.outline);
     };
-    let positions: Vec<f64> = shape.veins.iter().map(|vein| vein.position).collect();
+    let positions: Vec<f64> = shape
+        .midrib
+        .right
+        .veins
+        .iter()
+        .map(|vein| vein.position)
+        .collect();
     assert_eq!(positions, [0.1, 0.3, 0.5, 0.7, 0.9]);
     assert!(
         matches!(&simple.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)

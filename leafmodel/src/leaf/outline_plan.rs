@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::shape::contour_curve::{ContourCurve, ContourCurveError};
 use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
-use crate::shape::growth_shape::{GrowthShape, GrowthShapeError};
+use crate::shape::growth_form::{GrowthForm, GrowthFormError};
 use crate::shape::outline::{Outline, OutlineError};
 use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::{TeethError, ToothWave, toothed};
@@ -14,7 +14,7 @@ use crate::transport::{TransportError, TransportLeaf, TransportPlan};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Contour {
     /// Local growth rates bring it forth.
-    GrowthAlgorithm(GrowthShape),
+    GrowthAlgorithm(GrowthForm),
     /// A smooth curve through control points.
     Curve(ContourCurve),
     /// A path of an SVG file.
@@ -45,7 +45,7 @@ pub enum OutlinePlanError {
     },
     /// The growth algorithm.
     #[error(transparent)]
-    GrowthAlgorithm(#[from] GrowthShapeError),
+    GrowthAlgorithm(#[from] GrowthFormError),
     /// Control points.
     #[error(transparent)]
     Curve(#[from] ContourCurveError),
@@ -124,7 +124,7 @@ impl OutlinePlan {
         }
         let mut cells = None;
         let smooth = match &self.contour {
-            Contour::GrowthAlgorithm(shape) => shape.grow(length_mm)?,
+            Contour::GrowthAlgorithm(form) => form.grow(length_mm)?,
             Contour::Curve(curve) => curve.grow(length_mm)?,
             Contour::Svg(contour) => contour
                 .grow(length_mm)

@@ -1,164 +1,270 @@
-//! Growth-algorithm outlines without the first model's simplifications: any growth law, unlike halves, curved veins.
+//! Outlines that local growth rates bring forth by themselves (growth-algorithm model).
 //!
-//! Everything is as in [`super::growth_shape`], but that the two halves of the leaf may differ, that lateral growth may follow
-//! any curve along the midrib, and that rows of cells may bend: their slope changes with the distance from the midrib.
+//! Half a leaf is `N` rows of cells between midrib and margin. The midrib grows at one rate along its whole length, each row
+//! at its own rate along its own direction; exponential growth over three orders of magnitude turns small differences of
+//! rate into the shape of the leaf. Beyond that first model of the paper, the growth law may be any curve, the halves may differ,
+//! rows may bend, and the midrib may bear axes that repeat it, which makes palmate leaves.
 //!
 //! - **In**: a [`GrowthForm`].
-//! - **Out**: an [`Outline`], base at the origin, midrib along +y; the lines along which vein rows lie.
-//! - **Always true**: the outline never crosses itself. With equal halves, straight rows and the paper's growth law it is that of
-//!   [`super::growth_shape::GrowthShape`].
-//! - **Left out**: axes that bear rows of their own, which is [`super::palmate`].
+//! - **Out**: an [`Outline`], base at the origin, midrib along +y; axes, vein rows and rates of growth.
+//! - **Always true**: the outline never crosses itself, and every axis ends on the blade. Holes between rows or lobes that meet
+//!   again are filled. Vein rows of one half do not cross: those that would are refused.
+//! - **Left out**: lobes do not push each other aside; where two overlap they become one. Lobes that meet below the petiole
+//!   close over it, as in a peltate leaf. Compound leaves are [`crate::compound`].
 
+mod axes;
 mod check;
+mod error;
+#[cfg(test)]
+mod palmate_tests;
+mod row_curve;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod vein_crossing;
 
 use glam::DVec2;
 
-pub use self::check::GrowthFormError;
-pub(super) use self::check::{in_range, length as check_length};
-use super::cell_rows::ENLARGEMENT;
+pub use self::error::{FormPart, GrowthFormError, GrowthFormProblem, Side, SlopeRange};
+use self::rows::Rows;
 use super::growth::RateCurve;
-use super::outer_boundary::outer_boundary;
 use super::outline::Outline;
 
-/// How fast rows of cells grow sideways, by where they start along the midrib.
+/// Growth in length from primordium to maturity: 0.1 mm to 100 mm in the paper (section III).
+pub(crate) const ENLARGEMENT: f64 = 1000.0;
+
+/// How fast rows of cells grow sideways, by where they start along their axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LateralGrowth {
     /// Eq. 3 of the paper.
     Peak {
-        /// `R = gy / gL0`, axial over greatest lateral growth rate, 0.5 to 100.
+        /// `R = gy / gL0`, axial over greatest lateral growth rate of the axis, 0.5 to 100.
         rate_ratio: f64,
         /// `yd`, where lateral growth is fastest, in (0, 1).
         widest_at: f64,
         /// `k`, how late it falls off away from there, > 0 up to 100.
         falloff: f64,
     },
-    /// `gL` per step over the place along the midrib, 0 at the petiole and 1 at the tip. Negative rates shrink.
+    /// `gL` per step over the place along the axis, 0 at its base and 1 at its tip. Negative rates shrink.
     Curve(RateCurve),
 }
 
-/// A row of cells that is a secondary vein.
+/// A row of cells that is a secondary vein: it sets the direction of growth and bears a lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurvedVein {
-    /// Place along the midrib, 0 at the petiole, 1 at the tip.
+pub struct VeinRow {
+    /// Place along the axis, 0 at its base, 1 at its tip.
     pub position: f64,
-    /// Slope at the midrib: rise along it per unit away from it, −20 to 20.
+    /// Slope `s` at the axis: rise along it per unit away from it, −20 to 20, constant in growth.
     pub slope: f64,
-    /// Change of slope per midrib's length away from it, −100 to 100; 0 is a straight row, above 0 the vein curves
+    /// Change of slope per axis' length away from it, −100 to 100; 0 is a straight row, above 0 the vein curves
     /// towards the tip. It belongs to the leaf at every age, so that rows keep their shape relative to it.
     pub bend: f64,
 }
 
-/// Parameters of one half of a leaf.
+/// Parameters of one half of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfForm {
     /// How fast rows grow.
     pub lateral: LateralGrowth,
-    /// `a`, how fast growth falls off away from a vein, 0 to 100; counts rows (Eq. 4).
+    /// `a`, how fast growth falls off away from a vein, 0 to 100; 0 gives an entire leaf (Eq. 4).
+    /// It counts distance in rows, so a value belongs to its number of rows.
     pub lobe_decay: f64,
-    /// `n`, shape of that fall, > 0 up to 10 (Eq. 4).
+    /// `n`, shape of that fall, > 0 up to 10: 1 pointed lobes, 2 rounded ones (Eq. 4).
     pub lobe_exponent: f64,
     /// Secondary veins, from base to tip; none means straight rows of slope 0 and no lobes.
-    pub veins: Vec<CurvedVein>,
+    pub veins: Vec<VeinRow>,
 }
 
-/// Parameters of a leaf.
-///
-/// # Source
-///
-/// \[young2010\], Eqs. 1–4, and the extensions that its section V names.
+/// An axis with the rows of cells on both of its sides: the midrib, or one that repeats it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct GrowthForm {
-    /// `N`, rows of cells along the midrib, 3 to 10 000.
+pub struct Axis {
+    /// `N`, rows of cells along the axis, 3 to 10 000. The paper's typical value is 150.
     pub rows: usize,
-    /// `gy`, growth of the midrib per step, 0.001 to 1.
-    pub axial_rate: f64,
-    /// The right half, apex up.
+    /// The right half, tip up.
     pub right: HalfForm,
     /// The left half; none is the right one's mirror image.
     pub left: Option<HalfForm>,
+    /// Axes on it.
+    pub axes: Vec<SecondaryAxis>,
+}
+
+/// An axis that replicates the midrib.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondaryAxis {
+    /// Where it starts along its parent, 0 at the parent's base to 1 at its tip; 0 in a palmate leaf.
+    pub position: f64,
+    /// Its direction, radians from the parent's towards the right, −π to π.
+    pub angle: f64,
+    /// Whether its mirror image about the parent is there too, with the mirror images of all axes on it.
+    pub paired: bool,
+    /// How long it gets, in midribs, 0.01 to 100; [`SecondaryAxis::axial_rate`] is the rate of growth that makes it so.
+    pub length: f64,
+    /// Its rows, and the axes on it.
+    pub axis: Axis,
+}
+
+/// Parameters of a leaf; the letters are the paper's.
+///
+/// # Source
+///
+/// \[young2010\], Eqs. 1–4, and the extensions that its section V names; for palmate leaves section IV asks for "a self-similar
+/// organization in which the secondary veins replicate the midrib with autonomous growth characteristics". How axes are
+/// placed is ours. `docs/src/theory/growth-shape.md` says where this departs from the paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GrowthForm {
+    /// `gy`, growth of the midrib per step, 0.001 to 1. The paper's value is 0.1.
+    pub axial_rate: f64,
+    /// The midrib and all that grows on it.
+    pub midrib: Axis,
+}
+
+/// How one row of cells has grown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowGrowth {
+    /// Where it starts along the midrib, 0 at the petiole to 1 at the tip.
+    pub place: f64,
+    /// `gL`, growth of its length per step.
+    pub rate: f64,
+    /// How far from the midrib it ends at maturity, as a share of the midrib's length.
+    pub half_width: f64,
+}
+
+impl VeinRow {
+    /// A vein that does not bend.
+    pub const fn straight(position: f64, slope: f64) -> Self {
+        Self {
+            position,
+            slope,
+            bend: 0.0,
+        }
+    }
+}
+
+impl HalfForm {
+    /// Half of an entire leaf by `R`, `yd` and `k`.
+    pub const fn entire(rate_ratio: f64, widest_at: f64, falloff: f64) -> Self {
+        Self {
+            lateral: LateralGrowth::Peak {
+                rate_ratio,
+                widest_at,
+                falloff,
+            },
+            lobe_decay: 0.0,
+            lobe_exponent: 2.0,
+            veins: Vec::new(),
+        }
+    }
+}
+
+impl From<HalfForm> for Axis {
+    /// A symmetrical axis of 150 rows that bears no others.
+    fn from(right: HalfForm) -> Self {
+        Self {
+            rows: 150,
+            right,
+            left: None,
+            axes: Vec::new(),
+        }
+    }
+}
+
+impl From<Axis> for GrowthForm {
+    /// A leaf whose midrib grows by a tenth a step, as the paper's do.
+    fn from(midrib: Axis) -> Self {
+        Self {
+            axial_rate: 0.1,
+            midrib,
+        }
+    }
+}
+
+impl From<HalfForm> for GrowthForm {
+    /// A symmetrical leaf of 150 rows whose midrib grows by a tenth a step, as the paper's do.
+    fn from(half: HalfForm) -> Self {
+        Axis::from(half).into()
+    }
+}
+
+impl SecondaryAxis {
+    /// The rate at which the axis grows on a midrib that grows at `main_rate`: `(1 + gy) length^(1/T) − 1`, as both grow the same
+    /// `T` steps from primordia of one size.
+    pub fn axial_rate(&self, main_rate: f64) -> f64 {
+        let per_step = libm::log1p(main_rate) / libm::log(ENLARGEMENT);
+        (1.0 + main_rate) * libm::pow(self.length, per_step) - 1.0
+    }
 }
 
 impl GrowthForm {
     /// Grows the primordium until the midrib is a thousand times longer, and scales the outcome so that the midrib measures
     /// `length_mm`, 0.001 to 100 000.
     ///
+    /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin, over the apex
+    /// (0, `length_mm`), and down the left one; that of a leaf with axes starts at its lowest point. Growth ends in the middle
+    /// of a step, so that the enlargement is exactly 1000 (the paper: "about 1000").
+    ///
     /// # Errors
     ///
-    /// [`GrowthFormError`], naming the parameter and its range.
+    /// [`GrowthFormError`], naming the parameter and its range, veins that cross, or the axis that lies apart.
+    ///
+    /// # Source
+    ///
+    /// \[young2010\], section III.
     pub fn grow(&self, length_mm: f64) -> Result<Outline, GrowthFormError> {
         check::length(length_mm)?;
-        let steps = self.checked_steps()?;
-        let points = self.margin(steps, ENLARGEMENT)?;
-        let scaled = points.into_iter().map(|p| p * length_mm).collect();
-        let apex = DVec2::new(0.0, length_mm);
-        Ok(Outline::new(scaled, DVec2::ZERO, apex)?)
+        let lobes = self.lobes()?;
+        if let [(_, margin)] = lobes.as_slice() {
+            let scaled = margin.iter().map(|p| p * length_mm).collect();
+            let apex = DVec2::new(0.0, length_mm);
+            return Outline::new(scaled, DVec2::ZERO, apex).map_err(GrowthFormError::from);
+        }
+        axes::union(&lobes, length_mm)
     }
 
-    /// The lines along which the vein rows lie at maturity, from the midrib outwards: right ones from base to tip, then
-    /// left ones, mm. Where rows pass over each other a line may end inside the blade.
+    /// All axes from base to tip, mm, the midrib first, each before those on it.
+    ///
+    /// # Errors
+    ///
+    /// As [`GrowthForm::grow`], but that axes may lie apart.
+    pub fn axis_lines(&self, length_mm: f64) -> Result<Vec<[DVec2; 2]>, GrowthFormError> {
+        check::length(length_mm)?;
+        let lobes = self.lobes()?;
+        let ends = |(place, _): &(axes::Place, Vec<DVec2>)| place.ends().map(|p| p * length_mm);
+        Ok(lobes.iter().map(ends).collect())
+    }
+
+    /// The lines along which the vein rows of the midrib lie at maturity, from the midrib outwards: right ones from base to
+    /// tip, then left ones, mm. Where rows pass over each other a line may end inside the blade.
     ///
     /// # Errors
     ///
     /// As [`GrowthForm::grow`].
     pub fn vein_lines(&self, length_mm: f64) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
         check::length(length_mm)?;
-        let steps = self.checked_steps()?;
         let mut lines = Vec::new();
-        for (half, side) in [(&self.right, 1.0), (self.left_half(), -1.0)] {
-            for line in self.half_lines(half, steps, ENLARGEMENT)? {
-                let place = |p: DVec2| DVec2::new(side * p.x, p.y) * length_mm;
+        for (side, sign) in [(Side::Right, 1.0), (Side::Left, -1.0)] {
+            for line in self.midrib_rows(side)?.vein_lines()? {
+                let place = |p: DVec2| DVec2::new(sign * p.x, p.y) * length_mm;
                 lines.push(line.into_iter().map(place).collect());
             }
         }
         Ok(lines)
     }
 
-    /// Steps after which the midrib has grown a thousandfold, for checked parameters.
-    pub(super) fn checked_steps(&self) -> Result<f64, GrowthFormError> {
-        self.validate()?;
-        Ok(libm::log(ENLARGEMENT) / libm::log(1.0 + self.axial_rate))
+    /// Growth of each row on one side of the midrib, from base to tip (Fig. 2: the rate below, the width above).
+    ///
+    /// # Errors
+    ///
+    /// As [`GrowthForm::grow`].
+    pub fn row_growth(&self, side: Side) -> Result<Vec<RowGrowth>, GrowthFormError> {
+        self.midrib_rows(side)?.growth()
     }
 
-    /// The margin after `steps`, when the midrib is `enlargement` times its first length, in units of the midrib:
-    /// from the base (0, 0) up the right half, over the apex (0, 1), down the left one.
-    pub(super) fn margin(
-        &self,
-        steps: f64,
-        enlargement: f64,
-    ) -> Result<Vec<DVec2>, GrowthFormError> {
-        let mut points = self.half(&self.right, steps, enlargement)?;
-        let left = match &self.left {
-            None => points.clone(),
-            Some(left) => self.half(left, steps, enlargement)?,
+    fn midrib_rows(&self, side: Side) -> Result<Rows<'_>, GrowthFormError> {
+        let growth = self.checked()?;
+        let part = FormPart {
+            axes: Vec::new(),
+            side,
         };
-        let inner = &left[1..left.len() - 1];
-        points.extend(inner.iter().rev().map(|p| DVec2::new(-p.x, p.y)));
-        Ok(points)
-    }
-
-    /// Base, margin of one half and apex, on the side of positive x.
-    fn half(
-        &self,
-        half: &HalfForm,
-        steps: f64,
-        enlargement: f64,
-    ) -> Result<Vec<DVec2>, GrowthFormError> {
-        let mut points = vec![DVec2::ZERO];
-        points.extend(self.row_ends(half, steps, enlargement)?);
-        points.push(DVec2::Y);
-        // Rows of one slope and bend are the same curve moved along the midrib and cannot cross.
-        let alike =
-            |pair: &[CurvedVein]| (pair[0].slope, pair[0].bend) == (pair[1].slope, pair[1].bend);
-        if half.veins.windows(2).all(alike) {
-            return Ok(points);
-        }
-        Ok(outer_boundary(&points))
-    }
-
-    fn left_half(&self) -> &HalfForm {
-        self.left.as_ref().unwrap_or(&self.right)
+        Ok(Rows::new(&self.midrib, growth, part))
     }
 }

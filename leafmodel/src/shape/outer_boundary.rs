@@ -16,28 +16,8 @@ use super::crossing::crossing;
 pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
     let web = Web::new(&[points]);
     let (start, last) = (web.same[0], web.same[points.len() - 1]);
-    let mut path: Vec<usize> = vec![start];
-    let mut arrival = web.corners[start] - web.corners[last];
-    let mut previous = last;
-    // Every directed edge is walked at most once; the bound only guards against rounding.
-    for _ in 0..2 * web.corners.len() + 2 {
-        let here = path[path.len() - 1];
-        if here == last {
-            break;
-        }
-        let Some(next) = web.rightmost(here, previous, arrival) else {
-            break;
-        };
-        if let Some(at) = path.iter().position(|&corner| corner == next) {
-            // A loop closed at one point: leave it out and go on from there, as if just arrived.
-            path.truncate(at + 1);
-        } else {
-            path.push(next);
-        }
-        arrival = web.corners[next] - web.corners[here];
-        previous = here;
-    }
-    path.into_iter().map(|corner| web.corners[corner]).collect()
+    let arrival = web.corners[start] - web.corners[last];
+    web.walk(start, last, arrival, |here, _| here == last)
 }
 
 /// The outer boundary of the union of simple counter-clockwise polygons, as far as it hangs together with the lowest point;
@@ -56,26 +36,8 @@ pub(crate) fn union_boundary(polygons: &[&[DVec2]]) -> Vec<DVec2> {
     else {
         return Vec::new();
     };
-    let mut path: Vec<usize> = vec![start];
     // As if coming from outside, below.
-    let (mut arrival, mut previous) = (DVec2::X, usize::MAX);
-    for _ in 0..2 * web.corners.len() + 2 {
-        let here = path[path.len() - 1];
-        let Some(next) = web.rightmost(here, previous, arrival) else {
-            break;
-        };
-        if next == start {
-            break;
-        }
-        if let Some(at) = path.iter().position(|&corner| corner == next) {
-            path.truncate(at + 1);
-        } else {
-            path.push(next);
-        }
-        arrival = web.corners[next] - web.corners[here];
-        previous = here;
-    }
-    path.into_iter().map(|corner| web.corners[corner]).collect()
+    web.walk(start, usize::MAX, DVec2::X, |_, next| next == start)
 }
 
 /// Closed polylines and their crossings as a plane graph.
@@ -128,6 +90,38 @@ impl Web {
             neighbours,
             same,
         }
+    }
+
+    /// The way along the outside from `start`, reached from `previous` in direction `arrival`, until it is `done` (here, next).
+    fn walk(
+        &self,
+        start: usize,
+        mut previous: usize,
+        mut arrival: DVec2,
+        done: impl Fn(usize, usize) -> bool,
+    ) -> Vec<DVec2> {
+        let mut path: Vec<usize> = vec![start];
+        // Every directed edge is walked at most once; the bound only guards against rounding.
+        for _ in 0..2 * self.corners.len() + 2 {
+            let here = path[path.len() - 1];
+            let Some(next) = self.rightmost(here, previous, arrival) else {
+                break;
+            };
+            if done(here, next) {
+                break;
+            }
+            if let Some(at) = path.iter().position(|&corner| corner == next) {
+                // A loop closed at one point: leave it out and go on from there, as if just arrived.
+                path.truncate(at + 1);
+            } else {
+                path.push(next);
+            }
+            arrival = self.corners[next] - self.corners[here];
+            previous = here;
+        }
+        path.into_iter()
+            .map(|corner| self.corners[corner])
+            .collect()
     }
 
     /// Of the ways on from `here`, reached in direction `arrival`, the one farthest to the right.

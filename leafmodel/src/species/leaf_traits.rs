@@ -241,6 +241,7 @@ impl LeafTraits {
                 mottle: 0.1,
                 mottle_scale_mm: 1.5,
             },
+            senescence: None,
             form: BladeForm {
                 fold: self.lie.fold.to_radians(),
                 curl: self.lie.curl.to_radians(),

@@ -1,7 +1,7 @@
 //! The presets, in the order in which a list shows them.
 
 use super::young::FORMS;
-use super::{PlanOf, Preset, arcuate, beyond, runions, trees, xia};
+use super::{PlanOf, Preset, arcuate, beyond, extended, maple, runions, trees, xia};
 
 /// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, the
 /// examples of Xia 2007, then the figures of Young 2010.
@@ -416,5 +416,26 @@ static GROWN: &[Preset] = &[
         source: "ours: the transport cost of Xia 2007 with α and β of Example 1 on a given outline; the rest as in maple",
         row: None,
         plan: PlanOf::Function(xia::maple),
+    },
+    Preset {
+        name: "maple-palmate",
+        about: "A maple that grows: five lobes on axes of their own, a primary vein along each",
+        source: "palmate axes as section IV of Young 2010 asks for; all numbers by eye",
+        row: None,
+        plan: PlanOf::Function(maple::plan),
+    },
+    Preset {
+        name: "begonia",
+        about: "Unlike halves: a broad one that hangs down beside the petiole, and a narrow one",
+        source: "left–right asymmetry as section V of Young 2010 names it; all numbers by eye",
+        row: None,
+        plan: PlanOf::Function(extended::begonia),
+    },
+    Preset {
+        name: "dogwood",
+        about: "Veins that bend towards the tip, in the outline's growth as in the venation",
+        source: "nonlinear veins as section V of Young 2010 names them; all numbers by eye",
+        row: None,
+        plan: PlanOf::Function(extended::dogwood),
     },
 ];

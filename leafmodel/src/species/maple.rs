@@ -1,60 +1,84 @@
 //! A true maple: five lobes, each on an axis of its own, where Fig. 9 of Young 2010 splays the veins of one midrib.
 
-use crate::shape::growth_form::{CurvedVein, GrowthForm, HalfForm, LateralGrowth};
-use crate::shape::palmate::{PalmateForm, SecondaryAxis};
+use super::green_leaf;
+use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::Contour;
+use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, SecondaryAxis, VeinRow};
+use crate::venation::plan::{AuxinPlan, Growth};
 
-/// Axial growth of the main axis, the paper's value.
-const AXIAL_RATE: f64 = 0.1;
+/// Directions of the secondary axes, degrees from the midrib.
+const DIRECTIONS: [f64; 2] = [50.0, 101.0];
 
-/// A lobe as long as `length` main axes.
-fn lobe(length: f64, rate_ratio: f64, widest_at: f64) -> GrowthForm {
-    let vein = |position, slope| CurvedVein {
+/// A lobe.
+fn lobe(rate_ratio: f64, widest_at: f64) -> Axis {
+    let vein = |position, slope| VeinRow {
         position,
         slope,
         bend: 1.0,
     };
-    GrowthForm {
+    let half = HalfForm {
+        lobe_decay: 0.0065,
+        lobe_exponent: 1.0,
+        veins: vec![
+            vein(0.12, 0.2),
+            vein(0.3, 0.45),
+            vein(0.52, 0.9),
+            vein(0.75, 1.1),
+        ],
+        ..HalfForm::entire(rate_ratio, widest_at, 3.0)
+    };
+    Axis {
         rows: 120,
-        axial_rate: SecondaryAxis::axial_rate_for(length, AXIAL_RATE),
-        right: HalfForm {
-            lateral: LateralGrowth::Peak {
-                rate_ratio,
-                widest_at,
-                falloff: 3.0,
-            },
-            lobe_decay: 0.0065,
-            lobe_exponent: 1.0,
-            veins: vec![
-                vein(0.12, 0.2),
-                vein(0.3, 0.45),
-                vein(0.52, 0.9),
-                vein(0.75, 1.1),
-            ],
-        },
-        left: None,
+        ..half.into()
     }
 }
 
-/// A pair of lobes at the petiole.
-fn pair(degrees: f64, form: GrowthForm) -> SecondaryAxis {
+/// A pair of lobes at the petiole, each as long as `length` midribs.
+fn pair(degrees: f64, length: f64, axis: Axis) -> SecondaryAxis {
     SecondaryAxis {
         position: 0.0,
         angle: degrees.to_radians(),
         paired: true,
-        form,
-        axes: Vec::new(),
+        length,
+        axis,
     }
 }
 
 /// A maple leaf, by eye: a middle lobe, two beside it nearly as long, two small ones at the base.
-pub fn maple() -> PalmateForm {
-    PalmateForm {
-        main: lobe(1.0, 1.25, 0.33),
+pub fn maple() -> GrowthForm {
+    let midrib = Axis {
         axes: vec![
-            pair(50.0, lobe(0.86, 1.27, 0.33)),
-            pair(101.0, lobe(0.52, 1.28, 0.33)),
+            pair(DIRECTIONS[0], 0.86, lobe(1.27, 0.33)),
+            pair(DIRECTIONS[1], 0.52, lobe(1.28, 0.33)),
         ],
+        ..lobe(1.25, 0.33)
+    };
+    midrib.into()
+}
+
+/// The leaf with a primary vein along each axis: veins start beside the petiole, each in the direction of its lobe.
+pub(super) fn plan() -> LeafPlan {
+    let mut origins = vec![[0.0, 0.022]];
+    for degrees in DIRECTIONS {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        origins.extend([1.0, -1.0].map(|side| [0.015 * side * sin, 0.015 * cos]));
     }
+    let venation = AuxinPlan {
+        origins,
+        final_length: 620.0,
+        source_birth_distance: 4.0,
+        vein_birth_distance: 4.0,
+        darts_per_area: 0.01,
+        growth: Growth::Isogonic {
+            initial_length: 150.0,
+            length_step: 2.5,
+        },
+        murray_exponent: 2.3,
+        veinlet_radius_mm: 0.016,
+        ..AuxinPlan::default()
+    };
+    let outline = Contour::GrowthAlgorithm(maple()).into();
+    green_leaf(110.0, 3, outline, venation)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The 28 leaves of Young 2010, Figs. 3–9, by their parameters.
 //!
-//! - **Out**: a [`Form`] a figure; `shape()` is its outline's [`GrowthShape`].
+//! - **Out**: a [`Form`] a figure; `shape()` is its outline's [`GrowthForm`].
 //! - **Left out**: the paper's model has no veins but those that steer growth; the presets' veins are ours.
 
 #[cfg(test)]
@@ -9,7 +9,7 @@ mod tests;
 use super::green_leaf;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
-use crate::shape::growth_shape::{GrowthShape, VeinRow};
+use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::venation::plan::{AuxinPlan, Growth};
 
 /// Rows of cells, the paper's typical value.
@@ -127,29 +127,24 @@ pub static FORMS: [Form; 28] = [
 
 impl Form {
     /// The growth algorithm's parameters.
-    pub fn shape(&self) -> GrowthShape {
+    pub fn shape(&self) -> GrowthForm {
         let last = f64::from(ROWS - 1);
-        let vein = |(row, slope): (u16, f64)| VeinRow {
-            position: f64::from(row - 1) / last,
-            slope,
-        };
-        GrowthShape {
-            rows: usize::from(ROWS),
-            axial_rate: 0.1,
-            rate_ratio: self.rate_ratio,
-            widest_at: self.widest_at,
-            falloff: self.falloff,
+        let vein = |(row, slope): (u16, f64)| VeinRow::straight(f64::from(row - 1) / last, slope);
+        let half = HalfForm {
             lobe_decay: self.lobe_decay,
             lobe_exponent: self.lobe_exponent,
             veins: match self.veins {
-                FormVeins::Slope(slope) => vec![VeinRow {
-                    position: 0.5,
-                    slope,
-                }],
+                FormVeins::Slope(slope) => vec![VeinRow::straight(0.5, slope)],
                 FormVeins::Oak => OAK_VEINS.map(|row| vein((row, 0.7))).to_vec(),
                 FormVeins::Maple => MAPLE_VEINS.map(vein).to_vec(),
             },
-        }
+            ..HalfForm::entire(self.rate_ratio, self.widest_at, self.falloff)
+        };
+        let midrib = Axis {
+            rows: usize::from(ROWS),
+            ..half.into()
+        };
+        midrib.into()
     }
 
     /// Where the numbers come from.

@@ -13,22 +13,23 @@ use super::plan::{
 };
 use super::{Grown, VenationError, all_pairs, carry_out, grow};
 use crate::shape::growth::RateCurve;
-use crate::shape::growth_shape::{GrowthShape, VeinRow};
+use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::shape::outline::Outline;
 
-fn shape(slope: f64, lobe_decay: f64) -> GrowthShape {
-    GrowthShape {
-        rows: 60,
-        axial_rate: 0.1,
-        rate_ratio: 1.2,
-        widest_at: 0.35,
-        falloff: 3.0,
+fn shape(slope: f64, lobe_decay: f64) -> GrowthForm {
+    let half = HalfForm {
         lobe_decay,
         lobe_exponent: 1.5,
         veins: [0.15, 0.5, 0.85]
-            .map(|position| VeinRow { position, slope })
+            .map(|position| VeinRow::straight(position, slope))
             .to_vec(),
-    }
+        ..HalfForm::entire(1.2, 0.35, 3.0)
+    };
+    let midrib = Axis {
+        rows: 60,
+        ..half.into()
+    };
+    midrib.into()
 }
 
 fn outline(slope: f64, lobe_decay: f64) -> Outline {

@@ -1,173 +1,203 @@
-//! Rows of cells: how fast they grow, along which curve, and where they end.
+//! Rows of cells: how fast they grow, along which curve, and where they end (Eqs. 1–4 of \[young2010\]).
 
 use glam::DVec2;
 
-use super::{CurvedVein, GrowthForm, GrowthFormError, HalfForm, LateralGrowth};
+use super::row_curve::RowCurve;
+use super::{
+    Axis, ENLARGEMENT, FormPart, GrowthFormError, GrowthFormProblem, HalfForm, LateralGrowth,
+    RowGrowth, SecondaryAxis, Side, VeinRow,
+};
+use crate::shape::outer_boundary::outer_boundary;
 
-/// Rows longer than this many midribs belong to no leaf.
+/// Rows longer than this many axes belong to no leaf.
 const LONGEST: f64 = 1000.0;
 
 /// Points of a vein's line.
 const LINE: usize = 24;
 
-/// The parabola of a row: its rise along the midrib over the distance `x` from it, both in units of the midrib.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct RowCurve {
-    slope: f64,
-    bend: f64,
+/// How an axis grows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AxisGrowth {
+    /// Growth of the midrib per step.
+    main_rate: f64,
+    /// Growth of the axis per step.
+    axial_rate: f64,
+    /// Steps to maturity, `T`.
+    steps: f64,
+    /// Length at maturity over that of the primordium.
+    enlargement: f64,
 }
 
-impl RowCurve {
-    fn rise(self, x: f64) -> f64 {
-        (self.slope + 0.5 * self.bend * x) * x
+impl AxisGrowth {
+    pub(super) fn of_midrib(axial_rate: f64) -> Self {
+        Self {
+            main_rate: axial_rate,
+            axial_rate,
+            steps: libm::log(ENLARGEMENT) / libm::log(1.0 + axial_rate),
+            enlargement: ENLARGEMENT,
+        }
     }
 
-    /// Length of the row as far as `x`.
-    fn length(self, x: f64) -> f64 {
-        let (from, to) = (self.slope, self.slope + self.bend * x);
-        if (to - from).abs() < 0.1 {
-            // Five-point Gauss quadrature: exact to rounding over so little bend, where the closed form cancels.
-            const HALF: [(f64, f64); 2] = [
-                (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-                (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-            ];
-            let at = |share: f64| libm::hypot(1.0, 0.5 * ((to + from) + share * (to - from)));
-            let sum: f64 = HALF
-                .iter()
-                .map(|&(share, weight)| weight * (at(share) + at(-share)))
-                .sum();
-            return 0.5 * x * (sum + 128.0 / 225.0 * at(0.0));
+    /// An axis on the same leaf.
+    pub(super) fn of_secondary(self, axis: &SecondaryAxis) -> Self {
+        Self {
+            axial_rate: axis.axial_rate(self.main_rate),
+            enlargement: axis.length * ENLARGEMENT,
+            ..self
         }
-        let antiderivative = |m: f64| 0.5 * (m * libm::hypot(1.0, m) + libm::asinh(m));
-        (antiderivative(to) - antiderivative(from)) / self.bend
-    }
-
-    /// How far from the midrib a row of this length ends.
-    fn reach(self, length: f64) -> f64 {
-        if self.bend == 0.0 {
-            return length / libm::hypot(1.0, self.slope);
-        }
-        // A row is at least as long as it reaches. Newton's method, kept between bounds by bisection.
-        let (mut low, mut high) = (0.0, length);
-        let mut x = length / libm::hypot(1.0, self.slope);
-        for _ in 0..100 {
-            let off = self.length(x) - length;
-            if off > 0.0 {
-                high = x;
-            } else {
-                low = x;
-            }
-            let next = x - off / libm::hypot(1.0, self.slope + self.bend * x);
-            let next = if next > low && next < high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
-            if (next - x).abs() <= 1e-15 * length {
-                return next;
-            }
-            x = next;
-        }
-        x
     }
 }
 
-impl GrowthForm {
-    /// Ends of the rows of a half after `steps`, from base to tip, in units of the midrib, which has grown by
-    /// `enlargement`.
-    pub(super) fn row_ends(
-        &self,
-        half: &HalfForm,
-        steps: f64,
-        enlargement: f64,
-    ) -> Result<Vec<DVec2>, GrowthFormError> {
-        let veins = self.vein_rows(half);
-        let last = (self.rows - 1) as f64;
-        (0..self.rows)
-            .map(|j| {
-                let (curve, x) = self.row(half, &veins, j, steps, enlargement)?;
-                Ok(DVec2::new(x, j as f64 / last + curve.rise(x)))
-            })
-            .collect()
+/// The row, from 0, at a place along an axis. The paper's `j / N` would give the two ends of the midrib
+/// unlike treatment; `j = 1 + round(y (N − 1))` makes `yd` and `1 − yd` exact mirror images.
+pub(super) fn row_at(rows: usize, position: f64) -> usize {
+    // Halves go to the even row, so that y and 1 − y round alike for an odd number of gaps too.
+    (position * (rows - 1) as f64).round_ties_even() as usize
+}
+
+/// Rows on one side of an axis, checked, as they grow. Lengths are in units of the axis at maturity.
+#[derive(Debug)]
+pub(super) struct Rows<'a> {
+    count: usize,
+    half: &'a HalfForm,
+    growth: AxisGrowth,
+    part: FormPart,
+    /// Row from 0 and vein.
+    veins: Vec<(usize, VeinRow)>,
+}
+
+impl<'a> Rows<'a> {
+    /// The rows on the side that `part` names.
+    pub(super) fn new(axis: &'a Axis, growth: AxisGrowth, part: FormPart) -> Self {
+        let half = match part.side {
+            Side::Right => &axis.right,
+            Side::Left => axis.left.as_ref().unwrap_or(&axis.right),
+        };
+        let row = |vein: &VeinRow| (row_at(axis.rows, vein.position), *vein);
+        Self {
+            count: axis.rows,
+            half,
+            growth,
+            part,
+            veins: half.veins.iter().map(row).collect(),
+        }
     }
 
-    /// The lines of a half's veins.
-    pub(super) fn half_lines(
-        &self,
-        half: &HalfForm,
-        steps: f64,
-        enlargement: f64,
-    ) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
-        let veins = self.vein_rows(half);
-        let last = (self.rows - 1) as f64;
-        let line = |&(j, _): &(usize, CurvedVein)| {
-            let (curve, end) = self.row(half, &veins, j, steps, enlargement)?;
+    /// Base, margin and tip, on the side of positive x.
+    pub(super) fn margin(&self) -> Result<Vec<DVec2>, GrowthFormError> {
+        let mut points = Vec::with_capacity(self.count + 2);
+        points.push(DVec2::ZERO);
+        for j in 0..self.count {
+            let (curve, x) = self.row(j)?;
+            points.push(DVec2::new(x, self.start(j) + curve.rise(x)));
+        }
+        points.push(DVec2::Y);
+        // Rows of one slope and bend are the same curve moved along the midrib and cannot cross.
+        let alike = |pair: &[(usize, VeinRow)]| {
+            (pair[0].1.slope, pair[0].1.bend) == (pair[1].1.slope, pair[1].1.bend)
+        };
+        if self.veins.windows(2).all(alike) {
+            return Ok(points);
+        }
+        Ok(outer_boundary(&points))
+    }
+
+    /// The lines of the veins, from the axis outwards.
+    pub(super) fn vein_lines(&self) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
+        let line = |&(j, _): &(usize, VeinRow)| {
+            let (curve, end) = self.row(j)?;
             let point = |i: usize| {
                 let x = end * i as f64 / LINE as f64;
-                DVec2::new(x, j as f64 / last + curve.rise(x))
+                DVec2::new(x, self.start(j) + curve.rise(x))
             };
             Ok((0..=LINE).map(point).collect())
         };
-        veins.iter().map(line).collect()
+        self.veins.iter().map(line).collect()
     }
 
-    fn vein_rows(&self, half: &HalfForm) -> Vec<(usize, CurvedVein)> {
-        let row = |vein: &CurvedVein| (self.row_at(vein.position), *vein);
-        half.veins.iter().map(row).collect()
+    /// Growth of every row.
+    pub(super) fn growth(&self) -> Result<Vec<RowGrowth>, GrowthFormError> {
+        let row = |j: usize| {
+            Ok(RowGrowth {
+                place: self.start(j),
+                rate: self.rate(j),
+                half_width: self.row(j)?.1,
+            })
+        };
+        (0..self.count).map(row).collect()
     }
 
-    /// The curve of row `j` (from 0) and how far from the midrib it ends.
-    fn row(
-        &self,
-        half: &HalfForm,
-        veins: &[(usize, CurvedVein)],
-        j: usize,
-        steps: f64,
-        enlargement: f64,
-    ) -> Result<(RowCurve, f64), GrowthFormError> {
-        let curve = curve(veins, j);
-        let rate = self.row_rate(half, veins, j);
-        // Rows start with their ends one midrib's length away from it (Eq. 2, in closed form).
-        let length = curve.length(1.0) * libm::exp(steps * libm::log1p(rate)) / enlargement;
+    /// An error in these rows.
+    pub(super) fn error(&self, problem: GrowthFormProblem) -> GrowthFormError {
+        GrowthFormError {
+            part: self.part.clone(),
+            problem,
+        }
+    }
+
+    /// Row and curve of each vein.
+    pub(super) fn veins(&self) -> &[(usize, VeinRow)] {
+        &self.veins
+    }
+
+    /// Where row `j` (from 0) starts along the axis.
+    pub(super) fn start(&self, j: usize) -> f64 {
+        j as f64 / (self.count - 1) as f64
+    }
+
+    /// By how much the length of row `j` has grown relative to that of the axis.
+    pub(super) fn allometry(&self, j: usize) -> f64 {
+        libm::exp(self.growth.steps * libm::log1p(self.rate(j))) / self.growth.enlargement
+    }
+
+    /// The curve of row `j` and how far from the axis it ends.
+    fn row(&self, j: usize) -> Result<(RowCurve, f64), GrowthFormError> {
+        let curve = curve(&self.veins, j);
+        // Rows start with their ends one axis' length away from it (Eq. 2, in closed form).
+        let length = curve.length(1.0) * self.allometry(j);
         if length > LONGEST * libm::hypot(1.0, curve.slope) {
-            return Err(GrowthFormError::TooWide {
+            return Err(self.error(GrowthFormProblem::TooWide {
                 row: j + 1,
                 lengths: length,
-            });
+            }));
         }
         Ok((curve, curve.reach(length)))
     }
 
     /// `gL` of row `j`: Eq. 3 or the curve, times Eq. 4 where there are veins.
-    fn row_rate(&self, half: &HalfForm, veins: &[(usize, CurvedVein)], j: usize) -> f64 {
-        let last = self.rows - 1;
-        let entire = match &half.lateral {
-            LateralGrowth::Curve(curve) => curve.at(j as f64 / last as f64),
+    fn rate(&self, j: usize) -> f64 {
+        let last = self.count - 1;
+        let entire = match &self.half.lateral {
+            LateralGrowth::Curve(curve) => curve.at(self.start(j)),
             LateralGrowth::Peak {
                 rate_ratio,
                 widest_at,
                 falloff,
             } => {
-                let peak = self.row_at(*widest_at).clamp(1, last - 1);
+                // Growth is 0 in the first and the last row, so the fastest is one between them.
+                let peak = row_at(self.count, *widest_at).clamp(1, last - 1);
                 let away = if j <= peak {
                     (peak - j) as f64 / peak as f64
                 } else {
                     (j - peak) as f64 / (last - peak) as f64
                 };
-                self.axial_rate / rate_ratio * (1.0 - libm::pow(away, *falloff))
+                self.growth.axial_rate / rate_ratio * (1.0 - libm::pow(away, *falloff))
             }
         };
-        let nearest = veins.iter().map(|(row, _)| row.abs_diff(j)).min();
+        if self.half.lobe_decay == 0.0 {
+            return entire;
+        }
+        let nearest = self.veins.iter().map(|(row, _)| row.abs_diff(j)).min();
         nearest.map_or(entire, |rows| {
-            let fall = half.lobe_decay * libm::pow(rows as f64, half.lobe_exponent);
+            let fall = self.half.lobe_decay * libm::pow(rows as f64, self.half.lobe_exponent);
             entire * libm::exp(-fall)
         })
     }
 }
 
 /// Curve of row `j`: slope and bend linear between veins, constant outside the outermost ones.
-fn curve(veins: &[(usize, CurvedVein)], j: usize) -> RowCurve {
-    let of = |vein: &CurvedVein| RowCurve {
+fn curve(veins: &[(usize, VeinRow)], j: usize) -> RowCurve {
+    let of = |vein: &VeinRow| RowCurve {
         slope: vein.slope,
         bend: vein.bend,
     };
@@ -195,26 +225,46 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rows_length_is_that_of_its_curve() {
-        for (slope, bend) in [
-            (0.0, 0.0),
-            (0.5, 0.05),
-            (-1.2, 3.0),
-            (2.0, -40.0),
-            (0.0, 0.099),
-        ] {
-            let curve = RowCurve { slope, bend };
-            let point = |i: u32| {
-                let x = 0.7 * f64::from(i) / 1e5;
-                DVec2::new(x, curve.rise(x))
-            };
-            let sum: f64 = (0..100_000)
-                .map(|i| (point(i + 1) - point(i)).length())
-                .sum();
-            let length = curve.length(0.7);
-            // Chords are shorter by h² y''²/24 at most.
-            assert!((sum - length).abs() < 1e-8, "{sum} {length}");
-            assert!((curve.reach(length) - 0.7).abs() < 1e-12);
+    fn steps_one_by_one_end_where_the_closed_form_does() {
+        // Eqs. 1 and 2 carried out step by step, as the paper has them; the last step is a part of one.
+        let half = HalfForm {
+            lobe_decay: 0.0003,
+            veins: [14, 44, 74, 104, 134]
+                .map(|row| VeinRow::straight(f64::from(row) / 149.0, 0.7))
+                .to_vec(),
+            ..HalfForm::entire(1.2, 0.3, 3.0)
+        };
+        let axis = Axis::from(half);
+        let rows = Rows::new(&axis, AxisGrowth::of_midrib(0.1), FormPart::default());
+        assert!((rows.growth.steps - 72.48).abs() < 0.01);
+        let mut midrib: Vec<f64> = (0..150).map(|j| rows.start(j)).collect();
+        let mut half_widths = vec![1.0; 150];
+        let mut length = 1.0;
+        let mut steps = 0;
+        while length * 1.1 <= 1000.0 {
+            length *= 1.1;
+            steps += 1;
+            for (j, x) in half_widths.iter_mut().enumerate() {
+                midrib[j] *= 1.1;
+                *x *= 1.0 + rows.rate(j);
+            }
         }
+        assert_eq!(steps, 72);
+        let rest = libm::log(1000.0 / length) / libm::log(1.1);
+        let margin = rows.margin().expect("rates in range");
+        for (j, p) in margin[1..151].iter().enumerate() {
+            let x = half_widths[j] * libm::pow(1.0 + rows.rate(j), rest);
+            let y = midrib[j] * 1000.0 / length + 0.7 * x;
+            assert!((p.x * 1000.0 - x).abs() <= 1e-9 * x, "row {j}: {p}, {x}");
+            assert!((p.y * 1000.0 - y).abs() <= 1e-9 * y, "row {j}: {p}, {y}");
+        }
+    }
+
+    #[test]
+    fn slopes_are_linear_between_veins_and_constant_outside() {
+        let veins = [(2, -1.0), (6, 3.0)].map(|(row, slope)| (row, VeinRow::straight(0.0, slope)));
+        let slopes: Vec<f64> = (0..9).map(|j| curve(&veins, j).slope).collect();
+        assert_eq!(slopes, [-1.0, -1.0, -1.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0]);
+        assert_eq!(curve(&[], 4).slope, 0.0);
     }
 }

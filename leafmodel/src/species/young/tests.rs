@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::*;
 use crate::measure::{Measures, shape};
+use crate::shape::growth_form::{RowGrowth, Side};
 use crate::shape::outline::Outline;
 
 const LENGTH: f64 = 100.0;
@@ -147,9 +148,9 @@ fn lobes_of_white_oaks_are_rounded_and_those_of_red_oaks_pointed() {
     // Where the rows get finer by ten, a rounded lobe's turn from edge to edge does too, a pointed one's remains.
     let turn_at_a_tip = |panel: &str, finer: usize| {
         let mut shape = form(panel).shape();
-        let per_row = libm::pow(finer as f64, -shape.lobe_exponent);
-        shape.rows = 149 * finer + 1;
-        shape.lobe_decay *= per_row;
+        let half = &mut shape.midrib.right;
+        half.lobe_decay *= libm::pow(finer as f64, -half.lobe_exponent);
+        shape.midrib.rows = 149 * finer + 1;
         let outline = shape.grow(LENGTH).expect("a form of the paper");
         let tip = 1 + 44 * finer;
         let [before, here, after] = [tip - 1, tip, tip + 1].map(|i| outline.points()[i]);
@@ -191,27 +192,77 @@ fn the_maple_fills_in_between_its_lobes_until_it_is_entire() {
 }
 
 #[test]
+fn botanical_names_are_what_region_of_width_and_proportions_say() {
+    // A name is where the leaf is widest (below, about or above the middle) and how long it is for its width.
+    let of = |panel: &str| {
+        let measures = shape(&outline(panel));
+        let lengths = 1.0 / number(&measures, "width_over_length");
+        (lengths, number(&measures, "widest_at"))
+    };
+    let ovate = |at: f64| (0.2..0.45).contains(&at);
+    for (panel, low, high) in [
+        ("3a", 0.7, 1.3),  // broadly ovate: about as long as broad
+        ("3b", 1.3, 2.0),  // ovate
+        ("3c", 3.0, 6.0),  // broadly lanceolate
+        ("3d", 6.0, 12.0), // lanceolate
+        ("4b", 1.3, 2.0),  // ovate
+    ] {
+        let (lengths, at) = of(panel);
+        assert!((low..high).contains(&lengths), "{panel}: {lengths}");
+        assert!(ovate(at), "{panel}: {at}");
+    }
+    // Deltoid: widest near the base; obdeltoid and obovate: the same near the tip, and above the middle.
+    assert!(of("4a").1 < 0.2 && of("4d").1 > 0.8);
+    assert!((0.55..0.8).contains(&of("4c").1), "{:?}", of("4c"));
+    assert!(of("6c").1 > 0.6 && of("6d").1 > 0.6);
+    assert!(of("6a").1 < 0.45 && of("6b").1 < 0.45);
+    // Fig. 5 is widest in the middle, and oblong has parallel flanks.
+    for panel in ["5a", "5b", "5c", "5d"] {
+        assert!((of(panel).1 - 0.5).abs() < 0.01, "{panel}");
+    }
+    let width_at = |panel: &str, row: usize| {
+        let widths = half_widths(panel);
+        widths[row] / widths.iter().copied().fold(0.0, f64::max)
+    };
+    // A quarter and three quarters up an oblong leaf is as wide as in the middle, a concave one narrower than a rhombic one.
+    for row in [37, 112] {
+        assert!(width_at("5d", row) > 0.95);
+        assert!(
+            width_at("5a", row) < width_at("5b", row) && width_at("5b", row) < width_at("5c", row)
+        );
+    }
+}
+
+#[test]
 fn exponential_growth_amplifies_the_growth_rate_in_the_outline() {
     // Fig. 2: k = 2.5, yd = 0.3, R = 1.2, s = 0, as Fig. 3b.
-    let curve = form("3b")
-        .shape()
-        .rate_curve()
-        .expect("a form of the paper");
-    assert_eq!(curve.len(), 150);
-    assert_eq!((curve[0], curve[149]), ([0.0, 0.0], [1.0, 0.0]));
-    let fastest = curve.iter().max_by(|p, q| p[1].total_cmp(&q[1]));
-    let &[at, greatest] = fastest.expect("150 rows");
+    let rows = form("3b").shape().row_growth(Side::Right);
+    let rows = rows.expect("a form of the paper");
+    assert_eq!(rows.len(), 150);
+    let ends = [rows[0], rows[149]].map(|row| [row.place, row.rate]);
+    assert_eq!(ends, [[0.0, 0.0], [1.0, 0.0]]);
+    let fastest = rows.iter().max_by(|p, q| p.rate.total_cmp(&q.rate));
+    let &RowGrowth {
+        place: at,
+        rate: greatest,
+        ..
+    } = fastest.expect("150 rows");
     assert!((at - 0.3).abs() < 0.5 / 149.0 && (greatest - 0.1 / 1.2).abs() < 1e-15);
     // What has grown beyond the primordium.
-    let widths = half_widths("3b").into_iter().map(|x| x - LENGTH / 1000.0);
-    let widths: Vec<f64> = widths.collect();
-    let widest = widths.iter().copied().fold(0.0, f64::max);
-    for (&[y, rate], width) in curve.iter().zip(&widths).skip(1).take(148) {
+    let grown = |row: &RowGrowth| row.half_width - 0.001;
+    let widest = rows.iter().map(grown).fold(0.0, f64::max);
+    for (row, x) in rows.iter().zip(half_widths("3b")) {
+        assert!((row.half_width * LENGTH - x).abs() < 1e-12);
+    }
+    for row in &rows[1..149] {
         // Eq. 3.
-        let u = (y - at).abs() / if y <= at { at } else { 1.0 - at };
+        let u = (row.place - at).abs() / if row.place <= at { at } else { 1.0 - at };
         let expected = greatest * (1.0 - libm::pow(u, 2.5));
-        assert!((rate - expected).abs() < 1e-15, "{y}: {rate}");
-        assert!(y == at || width / widest < rate / greatest, "{y}");
+        assert!((row.rate - expected).abs() < 1e-15, "{row:?}");
+        assert!(
+            row.place == at || grown(row) / widest < row.rate / greatest,
+            "{row:?}"
+        );
     }
 }
 

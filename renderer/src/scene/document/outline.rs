@@ -35,7 +35,7 @@ pub(crate) fn read_outline(leaf: &Block<'_>, seed: u64) -> Option<GrownOutline> 
         "svg" => svg::read_svg(&block).map(Contour::Svg),
         "cubic" => Some(Contour::Cubic(cubic::read_cubic(&block))),
         "transport" => transport::read_transport(&block).map(Contour::Transport),
-        _ => growth_algorithm::read_growth_shape(&block).map(Contour::GrowthAlgorithm),
+        _ => growth_algorithm::read_growth_form(&block).map(Contour::GrowthAlgorithm),
     };
     let plan = OutlinePlan {
         contour: contour?,
@@ -85,11 +85,12 @@ fn report(outline: &Block<'_>, block: &Block<'_>, error: &OutlinePlanError) {
         OutlinePlanError::Transport(
             TransportError::Outline(_) | TransportError::TooFine { .. },
         ) => (block, "epsilon", "let the leaf grow larger"),
-        OutlinePlanError::GrowthAlgorithm(_) | OutlinePlanError::Length { .. } => (
-            block,
-            "veins",
-            "put the veins farther apart, with slopes that differ less",
-        ),
+        OutlinePlanError::GrowthAlgorithm(error) => {
+            growth_algorithm::report(block, error);
+            return;
+        }
+        // Reported where the length is read.
+        OutlinePlanError::Length { .. } => (block, "length_mm", "use the length of a leaf"),
     };
     let error = SceneError::Impossible {
         key: key.to_owned(),

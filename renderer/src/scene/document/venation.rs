@@ -10,6 +10,7 @@ use leafmodel::leaf::outline_plan::Contour;
 use leafmodel::leaf::venation_plan::VenationPlan;
 
 pub(crate) use self::cells::LEAST_CELLS;
+pub(crate) use self::growth::read_rates;
 use super::outline::GrownOutline;
 use super::reader::Block;
 use crate::scene::error::SceneError;

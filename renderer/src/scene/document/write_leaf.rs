@@ -11,7 +11,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 use leafmodel::shape::contour_curve::ContourCurve;
 use leafmodel::shape::cubic_margin::CubicMargin;
-use leafmodel::shape::growth_shape::GrowthShape;
+use leafmodel::shape::growth_form::{Axis, GrowthForm, HalfForm, LateralGrowth, VeinRow};
 use leafmodel::shape::svg_path::SvgContour;
 use leafmodel::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
 use leafmodel::venation::arcuate::ArcuatePlan;
@@ -147,7 +147,7 @@ fn outline(plan: &OutlinePlan) -> Keys {
         keys.value("teeth", list(waves));
     }
     match &plan.contour {
-        Contour::GrowthAlgorithm(shape) => keys.block("growth_algorithm", growth_shape(shape)),
+        Contour::GrowthAlgorithm(form) => keys.block("growth_algorithm", growth_form(form)),
         Contour::Curve(contour) => keys.block("curve", curve(contour)),
         Contour::Svg(contour) => keys.block("svg", svg(contour)),
         Contour::Cubic(margin) => keys.block("cubic", cubic(margin)),
@@ -156,25 +156,83 @@ fn outline(plan: &OutlinePlan) -> Keys {
     keys
 }
 
-fn growth_shape(shape: &GrowthShape) -> Keys {
+fn growth_form(form: &GrowthForm) -> Keys {
     let mut keys = Keys::default();
-    if shape.rows != 150 {
-        keys.integer("rows", shape.rows as u64);
-    }
-    keys.number_unless("axial_rate", shape.axial_rate, 0.1);
-    keys.number("rate_ratio", shape.rate_ratio);
-    keys.number("widest_at", shape.widest_at);
-    keys.number("falloff", shape.falloff);
-    keys.number_unless("lobe_decay", shape.lobe_decay, 0.0);
-    keys.number_unless("lobe_exponent", shape.lobe_exponent, 2.0);
-    if !shape.veins.is_empty() {
-        let veins = shape.veins.iter();
-        keys.value(
-            "veins",
-            list(veins.map(|vein| pair([vein.position, vein.slope]))),
-        );
-    }
+    keys.number_unless("axial_rate", form.axial_rate, 0.1);
+    axis(&mut keys, &form.midrib, None);
     keys
+}
+
+/// The keys of an axis on a parent.
+fn axis(keys: &mut Keys, axis_form: &Axis, parent: Option<&Axis>) {
+    if axis_form.rows != parent.map_or(150, |parent| parent.rows) {
+        keys.integer("rows", axis_form.rows as u64);
+    }
+    half(keys, &axis_form.right, parent.map(|parent| &parent.right));
+    if let Some(left) = &axis_form.left {
+        let mut block = Keys::default();
+        half(&mut block, left, Some(&axis_form.right));
+        keys.block("left", block);
+    }
+    if !axis_form.axes.is_empty() {
+        let axes = axis_form.axes.iter().map(|secondary| {
+            let mut keys = Keys::default();
+            keys.number_unless("position", secondary.position, 0.0);
+            keys.number("angle_deg", degrees(secondary.angle));
+            if !secondary.paired {
+                keys.value("paired", Value::Flag(false));
+            }
+            keys.number("length", secondary.length);
+            axis(&mut keys, &secondary.axis, Some(axis_form));
+            Value::Table(keys.0)
+        });
+        keys.value("axes", list(axes));
+    }
+}
+
+/// The keys of a half that differ from the usual one's.
+fn half(keys: &mut Keys, half: &HalfForm, usual: Option<&HalfForm>) {
+    match (&half.lateral, usual.map(|usual| &usual.lateral)) {
+        (own, Some(usual)) if own == usual => {}
+        (LateralGrowth::Curve(curve), _) => {
+            let knots = curve.knots().iter().copied().map(pair);
+            keys.value("lateral_rates", list(knots));
+        }
+        (
+            LateralGrowth::Peak {
+                rate_ratio,
+                widest_at,
+                falloff,
+            },
+            usual,
+        ) => {
+            let usual = match usual {
+                Some(&LateralGrowth::Peak {
+                    rate_ratio,
+                    widest_at,
+                    falloff,
+                }) => [rate_ratio, widest_at, falloff],
+                // Unlike every number, so that all three are written.
+                Some(LateralGrowth::Curve(_)) | None => [f64::NAN; 3],
+            };
+            keys.number_unless("rate_ratio", *rate_ratio, usual[0]);
+            keys.number_unless("widest_at", *widest_at, usual[1]);
+            keys.number_unless("falloff", *falloff, usual[2]);
+        }
+    }
+    let decay = usual.map_or(0.0, |usual| usual.lobe_decay);
+    keys.number_unless("lobe_decay", half.lobe_decay, decay);
+    let exponent = usual.map_or(2.0, |usual| usual.lobe_exponent);
+    keys.number_unless("lobe_exponent", half.lobe_exponent, exponent);
+    let veins = usual.map_or(&[][..], |usual| &usual.veins);
+    if half.veins != veins {
+        let vein = |vein: &VeinRow| {
+            let bend = (vein.bend != 0.0).then_some(vein.bend);
+            let numbers = [vein.position, vein.slope].into_iter().chain(bend);
+            list(numbers.map(number))
+        };
+        keys.value("veins", list(half.veins.iter().map(vein)));
+    }
 }
 
 fn curve(contour: &ContourCurve) -> Keys {

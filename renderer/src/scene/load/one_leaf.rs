@@ -189,7 +189,7 @@ fn in_full(setting: &str, name: &str, known: &[KnownKey]) -> Result<String, Leaf
 #[cfg(test)]
 mod tests {
     use leafmodel::leaf::outline_plan::Contour;
-    use leafmodel::shape::growth_shape::GrowthShape;
+    use leafmodel::shape::growth_form::{GrowthForm, HalfForm};
     use leafmodel::venation::plan::AuxinPlan;
 
     use super::*;
@@ -197,17 +197,8 @@ mod tests {
     fn set(settings: &[&str]) -> Result<LeafPlan, LeafNotChosen> {
         let mut plan = leafmodel::species::find("poplar").expect("a preset").plan();
         // Whatever the preset has, the keys of these tests are those of these kinds.
-        let shape = GrowthShape {
-            rows: 150,
-            axial_rate: 0.1,
-            rate_ratio: 1.2,
-            widest_at: 0.3,
-            falloff: 3.0,
-            lobe_decay: 0.0,
-            lobe_exponent: 2.0,
-            veins: Vec::new(),
-        };
-        plan.outline = Contour::GrowthAlgorithm(shape).into();
+        let form = GrowthForm::from(HalfForm::entire(1.2, 0.3, 3.0));
+        plan.outline = Contour::GrowthAlgorithm(form).into();
         plan.venation = AuxinPlan::default().into();
         let file = LeafFile::Plan {
             name: "poplar",

@@ -68,7 +68,7 @@ fn starts_shorter(block: &Block<'_>, initial_length: f64, final_length: f64) -> 
 }
 
 /// A growth function: `[[place, rate], …]`.
-fn read_rates(block: &Block<'_>, key: &'static str) -> Option<RateCurve> {
+pub(crate) fn read_rates(block: &Block<'_>, key: &'static str) -> Option<RateCurve> {
     const WANTED: &str = "a list of 1 to 1000 pairs [place, rate]";
     const PLACES: Limits = Limits::closed(0.0, 1.0);
     // At -1 tissue would shrink to nothing in one step.

@@ -1,0 +1,132 @@
+//! Veins that would cross each other, and the slopes that keep them apart.
+
+use super::row_curve::RowCurve;
+use super::rows::Rows;
+use super::{GrowthFormError, GrowthFormProblem, SlopeRange};
+
+/// Slopes that a vein may have.
+const STEEPEST: f64 = 20.0;
+
+/// A vein from the axis to its end.
+#[derive(Clone, Copy, Debug)]
+struct VeinLine {
+    /// Where it starts along the axis.
+    start: f64,
+    curve: RowCurve,
+    /// Growth of its length relative to that of the axis.
+    allometry: f64,
+    /// How far from the axis it ends.
+    end: f64,
+}
+
+impl VeinLine {
+    fn new(start: f64, curve: RowCurve, allometry: f64) -> Self {
+        Self {
+            start,
+            curve,
+            allometry,
+            end: curve.reach(curve.length(1.0) * allometry),
+        }
+    }
+
+    fn with_slope(self, slope: f64) -> Self {
+        let curve = RowCurve {
+            slope,
+            ..self.curve
+        };
+        Self::new(self.start, curve, self.allometry)
+    }
+
+    /// Whether the line meets one that starts nearer to the tip.
+    fn meets(&self, upper: &Self) -> bool {
+        // How far the upper one lies above the lower, x away from the axis: gap + slope x + bend x²/2.
+        let gap = upper.start - self.start;
+        let slope = upper.curve.slope - self.curve.slope;
+        let bend = upper.curve.bend - self.curve.bend;
+        let above = |x: f64| gap + (slope + 0.5 * bend * x) * x;
+        let end = self.end.min(upper.end);
+        let lowest = -slope / bend;
+        above(end) <= 0.0 || (bend > 0.0 && lowest > 0.0 && lowest < end && above(lowest) <= 0.0)
+    }
+}
+
+impl Rows<'_> {
+    /// Refuses veins of which two cross. Rows between them may: what they sweep over together is the blade.
+    pub(super) fn refuse_crossing_veins(&self) -> Result<(), GrowthFormError> {
+        let veins = self.veins();
+        let alike = veins
+            .windows(2)
+            .all(|pair| (pair[0].1.slope, pair[0].1.bend) == (pair[1].1.slope, pair[1].1.bend));
+        if alike {
+            return Ok(());
+        }
+        let lines: Vec<VeinLine> = veins
+            .iter()
+            .map(|&(row, vein)| {
+                let curve = RowCurve {
+                    slope: vein.slope,
+                    bend: vein.bend,
+                };
+                VeinLine::new(self.start(row), curve, self.allometry(row))
+            })
+            .collect();
+        for (number, line) in lines.iter().enumerate() {
+            for lower in (0..number).rev() {
+                if lines[lower].meets(line) {
+                    return Err(self.error(GrowthFormProblem::VeinsCross {
+                        lower,
+                        upper: number,
+                        allowed: slopes_apart(&lines[lower], line, [lower, number]),
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The slopes of the upper vein that keep it from the lower one; if there are none, those of the lower one.
+fn slopes_apart(lower: &VeinLine, upper: &VeinLine, [below, above]: [usize; 2]) -> SlopeRange {
+    let upper_meets = |slope| lower.meets(&upper.with_slope(slope));
+    if !upper_meets(STEEPEST) {
+        return SlopeRange::Of {
+            vein: above,
+            from: first_apart(upper.curve.slope, STEEPEST, upper_meets),
+            to: STEEPEST,
+        };
+    }
+    let lower_meets = |slope: f64| lower.with_slope(slope).meets(upper);
+    if !lower_meets(-STEEPEST) {
+        return SlopeRange::Of {
+            vein: below,
+            from: -STEEPEST,
+            to: first_apart(lower.curve.slope, -STEEPEST, lower_meets),
+        };
+    }
+    SlopeRange::Nothing
+}
+
+/// From a slope at which veins meet towards one at which they do not: the first at which they do not, to three decimals if
+/// there are so many.
+fn first_apart(meeting: f64, apart: f64, meets: impl Fn(f64) -> bool) -> f64 {
+    let (mut meeting, mut apart) = (meeting, apart);
+    for _ in 0..60 {
+        let middle = 0.5 * (meeting + apart);
+        if meets(middle) {
+            meeting = middle;
+        } else {
+            apart = middle;
+        }
+    }
+    let thousandths = apart * 1000.0;
+    let short = if apart > meeting {
+        thousandths.ceil() / 1000.0
+    } else {
+        thousandths.floor() / 1000.0
+    };
+    if short.abs() > STEEPEST || meets(short) {
+        apart
+    } else {
+        short
+    }
+}
