@@ -1,9 +1,9 @@
 //! The presets, in the order in which a list shows them.
 
 use super::young::FORMS;
-use super::{PlanOf, Preset, beyond, runions, trees};
+use super::{PlanOf, Preset, beyond, compound_leaves, runions, trees};
 
-/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, then
+/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, compound leaves, then
 /// the figures of Young 2010.
 pub static PRESETS: &[Preset] = &with_forms();
 
@@ -29,7 +29,7 @@ const fn with_forms() -> [Preset; GROWN.len() + FORMS.len()] {
     presets
 }
 
-/// The figures of Runions et al. 2005 in their order, what goes beyond, then trees and shrubs.
+/// The figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, then compound leaves.
 static GROWN: &[Preset] = &[
     Preset {
         name: "runions-9a",
@@ -275,5 +275,40 @@ static GROWN: &[Preset] = &[
         source: "length and kind of venation as floras give them; contents within the range of broad leaves; outline, veins and form by eye",
         row: None,
         plan: PlanOf::Function(trees::croton),
+    },
+    Preset {
+        name: "ash",
+        about: "Ash: five pairs of leaflets and one at the end of the rachis",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::ash),
+    },
+    Preset {
+        name: "rose",
+        about: "Rose: seven toothed leaflets",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::rose),
+    },
+    Preset {
+        name: "horse-chestnut",
+        about: "Horse chestnut: seven leaflets from one point",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::horse_chestnut),
+    },
+    Preset {
+        name: "mimosa",
+        about: "A mimosa: twice feathered, 360 small leaflets",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::mimosa),
+    },
+    Preset {
+        name: "clover",
+        about: "White clover: three leaflets shaped like inverted hearts",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::clover),
     },
 ];

@@ -9,6 +9,7 @@ mod mesh;
 mod spectra;
 mod xml;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -92,20 +93,26 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let path = folder.join(name);
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
-    for number in 0..scene.objects.len() {
+    let mut written = BTreeSet::new();
+    for number in 0..world.objects.len() {
+        let file = xml::mesh_file(scene, world, number);
         let mesh = world
             .geometry
             .mesh(world.geometry.instance(number as u32).mesh);
-        save(
-            &format!("meshes/{}.ply", scene.objects[number].name),
-            &mesh::ply(mesh),
-        )?;
+        let is_part = number >= scene.objects.len();
+        let mirrored = is_part && xml::is_mirrored(world, number);
+        if written.insert(file.clone()) {
+            save(&file, &mesh::ply(mesh, mirrored))?;
+        }
     }
     for (number, material) in world.materials.iter().enumerate() {
         if let Material::Leaf(leaf) = material
             && let LeafTissue::Map(map) = &leaf.tissue
         {
-            let path = folder.join(format!("maps/{}.exr", xml::material_id(scene, number)));
+            let path = folder.join(format!(
+                "maps/{}.exr",
+                xml::material_id(scene, world, number)
+            ));
             openexr::write(&map_picture(map), &path)?;
         }
     }

@@ -30,6 +30,11 @@ pub(super) fn write(
     pixels: u32,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
+    if plan.compound.is_some() {
+        return Err(Failure::bad(
+            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
+        ));
+    }
     let Some(auxin) = plan.venation.auxin() else {
         return Err(Failure::bad(
             "--frames needs veins that grow: venation.closed or venation.open",
@@ -41,8 +46,10 @@ pub(super) fn write(
     for (index, group_steps) in steps.chunks(group).enumerate() {
         let stages = grow_stages(outline, auxin, plan.seed, group_steps).map_err(Failure::bad)?;
         for (path, kind) in &outputs.staged {
-            let draw =
-                |stage: &Stage| veins_file(*kind, page, &stage.outline, &stage.network, pixels);
+            let draw = |stage: &Stage| {
+                let outlines = std::slice::from_ref(&stage.outline);
+                veins_file(*kind, page, outlines, &stage.network, pixels)
+            };
             let files: Vec<Result<Vec<u8>, Failure>> = stages.par_iter().map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
                 if stop.load(Ordering::Relaxed) {

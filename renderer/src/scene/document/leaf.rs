@@ -5,10 +5,12 @@ use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Contents;
 
+use super::compound::read_compound;
 use super::contents::read_contents;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
 use super::outline::read_outline;
+use super::petiole::read_petiole;
 use super::reader::Block;
 use super::spectrum::require_prospect;
 use super::venation::read_venation;
@@ -46,19 +48,27 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         read_tissue(block, VEIN_FACTORS);
     }
     let form = read_form(block, length_mm.unwrap_or(100.0));
+    // Leaflets have stalks of their own.
+    block.exclude("compound", "petiole");
+    let petiole = read_petiole(block);
+    let compound = read_compound(block);
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     block.finish();
-    Some(Leaf {
-        plan: LeafPlan {
-            length_mm: length_mm?,
-            seed,
-            outline: outline?.plan,
-            venation: venation?,
-            tissue: tissue?,
-            form,
-            map_size,
-        },
+    let plan = LeafPlan {
+        length_mm: length_mm?,
+        seed,
+        outline: outline?.plan,
+        venation: venation?,
+        tissue: tissue?,
+        form,
+        petiole,
+        compound: compound.as_ref().map(|read| read.form.clone()),
+        map_size,
+    };
+    let fits = compound.is_none_or(|compound| compound.check(&plan));
+    fits.then_some(Leaf {
+        plan,
         abaxial_ratio: abaxial_ratio?,
         coats,
         extrapolate: block.cx.extrapolate.get(),
