@@ -162,9 +162,7 @@ pub enum CompoundError {
         range: &'static str,
     },
     /// Two leaflets overlap.
-    #[error(
-        "leaflets {first} and {second} overlap; make the rachis longer, or leaflets narrower or fewer"
-    )]
+    #[error("leaflets {first} and {second} overlap")]
     Overlap {
         /// Number of the first leaflet, from 0.
         first: usize,
@@ -172,7 +170,7 @@ pub enum CompoundError {
         second: usize,
     },
     /// A leaflet lies over a stalk that is not its own.
-    #[error("leaflet {leaflet} lies over a stalk; make petiolules longer or angles wider")]
+    #[error("leaflet {leaflet} lies over a stalk that is not its own")]
     OnStalk {
         /// Number of the leaflet, from 0.
         leaflet: usize,

@@ -92,8 +92,8 @@ fn lanceolate() -> Contour {
 fn elliptic() -> Contour {
     pointed(&[
         (0.0, 0.0),
-        (0.13, 0.04),
-        (0.25, 0.2),
+        (0.1, 0.045),
+        (0.24, 0.2),
         (0.295, 0.42),
         (0.26, 0.64),
         (0.15, 0.86),
@@ -170,7 +170,7 @@ pub(super) fn ash() -> LeafPlan {
     let form = CompoundForm {
         petiole: 0.6,
         petiolule: 0.035,
-        stalk_radius_mm: 0.38,
+        stalk_radius_mm: 0.28,
         variants: 4,
         curl: 25.0_f64.to_radians(),
         fold: 14.0_f64.to_radians(),
@@ -195,13 +195,13 @@ pub(super) fn rose() -> LeafPlan {
         terminal: true,
         rachis: 2.05,
         alternation: 0.0,
-        angles: [1.2, 1.0],
+        angles: [1.3, 1.2],
         sizes: [0.68, 0.85, 1.0],
         turn: 0.0,
     };
     let form = CompoundForm {
         petiole: 0.55,
-        petiolule: 0.045,
+        petiolule: 0.07,
         stalk_radius_mm: 0.3,
         curl: 20.0_f64.to_radians(),
         fold: 18.0_f64.to_radians(),
@@ -224,7 +224,7 @@ pub(super) fn horse_chestnut() -> LeafPlan {
     let form = CompoundForm {
         petiole: 0.9,
         petiolule: 0.03,
-        stalk_radius_mm: 0.9,
+        stalk_radius_mm: 0.65,
         variants: 4,
         curl: 15.0_f64.to_radians(),
         fold: -12.0_f64.to_radians(),
@@ -269,7 +269,7 @@ pub(super) fn mimosa() -> LeafPlan {
     let form = CompoundForm {
         petiole: 3.5,
         petiolule: 0.03,
-        stalk_radius_mm: 0.08,
+        stalk_radius_mm: 0.045,
         variants: 3,
         curl: 20.0_f64.to_radians(),
         fold: 12.0_f64.to_radians(),
@@ -296,7 +296,7 @@ pub(super) fn clover() -> LeafPlan {
     let form = CompoundForm {
         petiole: 3.0,
         petiolule: 0.03,
-        stalk_radius_mm: 0.3,
+        stalk_radius_mm: 0.2,
         curl: 10.0_f64.to_radians(),
         fold: 10.0_f64.to_radians(),
         tilt: 6.0_f64.to_radians(),
