@@ -291,7 +291,8 @@ water_cm = 0.01
 dry_matter_g_per_cm2 = 0.006
 [leaves.trefoil.compound.palmate]
 leaflets = 3
-spread_deg = 200
+spread_deg = 240
+petiolule = 1
 petiole = 1
 variants = 2
 [objects.clover]

@@ -4,6 +4,7 @@ use super::super::tests::{feather, leaflet, palmate};
 use super::*;
 use crate::compound::FlatLeaf;
 use crate::leaf::Lamina;
+use crate::shape::outline::Outline;
 
 /// A leaf with few veins.
 fn plan(arrangement: Arrangement, change: impl FnOnce(&mut CompoundForm)) -> LeafPlan {
@@ -111,7 +112,7 @@ fn the_flat_leaf_is_one_graph_from_the_petioles_foot() {
             .iter()
             .map(|l| laminas[l.variant as usize].outline.area() * l.scale * l.scale);
         let (all, expected): (f64, f64) =
-            (flat.outlines.iter().map(|o| o.area()).sum(), area.sum());
+            (flat.outlines.iter().map(Outline::area).sum(), area.sum());
         assert!((all / expected - 1.0).abs() < 1e-9);
         let (low, high) = flat.bounds();
         assert!(low.y < 1e-9 && high.y > 40.0 && low.x < -20.0 && high.x > 20.0);

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::{DAffine3, DVec2, DVec3};
+use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::WholeLeaf;
 
 /// One blade or some tubes in their place.
@@ -65,7 +66,7 @@ impl<'l> Parts<'l> {
     }
 }
 
-fn tubes<'l>((stalk, place): (&'l leafmodel::blade::stalk::StalkMesh, DAffine3)) -> Part<'l> {
+fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> Part<'_> {
     Part {
         positions: &stalk.positions,
         normals: &stalk.normals,

@@ -1,7 +1,5 @@
 //! `[leaves.NAME.compound.…]`: the leaf is the largest leaflet of a compound one.
 
-use std::f64::consts::PI;
-
 use leafmodel::compound::{Arrangement, CompoundError, CompoundForm, Feather};
 use leafmodel::leaf::LeafPlan;
 
@@ -156,9 +154,36 @@ impl ReadForm<'_> {
     }
 }
 
-// Ranges in degrees lie within those of the model, which are in radians.
-const _: () = {
-    assert!(170.0 / 180.0 * PI < 3.0 && 3.0 / 180.0 * PI > 0.05);
-    assert!(355.0 / 180.0 * PI < 6.2 && 114.0 / 180.0 * PI < 2.0);
-    assert!(57.0 / 180.0 * PI < 1.0 && 80.0 / 180.0 * PI < 1.4);
-};
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_in_degrees_lie_within_those_of_the_model() {
+        for end in [-1.0_f64, 1.0] {
+            let rows = Feather {
+                pairs: 1,
+                terminal: true,
+                rachis: 1.0,
+                alternation: 0.0,
+                angles: [3.0_f64, 170.0].map(f64::to_radians),
+                sizes: [1.0; 3],
+                turn: (114.0 * end).to_radians(),
+            };
+            let palmate = |spread: f64| Arrangement::Palmate {
+                leaflets: 2,
+                spread: spread.to_radians(),
+                sizes: [1.0; 2],
+            };
+            for arrangement in [Arrangement::Pinnate(rows), palmate(3.0), palmate(355.0)] {
+                let form = CompoundForm {
+                    curl: (355.0 * end).to_radians(),
+                    fold: (80.0 * end).to_radians(),
+                    tilt: 57.0_f64.to_radians(),
+                    ..CompoundForm::new(arrangement)
+                };
+                form.validate().expect("all in range");
+            }
+        }
+    }
+}
