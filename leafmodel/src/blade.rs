@@ -1,23 +1,25 @@
 //! The lamina in space: mesh, relief, and what the tissue holds where.
 //!
 //! [`BladeMesh::build`] cuts the flat lamina into triangles that follow the margin and the major veins, raises the veins,
-//! and bends the whole.
+//! and bends the whole. [`petiole`] gives it a stalk.
 //!
 //! - **In**: an outline, the veins, a [`BladeForm`].
 //! - **Out**: a [`BladeMesh`] in millimetres, base at the origin, midrib along +y, adaxial side +z.
 //! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
-//! - **Left out**: the petiole, the two surfaces of a sheet with thickness (thickness is a number at each vertex).
+//! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each vertex).
 
 pub mod contents_map;
 mod form;
 pub mod frame;
 pub mod mesh;
 pub mod mottle;
+pub mod petiole;
 mod refine;
 mod relief;
 pub mod senescence;
 mod size_field;
 mod skeleton;
+pub mod stalk;
 pub mod tissue;
 mod triangulate;
 pub mod vein_field;

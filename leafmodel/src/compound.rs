@@ -1,20 +1,27 @@
-//! Compound leaves: leaflets on a rachis, as data for whoever places blades in space.
+//! Compound leaves: leaflets on a rachis, flat and in space.
 //!
-//! - **In**: a [`CompoundPlan`]: how leaflets are arranged, and the plan of the largest one.
-//! - **Out**: a [`CompoundLeaf`]: plans of leaflets with their places, and the stalks as polylines with radii. Lengths are
-//!   millimetres; the petiole starts at the origin and goes along +y.
-//! - **Always true**: no leaflet crosses another or a stalk but its own; stalks taper; the same plan gives the same leaf.
-//! - **Left out**: the third dimension. Leaves whose leaflets overlap in nature lie flat here, or are refused.
+//! - **In**: a [`CompoundForm`]: how leaflets are arranged; and the plan of the largest one.
+//! - **Out**: a [`CompoundLeaf`]: leaflets with their places in the plane, and the stalks as polylines with radii; drawn flat as
+//!   one network ([`FlatLeaf`]), or in space ([`WholeLeaf`]): blades, tubes, and where each blade stands. Lengths are millimetres;
+//!   the petiole starts at the origin and goes along +y.
+//! - **Always true**: flat, no leaflet crosses another or a stalk but its own; stalks taper; the same plan gives the same leaf.
+//! - **Left out**: leaves whose leaflets overlap in nature. They are refused.
 
 mod arrange;
+mod flat;
 mod overlap;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 use glam::DVec2;
 use thiserror::Error;
 
+pub use self::flat::FlatLeaf;
+pub use self::whole::{Placement, WholeLeaf, joined_stalks, leaflet_plans};
+use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
+use crate::shape::outline::Outline;
 
 /// Leaflets that a leaf may have.
 pub const MOST_LEAFLETS: usize = 2000;
@@ -66,13 +73,11 @@ pub enum Arrangement {
     },
 }
 
-/// Everything that decides a compound leaf.
+/// Everything that makes a leaf the largest leaflet of a compound one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CompoundPlan {
+pub struct CompoundForm {
     /// How leaflets stand.
     pub arrangement: Arrangement,
-    /// The largest leaflet; its seed is the leaf's.
-    pub leaflet: LeafPlan,
     /// Petiole, from the origin to the first pair, or to where all leaflets stand; relative to the largest leaflet, 0 to
     /// 100.
     pub petiole: f64,
@@ -80,17 +85,30 @@ pub struct CompoundPlan {
     pub petiolule: f64,
     /// Radius of the largest leaflet's stalk, mm, 0.001 to 100.
     pub stalk_radius_mm: f64,
+    /// How many different leaflets are grown, 1 to 50; they stand in turn.
+    pub variants: u32,
+    /// Angle through which petiole and rachis bend from end to end, towards the abaxial side, radians, −6.2 to 6.2.
+    pub curl: f64,
+    /// Angle by which leaflets are raised about the axis that bears them, towards the adaxial side, radians, −1.4 to 1.4; times the
+    /// sine of the angle at which they stand on it.
+    pub fold: f64,
+    /// Largest angle by which each leaflet is turned by chance about its midrib, and half as far across it, radians, 0 to 1.
+    pub tilt: f64,
 }
 
 /// A leaflet in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLeaflet {
-    /// Its plan, at the size of the largest leaflet, with a seed of its own.
-    pub plan: LeafPlan,
+    /// Which of [`CompoundForm::variants`] it is; their plans are at the size of the largest leaflet ([`leaflet_plans`]).
+    pub variant: u32,
+    /// Where its stalk leaves the axis.
+    pub foot: DVec2,
     /// Where its base is.
     pub base: DVec2,
     /// Direction of its midrib, radians from +y towards +x (clockwise).
     pub angle: f64,
+    /// The same from the direction of the axis that bears it, > 0 to the right.
+    pub from_axis: f64,
     /// By how much to scale the plan's leaf, in (0, 1].
     pub scale: f64,
     /// Whether it is the mirror image (x negated first): leaflets on the left are, so that unlike halves match.
@@ -144,9 +162,7 @@ pub enum CompoundError {
         range: &'static str,
     },
     /// Two leaflets overlap.
-    #[error(
-        "leaflets {first} and {second} overlap; make the rachis longer, or leaflets narrower or fewer"
-    )]
+    #[error("leaflets {first} and {second} overlap")]
     Overlap {
         /// Number of the first leaflet, from 0.
         first: usize,
@@ -154,7 +170,7 @@ pub enum CompoundError {
         second: usize,
     },
     /// A leaflet lies over a stalk that is not its own.
-    #[error("leaflet {leaflet} lies over a stalk; make petiolules longer or angles wider")]
+    #[error("leaflet {leaflet} lies over a stalk that is not its own")]
     OnStalk {
         /// Number of the leaflet, from 0.
         leaflet: usize,
@@ -173,25 +189,71 @@ impl PlacedLeaflet {
     }
 }
 
-impl CompoundPlan {
-    /// Places the leaflets.
+impl CompoundForm {
+    /// A form of which only the arrangement is said: no petiole, short stalks, all in one plane.
+    pub fn new(arrangement: Arrangement) -> Self {
+        Self {
+            arrangement,
+            petiole: 0.0,
+            petiolule: 0.05,
+            stalk_radius_mm: 0.4,
+            variants: 3,
+            curl: 0.0,
+            fold: 0.0,
+            tilt: 0.0,
+        }
+    }
+
+    /// Places the leaflets, of which this is the largest.
     ///
     /// # Errors
     ///
     /// [`CompoundError`], naming the parameter and its range, or which leaflets are in each other's way.
-    pub fn arrange(&self) -> Result<CompoundLeaf, CompoundError> {
+    pub fn arrange(&self, leaflet: &LeafPlan) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
-        let outline = self.leaflet.grow_outline()?;
-        let leaf = arrange::arrange(self);
-        overlap::check(&leaf, &outline)?;
+        // Only light that is uneven by chance gives leaflets margins of their own.
+        let plans = leaflet_plans(leaflet, self);
+        let alike = !matches!(leaflet.outline.contour, Contour::Transport(_));
+        let outlines = plans.iter().take(if alike { 1 } else { plans.len() });
+        let outlines: Result<Vec<Outline>, LeafError> =
+            outlines.map(LeafPlan::grow_outline).collect();
+        self.arrange_within(leaflet, &outlines?)
+    }
+
+    /// As [`CompoundForm::arrange`], for leaflets with these margins, one for each variant or one for all.
+    ///
+    /// # Errors
+    ///
+    /// As [`CompoundForm::arrange`].
+    ///
+    /// # Panics
+    ///
+    /// If `outlines` is empty.
+    pub fn arrange_within(
+        &self,
+        leaflet: &LeafPlan,
+        outlines: &[Outline],
+    ) -> Result<CompoundLeaf, CompoundError> {
+        self.validate()?;
+        let leaf = arrange::arrange(self, leaflet.length_mm);
+        overlap::check(&leaf, outlines)?;
         Ok(leaf)
     }
 
-    fn validate(&self) -> Result<(), CompoundError> {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`CompoundError::OutOfRange`].
+    pub fn validate(&self) -> Result<(), CompoundError> {
         in_range("petiole", self.petiole, [0.0, 100.0], "0 to 100")?;
         in_range("petiolule", self.petiolule, [0.0, 10.0], "0 to 10")?;
         let radius = self.stalk_radius_mm;
         in_range("stalk_radius_mm", radius, [1e-3, 100.0], "0.001 to 100")?;
+        in_range("variants", f64::from(self.variants), [1.0, 50.0], "1 to 50")?;
+        in_range("curl", self.curl, [-6.2, 6.2], "-6.2 to 6.2 (radians)")?;
+        in_range("fold", self.fold, [-1.4, 1.4], "-1.4 to 1.4 (radians)")?;
+        in_range("tilt", self.tilt, [0.0, 1.0], "0 to 1 (radians)")?;
         let leaflets = match &self.arrangement {
             Arrangement::Pinnate(feather) => {
                 feather.validate()?;

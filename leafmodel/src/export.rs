@@ -1,6 +1,6 @@
 //! Margin and veins as text for other programs.
 //!
-//! - **In**: an [`Outline`](crate::shape::outline::Outline) and a [`VenationNetwork`](crate::venation::network::VenationNetwork).
+//! - **In**: an [`Outline`](crate::shape::outline::Outline), or several of a compound leaf, and a [`VenationNetwork`](crate::venation::network::VenationNetwork).
 //! - **Out**: [`svg`] to draw, [`graphml`] for graph programs, [`json`] with everything, [`geojson`] for programs that know maps.
 //! - **Always true**: lengths are millimetres, apex up; the same network gives the same bytes.
 //!   `json` and `graphml` hold every number in full, the others are rounded to 10⁻⁴ mm.

@@ -17,8 +17,11 @@ use crate::blade::BladeForm;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::mesh::{BladeError, BladeMesh};
+use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::{AgeSource, Senescence, Withering};
+use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
+use crate::compound::CompoundForm;
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
@@ -41,6 +44,11 @@ pub struct LeafPlan {
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
     pub form: BladeForm,
+    /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
+    pub petiole: Option<PetiolePlan>,
+    /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`] grows the one leaflet,
+    /// [`WholeLeaf::grow`](crate::compound::WholeLeaf::grow) all of them.
+    pub compound: Option<CompoundForm>,
     /// Texels of the content maps along the longer side of the leaf, 16 to 8192.
     pub map_size: u32,
 }
@@ -52,6 +60,8 @@ pub struct Leaf {
     pub lamina: Lamina,
     /// The blade in space.
     pub mesh: BladeMesh,
+    /// Its petiole in space, if it has one.
+    pub petiole: Option<StalkMesh>,
     /// Where texture coordinates are measured.
     pub frame: UvFrame,
     /// Contents over them.
@@ -145,6 +155,9 @@ impl Leaf {
         plan.tissue.validate()?;
         plan.form.validate()?;
         plan.check_senescence()?;
+        if let Some(petiole) = &plan.petiole {
+            petiole.validate()?;
+        }
         Self::from_lamina(plan, plan.grow_lamina_unless(is_stopped)?)
     }
 
@@ -158,6 +171,10 @@ impl Leaf {
             outline, network, ..
         } = &lamina;
         let mesh = BladeMesh::build(outline, network, &plan.form)?;
+        let petiole = plan
+            .petiole
+            .map(|petiole| petiole.build(outline, network, &plan.form))
+            .transpose()?;
         let frame = UvFrame::around(outline.points());
         let veins: Vec<VeinSegment> = network.segments().collect();
         let withering = plan.withering(&lamina)?;
@@ -172,6 +189,7 @@ impl Leaf {
         Ok(Self {
             lamina,
             mesh,
+            petiole,
             frame,
             contents,
         })
@@ -246,6 +264,8 @@ mod tests {
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },
+            petiole: None,
+            compound: None,
             map_size: 64,
         }
     }

@@ -8,6 +8,7 @@ mod arcuate;
 mod beyond;
 #[cfg(test)]
 mod claims;
+mod compound_leaves;
 mod contours;
 mod extended;
 pub mod leaf_traits;
@@ -114,6 +115,8 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },
+        petiole: None,
+        compound: None,
         map_size: 1600,
     }
 }

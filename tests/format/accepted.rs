@@ -11,6 +11,7 @@ use renderer::scene::description::{
     Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
 };
 
+use leafmodel::compound::{Arrangement, Feather};
 use renderer::scene::load::load_leaves;
 
 use super::{accept, codes, folder, load, text_of};
@@ -432,4 +433,47 @@ fn what_nothing_uses_is_a_warning() {
             .to_string()
             .contains("warning[scene::unused]")
     );
+}
+
+#[test]
+fn petioles_and_compound_leaves_mean_what_the_book_says() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let petiole = scene.leaves[1].value.plan.petiole;
+    let petiole = petiole.expect("the simple leaf has one");
+    assert_eq!((petiole.length, petiole.radius_mm), (0.4, Some(0.5)));
+    assert_eq!(petiole.curl, 30.0_f64.to_radians());
+    let compound = scene.leaves[2].value.plan.compound.as_ref();
+    let compound = compound.expect("the drawn leaf is");
+    assert_eq!(
+        (
+            compound.petiole,
+            compound.petiolule,
+            compound.stalk_radius_mm,
+            compound.variants
+        ),
+        (1.5, 0.2, 0.2, 2)
+    );
+    let bends = [compound.curl, compound.fold, compound.tilt];
+    assert_eq!(bends, [30.0_f64, -10.0, 5.0].map(f64::to_radians));
+    let Arrangement::Bipinnate {
+        pinnae,
+        leaflets,
+        stalk,
+    } = &compound.arrangement
+    else {
+        panic!("{:?}", compound.arrangement);
+    };
+    let expected = Feather {
+        pairs: 1,
+        terminal: false,
+        rachis: 3.0,
+        alternation: 0.3,
+        angles: [80.0_f64, 70.0].map(f64::to_radians),
+        sizes: [0.5; 3],
+        turn: 10.0_f64.to_radians(),
+    };
+    assert_eq!((*stalk, *pinnae), (2.0, expected));
+    assert!(leaflets.terminal && leaflets.sizes == [1.0; 3]);
+    assert!(scene.leaves[0].value.plan.petiole.is_none());
+    assert!(scene.leaves[0].value.plan.compound.is_none());
 }

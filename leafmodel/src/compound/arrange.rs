@@ -3,9 +3,8 @@
 use glam::DVec2;
 
 use super::{
-    Arrangement, CompoundLeaf, CompoundPlan, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
+    Arrangement, CompoundForm, CompoundLeaf, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
 };
-use crate::venation::chance::{Use, bits};
 
 /// Straight pieces of a rachis between two leaflets.
 const PIECES: u32 = 4;
@@ -89,20 +88,22 @@ impl Feather {
 
 /// A compound leaf under construction.
 struct Builder<'p> {
-    plan: &'p CompoundPlan,
+    plan: &'p CompoundForm,
+    /// Length of the largest leaflet, mm.
+    unit: f64,
     leaf: CompoundLeaf,
 }
 
 /// Carries out a checked plan.
-pub(super) fn arrange(plan: &CompoundPlan) -> CompoundLeaf {
+pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
     let mut builder = Builder {
         plan,
+        unit,
         leaf: CompoundLeaf {
             leaflets: Vec::new(),
             stalks: Vec::new(),
         },
     };
-    let unit = plan.leaflet.length_mm;
     let end = DVec2::new(0.0, plan.petiole * unit);
     // Its radius is that of all it bears, which is known in the end.
     let has_petiole = plan.petiole > 0.0;
@@ -164,7 +165,7 @@ impl Builder<'_> {
     /// A leaflet and its stalk; gives what it needs of its rachis, in units of the largest leaflet's.
     fn leaflet(&mut self, insertion: &Insertion, scale: f64) -> f64 {
         let angle = insertion.heading + insertion.angle;
-        let stalk = self.plan.petiolule * scale * self.plan.leaflet.length_mm;
+        let stalk = self.plan.petiolule * scale * self.unit;
         let base = insertion.at + direction(angle) * stalk;
         let flow = scale * scale;
         if stalk > 0.0 {
@@ -175,11 +176,11 @@ impl Builder<'_> {
                 vec![radius; 2],
             );
         }
-        let number = self.leaf.leaflets.len() as u64;
-        let mut plan = self.plan.leaflet.clone();
-        plan.seed = bits(self.plan.leaflet.seed, Use::Leaflet, number);
+        let number = self.leaf.leaflets.len() as u32;
         self.leaf.leaflets.push(PlacedLeaflet {
-            plan,
+            variant: number % self.plan.variants,
+            foot: insertion.at,
+            from_axis: insertion.angle,
             base,
             angle,
             scale,
@@ -206,8 +207,14 @@ impl Builder<'_> {
             .collect();
         let pieces = PIECES * (feather.pairs + 1);
         let (mut points, mut radii) = (Vec::new(), Vec::new());
-        for i in 0..=pieces {
-            let along = length * f64::from(i) / f64::from(pieces);
+        // Evenly, and where something stands.
+        let mut places: Vec<f64> = (0..=pieces)
+            .map(|i| length * f64::from(i) / f64::from(pieces))
+            .chain(insertions.iter().map(|insertion| insertion.along))
+            .collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup_by(|a, b| *a - *b < 1e-9 * length);
+        for along in places {
             points.push(on_arc(base, heading, length, feather.turn, along).0);
             // What stands farther out; at the very end, what stands there.
             let beyond = insertions.iter().zip(&flows);

@@ -6,12 +6,15 @@ use super::{CompoundError, CompoundLeaf, StalkKind};
 use crate::shape::outline::Outline;
 
 /// Refuses leaflets that overlap each other or lie over an axis.
-pub(super) fn check(leaf: &CompoundLeaf, outline: &Outline) -> Result<(), CompoundError> {
-    let base = outline.base();
+pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), CompoundError> {
+    let of = |leaflet: usize| &outlines[leaf.leaflets[leaflet].variant as usize % outlines.len()];
     let placed: Vec<(Vec<DVec2>, DVec2, DVec2)> = leaf
         .leaflets
         .iter()
-        .map(|leaflet| {
+        .enumerate()
+        .map(|(number, leaflet)| {
+            let outline = of(number);
+            let base = outline.base();
             let points: Vec<DVec2> = outline
                 .points()
                 .iter()
@@ -30,7 +33,7 @@ pub(super) fn check(leaf: &CompoundLeaf, outline: &Outline) -> Result<(), Compou
         let axis = super::direction(leaflet.angle);
         let p = (p - leaflet.base) / leaflet.scale;
         let x = p.dot(-axis.perp());
-        base + DVec2::new(if leaflet.mirrored { -x } else { x }, p.dot(axis))
+        of(number).base() + DVec2::new(if leaflet.mirrored { -x } else { x }, p.dot(axis))
     };
     for (second, (points, low, high)) in placed.iter().enumerate() {
         for (first, (_, other_low, other_high)) in placed[..second].iter().enumerate() {
@@ -39,6 +42,7 @@ pub(super) fn check(leaf: &CompoundLeaf, outline: &Outline) -> Result<(), Compou
             }
             let own: Vec<DVec2> = points.iter().map(|&p| back(first, p)).collect();
             let n = own.len();
+            let outline = of(first);
             let crosses = (0..n).any(|i| outline.is_crossed_by(own[i], own[(i + 1) % n]));
             // One may lie inside the other: then a corner does, whichever it is.
             if crosses || outline.contains(own[n / 2]) {
@@ -59,6 +63,7 @@ pub(super) fn check(leaf: &CompoundLeaf, outline: &Outline) -> Result<(), Compou
                 }
                 // The end of a stalk may touch a base that sits on it.
                 let [a, b] = [piece[0], piece[1]].map(|p| back(leaflet, p));
+                let outline = of(leaflet);
                 let inside = |share: f64| {
                     let p = a.lerp(b, share);
                     outline.contains(p) && outline.distance_to_margin(p) > 1e-6 * outline.length()

@@ -3,7 +3,7 @@
 use super::*;
 use crate::species;
 
-fn leaflet() -> LeafPlan {
+pub(super) fn leaflet() -> LeafPlan {
     let lanceolate = species::find("young-3c").expect("a preset");
     LeafPlan {
         length_mm: 40.0,
@@ -11,7 +11,7 @@ fn leaflet() -> LeafPlan {
     }
 }
 
-fn feather() -> Feather {
+pub(super) fn feather() -> Feather {
     Feather {
         pairs: 5,
         terminal: true,
@@ -23,13 +23,11 @@ fn feather() -> Feather {
     }
 }
 
-fn plan(arrangement: Arrangement) -> CompoundPlan {
-    CompoundPlan {
-        arrangement,
-        leaflet: leaflet(),
+fn plan(arrangement: Arrangement) -> CompoundForm {
+    CompoundForm {
         petiole: 0.5,
         petiolule: 0.08,
-        stalk_radius_mm: 0.4,
+        ..CompoundForm::new(arrangement)
     }
 }
 
@@ -52,7 +50,7 @@ fn bipinnate() -> Arrangement {
     }
 }
 
-fn palmate() -> Arrangement {
+pub(super) fn palmate() -> Arrangement {
     Arrangement::Palmate {
         leaflets: 7,
         spread: 4.2,
@@ -61,7 +59,7 @@ fn palmate() -> Arrangement {
 }
 
 fn arranged(arrangement: Arrangement) -> CompoundLeaf {
-    plan(arrangement).arrange().expect("a good plan")
+    plan(arrangement).arrange(&leaflet()).expect("a good plan")
 }
 
 #[test]
@@ -128,14 +126,16 @@ fn a_bipinnate_leaf_has_leaflets_on_every_pinna() {
         .iter()
         .filter(|stalk| stalk.kind == StalkKind::Pinna);
     assert_eq!(pinnae.count(), 7);
-    let mut seeds: Vec<u64> = leaf
-        .leaflets
+    let mut seeds: Vec<u64> = leaflet_plans(&leaflet(), &plan(bipinnate()))
         .iter()
-        .map(|leaflet| leaflet.plan.seed)
+        .map(|plan| plan.seed)
         .collect();
     seeds.sort_unstable();
     seeds.dedup();
-    assert_eq!(seeds.len(), 7 * 13);
+    assert_eq!(seeds.len(), 3);
+    for (number, leaflet) in leaf.leaflets.iter().enumerate() {
+        assert_eq!(leaflet.variant as usize, number % 3);
+    }
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn leaflets_in_each_others_way_are_refused() {
         ..feather()
     };
     assert!(matches!(
-        plan(Arrangement::Pinnate(crowded)).arrange(),
+        plan(Arrangement::Pinnate(crowded)).arrange(&leaflet()),
         Err(CompoundError::Overlap { .. })
     ));
     let steep = Feather {
@@ -181,7 +181,7 @@ fn leaflets_in_each_others_way_are_refused() {
         ..feather()
     };
     assert!(matches!(
-        plan(Arrangement::Pinnate(steep)).arrange(),
+        plan(Arrangement::Pinnate(steep)).arrange(&leaflet()),
         Err(CompoundError::OnStalk { leaflet: 0 } | CompoundError::Overlap { .. })
     ));
 }
@@ -202,22 +202,50 @@ fn every_bad_number_is_named() {
         ("turn", with(|f| f.turn = 3.0)),
         (
             "petiole",
-            CompoundPlan {
+            CompoundForm {
                 petiole: -1.0,
                 ..plan(palmate())
             },
         ),
         (
             "petiolule",
-            CompoundPlan {
+            CompoundForm {
                 petiolule: 11.0,
                 ..plan(palmate())
             },
         ),
         (
             "stalk_radius_mm",
-            CompoundPlan {
+            CompoundForm {
                 stalk_radius_mm: 0.0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "variants",
+            CompoundForm {
+                variants: 0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "curl",
+            CompoundForm {
+                curl: 7.0,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "fold",
+            CompoundForm {
+                fold: f64::NAN,
+                ..plan(palmate())
+            },
+        ),
+        (
+            "tilt",
+            CompoundForm {
+                tilt: -0.1,
                 ..plan(palmate())
             },
         ),
@@ -239,7 +267,7 @@ fn every_bad_number_is_named() {
         ),
     ];
     for (expected, plan) in bad {
-        match plan.arrange() {
+        match plan.arrange(&leaflet()) {
             Err(CompoundError::OutOfRange { key, .. }) => assert_eq!(key, expected),
             other => panic!("{expected}: {other:?}"),
         }

@@ -14,16 +14,19 @@ use crate::venation::network::VenationNetwork;
 /// Coordinates are millimetres in the frame of the outline, **not** degrees on the Earth as RFC 7946 has it; the member `coordinate_unit` says so.
 /// Each feature's property `kind` is `margin`, `vein` (a `LineString` from junction to junction, with `order`, `radius_mm_mean`,
 /// `length_mm`) or `areole` (a `Polygon` with `area_mm2`, `perimeter_mm`, `circularity`; nets inside it are no holes in it).
-pub fn geojson(outline: &Outline, network: &VenationNetwork) -> String {
+pub fn geojson(outlines: &[Outline], network: &VenationNetwork) -> String {
     let mut text = String::from(
         "{\"type\":\"FeatureCollection\",\n\
          \"coordinate_unit\":\"mm\",\n\
          \"note\":\"Coordinates are millimetres on the leaf, base to apex along +y, not degrees of longitude and latitude.\",\n\
          \"features\":[\n",
     );
-    let margin = closed(outline.points().iter().copied());
-    let properties = json!({ "kind": "margin", "area_mm2": outline.area() });
-    text += &feature("Polygon", &json!([margin]), &properties);
+    for (number, outline) in outlines.iter().enumerate() {
+        let margin = closed(outline.points().iter().copied());
+        let properties = json!({ "kind": "margin", "area_mm2": outline.area() });
+        text += if number > 0 { ",\n" } else { "" };
+        text += &feature("Polygon", &json!([margin]), &properties);
+    }
     for run in Runs::new(network).iter() {
         let edges = run.iter().map(|&edge| &network.edges()[edge as usize]);
         let place = |node: u32| network.nodes()[node as usize].position;

@@ -13,14 +13,20 @@ use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 ///
 /// `nodes` and `edges` are objects of columns of equal length (`x_mm`, `y_mm`, `born_step`; `from`, `to`, `radius_from_mm`,
 /// `radius_to_mm`, `order`), which takes half the room of a list of objects and loads into tables as it is. Nodes are numbered from 0.
-/// `areoles` is a list of objects, there only if asked for.
-pub fn json(outline: &Outline, network: &VenationNetwork, with_areoles: bool) -> String {
-    let margin: Vec<[f64; 2]> = outline.points().iter().map(DVec2::to_array).collect();
-    let head = json!({
-        "points_mm": margin,
-        "base_mm": outline.base().to_array(),
-        "apex_mm": outline.apex().to_array(),
-    });
+/// `areoles` is a list of objects, there only if asked for. The margin is `outline`; a compound leaf has the list `outlines` instead.
+pub fn json(outlines: &[Outline], network: &VenationNetwork, with_areoles: bool) -> String {
+    let margin = |outline: &Outline| {
+        let points: Vec<[f64; 2]> = outline.points().iter().map(DVec2::to_array).collect();
+        json!({
+            "points_mm": points,
+            "base_mm": outline.base().to_array(),
+            "apex_mm": outline.apex().to_array(),
+        })
+    };
+    let head = match outlines {
+        [outline] => format!("\"outline\":{}", margin(outline)),
+        several => format!("\"outlines\":{}", column(several, margin)),
+    };
     let ending = match network.ending() {
         Ending::Settled => "settled",
         Ending::Growing => "growing",
@@ -30,7 +36,7 @@ pub fn json(outline: &Outline, network: &VenationNetwork, with_areoles: bool) ->
     let edges = |value: fn(&VeinEdge) -> Value| column(network.edges(), value);
     let mut text = format!(
         "{{\"length_unit\":\"mm\",\n\"steps\":{},\n\"sources\":{},\n\"segment_mm\":{},\n\"ending\":\"{ending}\",\n\
-         \"outline\":{head},\n",
+         {head},\n",
         network.steps(),
         network.sources(),
         Value::from(network.segment_mm()),

@@ -33,14 +33,15 @@ pub struct SvgStyle {
 /// There is a group for each order, finest first, so that coarse veins lie on top. Stretches of a vein with one width are
 /// one stroked path; where a vein tapers it is a filled outline.
 pub fn svg(outline: &Outline, network: &VenationNetwork, style: SvgStyle) -> String {
-    svg_within(outline.bounds(), outline, network, style)
+    let outlines = std::slice::from_ref(outline);
+    svg_within(outline.bounds(), outlines, network, style)
 }
 
 /// The same with a page for another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of
-/// a leaf while it grows have one scale on the page of the full-grown one.
+/// a leaf while it grows have one scale on the page of the full-grown one. A compound leaf has several margins.
 pub fn svg_within(
     (low, high): (DVec2, DVec2),
-    outline: &Outline,
+    outlines: &[Outline],
     network: &VenationNetwork,
     style: SvgStyle,
 ) -> String {
@@ -54,8 +55,11 @@ pub fn svg_within(
         rounded(low.x - border),
         rounded(-(high.y + border)),
     );
-    points(&mut text, outline.points().iter().copied());
-    text += "Z\"/>\n";
+    for outline in outlines {
+        points(&mut text, outline.points().iter().copied());
+        text.push('Z');
+    }
+    text += "\"/>\n";
     if style.areoles {
         text += "<g id=\"areoles\" stroke=\"none\">\n";
         let found = areoles(network);

@@ -38,7 +38,7 @@ fn floats(value: &Value) -> Vec<f64> {
 #[test]
 fn json_gives_the_network_back() {
     let (blade, veins) = poplar(2);
-    let read = parse(&json(&blade, &veins, true));
+    let read = parse(&json(std::slice::from_ref(&blade), &veins, true));
     let (nodes, edges) = (&read["nodes"], &read["edges"]);
     let (x, y, born) = (
         floats(&nodes["x_mm"]),
@@ -80,7 +80,11 @@ fn json_gives_the_network_back() {
             Some(found.polygon(number).count())
         );
     }
-    assert!(parse(&json(&blade, &veins, false)).get("areoles").is_none());
+    assert!(
+        parse(&json(std::slice::from_ref(&blade), &veins, false))
+            .get("areoles")
+            .is_none()
+    );
 }
 
 #[test]
@@ -134,7 +138,7 @@ fn graphml_is_well_formed_and_gives_the_network_back() {
 #[test]
 fn geojson_holds_margin_veins_and_areoles() {
     let (blade, veins) = poplar(3);
-    let read = parse(&geojson(&blade, &veins));
+    let read = parse(&geojson(std::slice::from_ref(&blade), &veins));
     assert_eq!(read["type"], "FeatureCollection");
     assert_eq!(read["coordinate_unit"], "mm");
     let features = read["features"].as_array().expect("a list");
@@ -244,11 +248,11 @@ fn a_vein_that_tapers_is_drawn_with_both_its_widths() {
 fn a_leaf_without_veins_is_written_as_one() {
     let (blade, none) = (rectangle((0.0, 0.0), (1.0, 2.0)), network(&[], &[]));
     assert_eq!(
-        parse(&json(&blade, &none, true))["areoles"],
+        parse(&json(std::slice::from_ref(&blade), &none, true))["areoles"],
         Value::Array(Vec::new())
     );
     assert_eq!(
-        parse(&geojson(&blade, &none))["features"]
+        parse(&geojson(std::slice::from_ref(&blade), &none))["features"]
             .as_array()
             .map(Vec::len),
         Some(1)

@@ -242,6 +242,8 @@ impl LeafTraits {
                 mottle_scale_mm: 1.5,
             },
             senescence: None,
+            petiole: None,
+            compound: None,
             form: BladeForm {
                 fold: self.lie.fold.to_radians(),
                 curl: self.lie.curl.to_radians(),

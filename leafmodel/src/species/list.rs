@@ -1,10 +1,12 @@
 //! The presets, in the order in which a list shows them.
 
 use super::young::FORMS;
-use super::{PlanOf, Preset, arcuate, beyond, extended, maple, runions, trees, xia};
+use super::{
+    PlanOf, Preset, arcuate, beyond, compound_leaves, extended, maple, runions, trees, xia,
+};
 
-/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, the
-/// examples of Xia 2007, then the figures of Young 2010.
+/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, splines, the
+/// examples of Xia 2007, what goes beyond Young 2010, compound leaves, then the figures of Young 2010.
 pub static PRESETS: &[Preset] = &with_forms();
 
 /// The presets with a function of their own, then the forms.
@@ -29,8 +31,7 @@ const fn with_forms() -> [Preset; GROWN.len() + FORMS.len()] {
     presets
 }
 
-/// The figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, then the examples of
-/// Xia 2007.
+/// All but the figures of Young 2010.
 static GROWN: &[Preset] = &[
     Preset {
         name: "runions-9a",
@@ -437,5 +438,40 @@ static GROWN: &[Preset] = &[
         source: "nonlinear veins as section V of Young 2010 names them; all numbers by eye",
         row: None,
         plan: PlanOf::Function(extended::dogwood),
+    },
+    Preset {
+        name: "ash",
+        about: "Ash: five pairs of leaflets and one at the end of the rachis",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::ash),
+    },
+    Preset {
+        name: "rose",
+        about: "Rose: seven toothed leaflets",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::rose),
+    },
+    Preset {
+        name: "horse-chestnut",
+        about: "Horse chestnut: seven leaflets from one point",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::horse_chestnut),
+    },
+    Preset {
+        name: "mimosa",
+        about: "A mimosa: twice feathered, 360 small leaflets",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::mimosa),
+    },
+    Preset {
+        name: "clover",
+        about: "White clover: three leaflets shaped like inverted hearts",
+        source: "kind of leaf, usual number and length of leaflets as floras give them; contents within the range of broad leaves; outline, veins, stalks and form by eye",
+        row: None,
+        plan: PlanOf::Function(compound_leaves::clover),
     },
 ];

@@ -12,10 +12,16 @@ pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     }
     let (low, high) = world.geometry.bounds();
     let size = high - low;
+    let count = loaded.description.objects.len();
+    let parts = if world.objects.len() > count {
+        format!(" ({} parts)", world.objects.len())
+    } else {
+        String::new()
+    };
     say(format!(
-        "{}: {} objects, {} lights, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
+        "{}: {} objects{parts}, {} lights, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
         arguments.scene.display(),
-        world.objects.len(),
+        count,
         world.lights.len(),
         size.x,
         size.y,

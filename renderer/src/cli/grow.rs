@@ -12,6 +12,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use leafmodel::compound::{CompoundLeaf, FlatLeaf, StalkKind, WholeLeaf, leaflet_plans};
 use leafmodel::export::{self, SvgStyle};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::measure::measure;
@@ -21,6 +22,7 @@ use leafmodel::venation::VenationError;
 use leafmodel::venation::network::{Ending, VenationNetwork};
 use serde_json::json;
 
+use self::blade_files::Parts;
 use self::frames::Page;
 use self::outputs::{Kind, Outputs};
 use crate::cli::arguments::GrowArguments;
@@ -88,22 +90,34 @@ fn carry_out(
     let Lamina {
         outline, network, ..
     } = grown.lamina();
+    // With its stalks, and all its leaflets.
+    let flat = grown.flat(plan)?;
+    let (page, outlines, all_veins) = match &flat {
+        Some(flat) => (flat.bounds(), flat.outlines.as_slice(), &flat.network),
+        None => (outline.bounds(), std::slice::from_ref(outline), network),
+    };
     for (path, kind) in &outputs.whole {
         let bytes = match kind {
             Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson => {
-                veins_file(*kind, outline.bounds(), outline, network, arguments.size)?
+                veins_file(*kind, page, outlines, all_veins, arguments.size)?
             }
             Kind::Ply | Kind::Obj => match &grown {
-                Grown::Leaf(leaf) if *kind == Kind::Ply => blade_files::ply(&leaf.mesh),
-                Grown::Leaf(leaf) => blade_files::obj(&leaf.mesh).into_bytes(),
-                Grown::Flat(_) => continue,
+                Grown::Whole(leaf) if *kind == Kind::Ply => blade_files::ply(&Parts::of(leaf)),
+                Grown::Whole(leaf) => blade_files::obj(&Parts::of(leaf)).into_bytes(),
+                Grown::Flat { .. } => continue,
             },
             Kind::Toml => continue,
         };
         finish(path, &bytes, stop)?;
     }
-    if let (Some(folder), Grown::Leaf(leaf)) = (&arguments.contents, &grown) {
-        write_contents(folder, name, leaf, stop)?;
+    if let (Some(folder), Grown::Whole(leaf)) = (&arguments.contents, &grown) {
+        for (number, blade) in leaf.blades.iter().enumerate() {
+            let name = match number {
+                0 => name.to_owned(),
+                _ => format!("{name}-{}", number + 1),
+            };
+            write_contents(folder, &name, blade, stop)?;
+        }
     }
     if let Some(path) = &arguments.fields {
         fields::write(path, plan, grown.lamina(), stop)?;
@@ -116,8 +130,13 @@ fn carry_out(
             eprintln!("note: the blade is curved; measures are those of its conformal map");
         }
         let measures = measure(outline, network, plan.venation.murray_exponent());
+        let mut report = measures.json();
+        if let (Some(leaf), Some(report)) = (grown.compound(), report.as_object_mut()) {
+            eprintln!("note: measures are those of the largest leaflet");
+            report.insert("compound".to_owned(), compound_measures(leaf));
+        }
         eprint!("{}", measures.table());
-        finish(path, format!("{:#}\n", measures.json()).as_bytes(), stop)?;
+        finish(path, format!("{report:#}\n").as_bytes(), stop)?;
     }
     let seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
@@ -126,10 +145,10 @@ fn carry_out(
             "seconds": seconds,
             "build_seconds": build_seconds,
             "peak_mib": stats::peak_mib(),
-            "nodes": network.nodes().len(),
-            "sources": network.sources(),
-            "steps": network.steps(),
-            "loops": network.loops(),
+            "nodes": all_veins.nodes().len(),
+            "sources": all_veins.sources(),
+            "steps": all_veins.steps(),
+            "loops": all_veins.loops(),
             "triangles": grown.triangles(),
         });
         stats::write(path, &report)?;
@@ -139,17 +158,37 @@ fn carry_out(
         .map_or_else(String::new, |count| format!("{count} triangles, "));
     eprintln!(
         "{name}: {} vein nodes, {} loops, {} steps, {triangles}{seconds:.2} s",
-        network.nodes().len(),
-        network.loops(),
-        network.steps(),
+        all_veins.nodes().len(),
+        all_veins.loops(),
+        all_veins.steps(),
     );
     Ok(())
 }
 
+/// How many leaflets there are, and how long the axes are.
+fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
+    let length = |wanted: StalkKind| -> f64 {
+        let stalks = leaf.stalks.iter().filter(|stalk| stalk.kind == wanted);
+        let pieces = stalks.flat_map(|stalk| stalk.points.windows(2));
+        pieces.map(|pair| pair[0].distance(pair[1])).sum()
+    };
+    json!({
+        "leaflets": leaf.leaflets.len(),
+        "petiole_length_mm": length(StalkKind::Petiole),
+        "rachis_length_mm": length(StalkKind::Rachis),
+        "pinnae_length_mm": length(StalkKind::Pinna),
+        "petiolules_length_mm": length(StalkKind::Petiolule),
+    })
+}
+
 /// As much of a leaf as is asked for.
 enum Grown {
-    Flat(Box<Lamina>),
-    Leaf(Box<Leaf>),
+    /// Its different laminas, of a simple leaf the one.
+    Flat {
+        laminas: Vec<Lamina>,
+        compound: Option<CompoundLeaf>,
+    },
+    Whole(Box<WholeLeaf>),
 }
 
 impl Grown {
@@ -159,66 +198,111 @@ impl Grown {
             plan.form.validate().map_err(Failure::bad)?;
             plan.check_senescence().map_err(Failure::bad)?;
         }
-        let is_stopped = || stop.load(Ordering::Relaxed);
-        let lamina = plan.grow_lamina_unless(&is_stopped);
-        let lamina = lamina.map_err(|error| {
-            if matches!(error, LeafError::Venation(VenationError::Stopped)) {
-                Failure::Interrupted
-            } else {
-                Failure::bad(error)
-            }
-        })?;
-        let network = &lamina.network;
-        match network.ending() {
-            Ending::Settled | Ending::Growing => {}
-            Ending::StepLimit => {
-                eprintln!(
-                    "warning: the pattern had not settled after {} steps",
-                    network.steps()
-                );
-            }
+        // Leaflets in each other's way cost no veins.
+        let compound = plan.compound.as_ref().map(|form| form.arrange(plan));
+        let compound = compound.transpose().map_err(Failure::bad)?;
+        let plans = match &plan.compound {
+            Some(form) => leaflet_plans(plan, form),
+            None => vec![plan.clone()],
+        };
+        let laminas: Result<Vec<Lamina>, Failure> =
+            plans.iter().map(|plan| lamina(plan, stop)).collect();
+        let laminas = laminas?;
+        if !blade {
+            return Ok(Self::Flat { laminas, compound });
         }
-        if network.edges().is_empty() {
-            eprintln!(
-                "warning: no vein grew; more darts or smaller birth distances let sources appear"
-            );
-        }
-        if blade {
-            let leaf = Leaf::from_lamina(plan, lamina).map_err(Failure::bad)?;
-            return Ok(Self::Leaf(Box::new(leaf)));
-        }
-        Ok(Self::Flat(Box::new(lamina)))
+        let blades: Result<Vec<Leaf>, LeafError> = plans
+            .iter()
+            .zip(laminas)
+            .map(|(plan, lamina)| Leaf::from_lamina(plan, lamina))
+            .collect();
+        let mut blades = blades.map_err(Failure::bad)?;
+        let whole = match (&plan.compound, compound) {
+            (Some(form), Some(flat)) => WholeLeaf::assembled(plan, form, flat, blades),
+            _ => WholeLeaf::simple(blades.remove(0)),
+        };
+        Ok(Self::Whole(Box::new(whole)))
     }
 
+    /// Of a compound leaf the first leaflet.
     fn lamina(&self) -> &Lamina {
         match self {
-            Self::Flat(lamina) => lamina,
-            Self::Leaf(leaf) => &leaf.lamina,
+            Self::Flat { laminas, .. } => &laminas[0],
+            Self::Whole(leaf) => &leaf.blades[0].lamina,
         }
+    }
+
+    fn compound(&self) -> Option<&CompoundLeaf> {
+        match self {
+            Self::Flat { compound, .. } => compound.as_ref(),
+            Self::Whole(leaf) => leaf.flat.as_ref(),
+        }
+    }
+
+    /// All of it in the plane, if that is more than the lamina.
+    fn flat(&self, plan: &LeafPlan) -> Result<Option<FlatLeaf>, Failure> {
+        let laminas: Vec<&Lamina> = match self {
+            Self::Flat { laminas, .. } => laminas.iter().collect(),
+            Self::Whole(leaf) => leaf.blades.iter().map(|blade| &blade.lamina).collect(),
+        };
+        let Some(compound) = self.compound() else {
+            return Ok(FlatLeaf::with_petiole(plan, laminas[0]));
+        };
+        let flat = FlatLeaf::compound(compound, &laminas);
+        let vanished = || Failure::bad("the smallest leaflets are too small to be drawn");
+        flat.ok_or_else(vanished).map(Some)
     }
 
     fn triangles(&self) -> Option<usize> {
         match self {
-            Self::Flat(_) => None,
-            Self::Leaf(leaf) => Some(leaf.mesh.triangles.len()),
+            Self::Flat { .. } => None,
+            Self::Whole(leaf) => Some(Parts::of(leaf).triangles()),
         }
     }
+}
+
+/// Margin and veins of one blade.
+fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
+    let is_stopped = || stop.load(Ordering::Relaxed);
+    let lamina = plan.grow_lamina_unless(&is_stopped).map_err(|error| {
+        if matches!(error, LeafError::Venation(VenationError::Stopped)) {
+            Failure::Interrupted
+        } else {
+            Failure::bad(error)
+        }
+    })?;
+    let network = &lamina.network;
+    match network.ending() {
+        Ending::Settled | Ending::Growing => {}
+        Ending::StepLimit => {
+            eprintln!(
+                "warning: the pattern had not settled after {} steps",
+                network.steps()
+            );
+        }
+    }
+    if network.edges().is_empty() {
+        eprintln!(
+            "warning: no vein grew; more darts or smaller birth distances let sources appear"
+        );
+    }
+    Ok(lamina)
 }
 
 /// Margin and veins in a format that shows them; pictures on the page of a blade with the corners `page`.
 fn veins_file(
     kind: Kind,
     page: Page,
-    outline: &Outline,
+    outlines: &[Outline],
     network: &VenationNetwork,
     pixels: u32,
 ) -> Result<Vec<u8>, Failure> {
     Ok(match kind {
-        Kind::Svg => export::svg_within(page, outline, network, SvgStyle::default()).into_bytes(),
-        Kind::Png => drawn(page, outline, network, pixels)?,
-        Kind::Json => export::json(outline, network, true).into_bytes(),
+        Kind::Svg => export::svg_within(page, outlines, network, SvgStyle::default()).into_bytes(),
+        Kind::Png => drawn(page, outlines, network, pixels)?,
+        Kind::Json => export::json(outlines, network, true).into_bytes(),
         Kind::GraphMl => export::graphml(network).into_bytes(),
-        Kind::GeoJson => export::geojson(outline, network).into_bytes(),
+        Kind::GeoJson => export::geojson(outlines, network).into_bytes(),
         Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
     })
 }
@@ -260,11 +344,11 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// A picture of margin and veins as PNG.
 fn drawn(
     page: Page,
-    outline: &Outline,
+    outlines: &[Outline],
     network: &VenationNetwork,
     pixels: u32,
 ) -> Result<Vec<u8>, Failure> {
     let drawing =
-        draw_within(page, outline, network, pixels, Style::OnPaper).map_err(Failure::bad)?;
+        draw_within(page, outlines, network, pixels, Style::OnPaper).map_err(Failure::bad)?;
     portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
 }

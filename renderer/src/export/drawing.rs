@@ -69,7 +69,7 @@ pub fn draw(
 ) -> Result<Drawing, ImageError> {
     draw_within(
         outline.bounds(),
-        outline,
+        std::slice::from_ref(outline),
         network,
         pixels_per_long_side,
         style,
@@ -77,14 +77,14 @@ pub fn draw(
 }
 
 /// The same on the sheet of another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of a
-/// leaf while it grows have one scale on the sheet of the full-grown one.
+/// leaf while it grows have one scale on the sheet of the full-grown one. A compound leaf has several margins.
 ///
 /// # Errors
 ///
 /// As [`draw`].
 pub fn draw_within(
     (low, high): (DVec2, DVec2),
-    outline: &Outline,
+    outlines: &[Outline],
     network: &VenationNetwork,
     pixels_per_long_side: u32,
     style: Style,
@@ -119,7 +119,10 @@ pub fn draw_within(
         Style::Orders => ([246, 246, 242], [190, 190, 184]),
     };
     canvas.fill(Color::WHITE);
-    if let Some(path) = sheet.polygon(outline.points()) {
+    for path in outlines
+        .iter()
+        .filter_map(|outline| sheet.polygon(outline.points()))
+    {
         fill(&mut canvas, &path, blade, 1.0);
         let line = Stroke::default();
         let same = Transform::identity();

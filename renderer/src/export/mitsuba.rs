@@ -9,6 +9,7 @@ mod mesh;
 mod spectra;
 mod xml;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -92,20 +93,26 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let path = folder.join(name);
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
-    for number in 0..scene.objects.len() {
+    let mut written = BTreeSet::new();
+    for number in 0..world.objects.len() {
+        let file = xml::mesh_file(scene, world, number);
         let mesh = world
             .geometry
             .mesh(world.geometry.instance(number as u32).mesh);
-        save(
-            &format!("meshes/{}.ply", scene.objects[number].name),
-            &mesh::ply(mesh),
-        )?;
+        let is_part = number >= scene.objects.len();
+        let mirrored = is_part && xml::is_mirrored(world, number);
+        if written.insert(file.clone()) {
+            save(&file, &mesh::ply(mesh, mirrored))?;
+        }
     }
     for (number, material) in world.materials.iter().enumerate() {
         if let Material::Leaf(leaf) = material
             && let LeafTissue::Map(map) = &leaf.tissue
         {
-            let path = folder.join(format!("maps/{}.exr", xml::material_id(scene, number)));
+            let path = folder.join(format!(
+                "maps/{}.exr",
+                xml::material_id(scene, world, number)
+            ));
             openexr::write(&map_picture(map), &path)?;
         }
     }
@@ -266,6 +273,68 @@ towards = [0, 0, 1]
             .expect("a contents map");
         assert_eq!(back.size(), map().size());
         assert_eq!(back.texels(), map().texels());
+    }
+
+    #[test]
+    fn every_part_of_a_compound_leaf_is_a_shape_and_mirrored_ones_are_mirrored_in_their_files() {
+        const LEAF: &str = r#"
+[leaves.trefoil]
+length_mm = 20
+map_size = 16
+[leaves.trefoil.outline.cubic]
+[leaves.trefoil.venation.arcuate]
+[leaves.trefoil.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 40
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+[leaves.trefoil.compound.palmate]
+leaflets = 3
+spread_deg = 240
+petiolule = 1
+petiole = 1
+variants = 2
+[objects.clover]
+leaf = "trefoil"
+position_m = [0, 0, 0.1]
+"#;
+        let folder = tempfile::tempdir().expect("a folder");
+        openexr::write(&map_picture(&map()), &folder.path().join("map.exr")).expect("a map");
+        let text = SCENE.to_owned() + LEAF;
+        let scene = load::parse(&text, "scene.toml", folder.path(), &[])
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("a scene that can be built");
+        // Two rectangles; three blades with a stalk each, and the petiole.
+        assert_eq!(world.objects.len(), 2 + 7);
+        let out = folder.path().join("out");
+        write(&scene, &world, &out).expect("it is written");
+        let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+        assert_eq!(xml.matches("<shape type=\"ply\"").count(), 9);
+        // Two blades and what stalks are made of; each shape names one.
+        assert_eq!(
+            xml.matches("<bsdf type=\"lamina_leaf\" id=\"leaf-trefoil")
+                .count(),
+            3
+        );
+        assert_eq!(xml.matches("<ref id=\"leaf-trefoil").count(), 7);
+        for word in xml
+            .split('"')
+            .filter(|word| word.starts_with("meshes/") || word.starts_with("maps/"))
+        {
+            assert!(out.join(word).is_file(), "{word} is missing");
+        }
+        for number in 0..world.objects.len() {
+            let instance = world.geometry.instance(number as u32);
+            let file = xml::mesh_file(&scene, &world, number);
+            let bytes = fs::read(out.join(&file)).expect("its mesh");
+            let mesh = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
+            let own = world.geometry.mesh(instance.mesh);
+            let side = if file.contains("mirrored") { -1.0 } else { 1.0 };
+            assert_eq!(mesh.positions()[0].x, side * own.positions()[0].x);
+            assert_eq!(file.contains("mirrored"), xml::is_mirrored(&world, number));
+        }
     }
 
     #[test]

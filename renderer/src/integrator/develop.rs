@@ -98,7 +98,9 @@ fn object_numbers(world: &World, job: &Job) -> Vec<f32> {
             let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
             let ray = world.camera.ray(middle, Vec2::splat(0.5));
             let hit = world.geometry.intersect(&ray);
-            numbers.push(hit.map_or(0.0, |hit| (hit.instance + 1) as f32));
+            numbers.push(hit.map_or(0.0, |hit| {
+                (world.objects[hit.instance as usize].object + 1) as f32
+            }));
         }
     }
     numbers

@@ -10,6 +10,7 @@
 
 mod angle;
 mod camera;
+mod compound;
 mod contents;
 pub(crate) mod context;
 mod film;
@@ -23,6 +24,7 @@ mod object;
 mod outline;
 pub(crate) mod overrides;
 mod path;
+mod petiole;
 mod reader;
 mod senescence;
 mod spectrum;
@@ -31,6 +33,7 @@ pub(crate) mod tree;
 mod values;
 mod venation;
 pub(crate) mod write;
+mod write_compound;
 pub(crate) mod write_leaf;
 
 use std::collections::BTreeSet;

@@ -1,7 +1,10 @@
 //! The seam to leafmodel: grown leaves become meshes and materials, millimetres become metres.
 
-use glam::Vec2;
-use leafmodel::leaf::{Leaf, LeafError};
+use glam::{DAffine3, Vec2};
+use leafmodel::blade::stalk::StalkMesh;
+use leafmodel::blade::vein_field::VeinCover;
+use leafmodel::compound::{CompoundError, WholeLeaf};
+use leafmodel::leaf::Leaf;
 use thiserror::Error;
 
 use crate::geometry::{MeshError, TriangleMesh};
@@ -11,13 +14,26 @@ use crate::scene::description;
 use crate::scene::world::build_coat;
 use crate::spectrum::Curve;
 
-/// A grown leaf, ready to be placed.
+/// A grown leaf, ready to be placed: petiole, rachis and leaflets, or one blade alone.
 #[derive(Debug)]
 pub struct GrownLeaf {
-    /// The blade, metres, base at the origin, midrib along +y, adaxial side +z.
-    pub mesh: TriangleMesh,
-    /// Its contents map and coats.
-    pub material: LeafMaterial,
+    /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial side +z.
+    pub meshes: Vec<TriangleMesh>,
+    /// Content maps and coats of the different blades, then, if there are stalks, what those are made of.
+    pub materials: Vec<LeafMaterial>,
+    /// What stands where; one at least.
+    pub pieces: Vec<Piece>,
+}
+
+/// A part of a leaf.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// Which of [`GrownLeaf::meshes`].
+    pub mesh: usize,
+    /// Which of [`GrownLeaf::materials`].
+    pub material: usize,
+    /// From the mesh to the leaf, metres; may mirror.
+    pub to_leaf: DAffine3,
 }
 
 /// Why a leaf cannot be grown.
@@ -25,7 +41,7 @@ pub struct GrownLeaf {
 pub enum PlantError {
     /// The plan cannot be carried out.
     #[error(transparent)]
-    Leaf(#[from] LeafError),
+    Leaf(#[from] CompoundError),
     /// The blade's mesh is refused.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -37,21 +53,73 @@ pub enum PlantError {
 ///
 /// [`PlantError`] if the plan cannot be carried out.
 pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
-    let grown = Leaf::grow(&leaf.plan)?;
+    let whole = WholeLeaf::grow(&leaf.plan)?;
+    let material = |tissue| LeafMaterial {
+        tissue,
+        abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
+        coats: leaf.coats.map(build_coat),
+    };
+    let (mut meshes, mut materials) = (Vec::new(), Vec::new());
+    // The mesh of each blade, and that of its stalk.
+    let mut own = Vec::new();
+    let stalk_material = whole.blades.len();
+    for grown in whole.blades {
+        own.push((meshes.len(), grown.petiole.is_some()));
+        meshes.push(blade(&grown)?);
+        if let Some(petiole) = &grown.petiole {
+            meshes.push(stalk(petiole)?);
+        }
+        let map = grown.contents;
+        materials.push(material(LeafTissue::Map(ContentsTexture::new(
+            map.width as usize,
+            map.height as usize,
+            map.texels,
+        ))));
+    }
+    let mut pieces = Vec::new();
+    for placement in &whole.placements {
+        let (mesh, has_stalk) = own[placement.blade];
+        let to_leaf = DAffine3 {
+            translation: placement.to_leaf.translation * 1e-3,
+            ..placement.to_leaf
+        };
+        let piece = |mesh, material| Piece {
+            mesh,
+            material,
+            to_leaf,
+        };
+        pieces.push(piece(mesh, placement.blade));
+        pieces.extend(has_stalk.then(|| piece(mesh + 1, stalk_material)));
+    }
+    if let Some(axes) = &whole.axes {
+        pieces.push(Piece {
+            mesh: meshes.len(),
+            material: stalk_material,
+            to_leaf: DAffine3::IDENTITY,
+        });
+        meshes.push(stalk(axes)?);
+    }
+    if pieces.iter().any(|piece| piece.material == stalk_material) {
+        // What a fully developed vein holds; the tube's wall is a leaf of that.
+        let vein = VeinCover {
+            weight: 1.0,
+            excess: 0.0,
+        };
+        let contents = leaf.plan.tissue.contents(vein, 0.0);
+        materials.push(material(LeafTissue::Uniform(contents)));
+    }
+    Ok(GrownLeaf {
+        meshes,
+        materials,
+        pieces,
+    })
+}
+
+fn blade(grown: &Leaf) -> Result<TriangleMesh, MeshError> {
     let blade = &grown.mesh;
-    let mesh = TriangleMesh::new(
-        blade
-            .positions
-            .iter()
-            .map(|&position| (position * 1e-3).as_vec3())
-            .collect(),
-        Some(
-            blade
-                .normals
-                .iter()
-                .map(|normal| normal.as_vec3())
-                .collect(),
-        ),
+    TriangleMesh::new(
+        metres(&blade.positions),
+        Some(directions(&blade.normals)),
         Some(
             blade
                 .uvs
@@ -60,16 +128,24 @@ pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
                 .collect(),
         ),
         blade.triangles.clone(),
-    )?;
-    let map = grown.contents;
-    let material = LeafMaterial {
-        tissue: LeafTissue::Map(ContentsTexture::new(
-            map.width as usize,
-            map.height as usize,
-            map.texels,
-        )),
-        abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
-        coats: leaf.coats.map(build_coat),
-    };
-    Ok(GrownLeaf { mesh, material })
+    )
+}
+
+/// Without texture coordinates: the same everywhere.
+fn stalk(tubes: &StalkMesh) -> Result<TriangleMesh, MeshError> {
+    TriangleMesh::new(
+        metres(&tubes.positions),
+        Some(directions(&tubes.normals)),
+        None,
+        tubes.triangles.clone(),
+    )
+}
+
+fn metres(positions: &[glam::DVec3]) -> Vec<glam::Vec3> {
+    let position = positions.iter();
+    position.map(|&p| (p * 1e-3).as_vec3()).collect()
+}
+
+fn directions(normals: &[glam::DVec3]) -> Vec<glam::Vec3> {
+    normals.iter().map(|normal| normal.as_vec3()).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec3, Vec2, Vec3};
 use thiserror::Error;
 
 use crate::bsdf::dielectric::Dielectric;
@@ -19,19 +19,21 @@ use crate::material::Material;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::scene::assets::{self, AssetError};
 use crate::scene::description::{self, Description, FilmKind, ObjectShape};
-use crate::scene::plants::{self, PlantError};
+use crate::scene::plants::{self, Piece, PlantError};
 use crate::spectrum::wavelengths::VisibleDistribution;
 use crate::spectrum::{Curve, WavelengthSampler};
 
 /// Everything that paths meet.
 #[derive(Debug)]
 pub struct World {
-    /// Surfaces; instance numbers are object numbers.
+    /// Surfaces; the first instances are the scene's objects, or of each leaf one part. The others are the rest of its parts.
     pub geometry: Geometry,
-    /// What each object is made of and whether it shines.
+    /// What each instance is made of and whether it shines.
     pub objects: Vec<WorldObject>,
-    /// Materials: the scene's, then one for each grown leaf.
+    /// Materials: the scene's, then those of each grown leaf.
     pub materials: Vec<Material>,
+    /// Whose each material is.
+    pub owners: Vec<MaterialOwner>,
     /// Lights, in the scene's order.
     pub lights: Vec<Light>,
     /// How lights are sampled.
@@ -48,9 +50,25 @@ pub struct World {
     pub notes: Vec<String>,
 }
 
-/// An object as paths see it.
+/// Whose a material is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaterialOwner {
+    /// That of the scene with this number.
+    Scene(usize),
+    /// That of the leaf with the number `leaf`; its different blades have the first parts, stalks the last.
+    Leaf {
+        /// Index into [`Description::leaves`].
+        leaf: usize,
+        /// Which of its materials.
+        part: usize,
+    },
+}
+
+/// An instance as paths see it.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldObject {
+    /// Number of the object in the scene.
+    pub object: usize,
     /// Number of its material.
     pub material: usize,
     /// Number of the light that it is, if it shines.
@@ -129,57 +147,30 @@ impl World {
         for material in &scene.materials {
             materials.push(build_material(&material.name, &material.value)?);
         }
-        for leaf in &scene.leaves {
+        let mut owners: Vec<MaterialOwner> =
+            (0..materials.len()).map(MaterialOwner::Scene).collect();
+        // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
+        let mut leaves: Vec<Vec<Piece>> = Vec::new();
+        for (number, leaf) in scene.leaves.iter().enumerate() {
             let grown = plants::grow(&leaf.value).map_err(|source| WorldError::Plant {
                 name: leaf.name.clone(),
                 source: Box::new(source),
             })?;
-            meshes.push(grown.mesh);
-            materials.push(Material::Leaf(Box::new(grown.material)));
-        }
-        for (number, material) in materials.iter().enumerate() {
-            if let Material::Leaf(leaf) = material
-                && let Some(nm) = leaf.coat_exceeds_reflectance(range_nm)
-            {
-                let name = match scene.materials.get(number) {
-                    Some(material) => format!("materials.{}", material.name),
-                    None => format!(
-                        "leaves.{}",
-                        scene.leaves[number - scene.materials.len()].name
-                    ),
-                };
-                notes.push(format!(
-                    "{name}: at {nm} nm the adaxial coat alone reflects more than the leaf should; \
-                     the leaf reflects the coat's share there (lower the coat's eta)"
-                ));
+            let pieces = grown.pieces.into_iter().map(|piece| Piece {
+                mesh: meshes.len() + piece.mesh,
+                material: materials.len() + piece.material,
+                ..piece
+            });
+            leaves.push(pieces.collect());
+            meshes.extend(grown.meshes);
+            for (part, material) in grown.materials.into_iter().enumerate() {
+                let leaf = number;
+                owners.push(MaterialOwner::Leaf { leaf, part });
+                materials.push(Material::Leaf(Box::new(material)));
             }
         }
-        let instances: Vec<Instance> = scene
-            .objects
-            .iter()
-            .map(|object| {
-                let mesh = match object.value.shape {
-                    ObjectShape::Mesh { mesh, .. } => mesh,
-                    ObjectShape::Leaf { leaf } => scene.meshes.len() + leaf,
-                };
-                let to_world = object.value.to_world;
-                Instance {
-                    mesh: mesh as u32,
-                    to_world: glam::Affine3A::from_mat4(to_world.as_mat4()),
-                }
-            })
-            .collect();
-        let mut objects: Vec<WorldObject> = scene
-            .objects
-            .iter()
-            .map(|object| WorldObject {
-                material: match object.value.shape {
-                    ObjectShape::Mesh { material, .. } => material,
-                    ObjectShape::Leaf { leaf } => scene.materials.len() + leaf,
-                },
-                light: None,
-            })
-            .collect();
+        notes.extend(notes_on_coats(scene, &materials, &owners, range_nm));
+        let (instances, mut objects) = place(scene, &leaves);
         let mut lights = Vec::new();
         for (number, light) in scene.lights.iter().enumerate() {
             if let description::Light::Area { object, .. } = light.value {
@@ -198,6 +189,7 @@ impl World {
             geometry,
             objects,
             materials,
+            owners,
             selection: LightSelection::new(&lights, &powers),
             lights,
             camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
@@ -208,10 +200,79 @@ impl World {
         })
     }
 
-    /// The material of an object.
+    /// The material of an instance.
     pub fn material_of(&self, object: u32) -> &Material {
         &self.materials[self.objects[object as usize].material]
     }
+}
+
+/// Tells of leaves whose coat reflects more than the whole leaf should, each leaf once.
+fn notes_on_coats(
+    scene: &Description,
+    materials: &[Material],
+    owners: &[MaterialOwner],
+    range_nm: [f64; 2],
+) -> Vec<String> {
+    let mut notes: Vec<(String, String)> = Vec::new();
+    for (material, owner) in materials.iter().zip(owners) {
+        if let Material::Leaf(leaf) = material
+            && let Some(nm) = leaf.coat_exceeds_reflectance(range_nm)
+        {
+            let name = match owner {
+                MaterialOwner::Scene(number) => {
+                    format!("materials.{}", scene.materials[*number].name)
+                }
+                MaterialOwner::Leaf { leaf, .. } => format!("leaves.{}", scene.leaves[*leaf].name),
+            };
+            if notes.last().is_some_and(|(before, _)| *before == name) {
+                continue;
+            }
+            let note = format!(
+                "{name}: at {nm} nm the adaxial coat alone reflects more than the leaf should; \
+                 the leaf reflects the coat's share there (lower the coat's eta)"
+            );
+            notes.push((name, note));
+        }
+    }
+    notes.into_iter().map(|(_, note)| note).collect()
+}
+
+/// Instances, and what they are: one of each object, in their order, then the other parts of leaves.
+fn place(scene: &Description, leaves: &[Vec<Piece>]) -> (Vec<Instance>, Vec<WorldObject>) {
+    let (mut instances, mut objects) = (Vec::new(), Vec::new());
+    let mut put = |object: usize, mesh: usize, material: usize, to_world: DMat4| {
+        instances.push(Instance {
+            mesh: mesh as u32,
+            to_world: glam::Affine3A::from_mat4(to_world.as_mat4()),
+        });
+        objects.push(WorldObject {
+            object,
+            material,
+            light: None,
+        });
+    };
+    let put_piece =
+        |put: &mut dyn FnMut(usize, usize, usize, DMat4), object: usize, piece: &Piece| {
+            let to_world = scene.objects[object].value.to_world * DMat4::from(piece.to_leaf);
+            put(object, piece.mesh, piece.material, to_world);
+        };
+    let mut rest = Vec::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        match object.value.shape {
+            ObjectShape::Mesh { mesh, material } => {
+                put(number, mesh, material, object.value.to_world);
+            }
+            ObjectShape::Leaf { leaf } => {
+                let (first, others) = leaves[leaf].split_first().expect("a leaf has a blade");
+                put_piece(&mut put, number, first);
+                rest.extend(others.iter().map(|piece| (number, piece)));
+            }
+        }
+    }
+    for (number, piece) in rest {
+        put_piece(&mut put, number, piece);
+    }
+    (instances, objects)
 }
 
 /// What a film of this kind makes paths carry.

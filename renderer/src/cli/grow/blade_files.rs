@@ -1,14 +1,106 @@
-//! The blade as a mesh file.
+//! Blades and stalks as one mesh file.
 
 use std::fmt::Write as _;
 
-use leafmodel::blade::BladeMesh;
+use glam::{DAffine3, DVec2, DVec3};
+use leafmodel::blade::stalk::StalkMesh;
+use leafmodel::compound::WholeLeaf;
 
-/// The blade in millimetres, with normals, uv and thickness.
-pub(super) fn ply(mesh: &BladeMesh) -> Vec<u8> {
+/// One blade or some tubes in their place.
+struct Part<'l> {
+    positions: &'l [DVec3],
+    normals: &'l [DVec3],
+    uvs: &'l [DVec2],
+    thickness_mm: &'l [f64],
+    triangles: &'l [[u32; 3]],
+    place: DAffine3,
+}
+
+/// All parts of a leaf, in millimetres.
+pub(super) struct Parts<'l>(Vec<Part<'l>>);
+
+impl<'l> Parts<'l> {
+    /// Blades and their stalks as they are placed, then the axes.
+    pub(super) fn of(leaf: &'l WholeLeaf) -> Self {
+        let mut parts = Vec::new();
+        for placement in &leaf.placements {
+            let blade = &leaf.blades[placement.blade];
+            let place = placement.to_leaf;
+            let mesh = &blade.mesh;
+            parts.push(Part {
+                positions: &mesh.positions,
+                normals: &mesh.normals,
+                uvs: &mesh.uvs,
+                thickness_mm: &mesh.thickness_mm,
+                triangles: &mesh.triangles,
+                place,
+            });
+            parts.extend(blade.petiole.iter().map(|stalk| (stalk, place)).map(tubes));
+        }
+        let axes = leaf.axes.iter();
+        parts.extend(axes.map(|axes| tubes((axes, DAffine3::IDENTITY))));
+        Self(parts)
+    }
+
+    /// How many there are in all.
+    pub(super) fn triangles(&self) -> usize {
+        self.0.iter().map(|part| part.triangles.len()).sum()
+    }
+
+    fn vertices(&self) -> usize {
+        self.0.iter().map(|part| part.positions.len()).sum()
+    }
+
+    /// Corners of all triangles, numbered through all parts.
+    fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
+        let mut first = 0;
+        self.0.iter().flat_map(move |part| {
+            let before = first;
+            first += part.positions.len() as u32;
+            let mirrored = part.place.matrix3.determinant() < 0.0;
+            part.triangles.iter().map(move |&[a, b, c]| {
+                let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+                corners.map(|corner| corner + before)
+            })
+        })
+    }
+}
+
+fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> Part<'_> {
+    Part {
+        positions: &stalk.positions,
+        normals: &stalk.normals,
+        uvs: &stalk.uvs,
+        thickness_mm: &stalk.thickness_mm,
+        triangles: &stalk.triangles,
+        place,
+    }
+}
+
+impl Part<'_> {
+    /// Place, normal, uv and thickness of every vertex.
+    fn vertices(&self) -> impl Iterator<Item = (DVec3, DVec3, DVec2, f64)> {
+        let moved = self.place != DAffine3::IDENTITY;
+        let scale = libm::cbrt(self.place.matrix3.determinant().abs());
+        (0..self.positions.len()).map(move |i| {
+            let (position, normal) = (self.positions[i], self.normals[i]);
+            let (uv, thickness) = (self.uvs[i], self.thickness_mm[i]);
+            if !moved {
+                return (position, normal, uv, thickness);
+            }
+            // Turned, mirrored and scaled evenly, so that normals go with directions.
+            let normal = self.place.transform_vector3(normal).normalize();
+            let position = self.place.transform_point3(position);
+            (position, normal, uv, scale * thickness)
+        })
+    }
+}
+
+/// With normals, uv and thickness.
+pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\ncomment lengths in mm\nelement vertex {}\n",
-        mesh.positions.len()
+        parts.vertices()
     );
     for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v", "thickness"] {
         let _ = writeln!(header, "property float {name}");
@@ -16,13 +108,10 @@ pub(super) fn ply(mesh: &BladeMesh) -> Vec<u8> {
     let _ = write!(
         header,
         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        mesh.triangles.len()
+        parts.triangles()
     );
     let mut bytes = header.into_bytes();
-    for (vertex, position) in mesh.positions.iter().enumerate() {
-        let normal = mesh.normals[vertex];
-        let uv = mesh.uvs[vertex];
-        let thickness = mesh.thickness_mm[vertex];
+    for (position, normal, uv, thickness) in parts.0.iter().flat_map(Part::vertices) {
         for value in position
             .to_array()
             .into_iter()
@@ -32,27 +121,25 @@ pub(super) fn ply(mesh: &BladeMesh) -> Vec<u8> {
             bytes.extend_from_slice(&(value as f32).to_le_bytes());
         }
     }
-    for triangle in &mesh.triangles {
+    for triangle in parts.faces() {
         bytes.push(3);
         for index in triangle {
-            bytes.extend_from_slice(&(*index as i32).to_le_bytes());
+            bytes.extend_from_slice(&(index as i32).to_le_bytes());
         }
     }
     bytes
 }
 
-/// The blade in millimetres as text.
-pub(super) fn obj(mesh: &BladeMesh) -> String {
+/// As text.
+pub(super) fn obj(parts: &Parts<'_>) -> String {
     let mut text = String::from("# lengths in mm\n");
-    for (vertex, position) in mesh.positions.iter().enumerate() {
-        let (normal, uv) = (mesh.normals[vertex], mesh.uvs[vertex]);
+    for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {
         let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
         let _ = writeln!(text, "vt {} {}", uv.x, uv.y);
         let _ = writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z);
     }
-    for [a, b, c] in mesh
-        .triangles
-        .iter()
+    for [a, b, c] in parts
+        .faces()
         .map(|triangle| triangle.map(|index| index + 1))
     {
         let _ = writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}");

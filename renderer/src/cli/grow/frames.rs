@@ -26,6 +26,11 @@ pub(super) fn write(
     pixels: u32,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
+    if plan.compound.is_some() {
+        return Err(Failure::bad(
+            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
+        ));
+    }
     let no_stages = |error| Failure::bad(format!("--frames: {error}"));
     let steps = steps(plan.last_step(lamina).map_err(no_stages)?, count);
     let page = lamina.outline.bounds();
@@ -33,8 +38,10 @@ pub(super) fn write(
     for (index, group_steps) in steps.chunks(group).enumerate() {
         let stages = plan.stages(lamina, group_steps).map_err(no_stages)?;
         for (path, kind) in &outputs.staged {
-            let draw =
-                |stage: &LeafStage| veins_file(*kind, page, &stage.outline, &stage.network, pixels);
+            let draw = |stage: &LeafStage| {
+                let outlines = std::slice::from_ref(&stage.outline);
+                veins_file(*kind, page, outlines, &stage.network, pixels)
+            };
             let files: Vec<Result<Vec<u8>, Failure>> = stages.par_iter().map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
                 if stop.load(Ordering::Relaxed) {

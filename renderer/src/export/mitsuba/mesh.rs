@@ -2,8 +2,9 @@
 
 use crate::geometry::TriangleMesh;
 
-/// Little-endian PLY with positions (m), and normals and uv where the mesh has them.
-pub(super) fn ply(mesh: &TriangleMesh) -> Vec<u8> {
+/// Little-endian PLY with positions (m), and normals and uv where the mesh has them; as the mirror image in x if asked for.
+pub(super) fn ply(mesh: &TriangleMesh, mirrored: bool) -> Vec<u8> {
+    let side = if mirrored { -1.0 } else { 1.0 };
     let mut lines = vec![
         "ply".to_owned(),
         "format binary_little_endian 1.0".to_owned(),
@@ -29,9 +30,10 @@ pub(super) fn ply(mesh: &TriangleMesh) -> Vec<u8> {
                 bytes.extend_from_slice(&value.to_le_bytes());
             }
         };
-        write(&position.to_array());
+        write(&[side * position.x, position.y, position.z]);
         if let Some(normals) = mesh.normals() {
-            write(&normals[vertex].to_array());
+            let normal = normals[vertex];
+            write(&[side * normal.x, normal.y, normal.z]);
         }
         if let Some(uvs) = mesh.uvs() {
             write(&uvs[vertex].to_array());
@@ -39,7 +41,8 @@ pub(super) fn ply(mesh: &TriangleMesh) -> Vec<u8> {
     }
     for triangle in mesh.triangles() {
         bytes.push(3);
-        for index in triangle {
+        let [a, b, c] = *triangle;
+        for index in if mirrored { [a, c, b] } else { [a, b, c] } {
             bytes.extend_from_slice(&index.to_le_bytes());
         }
     }
@@ -62,7 +65,7 @@ mod tests {
             vec![[0, 1, 2], [1, 3, 2]],
         )
         .expect("two good faces");
-        let back = import(&ply(&mesh), "ply", 1.0).expect("it is a PLY file");
+        let back = import(&ply(&mesh, false), "ply", 1.0).expect("it is a PLY file");
         assert_eq!(back.positions(), mesh.positions());
         assert_eq!(back.normals(), mesh.normals());
         assert_eq!(back.uvs(), mesh.uvs());

@@ -6,11 +6,12 @@ use std::path::Path;
 
 use glam::{DVec3, Mat4, Vec3};
 
+use leafmodel::optics::Contents;
+
 use crate::camera;
-use crate::scene::description::{
-    Coat, Description, LeafTissue, Light, Material, Named, ObjectShape, Spectrum,
-};
-use crate::scene::world::World;
+use crate::material;
+use crate::scene::description::{Coat, Description, LeafTissue, Light, Material, Named, Spectrum};
+use crate::scene::world::{MaterialOwner, World};
 
 use super::spectra::{self, Spectra};
 
@@ -25,12 +26,38 @@ const SUN_DISTANCE: f64 = 1e5;
 /// in a close-up). In millimetres it is some micrometres. Radiance does not depend on the unit.
 const UNITS_PER_METRE: f64 = 1000.0;
 
-/// Name of a material in the export: the scene's materials, then one for each grown leaf.
-pub(super) fn material_id(scene: &Description, number: usize) -> String {
-    match scene.materials.get(number) {
-        Some(material) => format!("material-{}", material.name),
-        None => format!("leaf-{}", scene.leaves[number - scene.materials.len()].name),
+/// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are numbered from 2.
+pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> String {
+    match world.owners[number] {
+        MaterialOwner::Scene(material) => format!("material-{}", scene.materials[material].name),
+        MaterialOwner::Leaf { leaf, part: 0 } => format!("leaf-{}", scene.leaves[leaf].name),
+        MaterialOwner::Leaf { leaf, part } => {
+            // A point is in no name of a scene.
+            format!("leaf-{}.{}", scene.leaves[leaf].name, part + 1)
+        }
     }
+}
+
+/// Where in the export the mesh of an instance lies: under the name of its object, or, if it is a further part of a leaf, under the mesh's
+/// number. Mirror images of those are meshes of their own, since Mitsuba turns normals of mirrored shapes in its own way.
+pub(super) fn mesh_file(scene: &Description, world: &World, instance: usize) -> String {
+    match scene.objects.get(instance) {
+        Some(object) => format!("meshes/{}.ply", object.name),
+        None if is_mirrored(world, instance) => {
+            format!("meshes/part.{}.mirrored.ply", mesh_of(world, instance))
+        }
+        None => format!("meshes/part.{}.ply", mesh_of(world, instance)),
+    }
+}
+
+fn mesh_of(world: &World, instance: usize) -> u32 {
+    world.geometry.instance(instance as u32).mesh
+}
+
+/// Whether an instance is placed as a mirror image.
+pub(super) fn is_mirrored(world: &World, instance: usize) -> bool {
+    let to_world = world.geometry.instance(instance as u32).to_world;
+    to_world.matrix3.determinant() < 0.0
 }
 
 /// Where in the export the picture of an environment light lies.
@@ -48,9 +75,9 @@ pub(super) fn scene(scene: &Description, world: &World, spectra: &mut Spectra) -
     xml += &integrator(scene);
     xml += &sensor(scene);
     for number in 0..world.materials.len() {
-        xml += &bsdf(scene, number, spectra);
+        xml += &bsdf(scene, world, number, spectra);
     }
-    for number in 0..scene.objects.len() {
+    for number in 0..world.objects.len() {
         xml += &shape(scene, world, number, spectra);
     }
     for light in &scene.lights {
@@ -123,14 +150,25 @@ fn number(name: &str, value: f64) -> String {
     format!("  <float name=\"{name}\" value=\"{value}\"/>\n")
 }
 
-fn bsdf(scene: &Description, material: usize, spectra: &mut Spectra) -> String {
-    let id = material_id(scene, material);
-    let Some(named) = scene.materials.get(material) else {
-        let leaf = &scene.leaves[material - scene.materials.len()].value;
-        let tissue = map_tissue(&id, leaf.extrapolate);
+fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spectra) -> String {
+    let id = material_id(scene, world, material);
+    if let MaterialOwner::Leaf { leaf, .. } = world.owners[material] {
+        let leaf = &scene.leaves[leaf].value;
+        let tissue = match &world.materials[material] {
+            crate::material::Material::Leaf(own) => match &own.tissue {
+                material::leaf::LeafTissue::Uniform(contents) => {
+                    uniform_tissue(contents, leaf.extrapolate)
+                }
+                material::leaf::LeafTissue::Map(_)
+                | material::leaf::LeafTissue::Measured { .. } => map_tissue(&id, leaf.extrapolate),
+            },
+            crate::material::Material::Diffuse(_) | crate::material::Material::Dielectric(_) => {
+                String::new()
+            }
+        };
         return leaf_bsdf(&id, &tissue, &leaf.abaxial_ratio, &leaf.coats, spectra);
-    };
-    match &named.value {
+    }
+    match &scene.materials[material].value {
         Material::Diffuse { reflectance } => format!(
             "<bsdf type=\"twosided\" id=\"{id}\"><bsdf type=\"diffuse\">\n  {}</bsdf></bsdf>\n",
             spectra.element("reflectance", reflectance, 1.0)
@@ -159,22 +197,7 @@ fn bsdf(scene: &Description, material: usize, spectra: &mut Spectra) -> String {
                 LeafTissue::Contents {
                     contents,
                     extrapolate,
-                } => {
-                    let mut xml = String::from("  <string name=\"tissue\" value=\"contents\"/>\n");
-                    xml += &prospect(*extrapolate);
-                    for (name, value) in [
-                        ("structure", contents.structure),
-                        ("chlorophyll", contents.chlorophyll),
-                        ("carotenoids", contents.carotenoids),
-                        ("anthocyanins", contents.anthocyanins),
-                        ("brown", contents.brown),
-                        ("water", contents.water),
-                        ("dry_matter", contents.dry_matter),
-                    ] {
-                        xml += &number(name, value);
-                    }
-                    xml
-                }
+                } => uniform_tissue(contents, *extrapolate),
                 LeafTissue::Map { extrapolate, .. } => map_tissue(&id, *extrapolate),
                 LeafTissue::Measured {
                     reflectance,
@@ -196,6 +219,15 @@ fn prospect(extrapolate: bool) -> String {
         "  <string name=\"prospect\" value=\"prospect_d.csv\"/>\n  \
          <boolean name=\"extrapolate\" value=\"{extrapolate}\"/>\n"
     )
+}
+
+fn uniform_tissue(contents: &Contents, extrapolate: bool) -> String {
+    let mut xml = String::from("  <string name=\"tissue\" value=\"contents\"/>\n");
+    xml += &prospect(extrapolate);
+    for (name, value) in Contents::NAMES.into_iter().zip(contents.to_array()) {
+        xml += &number(name, value);
+    }
+    xml
 }
 
 fn map_tissue(id: &str, extrapolate: bool) -> String {
@@ -221,31 +253,34 @@ fn leaf_bsdf(
     xml + "  " + &spectra.element("abaxial_ratio", abaxial_ratio, 1.0) + "</bsdf>\n"
 }
 
-fn shape(scene: &Description, world: &World, object: usize, spectra: &mut Spectra) -> String {
-    let named = &scene.objects[object];
-    let material = match named.value.shape {
-        ObjectShape::Mesh { material, .. } => material,
-        ObjectShape::Leaf { leaf } => scene.materials.len() + leaf,
-    };
-    let instance = world.geometry.instance(object as u32);
+fn shape(scene: &Description, world: &World, number: usize, spectra: &mut Spectra) -> String {
+    let part = world.objects[number];
+    let object = part.object;
+    let instance = world.geometry.instance(number as u32);
     let flat = world.geometry.mesh(instance.mesh).normals().is_none();
+    let mut to_world = Mat4::from(instance.to_world);
+    let mut id = scene.objects[object].name.clone();
+    if number >= scene.objects.len() {
+        let _ = write!(id, ".{number}");
+        if is_mirrored(world, number) {
+            // The mesh is mirrored already.
+            to_world *= Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+        }
+    }
     let mut xml = format!(
-        "<shape type=\"ply\" id=\"object-{}\">\n  <string name=\"filename\" value=\"meshes/{}.ply\"/>\n  \
+        "<shape type=\"ply\" id=\"object-{id}\">\n  <string name=\"filename\" value=\"{}\"/>\n  \
          <boolean name=\"face_normals\" value=\"{flat}\"/>\n  <transform name=\"to_world\">\n    \
          <matrix value=\"{}\"/>\n  </transform>\n  <ref id=\"{}\"/>\n",
-        named.name,
-        named.name,
-        row_major(
-            Mat4::from_scale(Vec3::splat(UNITS_PER_METRE as f32)) * Mat4::from(instance.to_world)
-        ),
-        material_id(scene, material)
+        mesh_file(scene, world, number),
+        row_major(Mat4::from_scale(Vec3::splat(UNITS_PER_METRE as f32)) * to_world),
+        material_id(scene, world, part.material)
     );
     for light in &scene.lights {
         if let Light::Area {
             object: shining,
             radiance,
         } = &light.value
-            && *shining == object
+            && *shining == number
         {
             let radiance = spectra.element("radiance", radiance, 1.0);
             let _ = write!(xml, "  <emitter type=\"area\">\n  {radiance}  </emitter>\n");

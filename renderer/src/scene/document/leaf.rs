@@ -7,10 +7,12 @@ use leafmodel::leaf::outline_plan::Contour;
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
+use super::compound::read_compound;
 use super::contents::read_contents;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
 use super::outline::read_outline;
+use super::petiole::read_petiole;
 use super::reader::Block;
 use super::senescence::read_senescence;
 use super::spectrum::require_prospect;
@@ -56,23 +58,31 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     let is_aged = block.entry("senescence").is_some();
     let senescence = read_senescence(block, earns);
     let form = read_form(block, length_mm.unwrap_or(100.0));
+    // Leaflets have stalks of their own.
+    block.exclude("compound", "petiole");
+    let petiole = read_petiole(block);
+    let compound = read_compound(block);
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     block.finish();
     if is_aged && senescence.is_none() {
         return None;
     }
-    Some(Leaf {
-        plan: LeafPlan {
-            length_mm: length_mm?,
-            seed,
-            outline: outline?.plan,
-            venation: venation?,
-            tissue: tissue?,
-            senescence,
-            form,
-            map_size,
-        },
+    let plan = LeafPlan {
+        length_mm: length_mm?,
+        seed,
+        outline: outline?.plan,
+        venation: venation?,
+        tissue: tissue?,
+        senescence,
+        form,
+        petiole,
+        compound: compound.as_ref().map(|read| read.form.clone()),
+        map_size,
+    };
+    let fits = compound.is_none_or(|compound| compound.check(&plan));
+    fits.then_some(Leaf {
+        plan,
         abaxial_ratio: abaxial_ratio?,
         coats,
         extrapolate: block.cx.extrapolate.get(),

@@ -22,7 +22,7 @@ use super::outline::STEPS;
 use super::senescence::BLEND;
 use super::tree::{Entry, Node, Table, Value};
 use super::venation::LEAST_CELLS;
-use super::write;
+use super::{write, write_compound};
 use crate::scene::source::Place;
 
 /// Text of a file with `format = 1` and the one leaf.
@@ -35,10 +35,10 @@ pub(crate) fn to_toml(name: &str, plan: &LeafPlan) -> String {
 
 /// A table in the making.
 #[derive(Default)]
-struct Keys(Table);
+pub(super) struct Keys(Table);
 
 impl Keys {
-    fn value(&mut self, key: &str, value: Value) {
+    pub(super) fn value(&mut self, key: &str, value: Value) {
         let node = node(value);
         self.0.0.push(Entry {
             key: key.to_owned(),
@@ -47,11 +47,11 @@ impl Keys {
         });
     }
 
-    fn block(&mut self, key: &str, block: Self) {
+    pub(super) fn block(&mut self, key: &str, block: Self) {
         self.value(key, Value::Table(block.0));
     }
 
-    fn with(mut self, key: &str, block: Self) -> Self {
+    pub(super) fn with(mut self, key: &str, block: Self) -> Self {
         self.block(key, block);
         self
     }
@@ -63,15 +63,15 @@ impl Keys {
         }
     }
 
-    fn integer(&mut self, key: &str, value: u64) {
+    pub(super) fn integer(&mut self, key: &str, value: u64) {
         self.value(key, Value::Integer(value.into()));
     }
 
-    fn number(&mut self, key: &str, value: f64) {
+    pub(super) fn number(&mut self, key: &str, value: f64) {
         self.value(key, number(value));
     }
 
-    fn number_unless(&mut self, key: &str, value: f64, default: f64) {
+    pub(super) fn number_unless(&mut self, key: &str, value: f64, default: f64) {
         if value != default {
             self.number(key, value);
         }
@@ -87,7 +87,7 @@ fn node(value: Value) -> Node {
 }
 
 /// A number as one would write it: without a point if it is whole.
-fn number(value: f64) -> Value {
+pub(super) fn number(value: f64) -> Value {
     // Every whole number so small is exact either way.
     if value.fract() == 0.0 && value.abs() < 1e15 {
         Value::Integer(value as i128)
@@ -96,7 +96,7 @@ fn number(value: f64) -> Value {
     }
 }
 
-fn list(values: impl IntoIterator<Item = Value>) -> Value {
+pub(super) fn list(values: impl IntoIterator<Item = Value>) -> Value {
     Value::List(values.into_iter().map(node).collect())
 }
 
@@ -129,6 +129,12 @@ fn leaf(plan: &LeafPlan) -> Keys {
         keys.block("senescence", senescence(aged));
     }
     keys.block_if_any("blade", form(&plan.form, plan.length_mm));
+    if let Some(petiole) = &plan.petiole {
+        keys.block("petiole", write_compound::petiole(petiole));
+    }
+    if let Some(form) = &plan.compound {
+        keys.block("compound", write_compound::compound(form));
+    }
     keys
 }
 
@@ -493,7 +499,7 @@ fn form(form: &BladeForm, length_mm: f64) -> Keys {
 }
 
 /// Degrees that read back to the same radians if any do; the shortest that do if they are short.
-fn degrees(radians: f64) -> f64 {
+pub(super) fn degrees(radians: f64) -> f64 {
     let near = radians.to_degrees();
     let short = (near * 1e6).round() / 1e6;
     [short, near, near.next_up(), near.next_down()]

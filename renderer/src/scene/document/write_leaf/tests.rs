@@ -1,3 +1,5 @@
+use leafmodel::blade::petiole::PetiolePlan;
+use leafmodel::compound::{Arrangement, CompoundForm, Feather};
 use leafmodel::shape::contour_curve::ControlPoint;
 use leafmodel::shape::growth::RateCurve;
 use leafmodel::shape::growth_form::SecondaryAxis;
@@ -28,6 +30,8 @@ fn plain() -> LeafPlan {
         ])),
         senescence: None,
         form: default_form(80.0),
+        petiole: None,
+        compound: None,
         map_size: 1024,
     }
 }
@@ -419,22 +423,108 @@ fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
     (tissue, form)
 }
 
+fn feather() -> impl Strategy<Value = Feather> {
+    (
+        (
+            1_u32..4,
+            any::<bool>(),
+            4.0..30.0,
+            prop_oneof![Just(0.0), 0.1..0.9],
+        ),
+        prop::array::uniform2(50.0..110.0_f64),
+        prop_oneof![Just([1.0; 3]), prop::array::uniform3(0.1..1.0)],
+        prop_oneof![Just(0.0), -100.0..100.0_f64],
+    )
+        .prop_map(
+            |((pairs, terminal, rachis, alternation), angles, sizes, turn)| Feather {
+                pairs,
+                terminal,
+                rachis,
+                alternation,
+                angles: angles.map(f64::to_radians),
+                sizes,
+                turn: turn.to_radians(),
+            },
+        )
+}
+
+/// Nothing, a petiole, or the one or other compound leaf.
+fn petiole_or_compound() -> impl Strategy<Value = (Option<PetiolePlan>, Option<CompoundForm>)> {
+    let petiole = (0.0..3.0, prop::option::of(0.01..2.0), -90.0..90.0_f64);
+    let petiole = petiole.prop_map(|(length, radius_mm, curl)| PetiolePlan {
+        length,
+        radius_mm,
+        curl: curl.to_radians(),
+    });
+    let palmate = (
+        2_u32..5,
+        200.0..320.0_f64,
+        prop_oneof![Just([1.0; 2]), Just([0.5, 0.9])],
+    );
+    let arrangement = prop_oneof![
+        feather().prop_map(Arrangement::Pinnate),
+        palmate.prop_map(|(leaflets, spread, sizes)| Arrangement::Palmate {
+            leaflets,
+            spread: spread.to_radians(),
+            sizes,
+        }),
+        (feather(), feather(), 1.0..3.0).prop_map(|(pinnae, leaflets, stalk)| {
+            Arrangement::Bipinnate {
+                pinnae,
+                leaflets,
+                stalk,
+            }
+        }),
+    ];
+    let bends = prop_oneof![
+        Just([0.0; 3]),
+        (-300.0..300.0_f64, -70.0..70.0_f64, 0.0..50.0_f64).prop_map(|(a, b, c)| [a, b, c]),
+    ];
+    let stalks = (
+        0.0..5.0,
+        prop_oneof![Just(0.05), 0.1..2.0],
+        prop_oneof![Just(0.4), 0.1..2.0],
+    );
+    let compound = (arrangement, bends, stalks, 1_u32..5).prop_map(
+        |(arrangement, bends, (petiole, petiolule, stalk_radius_mm), variants)| {
+            let [curl, fold, tilt] = bends.map(f64::to_radians);
+            CompoundForm {
+                arrangement,
+                petiole,
+                petiolule,
+                stalk_radius_mm,
+                variants,
+                curl,
+                fold,
+                tilt,
+            }
+        },
+    );
+    prop_oneof![
+        Just((None, None)),
+        petiole.prop_map(|petiole| (Some(petiole), None)),
+        compound.prop_map(|compound| (None, Some(compound))),
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
 
     #[test]
     fn a_written_plan_reads_back_to_the_same(
         contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
-        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(),
+        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
     ) {
         let outline = OutlinePlan { contour, teeth };
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, senescence, form, map_size };
+        let (petiole, compound) = stalks;
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, senescence, form, petiole, compound, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.
         prop_assume!(plan.check_lamina().is_ok());
         // It tries the outline at 1 mm, where teeth on a ragged margin may just touch.
         prop_assume!(plan.outline.grow(1.0, seed).is_ok());
+        prop_assume!(plan.compound.as_ref().is_none_or(|form| form.arrange(&plan).is_ok()));
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("leaf.svg"), SVG).expect("the folder was just made");
         let text = leaf_to_toml("beech", &plan);

@@ -1,0 +1,398 @@
+//! Stalks in space: tubes along polylines, closed at both ends.
+
+use std::f64::consts::PI;
+
+use glam::{DAffine3, DVec2, DVec3};
+use thiserror::Error;
+
+/// By how much the sides of a tube may lie inside the round stalk that they stand for, mm.
+const SAGITTA_MM: f64 = 0.01;
+/// Fewest and most sides.
+const SIDES: [usize; 2] = [8, 48];
+
+/// Tubes in space. Lengths are millimetres.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StalkMesh {
+    /// Places of the vertices.
+    pub positions: Vec<DVec3>,
+    /// Unit normals, outward.
+    pub normals: Vec<DVec3>,
+    /// Texture coordinates: one half, and the share of the way from the tube's first end to its last.
+    pub uvs: Vec<DVec2>,
+    /// Diameter of the tube at each vertex, > 0.
+    pub thickness_mm: Vec<f64>,
+    /// Vertices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Why there is no tube.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum StalkError {
+    /// Not a way with a radius at each point.
+    #[error(
+        "a stalk needs two points or more and a radius for each: {points} points, {radii} radii"
+    )]
+    Lists {
+        /// How many points.
+        points: usize,
+        /// How many radii.
+        radii: usize,
+    },
+    /// A number that is not finite, a radius not above 0, or a point where the one before is.
+    #[error("point {index} of a stalk has a bad place or radius")]
+    BadPoint {
+        /// Which.
+        index: usize,
+    },
+    /// The way turns back.
+    #[error("a stalk turns by 90° or more at point {index}")]
+    Kink {
+        /// At which point.
+        index: usize,
+    },
+}
+
+/// What is wrong with tubes. None from [`StalkMesh::tube`] has any of it.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum StalkDefect {
+    /// An edge without exactly one triangle on each side of it.
+    #[error("the edge from vertex {from} to vertex {to} is open, or used twice")]
+    Open {
+        /// Its first vertex.
+        from: u32,
+        /// Its second vertex.
+        to: u32,
+    },
+    /// A triangle that faces inward, or away from a normal of its corners.
+    #[error("triangle {triangle} is turned over")]
+    TurnedOver {
+        /// Which.
+        triangle: usize,
+    },
+}
+
+impl StalkMesh {
+    /// A tube along `points` with a radius at each of them (both mm) and a hemisphere on either end, about the end points.
+    ///
+    /// Cross-sections are regular polygons whose sides lie at most 10 µm inside the circle, 8 to 48 of them; they are carried
+    /// along without twist (parallel transport). Bends must be wide against the radius, or the inner side folds.
+    ///
+    /// # Errors
+    ///
+    /// [`StalkError`] for lists, numbers or kinks of which no tube can be made.
+    pub fn tube(points: &[DVec3], radii_mm: &[f64]) -> Result<Self, StalkError> {
+        let tangents = tangents(points, radii_mm)?;
+        let widest = radii_mm.iter().copied().fold(0.0, f64::max);
+        let sides = sides(widest);
+        let mut lengths = vec![0.0];
+        for pair in points.windows(2) {
+            lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
+        }
+        let last = points.len() - 1;
+        let whole = lengths[last];
+        let mut tube = Self::default();
+        let mut across = tangents[0].any_orthonormal_vector();
+        // Rings of a hemisphere between its pole and the tube, which has the one at its foot.
+        let cap = (sides / 4).max(2);
+        tube.pole(points[0], -tangents[0], radii_mm[0], 0.0);
+        for i in (1..cap).rev() {
+            let up = 0.5 * PI * i as f64 / cap as f64;
+            tube.ring(
+                sides,
+                (points[0], -tangents[0], across),
+                (radii_mm[0], up),
+                0.0,
+                true,
+            );
+        }
+        for i in 0..=last {
+            across = (across - tangents[i] * across.dot(tangents[i])).normalize();
+            // Where the tube tapers its sides look a little along it.
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            let slope = (radii_mm[before] - radii_mm[after]) / (lengths[after] - lengths[before]);
+            let start = tube.positions.len();
+            tube.ring(
+                sides,
+                (points[i], tangents[i], across),
+                (radii_mm[i], 0.0),
+                lengths[i] / whole,
+                false,
+            );
+            for normal in &mut tube.normals[start..] {
+                *normal = (*normal + tangents[i] * slope).normalize();
+            }
+        }
+        for i in 1..cap {
+            let up = 0.5 * PI * i as f64 / cap as f64;
+            tube.ring(
+                sides,
+                (points[last], tangents[last], across),
+                (radii_mm[last], up),
+                1.0,
+                false,
+            );
+        }
+        tube.pole(points[last], tangents[last], radii_mm[last], 1.0);
+        tube.join(sides);
+        Ok(tube)
+    }
+
+    fn pole(&mut self, centre: DVec3, outward: DVec3, radius: f64, along: f64) {
+        self.vertex(centre + outward * radius, outward, 2.0 * radius, along);
+    }
+
+    fn vertex(&mut self, position: DVec3, normal: DVec3, thickness_mm: f64, along: f64) {
+        self.positions.push(position);
+        self.normals.push(normal);
+        self.uvs.push(DVec2::new(0.5, along));
+        self.thickness_mm.push(thickness_mm);
+    }
+
+    /// A circle of latitude `up` on the sphere about `centre` whose pole lies towards `axis`. Rings run counter-clockwise seen from
+    /// the tube's far end; on its near end, whose pole looks the other way, that is `against` the axis.
+    fn ring(
+        &mut self,
+        sides: usize,
+        (centre, axis, across): (DVec3, DVec3, DVec3),
+        (radius, up): (f64, f64),
+        along: f64,
+        against: bool,
+    ) {
+        let forward = if against { -axis } else { axis };
+        let aside = forward.cross(across);
+        let (sin, cos) = (libm::sin(up), libm::cos(up));
+        for side in 0..sides {
+            let turn = 2.0 * PI * side as f64 / sides as f64;
+            let radial = across * libm::cos(turn) + aside * libm::sin(turn);
+            let normal = (radial * cos + axis * sin).normalize();
+            self.vertex(centre + normal * radius, normal, 2.0 * radius, along);
+        }
+    }
+
+    /// Triangles between the rings of one tube and to its poles.
+    fn join(&mut self, sides: usize) {
+        let rings = (self.positions.len() - 2) / sides;
+        let at = |ring: usize, side: usize| (1 + ring * sides + side % sides) as u32;
+        let end = (self.positions.len() - 1) as u32;
+        for side in 0..sides {
+            self.triangles.push([0, at(0, side + 1), at(0, side)]);
+            for ring in 1..rings {
+                let [a, b] = [at(ring - 1, side), at(ring - 1, side + 1)];
+                let [c, d] = [at(ring, side), at(ring, side + 1)];
+                self.triangles.extend([[a, b, d], [a, d, c]]);
+            }
+            self.triangles
+                .push([end, at(rings - 1, side), at(rings - 1, side + 1)]);
+        }
+    }
+
+    /// Adds tubes to these.
+    pub fn append(&mut self, other: Self) {
+        let first = self.positions.len() as u32;
+        self.positions.extend(other.positions);
+        self.normals.extend(other.normals);
+        self.uvs.extend(other.uvs);
+        self.thickness_mm.extend(other.thickness_mm);
+        let moved = other.triangles.into_iter().map(|t| t.map(|v| v + first));
+        self.triangles.extend(moved);
+    }
+
+    /// The same tubes elsewhere; `place` may turn, move and scale evenly, but not mirror.
+    #[must_use]
+    pub fn placed(mut self, place: &DAffine3) -> Self {
+        let scale = libm::cbrt(place.matrix3.determinant());
+        for position in &mut self.positions {
+            *position = place.transform_point3(*position);
+        }
+        for normal in &mut self.normals {
+            *normal = place.transform_vector3(*normal).normalize();
+        }
+        for thickness in &mut self.thickness_mm {
+            *thickness *= scale;
+        }
+        self
+    }
+
+    /// Area of all triangles, mm².
+    pub fn area(&self) -> f64 {
+        let areas = self.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|v| self.positions[v as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        });
+        areas.sum()
+    }
+
+    /// Checks what every tube must satisfy: each edge has one triangle on either side, and triangles look the way normals do.
+    ///
+    /// # Errors
+    ///
+    /// [`StalkDefect`], the first found.
+    pub fn validate(&self) -> Result<(), StalkDefect> {
+        let edges = |reversed: bool| {
+            let mut edges: Vec<[u32; 2]> = Vec::with_capacity(3 * self.triangles.len());
+            for &[a, b, c] in &self.triangles {
+                let around = [[a, b], [b, c], [c, a]];
+                edges.extend(
+                    around.map(|[from, to]| if reversed { [to, from] } else { [from, to] }),
+                );
+            }
+            edges.sort_unstable();
+            edges
+        };
+        let (forward, backward) = (edges(false), edges(true));
+        let twice = forward.windows(2).find(|pair| pair[0] == pair[1]);
+        let open = forward.iter().zip(&backward).find(|(a, b)| a != b);
+        if let Some([from, to]) = twice.map(|pair| pair[0]).or(open.map(|(a, b)| *a.min(b))) {
+            return Err(StalkDefect::Open { from, to });
+        }
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            let [a, b, c] = corners.map(|v| self.positions[v as usize]);
+            let normal = (b - a).cross(c - a);
+            if !corners
+                .iter()
+                .all(|&v| normal.dot(self.normals[v as usize]) > 0.0)
+            {
+                return Err(StalkDefect::TurnedOver { triangle });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Sides of a polygon that stands for a circle of this radius, mm: its sagitta is `r (1 − cos(π/n))`.
+fn sides(radius: f64) -> usize {
+    let [fewest, most] = SIDES;
+    if radius <= 2.0 * SAGITTA_MM {
+        return fewest;
+    }
+    let needed = PI / libm::acos(1.0 - SAGITTA_MM / radius);
+    (needed.ceil() as usize).clamp(fewest, most)
+}
+
+/// Directions at the points: half-way between those of the pieces on both sides.
+fn tangents(points: &[DVec3], radii_mm: &[f64]) -> Result<Vec<DVec3>, StalkError> {
+    if points.len() < 2 || points.len() != radii_mm.len() {
+        return Err(StalkError::Lists {
+            points: points.len(),
+            radii: radii_mm.len(),
+        });
+    }
+    let good = |i: usize| {
+        let apart = i == 0 || points[i] != points[i - 1];
+        points[i].is_finite() && radii_mm[i].is_finite() && radii_mm[i] > 0.0 && apart
+    };
+    if let Some(index) = (0..points.len()).find(|&i| !good(i)) {
+        return Err(StalkError::BadPoint { index });
+    }
+    let pieces: Vec<DVec3> = points
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).normalize())
+        .collect();
+    let kink = pieces
+        .windows(2)
+        .position(|pair| pair[0].dot(pair[1]) <= 0.0);
+    if let Some(before) = kink {
+        return Err(StalkError::Kink { index: before + 1 });
+    }
+    let last = pieces.len() - 1;
+    let between = |i: usize| (pieces[i.saturating_sub(1)] + pieces[i.min(last)]).normalize();
+    Ok((0..points.len()).map(between).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn volume(mesh: &StalkMesh) -> f64 {
+        let cones = mesh.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
+            a.dot(b.cross(c)) / 6.0
+        });
+        cones.sum()
+    }
+
+    #[test]
+    fn a_straight_tube_has_the_area_and_volume_of_a_capsule() {
+        for radius in [0.3, 1.0, 4.0] {
+            let tube = |length: f64| {
+                let end = DVec3::new(1.0, 2.0, -2.0) / 3.0 * length;
+                StalkMesh::tube(&[DVec3::ZERO, end], &[radius; 2]).expect("a tube")
+            };
+            let mesh = tube(30.0);
+            assert_eq!(mesh.validate(), Ok(()));
+            let n = sides(radius) as f64;
+            // What is longer is a prism more.
+            let side = 2.0 * n * radius * libm::sin(PI / n);
+            let more = tube(50.0).area() - mesh.area();
+            assert!((more - 20.0 * side).abs() < 1e-9 * more, "{more}");
+            let area = 2.0 * PI * radius * 30.0 + 4.0 * PI * radius * radius;
+            let volume_of_all = PI * radius * radius * (30.0 + radius * 4.0 / 3.0);
+            // A polygon of n sides has sin(2π/n)/(2π/n) of the circle's area.
+            assert!((mesh.area() / area - 1.0).abs() < 6.0 / (n * n), "{radius}");
+            assert!(
+                (volume(&mesh) / volume_of_all - 1.0).abs() < 10.0 / (n * n),
+                "{radius}"
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn tubes_along_arcs_are_closed_and_look_outward(
+            turn in -2.0..2.0_f64, twist in -2.0..2.0_f64, thick in 0.05..2.0, taper in 0.05..1.0,
+        ) {
+            let (points, radii): (Vec<DVec3>, Vec<f64>) = (0..=30)
+                .map(|i| {
+                    let t = f64::from(i) / 30.0;
+                    let (a, b) = (turn * t, twist * t);
+                    let p = DVec3::new(libm::sin(a), t + libm::cos(a) * 0.1, libm::sin(b)) * 20.0;
+                    (p, thick * (1.0 + (taper - 1.0) * t))
+                })
+                .unzip();
+            let mesh = StalkMesh::tube(&points, &radii).expect("a tube");
+            prop_assert_eq!(mesh.validate(), Ok(()));
+            prop_assert!(volume(&mesh) > 0.0);
+            prop_assert!(mesh.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-12));
+        }
+    }
+
+    #[test]
+    fn what_is_no_way_is_refused() {
+        let (o, x) = (DVec3::ZERO, DVec3::X);
+        let tube = |points: &[DVec3], radii: &[f64]| StalkMesh::tube(points, radii).err();
+        let lists = StalkError::Lists {
+            points: 2,
+            radii: 1,
+        };
+        assert_eq!(tube(&[o, x], &[1.0]), Some(lists));
+        for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let bad = Some(StalkError::BadPoint { index: 1 });
+            assert_eq!(tube(&[o, x], &[1.0, radius]), bad);
+        }
+        assert_eq!(
+            tube(&[o, o], &[1.0; 2]),
+            Some(StalkError::BadPoint { index: 1 })
+        );
+        assert_eq!(
+            tube(&[o, x, o], &[1.0; 3]),
+            Some(StalkError::Kink { index: 1 })
+        );
+    }
+
+    #[test]
+    fn tubes_are_put_together_and_elsewhere() {
+        let one = StalkMesh::tube(&[DVec3::ZERO, DVec3::Y], &[0.1; 2]).expect("a tube");
+        let place = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(2.0),
+            glam::DQuat::from_rotation_x(1.0),
+            DVec3::splat(5.0),
+        );
+        let mut both = one.clone();
+        both.append(one.clone().placed(&place));
+        assert_eq!(both.validate(), Ok(()));
+        assert!((both.area() - 5.0 * one.area()).abs() < 1e-9);
+        assert!((both.thickness_mm.iter().copied().fold(0.0, f64::max) - 0.4).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,246 @@
+//! A leaf with all that belongs to it, in space: blades, stalks, and where each blade stands.
+
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+
+use super::{
+    Arrangement, CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction,
+};
+use crate::blade::petiole::PetiolePlan;
+use crate::blade::stalk::StalkMesh;
+use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::venation::chance::{Use, bits, uniform};
+
+/// Numbers of chance for the tilts of leaflets, behind those for their seeds.
+const FIRST_TILT: u64 = 1 << 32;
+/// By how much the foot of the whole leaf is thicker, and over how many radii.
+const FOOT: f64 = 0.35;
+const FOOT_RADII: f64 = 6.0;
+/// Longest piece of an axis in space, as a share of its length.
+const PIECE: f64 = 1.0 / 40.0;
+
+/// A blade in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Which of [`WholeLeaf::blades`].
+    pub blade: usize,
+    /// From the blade's own frame to the leaf's; may mirror.
+    pub to_leaf: DAffine3,
+}
+
+/// A simple or compound leaf in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WholeLeaf {
+    /// The different blades; with a petiole each, that of the leaf or the stalk of the leaflet.
+    pub blades: Vec<Leaf>,
+    /// Where they stand.
+    pub placements: Vec<Placement>,
+    /// Petiole, rachis and rachides of pinnae of a compound leaf, if it has any.
+    pub axes: Option<StalkMesh>,
+    /// A compound leaf as it lies in the plane.
+    pub flat: Option<CompoundLeaf>,
+}
+
+/// The plans of all blades of a leaf: the leaf's own, or its different leaflets at the size of the largest, each with a seed
+/// of its own and the leaflet's stalk for a petiole.
+pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
+    let petiole = PetiolePlan {
+        length: form.petiolule,
+        radius_mm: Some(form.stalk_radius_mm),
+        curl: 0.0,
+    };
+    let variant = |number: u32| LeafPlan {
+        seed: bits(leaflet.seed, Use::Leaflet, number.into()),
+        petiole: Some(petiole),
+        compound: None,
+        ..leaflet.clone()
+    };
+    (0..form.variants).map(variant).collect()
+}
+
+impl WholeLeaf {
+    /// Grows everything.
+    ///
+    /// # Errors
+    ///
+    /// [`CompoundError`]; of a simple leaf only [`CompoundError::Leaflet`].
+    pub fn grow(plan: &LeafPlan) -> Result<Self, CompoundError> {
+        let Some(form) = &plan.compound else {
+            return Ok(Self::simple(Leaf::grow(plan)?));
+        };
+        // Leaflets in each other's way cost no veins.
+        let flat = form.arrange(plan)?;
+        let plans = leaflet_plans(plan, form);
+        let blades: Result<Vec<Leaf>, LeafError> = plans.iter().map(Leaf::grow).collect();
+        Ok(Self::assembled(plan, form, flat, blades?))
+    }
+
+    /// A leaf of one blade.
+    pub fn simple(leaf: Leaf) -> Self {
+        Self {
+            blades: vec![leaf],
+            placements: vec![Placement {
+                blade: 0,
+                to_leaf: DAffine3::IDENTITY,
+            }],
+            axes: None,
+            flat: None,
+        }
+    }
+
+    /// A compound leaf from its different leaflets, grown from [`leaflet_plans`], and its arrangement.
+    pub fn assembled(
+        plan: &LeafPlan,
+        form: &CompoundForm,
+        flat: CompoundLeaf,
+        blades: Vec<Leaf>,
+    ) -> Self {
+        let bend = Bend::new(form, plan.length_mm);
+        let placements = (0_u64..)
+            .zip(&flat.leaflets)
+            .map(|(number, leaflet)| {
+                let tilt = [0, 1].map(|which| {
+                    let number = FIRST_TILT + 2 * number + which;
+                    form.tilt * (2.0 * uniform(plan.seed, Use::Leaflet, number) - 1.0)
+                });
+                Placement {
+                    blade: leaflet.variant as usize,
+                    to_leaf: bend.leaflet(leaflet, form, plan.length_mm, tilt),
+                }
+            })
+            .collect();
+        let mut axes = StalkMesh::default();
+        for (points, radii) in joined_stalks(&flat) {
+            axes.append(bend.tube(&points, &radii));
+        }
+        Self {
+            blades,
+            placements,
+            axes: (!axes.triangles.is_empty()).then_some(axes),
+            flat: Some(flat),
+        }
+    }
+}
+
+/// The axes of a leaf as polylines with radii: petiole and rachis as one, then the pinnae.
+pub fn joined_stalks(leaf: &CompoundLeaf) -> Vec<(Vec<DVec2>, Vec<f64>)> {
+    let mut joined: Vec<(Vec<DVec2>, Vec<f64>)> = Vec::new();
+    let axes = leaf.stalks.iter();
+    for stalk in axes.filter(|stalk| stalk.kind != StalkKind::Petiolule) {
+        let (points, radii) = (&stalk.points, &stalk.radii_mm);
+        match joined.first_mut() {
+            // The rachis goes on where the petiole ends.
+            Some((before, before_radii)) if stalk.kind == StalkKind::Rachis => {
+                before.extend(&points[1..]);
+                before_radii.extend(&radii[1..]);
+            }
+            Some(_) | None => joined.push((points.clone(), radii.clone())),
+        }
+    }
+    joined
+}
+
+/// The plane of a compound leaf, bent to an arc along +y.
+struct Bend {
+    /// Curvature, 1/mm.
+    curvature: f64,
+}
+
+impl Bend {
+    fn new(form: &CompoundForm, unit: f64) -> Self {
+        let rachis = match &form.arrangement {
+            Arrangement::Pinnate(feather) => feather.rachis,
+            Arrangement::Palmate { .. } => 0.0,
+            Arrangement::Bipinnate {
+                pinnae, leaflets, ..
+            } => pinnae.rachis * leaflets.rachis,
+        };
+        let length = (form.petiole + rachis) * unit;
+        Self {
+            curvature: if length > 0.0 {
+                form.curl / length
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// Where a point of the plane goes. As [`crate::blade::BladeForm::curl`] has it, lengths are kept.
+    fn place(&self, p: DVec2) -> DVec3 {
+        let angle = self.curvature * p.y;
+        if angle.abs() < 1e-6 {
+            return DVec3::new(p.x, p.y, -0.5 * angle * p.y);
+        }
+        let half = libm::sin(0.5 * angle);
+        DVec3::new(
+            p.x,
+            libm::sin(angle) / self.curvature,
+            -2.0 * half * half / self.curvature,
+        )
+    }
+
+    /// The turn of the plane there.
+    fn turn(&self, p: DVec2) -> DMat3 {
+        about(DVec3::X, -self.curvature * p.y)
+    }
+
+    /// From a leaflet's own frame, base at the origin, to the leaf's.
+    fn leaflet(
+        &self,
+        leaflet: &PlacedLeaflet,
+        form: &CompoundForm,
+        unit: f64,
+        [roll, pitch]: [f64; 2],
+    ) -> DAffine3 {
+        let axis = direction(leaflet.angle - leaflet.from_axis).extend(0.0);
+        let raised = about(axis, -form.fold * libm::sin(leaflet.from_axis));
+        let turned = about(DVec3::Z, -leaflet.angle);
+        let tilted = about(DVec3::Y, roll) * about(DVec3::X, 0.5 * pitch);
+        let linear = self.turn(leaflet.foot) * raised * turned * tilted * leaflet.scale;
+        let foot = DAffine3::from_mat3_translation(linear, self.place(leaflet.foot));
+        let side = if leaflet.mirrored { -1.0 } else { 1.0 };
+        // The foot of its own stalk comes to stand on the axis.
+        foot * DAffine3::from_translation(DVec3::Y * (form.petiolule * unit))
+            * DAffine3::from_scale(DVec3::new(side, 1.0, 1.0))
+    }
+
+    /// A tube along a polyline of the plane.
+    fn tube(&self, points: &[DVec2], radii: &[f64]) -> StalkMesh {
+        let whole: f64 = points
+            .windows(2)
+            .map(|pair| pair[0].distance(pair[1]))
+            .sum();
+        let foot = (FOOT_RADII * radii[0]).min(0.5 * whole);
+        let swollen = |along: f64| {
+            let t = (along / foot).min(1.0);
+            1.0 + FOOT * (1.0 - t * t * (3.0 - 2.0 * t))
+        };
+        let (mut placed, mut thick) = (vec![self.place(points[0])], vec![radii[0] * swollen(0.0)]);
+        let mut along = 0.0;
+        for (pair, ends) in points.windows(2).zip(radii.windows(2)) {
+            let length = pair[0].distance(pair[1]);
+            let finest = (PIECE * whole).min(0.25 * foot.max(along));
+            let pieces = (length / finest).ceil().clamp(1.0, 40.0);
+            for i in 1..=pieces as usize {
+                let t = i as f64 / pieces;
+                placed.push(self.place(pair[0].lerp(pair[1], t)));
+                thick.push((ends[0] + (ends[1] - ends[0]) * t) * swollen(along + t * length));
+            }
+            along += length;
+        }
+        StalkMesh::tube(&placed, &thick).expect("an axis is an arc, its radii are above 0")
+    }
+}
+
+/// The right-handed turn about a unit vector.
+fn about(axis: DVec3, angle: f64) -> DMat3 {
+    let (sin, cos) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
+    DMat3::from_quat(DQuat::from_xyzw(
+        axis.x * sin,
+        axis.y * sin,
+        axis.z * sin,
+        cos,
+    ))
+}
+
+#[cfg(test)]
+mod tests;
