@@ -44,7 +44,7 @@ fn rows(criterion: &mut Criterion) {
         let blade = plan.fill(&maple).expect("a good plan");
         let name = format!("maple filled with {} cells", blade.leaf().cells().len());
         group.bench_function(name, |bencher| {
-            bencher.iter(|| plan.fill(black_box(&maple)))
+            bencher.iter(|| plan.fill(black_box(&maple)));
         });
     }
     group.bench_function("example 1 as outline and veins", |bencher| {
