@@ -129,6 +129,15 @@ impl ReadForm<'_> {
                 ("leaflets", "use fewer pairs, here or of pinnae")
             }
             (CompoundError::OutOfRange { .. }, _) => ("pairs", "use fewer pairs"),
+            // Right before left: these two are opposite each other.
+            (CompoundError::Overlap { first, second }, Arrangement::Pinnate(_))
+                if first % 2 == 0 && second - first == 1 =>
+            {
+                (
+                    "angles_deg",
+                    "use wider angles, longer petiolules, or leaflets that are narrower at the base",
+                )
+            }
             (_, Arrangement::Pinnate(_)) => (
                 "rachis",
                 "use a longer rachis, or narrower or fewer leaflets",
