@@ -111,7 +111,7 @@ mod tests {
     use super::*;
     use crate::leaf::Fields;
 
-    /// Mean turn of laterals from their first piece to their last, radians, and how far up they end on average, lengths.
+    /// Mean turn of laterals towards the tip from their first piece to their last, radians, and how far up they end on average, lengths.
     fn sweep(share: f64) -> (f64, f64) {
         let plan = between(share);
         let lamina = plan.grow_lamina().expect("a good plan");
@@ -121,7 +121,7 @@ mod tests {
         };
         let count = veins.laterals();
         let of = |i: usize| veins.lateral(i).expect("there are so many");
-        let turn = |[a, b, c]: [glam::DVec2; 3]| (b - a).angle_to(c - b).abs();
+        let turn = |[a, b, c]: [glam::DVec2; 3]| (b - a).angle_to(c - b) * c.x.signum();
         let turns: f64 = (0..count).map(|i| turn(of(i))).sum();
         let ends: f64 = (0..count).map(|i| of(i)[2].y / plan.length_mm).sum();
         (turns / count as f64, ends / count as f64)
