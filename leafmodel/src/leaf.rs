@@ -1,5 +1,7 @@
 //! One leaf from plan to data: outline → veins → blade and contents.
 
+#[cfg(test)]
+mod combinations;
 mod fields;
 mod lamina;
 pub mod outline_plan;

@@ -340,8 +340,28 @@ fn simulate<I: Influence>(
 }
 
 impl Grown {
+    /// With veins from the base to all origins: the base is node 0 then, and all others count on from 1.
+    fn joined(mut self) -> Self {
+        self.positions.insert(0, DVec2::ZERO);
+        self.births.insert(0, 0);
+        let grown = self.edges.iter().map(|&[from, to]| [from + 1, to + 1]);
+        let joints = (1..=self.origins).map(|origin| [0, origin]);
+        self.edges = joints.chain(grown).collect();
+        self.origins = 1;
+        self
+    }
+
     /// Widths, orders, and millimetres.
     fn into_network(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
+        let grown = if plan.joined_origins {
+            self.joined()
+        } else {
+            self
+        };
+        grown.widened(plan, segment_mm, base)
+    }
+
+    fn widened(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
         let apex = self.map_apex * segment_mm;
         let curvature = plan.gaussian_curvature / apex.length_squared();
         let map = ConformalMap::new(curvature, base + apex * 0.5);

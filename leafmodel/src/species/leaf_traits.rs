@@ -18,12 +18,14 @@ use crate::venation::plan::AuxinPlan;
 
 pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
 pub(super) use self::trees::{
-    BIRCH, CHERRY, GINKGO, MAGNOLIA, MAPLE, POPLAR, RED_OAK, SWEETGUM, WHITE_OAK, WILLOW,
+    BIRCH, CHERRY, COTTONWOOD, GINKGO, MAGNOLIA, MAPLE, POPLAR, RED_OAK, SWEETGUM, WHITE_OAK,
+    WILLOW,
 };
 
 /// All of them, in the order of the book.
-static SPECIES: [&LeafTraits; 16] = [
+static SPECIES: [&LeafTraits; 17] = [
     &POPLAR,
+    &COTTONWOOD,
     &MAPLE,
     &WHITE_OAK,
     &RED_OAK,

@@ -244,6 +244,13 @@ static GROWN: &[Preset] = &[
         plan: PlanOf::Function(trees::red_oak),
     },
     Preset {
+        name: "cottonwood",
+        about: "Eastern cottonwood, a poplar as it grows: triangular, coarsely toothed, a fine net",
+        source: "length and kind of venation as floras give them; contents each with its own source (--about); outline, veins and form by eye",
+        row: None,
+        plan: PlanOf::Function(trees::cottonwood),
+    },
+    Preset {
         name: "birch",
         about: "Silver birch: twice toothed, a vein into each large tooth",
         source: "length and kind of venation as floras give them; contents each with its own source (--about); outline, veins and form by eye",

@@ -65,6 +65,7 @@ pub(super) fn plan() -> LeafPlan {
     }
     let venation = AuxinPlan {
         origins,
+        joined_origins: true,
         final_length: 620.0,
         source_birth_distance: 4.0,
         vein_birth_distance: 4.0,

@@ -43,6 +43,15 @@ pub(super) fn maple() -> LeafPlan {
     )
 }
 
+pub(super) fn cottonwood() -> LeafPlan {
+    leaf(
+        &leaf_traits::COTTONWOOD,
+        2,
+        contours::cottonwood(),
+        net(85.0, 560.0, 3.5),
+    )
+}
+
 pub(super) fn ivy() -> LeafPlan {
     leaf(&leaf_traits::IVY, 2, contours::ivy(), net(70.0, 420.0, 4.0))
 }

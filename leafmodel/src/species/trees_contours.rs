@@ -132,6 +132,31 @@ pub(super) fn red_oak() -> OutlinePlan {
     curve(&places, &[0, 4, 9, 11, 17, 19, 24, 27], true).into()
 }
 
+/// An eastern cottonwood's: a triangle as wide as long with a cut-off base, coarse teeth that lean and a drawn-out tip.
+pub(super) fn cottonwood() -> OutlinePlan {
+    OutlinePlan {
+        contour: pointed(&[
+            (0.0, 0.0),
+            (0.17, -0.012),
+            (0.36, 0.02),
+            (0.47, 0.11),
+            (0.465, 0.22),
+            (0.37, 0.41),
+            (0.235, 0.61),
+            (0.115, 0.79),
+            (0.04, 0.91),
+            (0.0, 1.0),
+        ]),
+        teeth: vec![ToothWave {
+            per_side: 24,
+            height: 0.016,
+            lean: 0.55,
+            fade_base: 0.42,
+            fade_apex: 0.25,
+        }],
+    }
+}
+
 /// A silver birch's: a triangle with rounded corners below, twice toothed.
 pub(super) fn birch() -> OutlinePlan {
     // None at the base, which is entire, and small ones towards the apex.

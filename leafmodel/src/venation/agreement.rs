@@ -412,3 +412,42 @@ fn endless_plans_are_refused() {
         Err(VenationError::Plan(PlanError::TooManyDarts { .. }))
     ));
 }
+
+#[test]
+fn joined_origins_hang_on_the_base_and_change_no_other_vein() {
+    let apart = AuxinPlan {
+        origins: vec![[-0.03, 0.2], [0.0, 0.15], [0.03, 0.2]],
+        ..poplar()
+    };
+    let joined = AuxinPlan {
+        joined_origins: true,
+        ..apart.clone()
+    };
+    let (apart, joined) = (network(&apart, 3), network(&joined, 3));
+    assert_eq!(joined.validate(), Ok(()));
+    assert_eq!((apart.origins(), joined.origins()), (3, 1));
+    assert_eq!(joined.components(), 1);
+    assert_eq!(joined.nodes()[0].position, DVec2::ZERO);
+    assert_eq!(&joined.nodes()[1..], apart.nodes());
+    for (edge, other) in joined.edges()[3..].iter().zip(apart.edges()) {
+        assert_eq!([edge.from, edge.to], [other.from + 1, other.to + 1]);
+        assert_eq!(edge.radius_to, other.radius_to);
+    }
+    // Murray's law where they part, with the poplar's exponent.
+    let power = |radius: f64| radius.powf(poplar().murray_exponent);
+    let joints = &joined.edges()[..3];
+    let widest = joints.iter().map(|joint| joint.radius_from);
+    let widest = widest.fold(0.0, f64::max);
+    let sum: f64 = joints.iter().map(|joint| power(joint.radius_to)).sum();
+    assert!((power(widest) / sum - 1.0).abs() < 1e-9, "{widest} {sum}");
+    let at_base = AuxinPlan {
+        origins: vec![[0.0, 0.0], [0.0, 0.1]],
+        joined_origins: true,
+        ..poplar()
+    };
+    let refused = grow(&outline(0.0, 0.0), &at_base, 1);
+    assert!(matches!(
+        refused,
+        Err(VenationError::Plan(PlanError::OriginAtBase))
+    ));
+}

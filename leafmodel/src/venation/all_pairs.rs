@@ -13,7 +13,7 @@ use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
 use super::plan::{AuxinPlan, Growth, Pattern};
-use super::simulation::{NO_DIRECTION, PATIENCE};
+use super::simulation::{NO_DIRECTION, PATIENCE, TURNING, turned};
 
 mod rounds;
 mod surroundings;
@@ -282,9 +282,25 @@ impl Oracle<'_> {
             return Outcome::Blocked;
         }
         let unit = unit * self.lamina.enlargement(at);
-        let child = at + sum / sum.length() * unit;
+        let straight = sum / sum.length() * unit;
+        let mut child = at + straight;
         if !self.stays(at, child) {
-            return Outcome::OffBlade;
+            let origins = &self.nodes[..self.origins as usize];
+            let is_near = origins.iter().any(|o| (*o - at).length() < TURNING * unit);
+            if !is_near || self.first_children[v].is_some() {
+                return Outcome::OffBlade;
+            }
+            // The least of all turns, left before right.
+            let mut least = None;
+            for (number, way) in turned(straight).enumerate() {
+                if self.stays(at, at + way) && least.is_none_or(|(n, _)| number < n) {
+                    least = Some((number, at + way));
+                }
+            }
+            let Some((_, aside)) = least else {
+                return Outcome::OffBlade;
+            };
+            child = aside;
         }
         if !self.nodes.iter().all(|&u| apart(child, u, 0.05 * unit)) {
             return Outcome::Blocked;

@@ -88,6 +88,9 @@ pub struct AuxinPlan {
     /// Where veins start, as shares of the midrib's length: across it (to the right) and along it from the base.
     /// None means one node at the base; at most 1000.
     pub origins: Vec<[f64; 2]>,
+    /// Whether straight veins lead from the base to all origins, as where the bundles of a petiole part. None of them may then lie
+    /// at the base.
+    pub joined_origins: bool,
     /// Length of the full-grown leaf in vein segments, 2 to 100 000; fixes the segment's length in mm.
     pub final_length: f64,
     /// `dk`, a source is used up when a vein comes nearer than this, 0.01 to 10 000.
@@ -150,6 +153,7 @@ impl Default for AuxinPlan {
         Self {
             pattern: Pattern::Closed(Neighbourhood::Relative),
             origins: Vec::new(),
+            joined_origins: false,
             final_length: 350.0,
             kill_distance: 1.0,
             source_birth_distance: 2.0,

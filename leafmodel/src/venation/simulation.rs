@@ -26,6 +26,17 @@ pub(crate) const PATIENCE: u32 = 3;
 /// Below this length the sum of unit vectors has no direction worth following.
 pub(crate) const NO_DIRECTION: f64 = 1e-9;
 
+/// How near to an origin, in segments, veins turn aside at the margin.
+pub(crate) const TURNING: f64 = 12.0;
+
+/// The ways next to one that leaves the blade, those that turn least first, up to a right angle.
+pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
+    (1..=6).flat_map(move |k| {
+        let (sin, cos) = libm::sincos(f64::from(k) * 15.0_f64.to_radians());
+        [sin, -sin].map(|sin| DVec2::new(cos, sin).rotate(straight))
+    })
+}
+
 /// What a driven node came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outcome {
@@ -357,10 +368,19 @@ impl<'a, I: Influence> Simulation<'a, I> {
             }
             let from = self.veins.positions[i];
             let unit = unit * self.lamina.enlargement(from);
-            let child = from + pull / length * unit;
-            if !self.lamina.can_reach(from, child) {
+            let straight = pull / length * unit;
+            let reach = |way: &DVec2| self.lamina.can_reach(from, from + *way);
+            let way = if reach(&straight) {
+                Some(straight)
+            } else if self.turns(node, unit) {
+                turned(straight).find(reach)
+            } else {
+                None
+            };
+            let Some(way) = way else {
                 return (node, Outcome::OffBlade);
-            }
+            };
+            let child = from + way;
             if self.veins.tree.any_within(child, COINCIDENT * unit) {
                 return (node, Outcome::Blocked);
             }
@@ -369,6 +389,15 @@ impl<'a, I: Influence> Simulation<'a, I> {
             (node, Outcome::Child(id))
         };
         driven.iter().map(place_one).collect()
+    }
+
+    /// Whether a vein's tip that would leave the blade turns aside: only as near to where the veins come in, for the base of a
+    /// blade whose halves hang down beside the petiole lies in a notch, and a midrib drawn to the mean of both would end there.
+    fn turns(&self, node: u32, unit: f64) -> bool {
+        let from = self.veins.positions[node as usize];
+        let origins = &self.veins.positions[..self.origins as usize];
+        let near = |origin: &DVec2| (*origin - from).length() < TURNING * unit;
+        self.veins.is_tip(node) && origins.iter().any(near)
     }
 
     /// Hands tags on to children, and counts the steps in which a source moved nothing.

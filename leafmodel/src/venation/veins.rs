@@ -48,6 +48,11 @@ fn length_queue() -> LengthQueue {
 }
 
 impl Veins {
+    /// Whether no vein leads on from a node.
+    pub(crate) fn is_tip(&self, node: u32) -> bool {
+        self.first_children[node as usize] == NO_NODE
+    }
+
     /// No veins yet, on a blade that fills the rectangle from `low` to `high`.
     pub(crate) fn new(low: DVec2, high: DVec2, stretching: bool) -> Self {
         Self {

@@ -5,8 +5,9 @@ use crate::measure::shape;
 use crate::species::{PRESETS, find};
 
 /// The presets that issue lists and books ask for by a plant's name.
-const ASKED_FOR: [&str; 16] = [
+const ASKED_FOR: [&str; 17] = [
     "poplar",
+    "cottonwood",
     "maple",
     "white-oak",
     "red-oak",

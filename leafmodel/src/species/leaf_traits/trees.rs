@@ -9,22 +9,28 @@ use super::{BRIGHT_VEINS, BURIED_VEINS, LeafTraits, Lie, Quantity, VeinLook};
 
 const POPLAR_CHLOROPHYLL: Quantity = chlorophyll(42.0);
 /// Eastern cottonwood, for a poplar.
-pub(in crate::species) static POPLAR: LeafTraits = LeafTraits {
-    preset: "poplar",
-    species: "Populus deltoides",
-    length_mm: flora(70.0, [30.0, 90.0], FNA_POPULUS),
-    width_mm: flora_span([30.0, 90.0], FNA_POPULUS),
-    widest_at: flora_span([0.0, 0.4], FNA_POPULUS),
-    thickness_mm: thickness(0.21),
-    structure: structure(1.6),
-    chlorophyll: POPLAR_CHLOROPHYLL,
-    carotenoids: carotenoids(POPLAR_CHLOROPHYLL),
-    anthocyanins: LITTLE_ANTHOCYANIN,
-    water: water(0.0115),
-    dry_matter: dry_matter(0.0075),
-    lie: Lie::new(6.0, 18.0, [0.012, 2.5], 0.6),
-    veins: BRIGHT_VEINS,
-};
+pub(in crate::species) static POPLAR: LeafTraits = cottonwood("poplar");
+/// The same for the preset with a poplar's own veins and teeth.
+pub(in crate::species) static COTTONWOOD: LeafTraits = cottonwood("cottonwood");
+
+const fn cottonwood(preset: &'static str) -> LeafTraits {
+    LeafTraits {
+        preset,
+        species: "Populus deltoides",
+        length_mm: flora(70.0, [30.0, 90.0], FNA_POPULUS),
+        width_mm: flora_span([30.0, 90.0], FNA_POPULUS),
+        widest_at: flora_span([0.0, 0.4], FNA_POPULUS),
+        thickness_mm: thickness(0.21),
+        structure: structure(1.6),
+        chlorophyll: POPLAR_CHLOROPHYLL,
+        carotenoids: carotenoids(POPLAR_CHLOROPHYLL),
+        anthocyanins: LITTLE_ANTHOCYANIN,
+        water: water(0.0115),
+        dry_matter: dry_matter(0.0075),
+        lie: Lie::new(6.0, 18.0, [0.012, 2.5], 0.6),
+        veins: BRIGHT_VEINS,
+    }
+}
 
 const MAPLE_CHLOROPHYLL: Quantity = measured(
     42.0,

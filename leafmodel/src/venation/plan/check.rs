@@ -53,6 +53,9 @@ pub enum PlanError {
         /// The second.
         second: usize,
     },
+    /// A vein that would lead from the base to itself.
+    #[error("one of the joined origins of the veins lies at the base")]
+    OriginAtBase,
     /// Two rules that do not go together.
     #[error("{key} does not go together with {other}")]
     Incompatible {
@@ -300,6 +303,9 @@ impl AuxinPlan {
             if let Some(first) = origins[..second].iter().position(near) {
                 return Err(PlanError::OriginsMeet { first, second });
             }
+        }
+        if self.joined_origins && origins.iter().any(|p| p.length() < COINCIDENT) {
+            return Err(PlanError::OriginAtBase);
         }
         // The map of a saddle ends where lengths vanish.
         let middle = (blade.base() + blade.apex()) * 0.5;

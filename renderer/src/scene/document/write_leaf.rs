@@ -375,6 +375,9 @@ fn auxin(plan: &AuxinPlan) -> (&'static str, Keys) {
     if !plan.origins.is_empty() {
         keys.value("origins", list(plan.origins.iter().copied().map(pair)));
     }
+    if plan.joined_origins {
+        keys.value("joined_origins", Value::Flag(true));
+    }
     keys.number_unless("unseen_veinlets", plan.unseen_veinlets, 0.0);
     keys.number_unless("gaussian_curvature", plan.gaussian_curvature, 0.0);
     if let Some(free) = &plan.free_endings {

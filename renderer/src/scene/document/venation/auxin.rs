@@ -45,6 +45,7 @@ pub(super) fn read_auxin(
         Some(Pattern::Open)
     };
     let origins = read_origins(block);
+    let joined_origins = block.flag_or("joined_origins", false);
     let unseen_veinlets = block.number_or("unseen_veinlets", Limits::closed(0.0, 1e3), 0.0);
     let gaussian_curvature = block.number_or("gaussian_curvature", Limits::closed(-2.0, 8.0), 0.0);
     // Only areoles have room for them.
@@ -63,6 +64,7 @@ pub(super) fn read_auxin(
         growth: growth?,
         murray_exponent,
         veinlet_radius_mm: veinlet_radius_mm?,
+        joined_origins,
         unseen_veinlets,
         free_endings,
         margin_clearance,
@@ -185,6 +187,10 @@ fn report(block: &Block<'_>, error: &PlanError) {
         PlanError::TooManyDarts { .. } => (
             &["darts_per_segment2"],
             "use fewer darts, or larger segments or steps",
+        ),
+        PlanError::OriginAtBase => (
+            &["origins"],
+            "leave out joined_origins, or the place [0, 0]",
         ),
         PlanError::OriginsMeet { .. } => (&["origins"], "veins start from different places"),
         PlanError::YoungLeaf { .. } => (

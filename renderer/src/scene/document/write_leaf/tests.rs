@@ -305,7 +305,11 @@ fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
         prop_oneof![Just(0.0), 0.0..100.0],
         prop_oneof![Just(0.0), -0.5..8.0],
     );
-    let origins = prop_oneof![Just(Vec::new()), Just(vec![[0.0, 0.0], [0.0, 0.25]])];
+    let origins = prop_oneof![
+        Just((Vec::new(), false)),
+        Just((vec![[0.0, 0.0], [0.0, 0.25]], false)),
+        Just((vec![[0.0, 0.1], [0.0, 0.25]], true)),
+    ];
     (pattern, growth(), free, clearance, numbers, more, origins).prop_map(
         |(pattern, growth, free, clearance, numbers, more, origins)| {
             let (final_length, kill_distance, birth, same, darts_per_area) = numbers;
@@ -313,7 +317,8 @@ fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
             let free = free.filter(|_| pattern != Pattern::Open);
             AuxinPlan {
                 pattern,
-                origins,
+                origins: origins.0,
+                joined_origins: origins.1,
                 final_length,
                 kill_distance,
                 source_birth_distance: birth,
