@@ -34,7 +34,7 @@ fn bent() -> GrowthForm {
     };
     let half = HalfForm {
         veins: vec![vein(0.1, -0.3), vein(0.9, 0.1)],
-        ..HalfForm::entire(1.27, 0.45, 2.6)
+        ..HalfForm::entire(1.27, 0.42, 4.0)
     };
     half.into()
 }
@@ -60,9 +60,13 @@ pub(super) fn dogwood() -> LeafPlan {
     let outline = Contour::GrowthAlgorithm(bent()).into();
     let mut leaf = green_leaf(80.0, 0, outline, AuxinPlan::default());
     leaf.venation = ArcuatePlan {
-        veins: 6,
-        width: 0.008,
-        up: 0.6,
+        veins: 4,
+        width: 0.004,
+        squish: 0.3,
+        squish2: 0.75,
+        squish3: 0.6,
+        up: 1.0,
+        tip_width: 0.3,
         ..ArcuatePlan::default()
     }
     .into();
@@ -72,6 +76,7 @@ pub(super) fn dogwood() -> LeafPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::leaf::Fields;
     use crate::shape::growth_form::Side;
 
     #[test]
@@ -88,6 +93,16 @@ mod tests {
 
     #[test]
     fn a_dogwoods_veins_steepen_outwards() {
+        let plan = dogwood();
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let Some(Fields::Arcuate(veins)) = plan.fields(&lamina).expect("a good plan") else {
+            panic!("splines have fields");
+        };
+        for i in 0..veins.laterals() {
+            let [a, b, c] = veins.lateral(i).expect("there are so many");
+            let turn = (b - a).angle_to(c - b) * c.x.signum();
+            assert!(turn > 0.2, "vein {i} turns by {turn}");
+        }
         for line in bent().vein_lines(1.0).expect("a good form") {
             let rise = |i: usize| (line[i + 1] - line[i]).y / (line[i + 1] - line[i]).x.abs();
             assert!((1..line.len() - 1).all(|i| rise(i) > rise(i - 1)));

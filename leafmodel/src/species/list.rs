@@ -420,7 +420,7 @@ static GROWN: &[Preset] = &[
     },
     Preset {
         name: "maple-transport",
-        about: "The maple with the veins that supply its cells most cheaply",
+        about: "The maple with the veins that supply its cells most cheaply; they run along the grid of cells",
         source: "ours: the transport cost of Xia 2007 with α and β of Example 1 on a given outline; the rest as in maple",
         row: None,
         plan: PlanOf::Function(xia::maple),

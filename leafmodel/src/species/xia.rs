@@ -84,7 +84,7 @@ pub(super) fn example_4() -> LeafPlan {
     leaf(plan(4), &look)
 }
 
-/// Example 1 when about half of its cells have died, which the paper foresees (Remark 3.6) and does not show.
+/// Example 1 when its outer cells have died, which the paper foresees (Remark 3.6) and does not show.
 pub(super) fn autumn() -> LeafPlan {
     let mut leaf = example_1();
     leaf.tissue.lamina.chlorophyll = 20.0;
