@@ -49,6 +49,13 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     let started = Instant::now();
     let chosen = choice::choose(arguments)?;
     let outputs = Outputs::planned(arguments)?;
+    // What the plan cannot give is told before anything is written.
+    if arguments.fields.is_some() {
+        fields::check(&chosen.value.plan)?;
+    }
+    if arguments.frames.is_some() {
+        frames::check(&chosen.value.plan)?;
+    }
     let stop = stop_on_interrupt()?;
     let work = || {
         carry_out(
@@ -123,7 +130,11 @@ fn carry_out(
         fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
-        frames::write(plan, grown.lamina(), outputs, count, arguments.size, stop)?;
+        let drawn = frames::Drawn {
+            page,
+            pixels: arguments.size,
+        };
+        frames::write(plan, grown.lamina(), outputs, count, &drawn, stop)?;
     }
     if let Some(path) = &arguments.measure {
         if !network.map().is_flat() {
