@@ -6,6 +6,7 @@ mod choice;
 mod fields;
 mod frames;
 mod outputs;
+mod warnings;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -19,7 +20,7 @@ use leafmodel::measure::measure;
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::venation::VenationError;
-use leafmodel::venation::network::{Ending, VenationNetwork};
+use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
 
 use self::blade_files::Parts;
@@ -282,20 +283,8 @@ fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
             Failure::bad(error)
         }
     })?;
-    let network = &lamina.network;
-    match network.ending() {
-        Ending::Settled | Ending::Growing => {}
-        Ending::StepLimit => {
-            eprintln!(
-                "warning: the pattern had not settled after {} steps",
-                network.steps()
-            );
-        }
-    }
-    if network.edges().is_empty() {
-        eprintln!(
-            "warning: no vein grew; more darts or smaller birth distances let sources appear"
-        );
+    for warning in warnings::of(plan, &lamina) {
+        eprintln!("warning: {warning}");
     }
     Ok(lamina)
 }
