@@ -35,17 +35,17 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
         ));
     }
     match &plan.venation {
-        VenationPlan::Arcuate(_) => Err(no_stages(LeafError::NoStages(
+        VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
             "arcuate veins are there all at once",
         ))),
         VenationPlan::Cells(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
-            LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
+            &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
         )),
         VenationPlan::Auxin(_) | VenationPlan::Cells(_) | VenationPlan::Transport(_) => Ok(()),
     }
 }
 
-fn no_stages(error: LeafError) -> Failure {
+fn no_stages(error: &LeafError) -> Failure {
     Failure::bad(format!("--frames: {error}"))
 }
 
@@ -87,10 +87,15 @@ pub(super) fn write(
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     check(plan)?;
-    let steps = steps(plan.last_step(lamina).map_err(no_stages)?, count);
+    let steps = steps(
+        plan.last_step(lamina).map_err(|error| no_stages(&error))?,
+        count,
+    );
     let group = (MOST_NODES / lamina.network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
-        let stages = plan.stages(lamina, group_steps).map_err(no_stages)?;
+        let stages = plan
+            .stages(lamina, group_steps)
+            .map_err(|error| no_stages(&error))?;
         let stages: Vec<LeafStage> = stages
             .into_iter()
             .map(|stage| with_petiole(plan, lamina, stage))
@@ -154,7 +159,7 @@ mod tests {
         let mut refused = 0;
         for plan in [preset("poplar"), preset("xia-1"), splines, toothed] {
             let lamina = plan.grow_lamina().expect("a good plan");
-            let late = plan.last_step(&lamina).map_err(no_stages);
+            let late = plan.last_step(&lamina).map_err(|error| no_stages(&error));
             let (early, late) = (check(&plan).err(), late.err());
             refused += u32::from(early.is_some());
             assert_eq!(format!("{early:?}"), format!("{late:?}"));
