@@ -316,10 +316,70 @@ fn remark_3_6_cells_die_from_the_margin_inwards_and_none_before_its_own_supplies
         let rest = leaf.without_dead(&deaths, share);
         assert!(rest.cells().len() < count && rest.counts()[0] as usize == rest.cells().len());
         count = rest.cells().len();
-        // What is left earns at least what the last tip of it costs.
-        let distance = |cell: &Cell| cell.length();
-        let farthest = rest.cells().iter().map(distance).fold(0.0, f64::max);
-        assert!(farthest <= leaf.cells().iter().map(distance).fold(0.0, f64::max));
+    }
+}
+
+/// `F` by its definition of some cells of a leaf, ascending, that lead back to the root.
+fn cost_of(leaf: &TransportLeaf, kept: &[usize]) -> f64 {
+    let number = |v: usize| kept.binary_search(&v).expect("kept with what supplies it") as u32;
+    let cells: Vec<Cell> = kept.iter().map(|&v| leaf.cells()[v]).collect();
+    let parents: Vec<u32> = kept
+        .iter()
+        .map(|&v| leaf.parent(v).map_or(NONE, number))
+        .collect();
+    let TransportPlan {
+        alpha, beta, cell, ..
+    } = *leaf.plan();
+    TransportSystem::new(&cells, &parents, [alpha, beta, cell]).cost()
+}
+
+#[test]
+fn remark_3_6_living_tips_pay_for_their_transport_and_those_that_just_died_would_not() {
+    const STEPS: u32 = 50;
+    let cell = 2.0;
+    let even = TransportPlan::default();
+    let larger = TransportPlan {
+        cell,
+        epsilon: even.epsilon * libm::pow(cell, 2.0 * even.alpha - 1.0),
+        noise: 0.3,
+        ..even.clone()
+    };
+    for plan in [even, larger] {
+        let leaf = plan.grow(1).expect("a good plan");
+        let light = plan.revenue(1);
+        let deaths = leaf.deaths(STEPS).expect("a good number");
+        let (mut living, mut dead) = (0, 0);
+        for step in [1, 9, 20, 33, 45] {
+            let share = 1.0 - f64::from(step) / f64::from(STEPS);
+            let earned =
+                |v: usize| share * plan.epsilon * plan.cell * plan.cell * light.of(leaf.cells()[v]);
+            let lives = |v: usize| v == 0 || deaths[v] < share;
+            let supplies =
+                |p: usize| (1..leaf.cells().len()).any(|v| lives(v) && leaf.parent(v) == Some(p));
+            let kept: Vec<usize> = (0..leaf.cells().len()).filter(|&v| lives(v)).collect();
+            assert_eq!(leaf.without_dead(&deaths, share).cells().len(), kept.len());
+            let cost = cost_of(&leaf, &kept);
+            // Each is a difference of sums, rounded.
+            let rounding = ROUNDING * cost;
+            for &tip in kept[1..].iter().filter(|&&v| !supplies(v)) {
+                let others: Vec<usize> = kept.iter().copied().filter(|&v| v != tip).collect();
+                let expense = cost - cost_of(&leaf, &others);
+                assert!(expense <= earned(tip) + rounding, "{tip} costs {expense}");
+                living += 1;
+            }
+            // Of those that died in this step, the last on each vein: back alone they cost more than they earn, for what is shared
+            // with fewer costs more.
+            let last =
+                |&v: &usize| !lives(v) && deaths[v] == share && leaf.parent(v).is_some_and(lives);
+            for v in (1..leaf.cells().len()).filter(last) {
+                let mut more = kept.clone();
+                more.insert(kept.partition_point(|&other| other < v), v);
+                let expense = cost_of(&leaf, &more) - cost;
+                assert!(expense > earned(v) - rounding, "{v} costs {expense}");
+                dead += 1;
+            }
+        }
+        assert!(living > 100 && dead > 20, "{living} live, {dead} died");
     }
 }
 

@@ -226,6 +226,19 @@ impl ArcuatePlan {
     }
 }
 
+impl ArcuatePlan {
+    /// How much of each primary beside the midrib there is room for on a blade, as a share of its length, 0 to 1: a bay of
+    /// the margin or another vein may lie in its way. In pairs, left before right, those nearest the base first; none if `palmate` is
+    /// `None`.
+    ///
+    /// # Errors
+    ///
+    /// [`ArcuateError::OutOfRange`].
+    pub fn primaries_laid(&self, outline: &Outline) -> Result<Vec<f64>, ArcuateError> {
+        Ok(graph::primaries_laid(&self.veins_on(outline)?, outline))
+    }
+}
+
 impl ArcuateVeins {
     /// Lateral veins, both sides together.
     pub fn laterals(&self) -> usize {

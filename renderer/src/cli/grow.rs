@@ -6,6 +6,7 @@ mod choice;
 mod fields;
 mod frames;
 mod outputs;
+mod warnings;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -19,7 +20,7 @@ use leafmodel::measure::measure;
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::venation::VenationError;
-use leafmodel::venation::network::{Ending, VenationNetwork};
+use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
 
 use self::blade_files::Parts;
@@ -49,6 +50,13 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     let started = Instant::now();
     let chosen = choice::choose(arguments)?;
     let outputs = Outputs::planned(arguments)?;
+    // What the plan cannot give is told before anything is written.
+    if arguments.fields.is_some() {
+        fields::check(&chosen.value.plan)?;
+    }
+    if arguments.frames.is_some() {
+        frames::check(&chosen.value.plan)?;
+    }
     let stop = stop_on_interrupt()?;
     let work = || {
         carry_out(
@@ -123,7 +131,11 @@ fn carry_out(
         fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
-        frames::write(plan, grown.lamina(), outputs, count, arguments.size, stop)?;
+        let drawn = frames::Drawn {
+            page,
+            pixels: arguments.size,
+        };
+        frames::write(plan, grown.lamina(), outputs, count, &drawn, stop)?;
     }
     if let Some(path) = &arguments.measure {
         if !network.map().is_flat() {
@@ -271,20 +283,8 @@ fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
             Failure::bad(error)
         }
     })?;
-    let network = &lamina.network;
-    match network.ending() {
-        Ending::Settled | Ending::Growing => {}
-        Ending::StepLimit => {
-            eprintln!(
-                "warning: the pattern had not settled after {} steps",
-                network.steps()
-            );
-        }
-    }
-    if network.edges().is_empty() {
-        eprintln!(
-            "warning: no vein grew; more darts or smaller birth distances let sources appear"
-        );
+    for warning in warnings::of(plan, &lamina) {
+        eprintln!("warning: {warning}");
     }
     Ok(lamina)
 }

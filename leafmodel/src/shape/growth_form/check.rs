@@ -1,18 +1,19 @@
 //! What a growth form's numbers may be.
 
-use std::ops::RangeInclusive;
+use std::ops::{Bound, RangeBounds};
 
 use super::rows::{AxisGrowth, Rows, row_at};
 use super::{
     Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, HalfForm, LateralGrowth, Side,
 };
 
-/// The least number above 0 that a parameter which excludes 0 may take, and the like below 1.
-const ABOVE_0: f64 = 1e-6;
-const BELOW_1: f64 = 1.0 - 1e-6;
-
 /// How often axes may bear axes.
 const DEEPEST: usize = 8;
+
+/// Above 0, up to `most`.
+fn above_0(most: f64) -> impl RangeBounds<f64> {
+    (Bound::Excluded(0.0), Bound::Included(most))
+}
 
 /// Refuses lengths that no leaf has.
 pub(super) fn length(length_mm: f64) -> Result<(), GrowthFormError> {
@@ -24,7 +25,7 @@ pub(super) fn length(length_mm: f64) -> Result<(), GrowthFormError> {
 pub(super) fn in_range(
     key: &'static str,
     value: f64,
-    range: RangeInclusive<f64>,
+    range: impl RangeBounds<f64>,
     words: &'static str,
 ) -> Result<(), GrowthFormProblem> {
     if range.contains(&value) {
@@ -118,13 +119,14 @@ fn check_half(rows: usize, half: &HalfForm) -> Result<(), GrowthFormProblem> {
         } => {
             in_range("rate_ratio", *rate_ratio, 0.5..=100.0, "0.5 to 100")?;
             let words = "0 to 1, both excluded";
-            in_range("widest_at", *widest_at, ABOVE_0..=BELOW_1, words)?;
-            in_range("falloff", *falloff, ABOVE_0..=100.0, "0 (excluded) to 100")?;
+            let between = (Bound::Excluded(0.0), Bound::Excluded(1.0));
+            in_range("widest_at", *widest_at, between, words)?;
+            in_range("falloff", *falloff, above_0(100.0), "0 (excluded) to 100")?;
         }
     }
     in_range("lobe_decay", half.lobe_decay, 0.0..=100.0, "0 to 100")?;
     let words = "0 (excluded) to 10";
-    in_range("lobe_exponent", half.lobe_exponent, ABOVE_0..=10.0, words)?;
+    in_range("lobe_exponent", half.lobe_exponent, above_0(10.0), words)?;
     let mut before = None;
     for (index, vein) in half.veins.iter().enumerate() {
         in_range("veins.position", vein.position, 0.0..=1.0, "0 to 1")?;

@@ -223,6 +223,28 @@ fn veins_that_cross_are_refused_with_the_slopes_that_keep_them_apart() {
 }
 
 #[test]
+fn parameters_as_near_to_an_excluded_end_as_numbers_come_grow_or_say_why_not() {
+    let least = f64::MIN_POSITIVE;
+    for (widest_at, falloff, lobe_exponent) in [
+        (least, 3.0, 2.0),
+        (1.0 - f64::EPSILON, 3.0, 2.0),
+        (0.4, least, 2.0),
+        (0.4, 3.0, least),
+    ] {
+        let mut near = form(HalfForm {
+            lobe_decay: 0.01,
+            lobe_exponent,
+            ..HalfForm::entire(1.2, widest_at, falloff)
+        });
+        near.midrib.right.veins = vec![vein(0.5, 0.3, 0.0)];
+        assert_eq!(near.validate(), Ok(()));
+        if let Ok(outline) = near.grow(60.0) {
+            assert!(outline.area().is_finite() && outline.area() > 0.0);
+        }
+    }
+}
+
+#[test]
 fn every_bad_parameter_is_named() {
     type Break = fn(&mut GrowthForm);
     let breaks: [(&str, Break); 12] = [

@@ -22,6 +22,34 @@ pub(super) fn network(
     veins: &ArcuateVeins,
     outline: &Outline,
 ) -> Result<VenationNetwork, NetworkError> {
+    let (mut graph, on_axes) = axes(veins, outline);
+    for lateral in &veins.laterals {
+        // An axis that was cut short at the margin bears no laterals beyond.
+        if let Some(from) = node_at(&on_axes[lateral.axis], lateral.start) {
+            graph.lateral(lateral, from);
+        }
+    }
+    graph.finish()
+}
+
+/// The share of each primary's length that is laid.
+pub(super) fn primaries_laid(veins: &ArcuateVeins, outline: &Outline) -> Vec<f64> {
+    let (graph, on_axes) = axes(veins, outline);
+    let laid = |(axis, nodes): (&Vein, &Vec<(f64, u32)>)| {
+        let steps = nodes.windows(2).map(|pair| {
+            let [from, to] = [pair[0].1, pair[1].1].map(|node| graph.nodes[node as usize]);
+            (to - from).length()
+        });
+        let count = pieces(axis);
+        let at = |i: u32| axis.curve.at(f64::from(i) / f64::from(count));
+        let whole: f64 = (0..count).map(|i| (at(i + 1) - at(i)).length()).sum();
+        (steps.sum::<f64>() / (whole * graph.length())).min(1.0)
+    };
+    veins.axes.iter().zip(&on_axes).skip(1).map(laid).collect()
+}
+
+/// Midrib and primaries on a blade, and the nodes of each with their parameters, for laterals to start from.
+fn axes<'v>(veins: &'v ArcuateVeins, outline: &'v Outline) -> (Graph<'v>, Vec<Vec<(f64, u32)>>) {
     let mut graph = Graph {
         veins,
         outline,
@@ -29,7 +57,6 @@ pub(super) fn network(
         edges: Vec::new(),
         boxes: Vec::new(),
     };
-    // Nodes of each axis with their parameters, for laterals to start from.
     let mut on_axes: Vec<Vec<(f64, u32)>> = Vec::new();
     for (number, axis) in veins.axes.iter().enumerate() {
         let primaries = if number == 0 { &veins.axes[1..] } else { &[] };
@@ -47,13 +74,7 @@ pub(super) fn network(
         let nodes = from.map(|from| graph.axis(axis, from, starts.collect()));
         on_axes.push(nodes.unwrap_or_default());
     }
-    for lateral in &veins.laterals {
-        // An axis that was cut short at the margin bears no laterals beyond.
-        if let Some(from) = node_at(&on_axes[lateral.axis], lateral.start) {
-            graph.lateral(lateral, from);
-        }
-    }
-    graph.finish()
+    (graph, on_axes)
 }
 
 /// The node of an axis at a parameter.

@@ -345,3 +345,21 @@ proptest! {
         assert_sound(&plan.network(&outline).expect("in range"), &outline, FORMS[form].name);
     }
 }
+
+#[test]
+fn primaries_are_laid_whole_but_where_a_bay_lies_in_their_way() {
+    let (outline, _) = grown(&palmate());
+    let whole = palmate().primaries_laid(&outline).expect("a good plan");
+    assert_eq!(whole.len(), 4);
+    assert!(whole.iter().all(|&share| share > 0.99), "{whole:?}");
+    // Lobes so deep that primaries meet the margin of a bay on their way.
+    let lobed = FORMS.iter().find(|form| form.name == "young-9a");
+    let lobed = lobed.expect("a form of the paper").shape().grow(LENGTH);
+    let lobed = lobed.expect("a form of the paper");
+    let cut = palmate().primaries_laid(&lobed).expect("a good plan");
+    assert_eq!(cut.len(), 4);
+    assert!(cut.iter().any(|&share| share < 0.5), "{cut:?}");
+    assert!(cut.iter().all(|&share| (0.0..=1.0).contains(&share)));
+    let none = pinnate().primaries_laid(&outline).expect("a good plan");
+    assert!(none.is_empty());
+}

@@ -3,12 +3,23 @@
 use leafmodel::species;
 use leafmodel::species::leaf_traits::{LeafTraits, Provenance, traits};
 
-use super::choice::unknown_preset;
+use super::choice::{is_word, unknown_preset};
+use crate::cli::arguments::file_and_leaf;
 use crate::cli::{Failure, say};
 
 /// Prints a preset's words and, if it stands for a species, the table of its traits.
 pub(super) fn tell(name: &str) -> Result<(), Failure> {
-    let preset = species::find(name).ok_or_else(|| unknown_preset(name))?;
+    let (path, _) = file_and_leaf(name);
+    let preset = species::find(name).ok_or_else(|| {
+        if is_word(name) && !path.exists() {
+            unknown_preset(name)
+        } else {
+            Failure::bad(format!(
+                "--about tells of presets, and `{}` is a file's name (`lamina grow --list` names the presets)",
+                name.escape_debug()
+            ))
+        }
+    })?;
     say(preset.name);
     say(format!("  {}", preset.about));
     say(format!("  source: {}", preset.source));

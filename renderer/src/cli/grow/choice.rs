@@ -21,8 +21,7 @@ pub(super) fn choose(arguments: &GrowArguments) -> Result<Named<Leaf>, Failure> 
     } else {
         let (path, leaf) = file_and_leaf(wanted);
         // What looks like a name and is no file was meant for a preset.
-        let is_word = !wanted.contains(['/', '\\', '.', '#']);
-        if is_word && !path.exists() {
+        if is_word(wanted) && !path.exists() {
             return Err(unknown_preset(wanted));
         }
         read(LeafFile::File { path: &path, leaf })
@@ -30,6 +29,11 @@ pub(super) fn choose(arguments: &GrowArguments) -> Result<Named<Leaf>, Failure> 
     let plan = &mut chosen.value.plan;
     plan.seed = arguments.seed.unwrap_or(plan.seed);
     Ok(chosen)
+}
+
+/// Whether it looks like the name of a preset rather than a file's.
+pub(super) fn is_word(wanted: &str) -> bool {
+    !wanted.contains(['/', '\\', '.', '#'])
 }
 
 pub(super) fn unknown_preset(wanted: &str) -> Failure {

@@ -5,11 +5,35 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 use leafmodel::blade::UvFrame;
+use leafmodel::leaf::outline_plan::Contour;
+use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
 use rayon::prelude::*;
 
 use crate::cli::{Failure, say};
 use crate::image::{Layer, Picture, openexr};
+
+/// Refuses plans of leaves that have no fields.
+pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
+    let on_cells = match &plan.outline.contour {
+        Contour::Transport(_) => true,
+        Contour::GrowthAlgorithm(_) | Contour::Curve(_) | Contour::Svg(_) | Contour::Cubic(_) => {
+            false
+        }
+    };
+    match &plan.venation {
+        VenationPlan::Arcuate(_) | VenationPlan::Transport(_) | VenationPlan::Cells(_) => Ok(()),
+        VenationPlan::Auxin(_) if on_cells => Ok(()),
+        VenationPlan::Auxin(_) => Err(none()),
+    }
+}
+
+fn none() -> Failure {
+    Failure::bad(
+        "--fields needs veins that are splines (venation.arcuate) or a transport leaf (outline.transport or \
+         venation.transport): others have no fields but their contents",
+    )
+}
 
 /// Writes the fields of a lamina over the texture coordinates of its blade, rows and columns as those of the maps of contents.
 pub(super) fn write(
@@ -19,9 +43,7 @@ pub(super) fn write(
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let Some(fields) = plan.fields(lamina).map_err(Failure::bad)? else {
-        return Err(Failure::bad(
-            "--fields needs veins that are splines (venation.arcuate) or a transport leaf: others have no fields but their contents",
-        ));
+        return Err(none());
     };
     let frame = UvFrame::around(lamina.outline.points());
     let longer = frame.size.max_element();
@@ -64,4 +86,29 @@ pub(super) fn write(
     openexr::write(&picture, path).map_err(Failure::system)?;
     say(path.display());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use leafmodel::species::find;
+
+    use super::*;
+
+    #[test]
+    fn plans_are_refused_whose_leaves_have_no_fields_and_no_others() {
+        let mut transport_and_auxin = find("xia-1").expect("a preset").plan();
+        transport_and_auxin.venation = find("poplar").expect("a preset").plan().venation;
+        let preset = |name: &str| find(name).expect("a preset").plan();
+        for (plan, has_fields) in [
+            (preset("xia-1"), true),
+            (preset("arcuate"), true),
+            (transport_and_auxin, true),
+            (preset("poplar"), false),
+        ] {
+            let lamina = plan.grow_lamina().expect("a good plan");
+            let fields = plan.fields(&lamina).expect("a good plan");
+            assert_eq!(fields.is_some(), has_fields);
+            assert_eq!(check(&plan).is_ok(), has_fields);
+        }
+    }
 }

@@ -3,7 +3,10 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
-use leafmodel::leaf::{Lamina, LeafPlan, LeafStage};
+use leafmodel::blade::petiole::PetiolePlan;
+use leafmodel::compound::FlatLeaf;
+use leafmodel::leaf::venation_plan::VenationPlan;
+use leafmodel::leaf::{Lamina, LeafError, LeafPlan, LeafStage};
 use rayon::prelude::*;
 
 use super::outputs::{Outputs, numbered};
@@ -15,6 +18,63 @@ const MOST_NODES: usize = 10_000_000;
 /// Most stages that are held at once; their files are made in parallel.
 const MOST_STAGES: usize = 64;
 
+/// How all stages are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawn {
+    /// Corners of the page that they share, that of the full-grown leaf.
+    pub(super) page: Page,
+    /// Along the longer side of a picture.
+    pub(super) pixels: u32,
+}
+
+/// Refuses plans of leaves that have no stages.
+pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
+    if plan.compound.is_some() {
+        return Err(Failure::bad(
+            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
+        ));
+    }
+    match &plan.venation {
+        VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
+            "arcuate veins are there all at once",
+        ))),
+        VenationPlan::Cells(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+            &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
+        )),
+        VenationPlan::Auxin(_) | VenationPlan::Cells(_) | VenationPlan::Transport(_) => Ok(()),
+    }
+}
+
+fn no_stages(error: &LeafError) -> Failure {
+    Failure::bad(format!("--frames: {error}"))
+}
+
+/// A stage with its petiole, if the leaf has one: as much shorter and thinner as the leaf is shorter than it will be.
+fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage {
+    let Some(petiole) = &plan.petiole else {
+        return stage;
+    };
+    let scale = stage.outline.length() / grown.outline.length();
+    let mut young = plan.clone();
+    // Before there are veins there is no midrib to take the radius from.
+    let radius = petiole.radius_on(&grown.outline, &grown.network);
+    young.petiole = Some(PetiolePlan {
+        radius_mm: Some(radius * scale),
+        ..*petiole
+    });
+    let lamina = Lamina {
+        outline: stage.outline,
+        network: stage.network,
+        cells: None,
+        filled: None,
+    };
+    let network = FlatLeaf::with_petiole(&young, &lamina).map(|flat| flat.network);
+    LeafStage {
+        network: network.unwrap_or(lamina.network),
+        outline: lamina.outline,
+    }
+}
+
 /// Writes `count` stages, evenly spaced in steps, in every format that is asked for.
 ///
 /// Each group of stages grows the leaf anew, which costs far less than to keep them all.
@@ -23,24 +83,27 @@ pub(super) fn write(
     lamina: &Lamina,
     outputs: &Outputs,
     count: u32,
-    pixels: u32,
+    drawn: &Drawn,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    if plan.compound.is_some() {
-        return Err(Failure::bad(
-            "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
-        ));
-    }
-    let no_stages = |error| Failure::bad(format!("--frames: {error}"));
-    let steps = steps(plan.last_step(lamina).map_err(no_stages)?, count);
-    let page = lamina.outline.bounds();
+    check(plan)?;
+    let steps = steps(
+        plan.last_step(lamina).map_err(|error| no_stages(&error))?,
+        count,
+    );
     let group = (MOST_NODES / lamina.network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
-        let stages = plan.stages(lamina, group_steps).map_err(no_stages)?;
+        let stages = plan
+            .stages(lamina, group_steps)
+            .map_err(|error| no_stages(&error))?;
+        let stages: Vec<LeafStage> = stages
+            .into_iter()
+            .map(|stage| with_petiole(plan, lamina, stage))
+            .collect();
         for (path, kind) in &outputs.staged {
             let draw = |stage: &LeafStage| {
                 let outlines = std::slice::from_ref(&stage.outline);
-                veins_file(*kind, page, outlines, &stage.network, pixels)
+                veins_file(*kind, drawn.page, outlines, &stage.network, drawn.pixels)
             };
             let files: Vec<Result<Vec<u8>, Failure>> = stages.par_iter().map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
@@ -72,7 +135,64 @@ pub(super) type Page = (DVec2, DVec2);
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::shape::teeth::ToothWave;
+    use leafmodel::species::find;
+
     use super::*;
+
+    fn preset(name: &str) -> LeafPlan {
+        find(name).expect("a preset").plan()
+    }
+
+    #[test]
+    fn what_is_refused_before_it_grows_is_what_has_no_stages_grown() {
+        let mut splines = preset("xia-1");
+        splines.venation = preset("arcuate").venation;
+        let mut toothed = preset("xia-1");
+        toothed.outline.teeth = vec![ToothWave {
+            per_side: 5,
+            height: 0.002,
+            lean: 0.0,
+            fade_base: 0.2,
+            fade_apex: 0.2,
+        }];
+        let mut refused = 0;
+        for plan in [preset("poplar"), preset("xia-1"), splines, toothed] {
+            let lamina = plan.grow_lamina().expect("a good plan");
+            let late = plan.last_step(&lamina).map_err(|error| no_stages(&error));
+            let (early, late) = (check(&plan).err(), late.err());
+            refused += u32::from(early.is_some());
+            assert_eq!(format!("{early:?}"), format!("{late:?}"));
+        }
+        assert_eq!(refused, 2);
+    }
+
+    #[test]
+    fn petioles_grow_with_their_leaves_and_end_as_the_grown_leaf_has_them() {
+        let mut plan = preset("xia-1");
+        plan.petiole = Some(PetiolePlan {
+            length: 0.5,
+            radius_mm: Some(0.4),
+            curl: 0.0,
+        });
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let last = plan.last_step(&lamina).expect("it grows");
+        let stages = plan.stages(&lamina, &[0, last / 2, last]);
+        let stages = stages.expect("it grows").into_iter();
+        let stages: Vec<LeafStage> = stages
+            .map(|stage| with_petiole(&plan, &lamina, stage))
+            .collect();
+        let whole = FlatLeaf::with_petiole(&plan, &lamina).expect("it has one");
+        assert_eq!(stages[2].network, whole.network);
+        for stage in stages {
+            let stalk = stage.network.segments().find(|s| s.from.y < s.to.y);
+            let stalk = stalk.expect("the stalk is the first vein");
+            let length = stage.outline.length();
+            assert!((stalk.from.distance(stalk.to) / length - 0.5).abs() < 1e-9);
+            let radius = 0.4 * length / lamina.outline.length();
+            assert!((stalk.radius_from - radius.max(1e-3)).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn steps_are_even_and_end_with_the_last() {

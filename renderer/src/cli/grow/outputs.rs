@@ -78,6 +78,14 @@ impl Outputs {
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
         let reports = reports.into_iter().flatten();
+        if let Some(path) = &arguments.fields
+            && path.extension().is_none_or(|ending| ending != "exr")
+        {
+            let path = path.display();
+            return Err(Failure::bad(format!(
+                "{path}: --fields writes a texture with float channels: let its name end in .exr"
+            )));
+        }
         let mut seen: Vec<&PathBuf> = Vec::new();
         for path in arguments.out.iter().chain(reports) {
             if seen.contains(&path) {

@@ -142,6 +142,16 @@ impl ReadForm<'_> {
                 "rachis",
                 "use a longer rachis, or narrower or fewer leaflets",
             ),
+            // All round, the last comes up to the first from the other side.
+            (
+                CompoundError::Overlap { first: 0, second },
+                Arrangement::Palmate {
+                    leaflets, spread, ..
+                },
+            ) if second + 1 == *leaflets as usize && *spread > std::f64::consts::PI => (
+                "spread_deg",
+                "use a smaller spread, longer petiolules, or narrower leaflets",
+            ),
             (_, Arrangement::Palmate { .. }) => (
                 "spread_deg",
                 "use a wider spread, longer petiolules, or narrower or fewer leaflets",

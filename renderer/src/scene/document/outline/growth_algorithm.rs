@@ -21,8 +21,8 @@ const MOST_AXES: usize = 200;
 /// The keys of Eq. 3 and their ranges.
 const PEAK: [(&str, Limits); 3] = [
     ("rate_ratio", Limits::closed(0.5, 100.0)),
-    ("widest_at", Limits::closed(1e-6, 1.0 - 1e-6)),
-    ("falloff", Limits::closed(1e-6, 100.0)),
+    ("widest_at", Limits::open(0.0, 1.0)),
+    ("falloff", Limits::above(0.0, 100.0)),
 ];
 
 /// Reads the block.
@@ -67,7 +67,7 @@ fn read_half(block: &Block<'_>, usual: Option<&HalfForm>) -> Option<HalfForm> {
     let decay = usual.map_or(0.0, |half| half.lobe_decay);
     let lobe_decay = block.number_or("lobe_decay", Limits::closed(0.0, 100.0), decay);
     let exponent = usual.map_or(2.0, |half| half.lobe_exponent);
-    let lobe_exponent = block.number_or("lobe_exponent", Limits::closed(1e-6, 10.0), exponent);
+    let lobe_exponent = block.number_or("lobe_exponent", Limits::above(0.0, 10.0), exponent);
     let veins = read_veins(block, usual.map_or(&[], |half| &half.veins));
     Some(HalfForm {
         lateral: lateral?,
