@@ -10,6 +10,7 @@
 mod arrange;
 mod flat;
 mod overlap;
+mod stalk_contents;
 #[cfg(test)]
 mod tests;
 mod whole;

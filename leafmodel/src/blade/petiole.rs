@@ -1,8 +1,11 @@
 //! The petiole: a stalk that goes on as the midrib.
 //!
-//! From the stem it comes along −y to the base at the origin, where the blade's own midrib leaves along +y. Beyond the base the
-//! tube follows the thickest vein under the bent blade, gets as thin as that and sinks into it, so that neither a gap
-//! nor a step is left. How far and how fast is by eye.
+//! From the stem it comes along −y to the base at the origin, where the blade's own midrib leaves along +y. The blade begins inside the
+//! tube, its raised midrib too. Beyond the base the tube follows the thickest vein and gets ever thinner. Its abaxial side stays outside
+//! the relief all along, its adaxial side sinks through the blade once, so that it ends as a fine point that lies on the midrib from
+//! below. How far and how fast is by eye.
+
+mod midrib;
 
 use glam::{DVec2, DVec3};
 
@@ -13,14 +16,27 @@ use super::relief::{Relief, smooth_step};
 use super::stalk::StalkMesh;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
+use midrib::Midrib;
 
 /// Length of the joint in radii of the petiole, and its least and greatest share of the leaf's length.
 const JOINT_RADII: f64 = 14.0;
 const JOINT_SHARE: [f64; 2] = [0.03, 0.2];
 /// Pieces of the joint.
 const JOINT_PIECES: usize = 24;
-/// Radius of the tube's end over that of the vein it ends in.
-const END_RADIUS: f64 = 0.4;
+/// Radius of the tube's end over the lesser of its own and the vein's.
+const END_RADIUS: f64 = 0.05;
+/// By how much of its radius the tube at the base reaches beyond the ridge of the midrib, at least.
+const BEYOND_RIDGE: f64 = 0.25;
+/// Least radius at the base over the height of the ridge there: the tube holds the end of the blade from the ridge up.
+const HOLDS: f64 = 0.75;
+/// Share of the joint after which the tube has sunk, and the share of its diameter that is then beyond the ridge: a touch
+/// more than all, so that nothing of it is left on the adaxial side.
+const SUNK_AT: f64 = 0.9;
+const SUNK: f64 = 1.02;
+/// Over how many radii before the base the tube makes ready for the joint, over half its length at most.
+const READY_RADII: f64 = 7.0;
+/// Places across the tube at which the relief is looked up, on each side.
+const ACROSS: i32 = 4;
 /// By how much the foot is thicker, and over how many radii.
 const FOOT: f64 = 0.3;
 const FOOT_RADII: f64 = 5.0;
@@ -70,7 +86,7 @@ impl PetiolePlan {
 
     /// Its radius on a leaf with these veins, mm.
     pub fn radius_on(&self, outline: &Outline, network: &VenationNetwork) -> f64 {
-        let midrib = || Midrib::new(outline, network).radius;
+        let midrib = || Midrib::new(outline, network, 0.0).radius;
         self.radius_mm.unwrap_or_else(midrib).max(1e-3)
     }
 
@@ -87,39 +103,39 @@ impl PetiolePlan {
     ) -> Result<StalkMesh, BladeError> {
         self.validate()?;
         form.validate()?;
-        let midrib = Midrib::new(outline, network);
-        let radius = self.radius_mm.unwrap_or(midrib.radius).max(1e-3);
         let leaf = outline.length();
-        let length = self.length * leaf;
-        let (mut points, mut radii) = (Vec::new(), Vec::new());
-        let pieces = PIECES.max((self.curl.abs() / PIECE_ANGLE).ceil()) as usize;
-        if length > 1e-6 * leaf {
-            for i in 0..pieces {
-                let back = length * (pieces - i) as f64 / pieces as f64;
-                points.push(self.behind(back, length));
-                let from_foot = (length - back) / (FOOT_RADII * radius).min(length);
-                radii.push(radius * (1.0 + FOOT * (1.0 - smooth_step(from_foot))));
-            }
-        }
-        let bending = Bending::new(form, outline, network.map());
+        let midrib = Midrib::new(outline, network, JOINT_SHARE[1] * leaf);
+        let radius = self.radius_mm.unwrap_or(midrib.radius).max(1e-3);
         let veins: Vec<VeinSegment> = network
             .segments()
             .filter(|vein| vein.radius_from.max(vein.radius_to) >= form.meshed_vein_radius_mm)
             .collect();
-        let relief = Relief::new(form, &veins);
-        let [least, most] = JOINT_SHARE;
-        let joint = (JOINT_RADII * radius).clamp(least * leaf, most * leaf);
+        let joint = Joint::new(
+            radius,
+            &midrib,
+            Relief::new(form, &veins),
+            Bending::new(form, outline, network.map()),
+            leaf,
+        );
+        let (mut points, mut radii) = (Vec::new(), Vec::new());
+        let length = self.length * leaf;
+        if length > 1e-6 * leaf {
+            let foot = (FOOT_RADII * radius).min(length);
+            let ready = (READY_RADII * joint.radius).min(0.5 * length);
+            for back in self.places(length, foot, ready) {
+                let near = smooth_step(1.0 - back / ready);
+                points.push(self.behind(back, length) - DVec3::Z * (near * joint.depth));
+                let from_foot = (length - back) / foot;
+                let own = radius * (1.0 + FOOT * (1.0 - smooth_step(from_foot)));
+                radii.push(own + (joint.radius - radius) * near);
+            }
+        }
         let with_joint = |midrib: &Midrib| {
             let (mut points, mut radii) = (points.clone(), radii.clone());
             for i in 0..=JOINT_PIECES {
-                let t = i as f64 / JOINT_PIECES as f64;
-                let (p, vein) = midrib.at(joint * t);
-                let end = END_RADIUS * vein.min(radius);
-                let r = end + (radius - end) * (1.0 - t) * (1.0 - t);
-                // At the base about the sheet itself; then as deep as the vein lies, and a little more.
-                let depth = smooth_step(t) * (relief.height(p) + 0.5 * r);
-                points.push(bending.place(p, -depth));
-                radii.push(r);
+                let (point, radius) = joint.at(midrib, i as f64 / JOINT_PIECES as f64);
+                points.push(point);
+                radii.push(radius);
             }
             StalkMesh::tube(&points, &radii)
         };
@@ -131,6 +147,21 @@ impl PetiolePlan {
         Ok(with_joint(&midrib)
             .or_else(|_| straight())
             .expect("a smooth bend of a straight line has no kinks, and radii are above 0"))
+    }
+
+    /// Distances from the base of the points of the tube behind it, from the foot on: even ones, and closer ones where the radius changes.
+    fn places(&self, length: f64, foot: f64, ready: f64) -> Vec<f64> {
+        let pieces = PIECES.max((self.curl.abs() / PIECE_ANGLE).ceil());
+        let mut backs: Vec<f64> = (1..=pieces as u32)
+            .map(|i| length * f64::from(i) / pieces)
+            .collect();
+        let closer = |share: f64| [length - foot * share, ready * share];
+        backs.extend((1..=6).flat_map(|i| closer(f64::from(i) / 6.0)));
+        backs.sort_by(|a, b| b.total_cmp(a));
+        // Nothing of the base's own place, which the joint has.
+        backs.retain(|&back| back > 0.01 * ready);
+        backs.dedup_by(|next, kept| *kept - *next < 0.02 * ready.min(foot));
+        backs
     }
 
     /// A point of the petiole so far from the base.
@@ -147,197 +178,58 @@ impl PetiolePlan {
     }
 }
 
-/// The first part of the thickest vein that starts at the base.
-struct Midrib {
-    base: DVec2,
+/// The tube from the base on.
+struct Joint {
     /// Radius at the base.
     radius: f64,
-    /// Distance along it, place and radius.
-    nodes: Vec<(f64, DVec2, f64)>,
+    /// Depth of the axis at the base, towards the abaxial side.
+    depth: f64,
+    /// Share of the diameter at the base that is beyond the ridge.
+    beyond: f64,
+    end: f64,
+    length: f64,
+    relief: Relief,
+    bending: Bending,
 }
 
-impl Midrib {
-    fn new(outline: &Outline, network: &VenationNetwork) -> Self {
-        let base = outline.base();
-        let leaf = outline.length();
-        let mut thickest: Vec<Option<usize>> = vec![None; network.nodes().len()];
-        let edges = network.edges();
-        for (number, edge) in edges.iter().enumerate() {
-            let best = &mut thickest[edge.from as usize];
-            if best.is_none_or(|best| edges[best].radius_from < edge.radius_from) {
-                *best = Some(number);
-            }
-        }
-        let place = |node: u32| network.nodes()[node as usize].position;
-        let near = |node: &u32| place(*node).distance(base) < 1e-3 * leaf;
-        let start = (0..network.origins() as u32).find(near);
-        let mut nodes = Vec::new();
-        let mut next = start.and_then(|node| thickest[node as usize]);
-        let mut way = 0.0;
-        // Only as far as it is asked for, and only while it goes on towards the apex.
-        while let Some(edge) = next.map(|edge| &edges[edge]) {
-            let (from, to) = (place(edge.from), place(edge.to));
-            if way > JOINT_SHARE[1] * leaf || (to - from).y <= 0.0 {
-                break;
-            }
-            nodes.push((way, from, edge.radius_from));
-            way += from.distance(to);
-            next = thickest[edge.to as usize];
-        }
-        let thick = network.segments().map(|vein| vein.radius_from);
-        let radius = nodes
-            .first()
-            .map_or_else(|| thick.fold(0.0, f64::max), |node| node.2);
+impl Joint {
+    /// Of a petiole with this radius.
+    fn new(radius: f64, midrib: &Midrib, relief: Relief, bending: Bending, leaf: f64) -> Self {
+        let [least, most] = JOINT_SHARE;
+        let ridge = ridge(&relief, midrib.at(0.0).0, radius.max(midrib.radius));
+        let wide = radius.max(HOLDS * ridge);
+        let beyond = (BEYOND_RIDGE * wide).max(wide - ridge);
         Self {
-            base,
-            radius,
-            nodes,
+            radius: wide,
+            depth: ridge + beyond - wide,
+            beyond: 0.5 * beyond / wide,
+            end: END_RADIUS * radius.min(midrib.radius.max(1e-3)),
+            length: (JOINT_RADII * wide).clamp(least * leaf, most * leaf),
+            relief,
+            bending,
         }
     }
 
-    /// Place and radius at a distance from the base; straight on behind the last node.
-    ///
-    /// Veins zigzag from node to node: across, a place is the mean over those near it.
-    fn at(&self, way: f64) -> (DVec2, f64) {
-        let straight = (self.base + DVec2::Y * way, self.radius);
-        let Some(&(last, end, thin)) = self.nodes.last() else {
-            return straight;
+    /// Axis and radius at a share of the way to its end.
+    fn at(&self, midrib: &Midrib, t: f64) -> (DVec3, f64) {
+        let (p, _) = midrib.at(self.length * t);
+        let radius = self.end + (self.radius - self.end) * (1.0 - smooth_step(t));
+        let beyond = self.beyond + (SUNK - self.beyond) * smooth_step(t / SUNK_AT);
+        let depth = if t > 0.0 {
+            ridge(&self.relief, p, radius) + radius * (2.0 * beyond - 1.0)
+        } else {
+            self.depth
         };
-        if way >= last {
-            return (end + DVec2::Y * (way - last), thin);
-        }
-        let after = self.nodes.partition_point(|node| node.0 <= way).max(1);
-        let [(a, from, r), (b, to, s)] = [self.nodes[after - 1], self.nodes[after]];
-        let t = (way - a) / (b - a);
-        let p = from.lerp(to, t);
-        let reach = 0.35 * way;
-        let near = self.nodes.iter().filter(|n| (n.0 - way).abs() <= reach);
-        let (sum, count) = near.fold((p.x, 1.0), |(sum, count), n| (sum + n.1.x, count + 1.0));
-        (DVec2::new(sum / count, p.y), r + (s - r) * t)
+        (self.bending.place(p, -depth), radius)
     }
+}
+
+/// The greatest height of the relief over the width of a tube.
+fn ridge(relief: &Relief, p: DVec2, radius: f64) -> f64 {
+    (-ACROSS..=ACROSS)
+        .map(|i| relief.height(p + DVec2::X * (radius * f64::from(i) / f64::from(ACROSS))))
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::blade::tests::{ellipse, flat};
-    use crate::venation::network::{VeinEdge, VeinNode};
-
-    fn midrib() -> VenationNetwork {
-        let node = |i: u32| VeinNode {
-            position: DVec2::new(0.0, f64::from(i) * 0.5),
-            born: i,
-        };
-        let edge = |i: u32| VeinEdge {
-            from: i,
-            to: i + 1,
-            radius_from: 0.5 - 0.003 * f64::from(i),
-            radius_to: 0.5 - 0.003 * f64::from(i + 1),
-            order: 1,
-        };
-        VenationNetwork::from_parts(
-            (0..=120).map(node).collect(),
-            (0..120).map(edge).collect(),
-            0.5,
-        )
-        .expect("a midrib")
-    }
-
-    #[test]
-    fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
-        let outline = ellipse(20.0, 60.0, 60);
-        for (curl, bend, radius_mm) in [
-            (0.0, 0.0, None),
-            (1.0, 0.8, Some(0.9)),
-            (-0.5, -1.2, Some(0.1)),
-        ] {
-            let form = BladeForm {
-                curl: bend,
-                fold: 0.3,
-                relief: 0.5,
-                ..flat()
-            };
-            let plan = PetiolePlan {
-                length: 0.5,
-                radius_mm,
-                curl,
-            };
-            let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
-            assert_eq!(mesh.validate(), Ok(()), "{curl}");
-            let radius = radius_mm.unwrap_or(0.5);
-            assert_eq!(plan.radius_on(&outline, &midrib()), radius);
-            // The foot lies on an arc of 30 mm that leaves the base along −y and bends down.
-            let foot = plan.behind(30.0, 30.0);
-            let least = mesh
-                .positions
-                .iter()
-                .map(|p| p.distance(foot))
-                .fold(f64::INFINITY, f64::min);
-            assert!(
-                (least - radius * (1.0 + FOOT)).abs() < 0.02 * radius,
-                "{least}"
-            );
-            assert!((foot.z < 0.0) == (curl > 0.0) || curl == 0.0);
-            assert!(
-                mesh.positions.iter().any(|p| p.y > 0.02 * 60.0),
-                "it reaches into the blade"
-            );
-        }
-    }
-
-    #[test]
-    fn the_joint_ends_within_the_vein() {
-        let outline = ellipse(20.0, 60.0, 60);
-        let plan = PetiolePlan {
-            length: 0.3,
-            radius_mm: Some(0.8),
-            curl: 0.0,
-        };
-        let form = BladeForm {
-            relief: 0.5,
-            ..flat()
-        };
-        let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
-        let end = mesh.positions.iter().map(|p| p.y).fold(0.0, f64::max);
-        let tip = mesh.positions.iter().filter(|p| p.y > end - 0.3);
-        for p in tip {
-            // Half-width and height of the mound: 1.5 r, and as much as the relief says.
-            assert!(p.x.abs() < 0.5 && p.z < 0.0 && p.z > -0.75, "{p}");
-        }
-    }
-
-    #[test]
-    fn numbers_out_of_range_are_named() {
-        let plan = PetiolePlan {
-            length: 0.3,
-            radius_mm: None,
-            curl: 0.0,
-        };
-        for (bad, name) in [
-            (
-                PetiolePlan {
-                    length: -0.1,
-                    ..plan
-                },
-                "petiole.length",
-            ),
-            (
-                PetiolePlan {
-                    radius_mm: Some(0.0),
-                    ..plan
-                },
-                "petiole.radius_mm",
-            ),
-            (
-                PetiolePlan {
-                    curl: f64::NAN,
-                    ..plan
-                },
-                "petiole.curl",
-            ),
-        ] {
-            let message = bad.validate().expect_err("out of range").to_string();
-            assert!(message.starts_with(name), "{message}");
-        }
-    }
-}
+mod tests;

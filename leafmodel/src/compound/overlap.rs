@@ -5,6 +5,9 @@ use glam::DVec2;
 use super::{CompoundError, CompoundLeaf, StalkKind};
 use crate::shape::outline::Outline;
 
+/// By how far a leaflet may reach over an axis, in lengths of the leaflet: what rounding does to a base on it.
+const TOUCH: f64 = 1e-6;
+
 /// Refuses leaflets that overlap each other or lie over an axis.
 pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), CompoundError> {
     let of = |leaflet: usize| &outlines[leaf.leaflets[leaflet].variant as usize % outlines.len()];
@@ -44,8 +47,15 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
             let n = own.len();
             let outline = of(first);
             let crosses = (0..n).any(|i| outline.is_crossed_by(own[i], own[(i + 1) % n]));
-            // One may lie inside the other: then a corner does, whichever it is.
-            if crosses || outline.contains(own[n / 2]) {
+            // Margins that do not cross may still be one inside the other: then all corners of the inner are in the outer.
+            let around = || {
+                let other = back(
+                    second,
+                    leaf.leaflets[first].place(outline.points()[0] - outline.base()),
+                );
+                of(second).contains(other)
+            };
+            if crosses || outline.contains(own[0]) || around() {
                 return Err(CompoundError::Overlap { first, second });
             }
         }
@@ -61,14 +71,15 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
                 if from.cmpgt(*high).any() || low.cmpgt(to).any() {
                     continue;
                 }
-                // The end of a stalk may touch a base that sits on it.
+                // The end of a stalk may touch a base that sits on it: pieces are looked at but for a touch at their ends.
                 let [a, b] = [piece[0], piece[1]].map(|p| back(leaflet, p));
                 let outline = of(leaflet);
-                let inside = |share: f64| {
-                    let p = a.lerp(b, share);
-                    outline.contains(p) && outline.distance_to_margin(p) > 1e-6 * outline.length()
+                let touch = (TOUCH * outline.length() / a.distance(b)).min(0.5);
+                let (from, to) = (a.lerp(b, touch), b.lerp(a, touch));
+                let inside = |p: DVec2| {
+                    outline.contains(p) && outline.distance_to_margin(p) > TOUCH * outline.length()
                 };
-                if [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(inside) {
+                if outline.is_crossed_by(from, to) || inside(from) || inside(to) {
                     return Err(CompoundError::OnStalk { leaflet });
                 }
             }

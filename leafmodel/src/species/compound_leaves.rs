@@ -1,7 +1,7 @@
 //! Presets of compound leaves.
 //!
-//! Nothing here is measured on one specimen. Kinds of leaf, usual numbers of leaflets and their lengths are what floras give; outlines,
-//! veins, angles, stalks and forms are fitted by eye, contents lie in the range of broad leaves.
+//! Nothing here is measured on one specimen. Kinds of leaf, usual numbers of leaflets and their lengths are general
+//! knowledge; outlines, veins, angles, stalks and forms are by eye, contents lie in the range of broad leaves.
 
 use super::contours::{curve, pointed};
 use super::green_leaf;
@@ -163,9 +163,9 @@ pub(super) fn ash() -> LeafPlan {
         terminal: true,
         rachis: 2.55,
         alternation: 0.0,
-        angles: [1.15, 0.85],
+        angles: [66.0, 49.0].map(f64::to_radians),
         sizes: [0.72, 0.98, 0.9],
-        turn: 0.12,
+        turn: 7.0_f64.to_radians(),
     };
     let form = CompoundForm {
         petiole: 0.6,
@@ -195,7 +195,7 @@ pub(super) fn rose() -> LeafPlan {
         terminal: true,
         rachis: 2.05,
         alternation: 0.0,
-        angles: [1.3, 1.2],
+        angles: [74.0, 69.0].map(f64::to_radians),
         sizes: [0.68, 0.85, 1.0],
         turn: 0.0,
     };
@@ -253,7 +253,7 @@ pub(super) fn mimosa() -> LeafPlan {
         terminal: false,
         rachis: 1.75,
         alternation: 0.0,
-        angles: [1.2, 0.75],
+        angles: [69.0, 43.0].map(f64::to_radians),
         sizes: [0.72, 1.0, 0.9],
         turn: 0.0,
     };
@@ -262,9 +262,9 @@ pub(super) fn mimosa() -> LeafPlan {
         terminal: false,
         rachis: 6.1,
         alternation: 0.0,
-        angles: [1.3, 1.05],
+        angles: [74.0, 60.0].map(f64::to_radians),
         sizes: [0.8, 1.0, 0.7],
-        turn: 0.15,
+        turn: 9.0_f64.to_radians(),
     };
     let form = CompoundForm {
         petiole: 3.5,
@@ -314,7 +314,7 @@ mod tests {
     use crate::species::find;
 
     #[test]
-    fn compound_leaves_have_the_leaflets_that_floras_give_and_none_in_anothers_way() {
+    fn compound_leaves_have_their_usual_leaflets_and_none_in_anothers_way() {
         for (name, leaflets) in [
             ("ash", 11),
             ("rose", 7),

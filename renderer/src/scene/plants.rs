@@ -2,9 +2,8 @@
 
 use glam::{DAffine3, Vec2};
 use leafmodel::blade::stalk::StalkMesh;
-use leafmodel::blade::vein_field::VeinCover;
 use leafmodel::compound::{CompoundError, WholeLeaf};
-use leafmodel::leaf::Leaf;
+use leafmodel::leaf::{Leaf, LeafError};
 use thiserror::Error;
 
 use crate::geometry::{MeshError, TriangleMesh};
@@ -42,6 +41,9 @@ pub enum PlantError {
     /// The plan cannot be carried out.
     #[error(transparent)]
     Leaf(#[from] CompoundError),
+    /// The contents of its stalks cannot be told.
+    #[error(transparent)]
+    Stalks(#[from] LeafError),
     /// The blade's mesh is refused.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -54,6 +56,7 @@ pub enum PlantError {
 /// [`PlantError`] if the plan cannot be carried out.
 pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
     let whole = WholeLeaf::grow(&leaf.plan)?;
+    let stalk_contents = whole.stalk_contents(&leaf.plan)?;
     let material = |tissue| LeafMaterial {
         tissue,
         abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
@@ -100,13 +103,8 @@ pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
         meshes.push(stalk(axes)?);
     }
     if pieces.iter().any(|piece| piece.material == stalk_material) {
-        // What a fully developed vein holds; the tube's wall is a leaf of that.
-        let vein = VeinCover {
-            weight: 1.0,
-            excess: 0.0,
-        };
-        let contents = leaf.plan.tissue.contents(vein, 0.0);
-        materials.push(material(LeafTissue::Uniform(contents)));
+        // The tube's wall is a leaf of that.
+        materials.push(material(LeafTissue::Uniform(stalk_contents)));
     }
     Ok(GrownLeaf {
         meshes,

@@ -130,3 +130,38 @@ fn tilts_are_chance_that_the_seed_decides() {
     assert_ne!(with(1, 0.2), with(2, 0.2));
     assert_ne!(with(1, 0.2), with(1, 0.0));
 }
+
+#[test]
+fn stalks_age_as_the_base_of_the_blade_does() {
+    use crate::blade::senescence::{AgeSource, Senescence};
+    use crate::optics::Contents;
+
+    let mut plan = plan(Arrangement::Pinnate(feather()), |_| ());
+    plan.compound = None;
+    let example = crate::transport::example(1).expect("there is one");
+    plan.outline = crate::leaf::outline_plan::Contour::Transport(example).into();
+    plan.petiole = Some(PetiolePlan {
+        length: 0.3,
+        radius_mm: None,
+        curl: 0.0,
+    });
+    let dead = Contents {
+        chlorophyll: 0.0,
+        brown: 2.0,
+        ..plan.tissue.lamina
+    };
+    let mut at = |share: Option<f64>| {
+        plan.senescence = share.map(|share| Senescence {
+            source: AgeSource::Revenue { share },
+            blend: 0.1,
+            contents: dead,
+        });
+        let leaf = WholeLeaf::grow(&plan).expect("a good plan");
+        leaf.stalk_contents(&plan).expect("it has cells")
+    };
+    let (living, summer, end) = (at(None), at(Some(1.0)), at(Some(0.0)));
+    assert_eq!(living, summer);
+    assert!(living.chlorophyll > 0.0 && living.brown < 1.0);
+    assert_eq!(end.chlorophyll, 0.0);
+    assert!(end.brown > living.brown);
+}

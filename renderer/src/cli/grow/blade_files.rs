@@ -8,6 +8,8 @@ use leafmodel::compound::WholeLeaf;
 
 /// One blade or some tubes in their place.
 struct Part<'l> {
+    /// Which of the different blades, from 1 on: the map of the first is NAME.exr, that of the others NAME-k.exr; 0 for stalks.
+    number: usize,
     positions: &'l [DVec3],
     normals: &'l [DVec3],
     uvs: &'l [DVec2],
@@ -28,6 +30,7 @@ impl<'l> Parts<'l> {
             let place = placement.to_leaf;
             let mesh = &blade.mesh;
             parts.push(Part {
+                number: placement.blade + 1,
                 positions: &mesh.positions,
                 normals: &mesh.normals,
                 uvs: &mesh.uvs,
@@ -39,6 +42,8 @@ impl<'l> Parts<'l> {
         }
         let axes = leaf.axes.iter();
         parts.extend(axes.map(|axes| tubes((axes, DAffine3::IDENTITY))));
+        // All of one kind in one run.
+        parts.sort_by_key(|part: &Part<'_>| (part.number == 0, part.number));
         Self(parts)
     }
 
@@ -52,7 +57,7 @@ impl<'l> Parts<'l> {
     }
 
     /// Corners of all triangles, numbered through all parts.
-    fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
+    fn faces(&self) -> impl Iterator<Item = (usize, [u32; 3])> {
         let mut first = 0;
         self.0.iter().flat_map(move |part| {
             let before = first;
@@ -60,7 +65,7 @@ impl<'l> Parts<'l> {
             let mirrored = part.place.matrix3.determinant() < 0.0;
             part.triangles.iter().map(move |&[a, b, c]| {
                 let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-                corners.map(|corner| corner + before)
+                (part.number, corners.map(|corner| corner + before))
             })
         })
     }
@@ -68,6 +73,7 @@ impl<'l> Parts<'l> {
 
 fn tubes((stalk, place): (&StalkMesh, DAffine3)) -> Part<'_> {
     Part {
+        number: 0,
         positions: &stalk.positions,
         normals: &stalk.normals,
         uvs: &stalk.uvs,
@@ -96,7 +102,7 @@ impl Part<'_> {
     }
 }
 
-/// With normals, uv and thickness.
+/// With normals, uv and thickness, and the number of its part for each face.
 pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\ncomment lengths in mm\nelement vertex {}\n",
@@ -107,7 +113,7 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     }
     let _ = write!(
         header,
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        "element face {}\nproperty list uchar int vertex_indices\nproperty uchar part\nend_header\n",
         parts.triangles()
     );
     let mut bytes = header.into_bytes();
@@ -121,16 +127,18 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
             bytes.extend_from_slice(&(value as f32).to_le_bytes());
         }
     }
-    for triangle in parts.faces() {
+    for (part, triangle) in parts.faces() {
         bytes.push(3);
         for index in triangle {
             bytes.extend_from_slice(&(index as i32).to_le_bytes());
         }
+        // A leaf has far fewer different blades than 255.
+        bytes.push(part.min(255) as u8);
     }
     bytes
 }
 
-/// As text.
+/// As text: an object and a material for each run of faces of one part, `blade-1` and so on, or `stalks`.
 pub(super) fn obj(parts: &Parts<'_>) -> String {
     let mut text = String::from("# lengths in mm\n");
     for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {
@@ -138,10 +146,16 @@ pub(super) fn obj(parts: &Parts<'_>) -> String {
         let _ = writeln!(text, "vt {} {}", uv.x, uv.y);
         let _ = writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z);
     }
-    for [a, b, c] in parts
-        .faces()
-        .map(|triangle| triangle.map(|index| index + 1))
-    {
+    let mut before = None;
+    for (part, triangle) in parts.faces() {
+        if before.replace(part) != Some(part) {
+            let name = match part {
+                0 => "stalks".to_owned(),
+                number => format!("blade-{number}"),
+            };
+            let _ = writeln!(text, "o {name}\nusemtl {name}");
+        }
+        let [a, b, c] = triangle.map(|index| index + 1);
         let _ = writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}");
     }
     text

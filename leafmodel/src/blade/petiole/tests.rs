@@ -1,0 +1,266 @@
+//! Petioles of flat and bent blades, and their joints.
+
+use super::*;
+use crate::blade::mesh::BladeMesh;
+use crate::blade::tests::{ellipse, flat};
+use crate::venation::network::{VeinEdge, VeinNode};
+
+fn midrib() -> VenationNetwork {
+    let node = |i: u32| VeinNode {
+        position: DVec2::new(0.0, f64::from(i) * 0.5),
+        born: i,
+    };
+    let edge = |i: u32| VeinEdge {
+        from: i,
+        to: i + 1,
+        radius_from: 0.5 - 0.003 * f64::from(i),
+        radius_to: 0.5 - 0.003 * f64::from(i + 1),
+        order: 1,
+    };
+    VenationNetwork::from_parts(
+        (0..=120).map(node).collect(),
+        (0..120).map(edge).collect(),
+        0.5,
+    )
+    .expect("a midrib")
+}
+
+#[test]
+fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
+    let outline = ellipse(20.0, 60.0, 60);
+    for (curl, bend, radius_mm) in [
+        (0.0, 0.0, None),
+        (1.0, 0.8, Some(0.9)),
+        (-0.5, -1.2, Some(0.1)),
+    ] {
+        let form = BladeForm {
+            curl: bend,
+            fold: 0.3,
+            relief: 0.5,
+            ..flat()
+        };
+        let plan = PetiolePlan {
+            length: 0.5,
+            radius_mm,
+            curl,
+        };
+        let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
+        assert_eq!(mesh.validate(), Ok(()), "{curl}");
+        let radius = radius_mm.unwrap_or(0.5);
+        assert_eq!(plan.radius_on(&outline, &midrib()), radius);
+        // The foot lies on an arc of 30 mm that leaves the base along −y and bends down.
+        let foot = plan.behind(30.0, 30.0);
+        let least = mesh
+            .positions
+            .iter()
+            .map(|p| p.distance(foot))
+            .fold(f64::INFINITY, f64::min);
+        assert!(
+            (least - radius * (1.0 + FOOT)).abs() < 0.02 * radius,
+            "{least}"
+        );
+        assert!((foot.z < 0.0) == (curl > 0.0) || curl == 0.0);
+        assert!(
+            mesh.positions.iter().any(|p| p.y > 0.02 * 60.0),
+            "it reaches into the blade"
+        );
+    }
+}
+
+#[test]
+fn the_joint_ends_within_the_vein() {
+    let outline = ellipse(20.0, 60.0, 60);
+    let plan = PetiolePlan {
+        length: 0.3,
+        radius_mm: Some(0.8),
+        curl: 0.0,
+    };
+    let form = BladeForm {
+        relief: 0.5,
+        ..flat()
+    };
+    let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
+    let end = mesh.positions.iter().map(|p| p.y).fold(0.0, f64::max);
+    let tip = mesh.positions.iter().filter(|p| p.y > end - 0.3);
+    for p in tip {
+        // Half-width and height of the mound: 1.5 r, and as much as the relief says.
+        assert!(p.x.abs() < 0.5 && p.z < 0.0 && p.z > -0.75, "{p}");
+    }
+}
+
+#[test]
+fn numbers_out_of_range_are_named() {
+    let plan = PetiolePlan {
+        length: 0.3,
+        radius_mm: None,
+        curl: 0.0,
+    };
+    for (bad, name) in [
+        (
+            PetiolePlan {
+                length: -0.1,
+                ..plan
+            },
+            "petiole.length",
+        ),
+        (
+            PetiolePlan {
+                radius_mm: Some(0.0),
+                ..plan
+            },
+            "petiole.radius_mm",
+        ),
+        (
+            PetiolePlan {
+                curl: f64::NAN,
+                ..plan
+            },
+            "petiole.curl",
+        ),
+    ] {
+        let message = bad.validate().expect_err("out of range").to_string();
+        assert!(message.starts_with(name), "{message}");
+    }
+}
+
+/// Distance along a ray to the nearest of some triangles.
+fn first_hit(from: DVec3, along: DVec3, positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    let hits = triangles.iter().filter_map(|corners| {
+        let [a, b, c] = corners.map(|v| positions[v as usize]);
+        let (u, v) = (b - a, c - a);
+        let normal = u.cross(v);
+        let facing = normal.dot(along);
+        let away = (a - from).dot(normal) / facing;
+        let at = from + along * away - a;
+        let (s, t) = (
+            at.cross(v).dot(normal) / normal.length_squared(),
+            u.cross(at).dot(normal) / normal.length_squared(),
+        );
+        // Rays may go through edges.
+        let within = s.min(t).min(1.0 - s - t) >= -1e-9;
+        (facing != 0.0 && within).then_some(away)
+    });
+    hits.fold(f64::INFINITY, f64::min)
+}
+
+/// A leaf with a narrow base.
+fn spindle(width: f64, length: f64) -> Outline {
+    let half = |t: f64| {
+        let sin = libm::sin(std::f64::consts::PI * t);
+        DVec2::new(0.5 * width * sin * sin, length * t)
+    };
+    let right = (0..80).map(|i| half(f64::from(i) / 80.0));
+    let left = (1..=80)
+        .rev()
+        .map(|i| half(f64::from(i) / 80.0) * DVec2::new(-1.0, 1.0));
+    let apex = DVec2::new(0.0, length);
+    Outline::new(right.chain(left).collect(), DVec2::ZERO, apex).expect("a spindle is simple")
+}
+
+/// A midrib that zigzags and goes off to the side by `aside` mm.
+fn crooked(aside: f64) -> VenationNetwork {
+    let node = |i: u32| {
+        let share = f64::from(i) / 120.0;
+        let zigzag = if i % 2 == 1 { 0.03 } else { 0.0 };
+        VeinNode {
+            position: DVec2::new(aside * share * share + zigzag, 60.0 * share),
+            born: i,
+        }
+    };
+    let thick = |i: u32| 0.5 - 0.003 * f64::from(i);
+    let edge = |i: u32| VeinEdge {
+        from: i,
+        to: i + 1,
+        radius_from: thick(i),
+        radius_to: thick(i + 1),
+        order: 1,
+    };
+    VenationNetwork::from_parts(
+        (0..=120).map(node).collect(),
+        (0..120).map(edge).collect(),
+        0.5,
+    )
+    .expect("a midrib")
+}
+
+#[test]
+fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above() {
+    let bent = BladeForm {
+        fold: 0.4,
+        curl: 0.6,
+        ruffle: 0.01,
+        ruffle_waves: 3.0,
+        ..flat()
+    };
+    for (outline, network, bend, relief, radius_mm) in [
+        (ellipse(20.0, 60.0, 60), midrib(), flat(), 0.6, None),
+        (spindle(24.0, 60.0), midrib(), bent, 0.6, None),
+        (spindle(24.0, 60.0), crooked(8.0), bent, 0.6, None),
+        (ellipse(20.0, 60.0, 60), crooked(-8.0), bent, 0.9, None),
+        (spindle(24.0, 60.0), crooked(4.0), bent, 0.0, Some(0.7)),
+        (spindle(24.0, 60.0), midrib(), flat(), 0.9, Some(0.1)),
+    ] {
+        let form = BladeForm { relief, ..bend };
+        let plan = PetiolePlan {
+            length: 0.5,
+            radius_mm,
+            curl: 0.3,
+        };
+        let tube = plan.build(&outline, &network, &form).expect("a petiole");
+        assert_eq!(tube.validate(), Ok(()), "{form:?} {plan:?}");
+        let blade = BladeMesh::build(&outline, &network, &form).expect("a blade");
+        let way = Midrib::new(&outline, &network, 12.0);
+        let bending = Bending::new(&form, &outline, network.map());
+        let veins: Vec<VeinSegment> = network.segments().collect();
+        let joint = Joint::new(
+            radius_mm.unwrap_or(way.radius),
+            &way,
+            Relief::new(&form, &veins),
+            Bending::new(&form, &outline, network.map()),
+            60.0,
+        );
+        // What one sees 5 mm over and under the blade, beside the midrib by a share of the tube's radius: how far the tube is
+        // before the blade.
+        let ahead = |t: f64, beside: f64, side: f64| {
+            let p = way.at(joint.length * t).0;
+            let p = p + DVec2::X * (beside * joint.at(&way, t).1);
+            let eye = bending.place(p, 5.0 * side);
+            let along = (bending.place(p, 0.0) - eye).normalize();
+            let hit = |positions: &[DVec3], triangles: &[[u32; 3]]| {
+                first_hit(eye, along, positions, triangles)
+            };
+            let blade = hit(&blade.positions, &blade.triangles);
+            blade - hit(&tube.positions, &tube.triangles)
+        };
+        let mut sunk = 0.0;
+        for i in 1..=60 {
+            let t = f64::from(i) / 60.0;
+            assert!(
+                ahead(t, 0.0, -1.0) > 0.0,
+                "{form:?} {t}: the blade shows below by {}",
+                -ahead(t, 0.0, -1.0)
+            );
+            // The end of the blade lies within the tube.
+            for beside in [-0.5, 0.5] {
+                let wide = t < 0.1;
+                let below = ahead(t, beside, -1.0);
+                assert!(!wide || below > 0.0, "{t} {beside}: the blade shows below");
+                let above = ahead(t, beside, 1.0);
+                assert!(!wide || above > 0.0, "{t} {beside}: the blade shows above");
+            }
+            let above = ahead(t, 0.0, 1.0);
+            if sunk == 0.0 && above < 0.0 {
+                sunk = t;
+            }
+            assert!(
+                sunk == 0.0 || above < 0.0,
+                "{t}: it comes up again, {above}"
+            );
+            // Where it has sunk it still lies on the blade.
+            assert!(above > -0.02, "{t}: a gap of {above}");
+        }
+        assert!(sunk > 0.3, "{sunk}");
+        // No step at its end.
+        assert!(ahead(1.0, 0.0, -1.0) < 0.06, "{}", ahead(1.0, 0.0, -1.0));
+    }
+}
