@@ -182,7 +182,8 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
     let length = |wanted: StalkKind| -> f64 {
         let stalks = leaf.stalks.iter().filter(|stalk| stalk.kind == wanted);
         let pieces = stalks.flat_map(|stalk| stalk.points.windows(2));
-        pieces.map(|pair| pair[0].distance(pair[1])).sum()
+        // From 0: the sum of nothing is -0.
+        pieces.fold(0.0, |sum, pair| sum + pair[0].distance(pair[1]))
     };
     json!({
         "leaflets": leaf.leaflets.len(),
