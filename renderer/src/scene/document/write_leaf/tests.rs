@@ -1,15 +1,24 @@
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::{Arrangement, CompoundForm, Feather};
-use leafmodel::shape::contour_curve::ControlPoint;
+use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
+use leafmodel::shape::contour_curve::{ContourCurve, ControlPoint};
+use leafmodel::shape::cubic_margin::CubicMargin;
 use leafmodel::shape::growth::RateCurve;
-use leafmodel::shape::growth_form::SecondaryAxis;
+use leafmodel::shape::growth_form::{
+    Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow,
+};
+use leafmodel::shape::svg_path::SvgContour;
 use leafmodel::shape::teeth::ToothWave;
-use leafmodel::venation::arcuate::PalmateVeins;
-use leafmodel::venation::plan::{FreeEndings, MarginClearance};
+use leafmodel::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
+use leafmodel::venation::arcuate::{ArcuatePlan, PalmateVeins};
+use leafmodel::venation::plan::{
+    AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
+};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::scene::document::outline::STEPS;
 use crate::scene::load::{leaf_to_toml, parse_leaves};
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\">\
