@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn pixel(texel: &[f32; 7], bands: &[Coefficients; 3]) -> [u8; 3] {
+fn pixel(texel: &[f32; Contents::COUNT], bands: &[Coefficients; 3]) -> [u8; 3] {
     let contents = Contents::from_array(texel.map(f64::from));
     bands.map(|band| {
         let transmittance = band.reflectance_transmittance(&contents).transmittance;
@@ -59,7 +59,7 @@ fn pixel(texel: &[f32; 7], bands: &[Coefficients; 3]) -> [u8; 3] {
 fn tissue() -> Result<Tissue, Box<dyn std::error::Error>> {
     Ok(Tissue {
         lamina: Contents::new(1.5, 40.0, 9.0, 0.5, 0.0, 0.01, 0.006)?,
-        vein_factors: Contents::from_array([1.3, 0.08, 0.1, 1.0, 1.0, 2.0, 2.5]),
+        vein_factors: Contents::from_array([1.3, 0.08, 0.1, 1.0, 1.0, 1.0, 1.0, 2.0, 2.5]),
         full_vein_radius_mm: 0.06,
         sheath_width_mm: 0.08,
         mottle: 0.1,

@@ -248,8 +248,8 @@ mod tests {
             outline: ovate(),
             venation: auxin().into(),
             tissue: Tissue {
-                lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.01, 0.01, 0.006]),
-                vein_factors: Contents::from_array([1.3, 0.25, 0.25, 1.0, 1.0, 2.0, 2.5]),
+                lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.0, 0.0, 0.01, 0.01, 0.006]),
+                vein_factors: Contents::from_array([1.3, 0.25, 0.25, 1.0, 1.0, 1.0, 1.0, 2.0, 2.5]),
                 full_vein_radius_mm: 0.25,
                 sheath_width_mm: 0.1,
                 mottle: 0.1,

@@ -21,6 +21,7 @@
 //! ```
 
 pub mod absorption;
+pub mod betalains;
 pub mod constituents;
 pub mod contents;
 pub mod fast;

@@ -7,6 +7,7 @@ use super::mottle::Mottle;
 use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use super::vein_field::VeinField;
+use crate::optics::Contents;
 use crate::venation::network::VeinSegment;
 
 /// Contents per leaf area over a [`UvFrame`], as texels.
@@ -17,8 +18,8 @@ pub struct ContentsMap {
     /// Texels along `v`; the centre of row `j` is at `v = (j + ½) / height`.
     pub height: u32,
     /// Row by row from `v = 0`, `width × height` of them. Each holds structure, chlorophyll, carotenoids,
-    /// anthocyanins, brown, water and dry matter in the units of [`crate::optics::Contents`].
-    pub texels: Vec<[f32; 7]>,
+    /// anthocyanins, betacyanins, betaxanthins, brown, water and dry matter in the units of [`crate::optics::Contents`].
+    pub texels: Vec<[f32; Contents::COUNT]>,
 }
 
 impl ContentsMap {
@@ -101,7 +102,7 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    fn texel(&self, uv: DVec2) -> [f32; 7] {
+    fn texel(&self, uv: DVec2) -> [f32; Contents::COUNT] {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
         let living = self.tissue.lamina;
@@ -120,7 +121,6 @@ mod tests {
 
     use super::super::tissue::tests::GREEN;
     use super::*;
-    use crate::optics::Contents;
 
     const FRAME: UvFrame = UvFrame {
         min: DVec2::new(-3.0, 0.0),
@@ -141,7 +141,7 @@ mod tests {
         ContentsMap::paint(&FRAME, veins, tissue, map_size, 11).expect("all in range")
     }
 
-    fn at(map: &ContentsMap, column: u32, row: u32) -> [f32; 7] {
+    fn at(map: &ContentsMap, column: u32, row: u32) -> [f32; Contents::COUNT] {
         map.texels[(row * map.width + column) as usize]
     }
 
@@ -185,8 +185,8 @@ mod tests {
     fn veins_hold_less_where_the_factor_is_below_one_and_more_where_above() {
         // 101 columns: one is centred on the vein.
         let mut tissue = GREEN;
-        tissue.vein_factors = Contents::from_array([1.4, 0.3, 2.0, 0.0, 3.0, 0.5, 2.0]);
-        tissue.lamina = Contents::from_array([1.5, 40.0, 9.0, 2.0, 0.2, 0.01, 0.006]);
+        tissue.vein_factors = Contents::from_array([1.4, 0.3, 2.0, 0.0, 0.5, 2.0, 3.0, 0.5, 2.0]);
+        tissue.lamina = Contents::from_array([1.5, 40.0, 9.0, 2.0, 3.0, 4.0, 0.2, 0.01, 0.006]);
         for radius in [0.05, 0.25, 1.0] {
             let map = paint(&[vein([0.0, 0.0], [0.0, 10.0], radius)], &tissue, 168);
             assert_eq!(map.width, 101);
@@ -250,7 +250,7 @@ mod tests {
             ..GREEN
         };
         let veins = [vein([0.0, 0.0], [1.0, 9.0], 0.2)];
-        let bits = |seed| -> Vec<[u32; 7]> {
+        let bits = |seed| -> Vec<[u32; Contents::COUNT]> {
             ContentsMap::paint(&FRAME, &veins, &tissue, 64, seed)
                 .expect("all in range")
                 .texels
@@ -283,16 +283,16 @@ mod tests {
     proptest! {
         #[test]
         fn contents_are_finite_and_in_range_everywhere(
-            factors in prop::array::uniform7(0.0..100.0_f64),
-            lamina in prop::array::uniform6(0.0..1000.0_f64),
+            factors in prop::array::uniform9(0.0..100.0_f64),
+            lamina in prop::array::uniform8(0.0..1000.0_f64),
             structure in 1.0..100.0,
             ends in prop::collection::vec(([-4.0..4.0, -1.0..11.0], [-4.0..4.0, -1.0..11.0], 0.001..20.0), 1..8),
             mottle in 0.0..=1.0,
             full_vein_radius_mm in 0.001..1.0,
         ) {
-            let [a, b, c, d, e, f] = lamina;
+            let [a, b, c, d, e, f, g, h] = lamina;
             let tissue = Tissue {
-                lamina: Contents::from_array([structure, a, b, c, d, e, f]),
+                lamina: Contents::from_array([structure, a, b, c, d, e, f, g, h]),
                 vein_factors: Contents::from_array(factors),
                 full_vein_radius_mm,
                 mottle,

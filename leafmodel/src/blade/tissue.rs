@@ -55,21 +55,25 @@ impl TissueError {
     }
 }
 
-const LAMINA: [&str; 7] = [
+const LAMINA: [&str; Contents::COUNT] = [
     "lamina.structure",
     "lamina.chlorophyll",
     "lamina.carotenoids",
     "lamina.anthocyanins",
+    "lamina.betacyanins",
+    "lamina.betaxanthins",
     "lamina.brown",
     "lamina.water",
     "lamina.dry_matter",
 ];
 
-const FACTORS: [&str; 7] = [
+const FACTORS: [&str; Contents::COUNT] = [
     "vein_factors.structure",
     "vein_factors.chlorophyll",
     "vein_factors.carotenoids",
     "vein_factors.anthocyanins",
+    "vein_factors.betacyanins",
+    "vein_factors.betaxanthins",
     "vein_factors.brown",
     "vein_factors.water",
     "vein_factors.dry_matter",
@@ -77,10 +81,11 @@ const FACTORS: [&str; 7] = [
 
 /// Which of the contents are there because a vein is thick, in the order of [`Contents::to_array`]:
 /// structure, water and dry matter.
-const BULK: [bool; 7] = [true, false, false, false, false, true, true];
+const BULK: [bool; Contents::COUNT] = [true, false, false, false, false, false, false, true, true];
 
 /// Which of the contents the mottle varies: chlorophyll and carotenoids.
-const MOTTLED: [bool; 7] = [false, true, true, false, false, false, false];
+const MOTTLED: [bool; Contents::COUNT] =
+    [false, true, true, false, false, false, false, false, false];
 
 impl Tissue {
     /// Whether every field is in its range. The upper ends are far above any leaf; they keep what
@@ -160,6 +165,8 @@ pub(super) mod tests {
             chlorophyll: 40.0,
             carotenoids: 9.0,
             anthocyanins: 0.5,
+            betacyanins: 0.0,
+            betaxanthins: 0.0,
             brown: 0.01,
             water: 0.01,
             dry_matter: 0.006,
@@ -169,6 +176,8 @@ pub(super) mod tests {
             chlorophyll: 0.25,
             carotenoids: 0.25,
             anthocyanins: 1.0,
+            betacyanins: 1.0,
+            betaxanthins: 1.0,
             brown: 1.0,
             water: 2.0,
             dry_matter: 2.5,
@@ -217,7 +226,7 @@ pub(super) mod tests {
                 broken.push((tissue, field, bad));
             }
         }
-        for index in 0..7 {
+        for index in 0..Contents::COUNT {
             for bad in [-0.001, 1001.0, f64::NAN, f64::INFINITY] {
                 let mut values = GREEN.lamina.to_array();
                 values[index] = bad;

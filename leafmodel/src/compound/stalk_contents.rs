@@ -17,7 +17,7 @@ impl WholeLeaf {
         let living = plan.tissue.lamina;
         let mut lamina = living.to_array();
         if let Some(senescence) = &plan.senescence {
-            lamina = [0.0; 7];
+            lamina = [0.0; Contents::COUNT];
             for blade in &self.blades {
                 let at_base = withered(blade, plan.length_mm, senescence, living)?.to_array();
                 for (sum, value) in lamina.iter_mut().zip(at_base) {

@@ -9,6 +9,8 @@ impl SpecificAbsorption {
         contents.chlorophyll * self.chlorophyll
             + contents.carotenoids * self.carotenoids
             + contents.anthocyanins * self.anthocyanins
+            + contents.betacyanins * self.betacyanins
+            + contents.betaxanthins * self.betaxanthins
             + contents.brown * self.brown
             + contents.water * self.water
             + contents.dry_matter * self.dry_matter
@@ -36,7 +38,7 @@ mod tests {
     proptest! {
         #[test]
         fn doubling_the_plates_halves_the_absorption(content in 0.0..100.0, n in 1.0..4.0) {
-            let one = Contents::from_array([n, content, 8.0, 1.0, 0.2, 0.01, 0.005]);
+            let one = Contents::from_array([n, content, 8.0, 1.0, 2.0, 3.0, 0.2, 0.01, 0.005]);
             let two = Contents { structure: 2.0 * n, ..one };
             for nm in [450.0, 675.3, 1400.0] {
                 let at = ProspectD::coefficients(nm).expect("in range");

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 
 use thiserror::Error;
 
+use super::betalains;
 use super::interface::Interface;
 
 /// First wavelength of the table, nm.
@@ -27,6 +28,10 @@ pub struct SpecificAbsorption {
     pub carotenoids: f64,
     /// Anthocyanins, cm² µg⁻¹; 0 above 689 nm.
     pub anthocyanins: f64,
+    /// Betacyanins, cm² µg⁻¹.
+    pub betacyanins: f64,
+    /// Betaxanthins, cm² µg⁻¹.
+    pub betaxanthins: f64,
     /// Brown pigments, per PROSPECT's arbitrary unit; 0 above 1099 nm.
     pub brown: f64,
     /// Water, cm⁻¹.
@@ -35,7 +40,7 @@ pub struct SpecificAbsorption {
     pub dry_matter: f64,
 }
 
-/// PROSPECT-D's constants at one wavelength.
+/// PROSPECT-D's constants at one wavelength, and what betalains absorb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
     /// The faces of a plate.
@@ -79,12 +84,20 @@ impl ProspectD {
         let fraction = place - row as f64;
         let (low, high) = (table()[row], table()[row + 1]);
         let between = |column: usize| low[column] + fraction * (high[column] - low[column]);
+        // As a column of the table would be: linear between whole nanometres, with end values outside.
+        let band = |absorption: fn(f64) -> f64| {
+            let below = FIRST_NM + row as f64;
+            let (low, high) = (absorption(below), absorption(below + 1.0));
+            low + fraction * (high - low)
+        };
         Coefficients {
             interface: Interface::of_index(between(0)),
             absorption: SpecificAbsorption {
                 chlorophyll: between(1),
                 carotenoids: between(2),
                 anthocyanins: between(3),
+                betacyanins: band(betalains::betacyanin),
+                betaxanthins: band(betalains::betaxanthin),
                 brown: between(4),
                 water: between(5),
                 dry_matter: between(6),

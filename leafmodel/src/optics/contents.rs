@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// What a leaf holds per leaf area, and its structure: PROSPECT-D's inputs.
+/// What a leaf holds per leaf area, and its structure: PROSPECT-D's inputs, and betalains.
 ///
 /// [`Contents::new`] and [`Contents::checked`] refuse values outside the ranges given here; the
 /// optics trust them. (The same fields also carry dimensionless factors, where ranges differ.)
@@ -16,6 +16,10 @@ pub struct Contents {
     pub carotenoids: f64,
     /// Anthocyanins, µg cm⁻², ≥ 0.
     pub anthocyanins: f64,
+    /// Betacyanins, µg cm⁻², ≥ 0; not in PROSPECT-D.
+    pub betacyanins: f64,
+    /// Betaxanthins, µg cm⁻², ≥ 0; not in PROSPECT-D.
+    pub betaxanthins: f64,
     /// Brown pigments, PROSPECT's arbitrary unit, ≥ 0.
     pub brown: f64,
     /// Water, cm (= g cm⁻²), ≥ 0.
@@ -37,7 +41,7 @@ pub struct ContentsError {
 }
 
 impl Contents {
-    /// Contents in the order of the fields.
+    /// PROSPECT-D's inputs in the order of the fields; no betalains.
     ///
     /// # Errors
     ///
@@ -56,6 +60,8 @@ impl Contents {
             chlorophyll,
             carotenoids,
             anthocyanins,
+            0.0,
+            0.0,
             brown,
             water,
             dry_matter,
@@ -88,37 +94,46 @@ impl Contents {
         Ok(self)
     }
 
+    /// How many fields there are.
+    pub const COUNT: usize = 9;
+
     /// Names of the fields, in the order of [`Contents::to_array`].
-    pub const NAMES: [&'static str; 7] = [
+    pub const NAMES: [&'static str; Self::COUNT] = [
         "structure",
         "chlorophyll",
         "carotenoids",
         "anthocyanins",
+        "betacyanins",
+        "betaxanthins",
         "brown",
         "water",
         "dry_matter",
     ];
 
-    /// The seven values, in the order of the fields.
-    pub fn to_array(self) -> [f64; 7] {
+    /// The values, in the order of the fields.
+    pub fn to_array(self) -> [f64; Self::COUNT] {
         [
             self.structure,
             self.chlorophyll,
             self.carotenoids,
             self.anthocyanins,
+            self.betacyanins,
+            self.betaxanthins,
             self.brown,
             self.water,
             self.dry_matter,
         ]
     }
 
-    /// From the seven values in the order of the fields; nothing is checked.
-    pub fn from_array(values: [f64; 7]) -> Self {
+    /// From the values in the order of the fields; nothing is checked.
+    pub fn from_array(values: [f64; Self::COUNT]) -> Self {
         let [
             structure,
             chlorophyll,
             carotenoids,
             anthocyanins,
+            betacyanins,
+            betaxanthins,
             brown,
             water,
             dry_matter,
@@ -128,6 +143,8 @@ impl Contents {
             chlorophyll,
             carotenoids,
             anthocyanins,
+            betacyanins,
+            betaxanthins,
             brown,
             water,
             dry_matter,
@@ -139,7 +156,7 @@ impl Contents {
 mod tests {
     use super::*;
 
-    const GREEN: [f64; 7] = [1.5, 40.0, 8.0, 1.0, 0.1, 0.01, 0.009];
+    const GREEN: [f64; Contents::COUNT] = [1.5, 40.0, 8.0, 1.0, 0.2, 0.3, 0.1, 0.01, 0.009];
 
     #[test]
     fn each_content_out_of_range_is_refused_by_name() {

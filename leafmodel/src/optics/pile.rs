@@ -111,14 +111,14 @@ mod tests {
 
         #[test]
         fn more_of_any_constituent_never_brightens(
-            index in 1_usize..7,
+            index in 1..Contents::COUNT,
             share in 0.0..1.0,
             nm in 400.0..2500.0,
             n in 1.0..3.0,
         ) {
-            let most = [0.0, 100.0, 25.0, 40.0, 2.0, 0.05, 0.03];
+            let most = [0.0, 100.0, 25.0, 40.0, 30.0, 30.0, 2.0, 0.05, 0.03];
             let at = ProspectD::coefficients(nm).expect("in range");
-            let mut values = [n, 20.0, 4.0, 1.0, 0.1, 0.008, 0.004];
+            let mut values = [n, 20.0, 4.0, 1.0, 0.5, 0.5, 0.1, 0.008, 0.004];
             values[index] = share * most[index];
             let less = at.reflectance_transmittance(&Contents::from_array(values));
             values[index] *= 1.1;

@@ -97,6 +97,8 @@ pub(super) fn autumn() -> LeafPlan {
             chlorophyll: 0.5,
             carotenoids: 6.0,
             anthocyanins: 1.0,
+            betacyanins: 0.0,
+            betaxanthins: 0.0,
             brown: 0.7,
             water: 0.002,
             dry_matter: 0.005,

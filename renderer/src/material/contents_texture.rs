@@ -4,14 +4,14 @@ use glam::Vec2;
 use leafmodel::optics::Contents;
 
 /// Channels of a contents map, in the order of its texels.
-pub const CHANNELS: [&str; 7] = Contents::NAMES;
+pub const CHANNELS: [&str; Contents::COUNT] = Contents::NAMES;
 
 /// A contents map: bilinear between texel centres, clamped at the border; row 0 is at v = 0.
 #[derive(Clone, Debug)]
 pub struct ContentsTexture {
     width: usize,
     height: usize,
-    texels: Box<[[f32; 7]]>,
+    texels: Box<[[f32; Contents::COUNT]]>,
 }
 
 impl ContentsTexture {
@@ -20,7 +20,7 @@ impl ContentsTexture {
     /// # Panics
     ///
     /// If the number of texels is another, or zero.
-    pub fn new(width: usize, height: usize, texels: Vec<[f32; 7]>) -> Self {
+    pub fn new(width: usize, height: usize, texels: Vec<[f32; Contents::COUNT]>) -> Self {
         assert!(
             !texels.is_empty() && texels.len() == width * height,
             "a map fills its rectangle"
@@ -38,13 +38,13 @@ impl ContentsTexture {
     }
 
     /// The texels, row by row from v = 0.
-    pub fn texels(&self) -> &[[f32; 7]] {
+    pub fn texels(&self) -> &[[f32; Contents::COUNT]] {
         &self.texels
     }
 
     /// Mean contents over all texels.
     pub fn mean(&self) -> Contents {
-        let mut sums = [0.0_f64; 7];
+        let mut sums = [0.0_f64; Contents::COUNT];
         for texel in &self.texels {
             for (sum, &value) in sums.iter_mut().zip(texel) {
                 *sum += f64::from(value);
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn a_lookup_at_a_texel_centre_gives_the_texel_and_between_two_their_mean() {
-        let texel = |value: f32| [1.0 + value, value, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let texel = |value: f32| [1.0 + value, value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let map = ContentsTexture::new(2, 2, vec![texel(1.0), texel(2.0), texel(3.0), texel(4.0)]);
         assert_eq!(map.at(Vec2::new(0.25, 0.25)).chlorophyll, 1.0);
         assert_eq!(map.at(Vec2::new(0.75, 0.75)).chlorophyll, 4.0);

@@ -90,6 +90,8 @@ fn coefficients(nm: f64) -> Coefficients {
             chlorophyll: between(a.absorption.chlorophyll, b.absorption.chlorophyll),
             carotenoids: between(a.absorption.carotenoids, b.absorption.carotenoids),
             anthocyanins: between(a.absorption.anthocyanins, b.absorption.anthocyanins),
+            betacyanins: between(a.absorption.betacyanins, b.absorption.betacyanins),
+            betaxanthins: between(a.absorption.betaxanthins, b.absorption.betaxanthins),
             brown: between(a.absorption.brown, b.absorption.brown),
             water: between(a.absorption.water, b.absorption.water),
             dry_matter: between(a.absorption.dry_matter, b.absorption.dry_matter),

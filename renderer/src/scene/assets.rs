@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::image::{ImageError, openexr, portable_network};
+use leafmodel::optics::Contents;
+
 use crate::material::contents_texture::{CHANNELS, ContentsTexture};
 
 /// Largest file that is read, bytes.
@@ -132,8 +134,13 @@ fn channel(
 pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     let picture = openexr::read(file)?;
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let mut texels = vec![[0.0; 7]; width * height];
+    let mut texels = vec![[0.0; Contents::COUNT]; width * height];
     for (number, name) in CHANNELS.into_iter().enumerate() {
+        // Maps of PROSPECT-D's inputs alone hold no betalains.
+        let is_betalain = name.starts_with("beta");
+        if is_betalain && !picture.layers.iter().any(|layer| layer.name == name) {
+            continue;
+        }
         // N below 1 is no pile of plates.
         let values = channel(file, &picture, name, if number == 0 { 1.0 } else { 0.0 })?;
         for (row, line) in values.chunks(width).enumerate() {

@@ -1,4 +1,4 @@
-//! `contents`: what a leaf holds per leaf area, PROSPECT-D's inputs.
+//! `contents`: what a leaf holds per leaf area, PROSPECT-D's inputs and betalains.
 
 use leafmodel::optics::Contents;
 
@@ -15,6 +15,8 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
     let chlorophyll = block.number("chlorophyll_ug_per_cm2", PIGMENT);
     let carotenoids = block.number("carotenoids_ug_per_cm2", PIGMENT);
     let anthocyanins = block.number_or("anthocyanins_ug_per_cm2", PIGMENT, 0.0);
+    let betacyanins = block.number_or("betacyanins_ug_per_cm2", PIGMENT, 0.0);
+    let betaxanthins = block.number_or("betaxanthins_ug_per_cm2", PIGMENT, 0.0);
     let brown = block.number_or("brown", Limits::closed(0.0, 100.0), 0.0);
     let water = block.number("water_cm", Limits::closed(0.0, 1.0));
     let dry_matter = block.number("dry_matter_g_per_cm2", Limits::closed(0.0, 1.0));
@@ -24,6 +26,8 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
         chlorophyll: chlorophyll?,
         carotenoids: carotenoids?,
         anthocyanins,
+        betacyanins,
+        betaxanthins,
         brown,
         water: water?,
         dry_matter: dry_matter?,

@@ -139,6 +139,8 @@ fn contents(contents: &Contents) -> Keys {
     keys.number("chlorophyll_ug_per_cm2", contents.chlorophyll);
     keys.number("carotenoids_ug_per_cm2", contents.carotenoids);
     keys.number_unless("anthocyanins_ug_per_cm2", contents.anthocyanins, 0.0);
+    keys.number_unless("betacyanins_ug_per_cm2", contents.betacyanins, 0.0);
+    keys.number_unless("betaxanthins_ug_per_cm2", contents.betaxanthins, 0.0);
     keys.number_unless("brown", contents.brown, 0.0);
     keys.number("water_cm", contents.water);
     keys.number("dry_matter_g_per_cm2", contents.dry_matter);

@@ -35,7 +35,7 @@ fn plain() -> LeafPlan {
         outline: Contour::GrowthAlgorithm(ovate()).into(),
         venation: AuxinPlan::default().into(),
         tissue: default_tissue(Contents::from_array([
-            1.5, 40.0, 9.0, 0.0, 0.0, 0.01, 0.006,
+            1.5, 40.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.006,
         ])),
         senescence: None,
         form: default_form(80.0),
@@ -382,9 +382,9 @@ fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
 
 fn senescence() -> impl Strategy<Value = Option<Senescence>> {
     let blend = prop_oneof![Just(BLEND), 0.001..1.0];
-    let contents = (1.0..4.0, prop::array::uniform6(0.0..1.0)).prop_map(|(structure, rest)| {
-        let [a, b, c, d, e, f] = rest;
-        Contents::from_array([structure, a, b * 20.0, c, d, e, f])
+    let contents = (1.0..4.0, prop::array::uniform8(0.0..1.0)).prop_map(|(structure, rest)| {
+        let [a, b, c, d, e, f, g, h] = rest;
+        Contents::from_array([structure, a, b * 20.0, c, d, e, f, g, h])
     });
     let aged = (0.0..1.0, blend, contents).prop_map(|(share, blend, contents)| Senescence {
         source: AgeSource::Revenue { share },
@@ -395,19 +395,19 @@ fn senescence() -> impl Strategy<Value = Option<Senescence>> {
 }
 
 fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
-    let contents = (1.0..4.0, prop::array::uniform6(0.0..1.0)).prop_map(|(structure, rest)| {
-        let [a, b, c, d, e, f] = rest;
-        Contents::from_array([structure, a * 80.0, b * 20.0, c, d, e, f])
+    let contents = (1.0..4.0, prop::array::uniform8(0.0..1.0)).prop_map(|(structure, rest)| {
+        let [a, b, c, d, e, f, g, h] = rest;
+        Contents::from_array([structure, a * 80.0, b * 20.0, c, d, e, f, g, h])
     });
     let tissue = (
         contents,
-        prop::option::of(prop::array::uniform6(0.0..2.0)),
+        prop::option::of(prop::array::uniform8(0.0..2.0)),
         0.0..1.0_f64,
     )
         .prop_map(|(lamina, factors, mottle)| {
             let mut tissue = default_tissue(lamina);
-            if let Some([a, b, c, d, e, f]) = factors {
-                tissue.vein_factors = Contents::from_array([1.3, a, b, c, d, e, f]);
+            if let Some([a, b, c, d, e, f, g, h]) = factors {
+                tissue.vein_factors = Contents::from_array([1.3, a, b, c, d, e, f, g, h]);
                 tissue.mottle = mottle;
                 tissue.sheath_width_mm = 0.1 + mottle;
             }
