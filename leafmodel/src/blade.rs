@@ -17,6 +17,7 @@ pub mod petiole;
 mod refine;
 mod relief;
 pub mod senescence;
+mod sheet;
 mod size_field;
 mod skeleton;
 pub mod stalk;
@@ -28,6 +29,7 @@ pub mod vein_profile;
 
 pub use frame::UvFrame;
 pub use mesh::{BladeError, BladeMesh, MeshDefect};
+pub(crate) use sheet::even_sheet;
 
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,7 @@ use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Most triangles of one blade.
-const MOST_TRIANGLES: usize = 4_000_000;
+pub(super) const MOST_TRIANGLES: usize = 4_000_000;
 
 /// A sheet of triangles in space, with what is known at each vertex.
 #[derive(Clone, Debug, PartialEq)]

@@ -24,6 +24,8 @@ pub(crate) enum Use {
     Light = 8,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
+    /// Gradients of noise patterns.
+    NoiseGradient = 15,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

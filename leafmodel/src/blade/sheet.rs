@@ -1,0 +1,36 @@
+//! A lamina without veins as an even sheet of triangles.
+
+use glam::DVec2;
+
+use super::mesh::BladeError;
+use super::size_field::SizeField;
+use super::skeleton::Skeleton;
+use super::triangulate::triangulate;
+use super::{BladeForm, mesh::MOST_TRIANGLES};
+use crate::shape::outline::Outline;
+
+/// Points (mm, the outline's frame) and counter-clockwise triangles, no edge longer than `max_edge_mm`.
+///
+/// # Errors
+///
+/// [`BladeError::OutOfRange`] for an edge outside 0.001 to 10000 mm, [`BladeError::TooFine`] for a sheet of too many
+/// triangles.
+pub(crate) fn even_sheet(
+    outline: &Outline,
+    max_edge_mm: f64,
+) -> Result<(Vec<DVec2>, Vec<[u32; 3]>), BladeError> {
+    let form = BladeForm {
+        fold: 0.0,
+        curl: 0.0,
+        ruffle: 0.0,
+        ruffle_waves: 0.0,
+        relief: 0.0,
+        thickness_mm: 0.2,
+        max_edge_mm,
+        meshed_vein_radius_mm: 1.0,
+    };
+    form.validate()?;
+    let size = SizeField::new(&form, &[]);
+    let sheet = triangulate(outline, &size, &Skeleton::default(), MOST_TRIANGLES)?;
+    Ok((sheet.points, sheet.triangles))
+}

@@ -1,0 +1,221 @@
+//! Texture coordinates for a surface that has none: charts laid flat, packed into the unit square.
+//!
+//! Faces grow into charts while their normals agree with that of the first; a chart is seen along that
+//! normal, so that no texel shows less than cos 40° of the area that one face on shows. Boxes around the charts stand on shelves.
+//!
+//! - **In**: a [`Surface`], the texels along a side, and the gutter.
+//! - **Out**: texture coordinates for each corner of each face, and for each texel the place that it shows.
+//! - **Always true**: charts do not overlap by a texel's middle; texels around a chart show the surface as it goes on beyond the
+//!   chart's border, so that bilinear look-ups on both sides of a border see the same place.
+//! - **Left out**: gutters for mip maps beyond the width given.
+
+mod chart;
+mod texels;
+
+use glam::DVec2;
+use thiserror::Error;
+
+use self::chart::{Chart, charts};
+use super::surface::{Surface, SurfacePoint};
+
+/// Least gutter: a bilinear look-up reaches √2 texels beyond a chart.
+const LEAST_GUTTER: u32 = 2;
+/// Cosine of the greatest angle between faces of a chart and its first.
+const AGREE: f64 = 0.766;
+/// Halvings of the interval in which the scale is sought.
+const SCALE_STEPS: u32 = 40;
+
+/// Why there is no atlas.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum AtlasError {
+    /// Sides that no texture has.
+    #[error("an atlas of {texels} texels a side is not possible, it must be 16 to 16384")]
+    Texels {
+        /// Texels a side asked for.
+        texels: u32,
+    },
+    /// More charts than texels can hold with their gutters.
+    #[error("{charts} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise the number of texels")]
+    TooManyCharts {
+        /// How many charts there are.
+        charts: usize,
+        /// The gutter, texels.
+        gutter: u32,
+        /// Texels a side.
+        texels: u32,
+    },
+}
+
+/// What a texel shows; face `u32::MAX` for nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Texel {
+    face: u32,
+    /// Weights of the second and third corner.
+    weights: [f32; 2],
+}
+
+impl Texel {
+    const NOTHING: Self = Self {
+        face: u32::MAX,
+        weights: [0.0; 2],
+    };
+
+    fn showing(point: &SurfacePoint) -> Self {
+        let [_, v, w] = point.barycentric;
+        Self {
+            face: point.face,
+            weights: [v as f32, w as f32],
+        }
+    }
+}
+
+/// A surface cut into charts and laid into the unit square.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Atlas {
+    texels: u32,
+    charts: usize,
+    texels_per_mm: f64,
+    uvs: Vec<[DVec2; 3]>,
+    shown: Vec<Texel>,
+}
+
+impl Atlas {
+    /// Lays a surface into `texels`² texels with at least `gutter` texels (2 or more are taken) around each chart.
+    ///
+    /// # Errors
+    ///
+    /// [`AtlasError`].
+    pub fn new(surface: &Surface, texels: u32, gutter: u32) -> Result<Self, AtlasError> {
+        if !(16..=16384).contains(&texels) {
+            return Err(AtlasError::Texels { texels });
+        }
+        let gutter = gutter.max(LEAST_GUTTER);
+        let side = f64::from(texels);
+        let finest = side / surface.total_area().sqrt();
+        let charts = charts(surface, AGREE, finest);
+        let too_many = AtlasError::TooManyCharts {
+            charts: charts.len(),
+            gutter,
+            texels,
+        };
+        // A chart of no size still takes its gutters: if these do not fit, nothing does.
+        let mut places = shelves(&charts, 0.0, texels, gutter).ok_or(too_many)?;
+        let (mut low, mut high) = (0.0, 2.0 * finest);
+        for _ in 0..SCALE_STEPS {
+            let scale = 0.5 * (low + high);
+            if let Some(fitting) = shelves(&charts, scale, texels, gutter) {
+                places = fitting;
+                low = scale;
+            } else {
+                high = scale;
+            }
+        }
+        if low == 0.0 {
+            return Err(too_many);
+        }
+        let mut in_texels = vec![[DVec2::ZERO; 3]; surface.faces().len()];
+        for (chart, place) in charts.iter().zip(&places) {
+            for (&face, corners) in chart.faces.iter().zip(&chart.corners) {
+                in_texels[face as usize] =
+                    corners.map(|corner| (corner - chart.low) * low + *place);
+            }
+        }
+        Ok(Self {
+            texels,
+            charts: charts.len(),
+            texels_per_mm: low,
+            shown: texels::shown(surface, &charts, &in_texels, texels, gutter),
+            uvs: in_texels
+                .into_iter()
+                .map(|corners| corners.map(|corner| corner / side))
+                .collect(),
+        })
+    }
+
+    /// Texels along a side.
+    pub fn texels(&self) -> u32 {
+        self.texels
+    }
+
+    /// How many charts there are.
+    pub fn charts(&self) -> usize {
+        self.charts
+    }
+
+    /// Texels per millimetre where a chart is seen face on; elsewhere down to 0.766 of it in one direction.
+    pub fn texels_per_mm(&self) -> f64 {
+        self.texels_per_mm
+    }
+
+    /// Texture coordinates of the corners of each face, in the order of the surface's faces, 0 to 1.
+    pub fn uvs(&self) -> &[[DVec2; 3]] {
+        &self.uvs
+    }
+
+    /// The place that texel (`column`, `row`) shows, its middle at (column + ½, row + ½) / texels; none where there is no chart near.
+    pub fn shown(&self, column: u32, row: u32) -> Option<SurfacePoint> {
+        let texel = self.shown[(row * self.texels + column) as usize];
+        (texel.face != u32::MAX).then(|| {
+            let [v, w] = texel.weights.map(f64::from);
+            SurfacePoint {
+                face: texel.face,
+                barycentric: [(1.0 - v - w).max(0.0), v, w],
+            }
+        })
+    }
+
+    /// Share of the texels that show something.
+    pub fn filled(&self) -> f64 {
+        let filled = self.shown.iter().filter(|texel| texel.face != u32::MAX);
+        filled.count() as f64 / self.shown.len() as f64
+    }
+
+    /// Least and greatest number of texels that a face takes per area, over the mean of all.
+    pub fn density_range(&self, surface: &Surface) -> [f64; 2] {
+        let side = f64::from(self.texels);
+        let area = |corners: &[DVec2; 3]| {
+            0.5 * (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) * side * side
+        };
+        let mean = self.uvs.iter().map(area).sum::<f64>() / surface.total_area();
+        self.uvs
+            .iter()
+            .zip(0..)
+            .map(|(corners, face)| area(corners) / surface.area(face) / mean)
+            .fold([f64::INFINITY, 0.0], |[low, high], density| {
+                [low.min(density), high.max(density)]
+            })
+    }
+}
+
+/// Lower corners of the charts' drawn parts in texels: boxes on shelves, tallest first. `None` if they do not fit.
+fn shelves(charts: &[Chart], scale: f64, texels: u32, gutter: u32) -> Option<Vec<DVec2>> {
+    let boxes: Vec<[u64; 2]> = charts
+        .iter()
+        .map(|chart| {
+            let size = (chart.high - chart.low) * scale;
+            size.to_array()
+                .map(|length| length.ceil() as u64 + 2 * u64::from(gutter))
+        })
+        .collect();
+    let mut order: Vec<usize> = (0..charts.len()).collect();
+    order.sort_by_key(|&chart| (std::cmp::Reverse(boxes[chart][1]), chart));
+    let side = u64::from(texels);
+    let (mut x, mut y, mut height) = (0, 0, 0);
+    let mut places = vec![DVec2::ZERO; charts.len()];
+    for chart in order {
+        let [wide, tall] = boxes[chart];
+        if x + wide > side {
+            (x, y, height) = (0, y + height, 0);
+        }
+        if wide > side || y + tall > side {
+            return None;
+        }
+        height = height.max(tall);
+        places[chart] = DVec2::new(x as f64, y as f64) + f64::from(gutter);
+        x += wide;
+    }
+    Some(places)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,318 @@
+//! Bodies for mosaics to grow on: fruits, caps, stems, leaves as even triangle meshes.
+//!
+//! - **In**: sizes in millimetres, a profile to turn about an axis, or the outline of a leaf.
+//! - **Out**: a [`Shape`]: points, exact unit normals of the smooth body, triangles seen counter-clockwise from outside.
+//! - **Always true**: no edge longer than asked for, triangles of about the same size everywhere: no poles where they crowd.
+//! - **Left out**: whether a profile given by the user crosses itself.
+
+mod lathe;
+
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+use crate::blade::{BladeError, even_sheet};
+use crate::shape::outline::Outline;
+
+pub use lathe::lathe;
+
+/// Most triangles of one shape.
+const MOST_TRIANGLES: f64 = 4e6;
+/// Edge of an icosahedron over the radius of its sphere, times how much pressing it onto the sphere stretches its middle.
+const ICOSAHEDRON_EDGE: f64 = 1.051_462_224 / 0.794_654_472;
+
+/// A body or sheet as triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Points, mm.
+    pub positions: Vec<DVec3>,
+    /// Unit normals of the smooth surface at the points, outwards (the adaxial side of a sheet).
+    pub normals: Vec<DVec3>,
+    /// Points of each triangle, counter-clockwise seen from where the normals point.
+    pub faces: Vec<[u32; 3]>,
+}
+
+/// Why there is no such shape.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ShapeError {
+    /// A size outside its range.
+    #[error("{field} is {value}, it must be {range}")]
+    OutOfRange {
+        /// Which size.
+        field: &'static str,
+        /// What it was, mm.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A profile of fewer than two points.
+    #[error("a profile needs at least 2 points, it has {points}")]
+    ShortProfile {
+        /// How many there are.
+        points: usize,
+    },
+    /// A point of the profile that is not finite, or on the other side of the axis.
+    #[error(
+        "point {index} of the profile is ({radius}, {height}) mm: both must be finite and the radius at least 0"
+    )]
+    ProfilePoint {
+        /// Which point.
+        index: usize,
+        /// Its distance from the axis, mm.
+        radius: f64,
+        /// Its height, mm.
+        height: f64,
+    },
+    /// Two neighbouring points of the profile coincide.
+    #[error("points {index} and {} of the profile coincide", index + 1)]
+    RepeatedPoint {
+        /// The first of them.
+        index: usize,
+    },
+    /// The profile touches the axis between its ends.
+    #[error("the profile meets the axis at height {height} mm, between points {index} and {}: only its ends may lie on the axis", index + 1)]
+    MeetsAxis {
+        /// The point before.
+        index: usize,
+        /// Where, mm.
+        height: f64,
+    },
+    /// Too many triangles.
+    #[error(
+        "the shape would take about {triangles:.0} triangles, at most {MOST_TRIANGLES:.0} are allowed: raise max_edge_mm"
+    )]
+    TooFine {
+        /// How many it would take.
+        triangles: f64,
+    },
+    /// The outline could not be cut into triangles.
+    #[error(transparent)]
+    Sheet(#[from] BladeError),
+}
+
+/// A sphere about the origin: the faces of an icosahedron divided evenly and pressed outwards.
+///
+/// # Errors
+///
+/// [`ShapeError::OutOfRange`] unless both are finite and above 0; [`ShapeError::TooFine`].
+pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+    positive("radius_mm", radius_mm)?;
+    ellipsoid(DVec3::splat(radius_mm), max_edge_mm)
+}
+
+/// An ellipsoid about the origin with these semi-axes, mm: a sphere stretched, so that its triangles are as unequal as its axes.
+///
+/// # Errors
+///
+/// [`ShapeError::OutOfRange`] unless all are finite and above 0; [`ShapeError::TooFine`].
+pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+    for axis in semi_axes_mm.to_array() {
+        positive("semi_axes_mm", axis)?;
+    }
+    positive("max_edge_mm", max_edge_mm)?;
+    let cuts = libm::ceil(ICOSAHEDRON_EDGE * semi_axes_mm.max_element() / max_edge_mm).max(1.0);
+    affordable(20.0 * cuts * cuts)?;
+    let (directions, faces) = divided_icosahedron(cuts as u32);
+    Ok(Shape {
+        positions: directions.iter().map(|&d| d * semi_axes_mm).collect(),
+        normals: directions
+            .iter()
+            .map(|&d| (d / semi_axes_mm).normalize())
+            .collect(),
+        faces,
+    })
+}
+
+/// A cube about the origin with rounded edges and corners.
+///
+/// Edges are quarters of cylinders, corners eighths of spheres. A corner radius of half the side gives a sphere.
+///
+/// # Errors
+///
+/// [`ShapeError::OutOfRange`] unless all are finite and above 0 and the corner radius at most half the side;
+/// [`ShapeError::TooFine`].
+pub fn rounded_cube(
+    side_mm: f64,
+    corner_radius_mm: f64,
+    max_edge_mm: f64,
+) -> Result<Shape, ShapeError> {
+    positive("side_mm", side_mm)?;
+    positive("max_edge_mm", max_edge_mm)?;
+    if !(corner_radius_mm > 0.0 && corner_radius_mm <= 0.5 * side_mm) {
+        return Err(ShapeError::OutOfRange {
+            field: "corner_radius_mm",
+            value: corner_radius_mm,
+            range: "above 0 and at most half the side",
+        });
+    }
+    let flat = 0.5 * side_mm - corner_radius_mm;
+    // Squares a little smaller than the edge allowed, as their diagonals are edges too; near corners
+    // they are lozenges with diagonals up to √3.
+    let step = max_edge_mm / 3f64.sqrt();
+    let in_flat = libm::ceil(2.0 * flat / step);
+    let in_arc = libm::ceil(std::f64::consts::FRAC_PI_4 * corner_radius_mm / step).max(1.0);
+    let cells = in_flat + 2.0 * in_arc;
+    affordable(12.0 * cells * cells)?;
+    // Along each axis: how far the flat part carries, and the slope of the direction.
+    let axis: Vec<(f64, f64)> = (0..=cells as u32)
+        .map(|i| {
+            let i = f64::from(i);
+            let tangent = |k: f64| {
+                if k == in_arc {
+                    1.0
+                } else {
+                    libm::tan(std::f64::consts::FRAC_PI_4 * k / in_arc)
+                }
+            };
+            if i < in_arc {
+                (-flat, -tangent(in_arc - i))
+            } else if i > in_arc + in_flat {
+                (flat, tangent(i - in_arc - in_flat))
+            } else if in_flat == 0.0 {
+                (0.0, 0.0)
+            } else {
+                (flat * (2.0 * (i - in_arc) / in_flat - 1.0), 0.0)
+            }
+        })
+        .collect();
+    let mut lattice = std::collections::BTreeMap::new();
+    let mut shape = Shape {
+        positions: Vec::new(),
+        normals: Vec::new(),
+        faces: Vec::new(),
+    };
+    let last = cells as u32;
+    for (normal, side) in (0..3).flat_map(|normal| [(normal, 0), (normal, last)]) {
+        let mut vertex = |i: u32, j: u32| {
+            let mut at = [0; 3];
+            at[normal] = side;
+            at[(normal + 1) % 3] = i;
+            at[(normal + 2) % 3] = j;
+            *lattice.entry(at).or_insert_with(|| {
+                let corner = at.map(|k| axis[k as usize]);
+                let direction = DVec3::from_array(corner.map(|(_, slope)| slope)).normalize();
+                let core = DVec3::from_array(corner.map(|(core, _)| core));
+                shape.positions.push(core + direction * corner_radius_mm);
+                shape.normals.push(direction);
+                (shape.positions.len() - 1) as u32
+            })
+        };
+        let mut squares = Vec::new();
+        for i in 0..last {
+            for j in 0..last {
+                squares.push([
+                    vertex(i, j),
+                    vertex(i + 1, j),
+                    vertex(i + 1, j + 1),
+                    vertex(i, j + 1),
+                ]);
+            }
+        }
+        for mut square in squares {
+            if side == 0 {
+                square.reverse();
+            }
+            let [a, b, c, d] = square;
+            let length = |p: u32, q: u32| {
+                shape.positions[p as usize].distance_squared(shape.positions[q as usize])
+            };
+            if length(a, c) <= length(b, d) {
+                shape.faces.extend([[a, b, c], [a, c, d]]);
+            } else {
+                shape.faces.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+    }
+    Ok(shape)
+}
+
+/// The lamina of a leaf as an even flat sheet in the plane z = 0, adaxial side +z, in the frame of the outline.
+///
+/// # Errors
+///
+/// [`ShapeError::Sheet`] for an edge outside 0.001 to 10000 mm and for too many triangles.
+pub fn sheet(outline: &Outline, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+    let (points, faces) = even_sheet(outline, max_edge_mm)?;
+    Ok(Shape {
+        normals: vec![DVec3::Z; points.len()],
+        positions: points.into_iter().map(|p: DVec2| p.extend(0.0)).collect(),
+        faces,
+    })
+}
+
+fn positive(field: &'static str, value: f64) -> Result<(), ShapeError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(ShapeError::OutOfRange {
+        field,
+        value,
+        range: "finite and above 0 (millimetres)",
+    })
+}
+
+fn affordable(triangles: f64) -> Result<(), ShapeError> {
+    if triangles <= MOST_TRIANGLES {
+        return Ok(());
+    }
+    Err(ShapeError::TooFine { triangles })
+}
+
+/// Unit vectors and faces of an icosahedron whose edges are cut into `cuts` pieces.
+fn divided_icosahedron(cuts: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let golden = 0.5 * (1.0 + 5f64.sqrt());
+    let corners: Vec<DVec3> = (0..3)
+        .flat_map(|axis| {
+            [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(s, t)| {
+                let mut p = [0.0; 3];
+                p[axis] = s;
+                p[(axis + 1) % 3] = t * golden;
+                DVec3::from_array(p)
+            })
+        })
+        .collect();
+    // Corners 2 apart are joined; three that are mutually joined make a face.
+    let joined = |a: usize, b: usize| corners[a].distance_squared(corners[b]) < 4.5;
+    let mut points = Vec::new();
+    let mut known = std::collections::BTreeMap::new();
+    let mut faces = Vec::new();
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if !(joined(a, b) && joined(b, c) && joined(a, c)) {
+                    continue;
+                }
+                let outwards = (corners[b] - corners[a])
+                    .cross(corners[c] - corners[a])
+                    .dot(corners[a]);
+                let [a, b, c] = if outwards > 0.0 { [a, b, c] } else { [a, c, b] };
+                let mut point = |i: u32, j: u32| {
+                    let mut shares = [(a, cuts - i - j), (b, i), (c, j)];
+                    shares.sort_unstable();
+                    // Points on edges and corners are named by what takes part only.
+                    let key: Vec<(usize, u32)> =
+                        shares.into_iter().filter(|&(_, share)| share > 0).collect();
+                    *known.entry(key.clone()).or_insert_with(|| {
+                        let sum: DVec3 = key
+                            .iter()
+                            .map(|&(corner, share)| corners[corner] * f64::from(share))
+                            .sum();
+                        points.push(sum.normalize());
+                        (points.len() - 1) as u32
+                    })
+                };
+                for i in 0..cuts {
+                    for j in 0..cuts - i {
+                        faces.push([point(i, j), point(i + 1, j), point(i, j + 1)]);
+                        if i + j + 1 < cuts {
+                            faces.push([point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    (points, faces)
+}
+
+#[cfg(test)]
+mod tests;
