@@ -8,6 +8,7 @@ pub mod compound;
 pub mod export;
 pub mod leaf;
 pub mod measure;
+pub mod mosaic;
 pub mod optics;
 pub mod shape;
 pub mod species;
