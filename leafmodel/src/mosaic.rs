@@ -9,8 +9,21 @@
 //! - **Always true**: distances are measured on the surface, faces unfolded into a plane ([`patch`]), never through space.
 //! - **Left out**: what genes do inside a cell.
 
+mod control;
+mod division;
+mod growth;
 pub mod patch;
+mod plan;
+mod relaxation;
+mod simulation;
 pub mod surface;
+#[cfg(test)]
+mod testing;
+mod walk;
 
+pub use self::control::{ControlError, ControlImage, CylinderControl, Steered};
+pub use self::growth::{GrowthCourse, SurfaceGrowth};
 pub use self::patch::{Patch, PatchFinder};
+pub use self::plan::{CellType, MosaicError, MosaicPlan, RadiusRule};
+pub use self::simulation::{Cell, Mosaic};
 pub use self::surface::{Ancestry, Surface, SurfaceError, SurfacePoint, Unfold};
