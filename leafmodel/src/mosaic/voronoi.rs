@@ -10,7 +10,7 @@
 //! - **Left out**: parts of a surface that no cell can be reached from stay empty.
 
 #[cfg(test)]
-mod tests;
+pub(in crate::mosaic) mod tests;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -232,7 +232,8 @@ fn near(
 
 /// Distance of a point to a triangle, 0 inside.
 pub(super) fn distance_to_triangle(corners: &[DVec2; 3], p: DVec2) -> f64 {
-    let inside = (0..3).all(|k| (corners[(k + 1) % 3] - corners[k]).perp_dot(p - corners[k]) >= 0.0);
+    let inside =
+        (0..3).all(|k| (corners[(k + 1) % 3] - corners[k]).perp_dot(p - corners[k]) >= 0.0);
     if inside {
         return 0.0;
     }

@@ -41,7 +41,7 @@ fn check_seamless(surface: &Surface, texels: u32) -> Atlas {
     // Bilinear interpolation errs by the curvature times the texel's side squared over 8 in each direction; a texel
     // on a slanted face is at most 1 / 0.766 longer, and the surface's own bend over a texel is of the same order.
     let texel = 1.0 / atlas.texels_per_mm() / AGREE;
-let mut tolerance = 3.0 * texel * texel / 49.0 / 8.0 * 4.0 + 0.1 * texel / 7.0;
+    let mut tolerance = 3.0 * texel * texel / 49.0 / 8.0 * 4.0 + 0.1 * texel / 7.0;
     let open = (0..surface.faces().len() as u32)
         .any(|face| (0..3).any(|edge| surface.neighbour(face, edge).is_none()));
     if open {

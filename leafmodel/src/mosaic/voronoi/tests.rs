@@ -10,8 +10,7 @@ pub(in crate::mosaic) fn surface(shape: Shape) -> Surface {
 pub(in crate::mosaic) fn scattered(surface: &Surface, cells: u64, seed: u64) -> Vec<SurfacePoint> {
     (0..cells)
         .map(|i| {
-            surface
-                .sample([0, 1, 2].map(|k| chance::uniform(seed, Use::PatternProbe, 3 * i + k)))
+            surface.sample([0, 1, 2].map(|k| chance::uniform(seed, Use::PatternProbe, 3 * i + k)))
         })
         .collect()
 }
@@ -31,7 +30,10 @@ fn check_fills(surface: &Surface, cells: u64) {
     for cell in 0..sites.len() as u32 {
         for &(beside, length) in voronoi.neighbours(cell) {
             let back = voronoi.neighbours(beside).iter();
-            let theirs = back.filter(|(other, _)| *other == cell).map(|(_, l)| l).sum::<f64>();
+            let theirs = back
+                .filter(|(other, _)| *other == cell)
+                .map(|(_, l)| l)
+                .sum::<f64>();
             assert!((theirs - length).abs() < 1e-9, "borders belong to both");
         }
     }
@@ -41,7 +43,10 @@ fn check_fills(surface: &Surface, cells: u64) {
 fn the_polygons_of_all_cells_fill_the_surface() {
     check_fills(&surface(sphere(20.0, 2.0).expect("good sizes")), 700);
     check_fills(&surface(sphere(20.0, 9.0).expect("good sizes")), 300);
-    check_fills(&surface(rounded_cube(30.0, 4.0, 1.5).expect("good sizes")), 40);
+    check_fills(
+        &surface(rounded_cube(30.0, 4.0, 1.5).expect("good sizes")),
+        40,
+    );
     check_fills(&surface(sphere(5.0, 2.0).expect("good sizes")), 1);
 }
 
@@ -70,11 +75,18 @@ fn on_a_flat_sheet_the_piece_under_a_point_belongs_to_the_nearest_cell() {
         let holding = voronoi
             .pieces(probe.face)
             .iter()
-            .find(|piece| piece.edges().all(|(a, b, _)| (b - a).perp_dot(flat - a) >= -1e-12))
+            .find(|piece| {
+                piece
+                    .edges()
+                    .all(|(a, b, _)| (b - a).perp_dot(flat - a) >= -1e-12)
+            })
             .expect("pieces fill the face");
         assert_eq!(holding.cell, nearest);
     }
-    let area: f64 = voronoi.polygons(&sheet).map(|polygon| polygon.corners.len() as f64).sum();
+    let area: f64 = voronoi
+        .polygons(&sheet)
+        .map(|polygon| polygon.corners.len() as f64)
+        .sum();
     assert!(area >= 3.0 * 200.0, "each face has at least one polygon");
 }
 
@@ -91,7 +103,11 @@ fn the_two_faces_of_a_blade_do_not_share_cells() {
     let middle = sheet.sample([0.4, 0.5, 0.5]);
     let behind = SurfacePoint {
         face: middle.face + sheet.faces().len() as u32,
-        barycentric: [middle.barycentric[0], middle.barycentric[2], middle.barycentric[1]],
+        barycentric: [
+            middle.barycentric[0],
+            middle.barycentric[2],
+            middle.barycentric[1],
+        ],
     };
     let voronoi = Voronoi::new(&both, &[middle, behind]);
     // Each has its own side: the way round the margin is as long from either.

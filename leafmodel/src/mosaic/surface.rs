@@ -1,0 +1,381 @@
+//! Surfaces that cells live on: triangles, who touches whom, and a plane for each face.
+//!
+//! - **In**: any triangle mesh in millimetres: closed, or with margins (a leaf's sheet).
+//! - **Out**: a [`Surface`]: neighbours across edges, areas, a flat frame per face, and how a neighbour's frame unfolds into it.
+//! - **Always true**: an edge has one face or two, and these are turned the same way; every face has area.
+//! - **Left out**: surfaces that branch (three faces at an edge) and surfaces with one side only.
+
+mod adjacency;
+mod doubled;
+mod subdivide;
+#[cfg(test)]
+mod tests;
+
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+pub use self::subdivide::Ancestry;
+
+/// No face: the far side of a margin.
+const NONE: u32 = u32::MAX;
+
+/// A face whose area is below this share of its longest edge's square has no plane of its own.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// Why a mesh is no surface that cells can live on. Points are in millimetres; faces count from 0.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SurfaceError {
+    /// A mesh without faces.
+    #[error("the mesh has no faces")]
+    Empty,
+    /// More faces or vertices than the indices can name.
+    #[error("the mesh has {count} faces or vertices, more than 2³⁰")]
+    TooLarge {
+        /// Their number.
+        count: usize,
+    },
+    /// A corner that is no vertex.
+    #[error("face {face} names vertex {vertex}, but there are {vertices} (from 0)")]
+    NoSuchVertex {
+        /// The face.
+        face: usize,
+        /// What it names.
+        vertex: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A vertex at infinity or nowhere.
+    #[error("vertex {vertex} is at {at}, which is not finite")]
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+        /// Its position.
+        at: DVec3,
+    },
+    /// A face whose corners lie on a line or coincide.
+    #[error("face {face} has no area; its corners are {} mm, {} mm and {} mm", corners[0], corners[1], corners[2])]
+    NoArea {
+        /// The face.
+        face: usize,
+        /// Its corners, mm.
+        corners: [DVec3; 3],
+    },
+    /// An edge at which the surface branches.
+    #[error("not a manifold: the edge from {from} mm to {to} mm has {} faces ({})", faces.len(), list(faces))]
+    NotManifold {
+        /// One end of the edge, mm.
+        from: DVec3,
+        /// The other end, mm.
+        to: DVec3,
+        /// The faces at the edge.
+        faces: Vec<u32>,
+    },
+    /// Two neighbours of which one is turned inside out.
+    #[error(
+        "faces {} and {} are of opposite orientation: both run along their edge from {from} mm to {to} mm",
+        faces[0], faces[1]
+    )]
+    OppositeOrientation {
+        /// Where both start along the edge, mm.
+        from: DVec3,
+        /// Where both end along the edge, mm.
+        to: DVec3,
+        /// The two faces.
+        faces: [u32; 2],
+    },
+    /// A length that has to be positive and is not.
+    #[error("{name} is {value} mm; it has to be positive and finite")]
+    NotALength {
+        /// What it is.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+fn list(faces: &[u32]) -> String {
+    let shown: Vec<String> = faces.iter().take(6).map(u32::to_string).collect();
+    let more = if faces.len() > 6 { ", …" } else { "" };
+    shown.join(", ") + more
+}
+
+/// A rigid motion of the plane: how one face's frame lies in another's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unfold {
+    /// Unit vector onto which the x axis is turned.
+    pub turn: DVec2,
+    /// Where the origin comes to lie, mm.
+    pub shift: DVec2,
+}
+
+impl Unfold {
+    /// The motion that moves nothing.
+    pub const IDENTITY: Self = Self {
+        turn: DVec2::X,
+        shift: DVec2::ZERO,
+    };
+
+    /// Where a point of the unfolded frame lies in the frame unfolded into.
+    pub fn apply(&self, point: DVec2) -> DVec2 {
+        self.turn.rotate(point) + self.shift
+    }
+
+    /// The point of the unfolded frame that lies at `point` of the frame unfolded into.
+    pub fn apply_inverse(&self, point: DVec2) -> DVec2 {
+        self.turn_back(point - self.shift)
+    }
+
+    /// A direction of the unfolded frame in the frame unfolded into.
+    pub fn turn(&self, direction: DVec2) -> DVec2 {
+        self.turn.rotate(direction)
+    }
+
+    /// A direction of the frame unfolded into, in the unfolded frame.
+    pub fn turn_back(&self, direction: DVec2) -> DVec2 {
+        DVec2::new(self.turn.x, -self.turn.y).rotate(direction)
+    }
+
+    /// First `inner`, then this motion.
+    pub fn after(&self, inner: &Self) -> Self {
+        Self {
+            turn: self.turn.rotate(inner.turn),
+            shift: self.apply(inner.shift),
+        }
+    }
+}
+
+/// A place on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The face it lies in.
+    pub face: u32,
+    /// Weights of the face's corners, each in [0, 1], sum 1.
+    pub barycentric: [f64; 3],
+}
+
+/// A triangle mesh whose faces know their neighbours. Millimetres.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    positions: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+    neighbours: Vec<[u32; 3]>,
+    neighbour_edges: Vec<[u8; 3]>,
+    corners: Vec<[DVec2; 3]>,
+    unfolds: Vec<[Unfold; 3]>,
+    area_up_to: Vec<f64>,
+}
+
+impl Surface {
+    /// Takes a mesh: vertices in mm and the corners of each face.
+    ///
+    /// Vertices at exactly equal positions are one (meshes with seams of texture coordinates have such); faces keep their order.
+    ///
+    /// # Errors
+    ///
+    /// Every [`SurfaceError`] but the last; the first defect found.
+    pub fn new(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Result<Self, SurfaceError> {
+        let (positions, faces) = adjacency::welded(positions, faces)?;
+        let keys = adjacency::keys_of_vertices(&faces);
+        let (neighbours, neighbour_edges) = adjacency::pair(&positions, &faces, &keys)?;
+        Self::assemble(positions, faces, neighbours, neighbour_edges)
+    }
+
+    fn assemble(
+        positions: Vec<DVec3>,
+        faces: Vec<[u32; 3]>,
+        neighbours: Vec<[u32; 3]>,
+        neighbour_edges: Vec<[u8; 3]>,
+    ) -> Result<Self, SurfaceError> {
+        let mut surface = Self {
+            corners: Vec::new(),
+            unfolds: Vec::new(),
+            area_up_to: Vec::new(),
+            positions,
+            faces,
+            neighbours,
+            neighbour_edges,
+        };
+        surface.flatten()?;
+        Ok(surface)
+    }
+
+    /// The same faces and neighbours with the vertices ([`Surface::positions`], in their order) moved elsewhere.
+    ///
+    /// # Errors
+    ///
+    /// [`SurfaceError::NotFinite`], [`SurfaceError::NoArea`].
+    ///
+    /// # Panics
+    ///
+    /// If `positions` are not as many as before.
+    pub fn moved(&self, positions: Vec<DVec3>) -> Result<Self, SurfaceError> {
+        assert_eq!(
+            positions.len(),
+            self.positions.len(),
+            "as many vertices as before"
+        );
+        adjacency::check_finite(&positions)?;
+        Self::assemble(
+            positions,
+            self.faces.clone(),
+            self.neighbours.clone(),
+            self.neighbour_edges.clone(),
+        )
+    }
+
+    /// Frames, areas and unfoldings from the positions.
+    fn flatten(&mut self) -> Result<(), SurfaceError> {
+        let mut total = 0.0;
+        for (face, ids) in self.faces.iter().enumerate() {
+            let [a, b, c] = ids.map(|id| self.positions[id as usize]);
+            let (along, up) = (b - a, c - a);
+            let normal = along.cross(up);
+            let area = normal.length() / 2.0;
+            let longest = along.length_squared().max(up.length_squared());
+            let longest = longest.max(b.distance_squared(c));
+            if area <= LEAST_SHARE * longest || !area.is_finite() {
+                return Err(SurfaceError::NoArea {
+                    face,
+                    corners: [a, b, c],
+                });
+            }
+            let length = along.length();
+            let x = along / length;
+            let corners = [
+                DVec2::ZERO,
+                DVec2::new(length, 0.0),
+                DVec2::new(up.dot(x), 2.0 * area / length),
+            ];
+            self.corners.push(corners);
+            total += area;
+            self.area_up_to.push(total);
+        }
+        for face in 0..self.faces.len() {
+            self.unfolds
+                .push([0, 1, 2].map(|edge| self.hinge(face, edge)));
+        }
+        Ok(())
+    }
+
+    /// The motion that lays the neighbour across an edge beside the face, into the face's plane.
+    fn hinge(&self, face: usize, edge: usize) -> Unfold {
+        let neighbour = self.neighbours[face][edge];
+        if neighbour == NONE {
+            return Unfold::IDENTITY;
+        }
+        let theirs = usize::from(self.neighbour_edges[face][edge]);
+        let (mine, other) = (&self.corners[face], &self.corners[neighbour as usize]);
+        // Both go round the same way, so that the neighbour runs along the edge backwards.
+        let (end, start) = (mine[edge], mine[(edge + 1) % 3]);
+        let (from, to) = (other[theirs], other[(theirs + 1) % 3]);
+        let wanted = (end - start).normalize();
+        let present = (to - from).normalize();
+        let turn = DVec2::new(present.dot(wanted), present.perp_dot(wanted)).normalize();
+        let shift = 0.5 * (end + start - turn.rotate(from + to));
+        Unfold { turn, shift }
+    }
+
+    /// The vertices after welding, mm.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// Corners of the faces, as indices of [`Surface::positions`]; faces in the order of the mesh.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// The face across edge `edge` (from corner `edge` to the next) of a face; none across a margin.
+    pub fn neighbour(&self, face: u32, edge: usize) -> Option<u32> {
+        let neighbour = self.neighbours[face as usize][edge];
+        (neighbour != NONE).then_some(neighbour)
+    }
+
+    /// Which edge of the neighbour across `edge` is the shared one; none across a margin.
+    pub fn neighbour_edge(&self, face: u32, edge: usize) -> Option<usize> {
+        self.neighbour(face, edge)?;
+        Some(usize::from(self.neighbour_edges[face as usize][edge]))
+    }
+
+    /// How the frame of the neighbour across `edge` unfolds into the frame of the face; none across a margin.
+    pub fn unfold(&self, face: u32, edge: usize) -> Option<Unfold> {
+        self.neighbour(face, edge)?;
+        Some(self.unfolds[face as usize][edge])
+    }
+
+    /// The corners of a face in its own frame, mm: the first at the origin, the second on the x axis, the third above it.
+    pub fn corners(&self, face: u32) -> [DVec2; 3] {
+        self.corners[face as usize]
+    }
+
+    /// Area of a face, mm².
+    pub fn area(&self, face: u32) -> f64 {
+        let corners = &self.corners[face as usize];
+        corners[1].x * corners[2].y / 2.0
+    }
+
+    /// Area of all faces, mm².
+    pub fn total_area(&self) -> f64 {
+        self.area_up_to.last().copied().unwrap_or_default()
+    }
+
+    /// Unit normal of a face, on the side from which its corners go round anticlockwise.
+    pub fn normal(&self, face: u32) -> DVec3 {
+        let [a, b, c] = self.faces[face as usize].map(|id| self.positions[id as usize]);
+        (b - a).cross(c - a).normalize()
+    }
+
+    /// A point in space, mm.
+    pub fn position(&self, point: &SurfacePoint) -> DVec3 {
+        let corners = self.faces[point.face as usize].map(|id| self.positions[id as usize]);
+        let [u, v, w] = point.barycentric;
+        corners[0] * u + corners[1] * v + corners[2] * w
+    }
+
+    /// A point in the frame of its face, mm.
+    pub fn flat(&self, point: &SurfacePoint) -> DVec2 {
+        let corners = &self.corners[point.face as usize];
+        let [u, v, w] = point.barycentric;
+        corners[0] * u + corners[1] * v + corners[2] * w
+    }
+
+    /// The point of a face at a place of its frame (mm); places outside come to the nearest weights inside.
+    pub fn point(&self, face: u32, flat: DVec2) -> SurfacePoint {
+        let [_, b, c] = self.corners[face as usize];
+        let w = (flat.y / c.y).clamp(0.0, 1.0);
+        let v = ((flat.x - w * c.x) / b.x).clamp(0.0, 1.0 - w);
+        SurfacePoint {
+            face,
+            barycentric: [1.0 - v - w, v, w],
+        }
+    }
+
+    /// A point of a face in the middle.
+    pub fn centre(&self, face: u32) -> SurfacePoint {
+        let third = 1.0 / 3.0;
+        SurfacePoint {
+            face,
+            barycentric: [third; 3],
+        }
+    }
+
+    /// A point of the surface from three numbers in [0, 1): uniform by area if they are uniform and independent.
+    pub fn sample(&self, u: [f64; 3]) -> SurfacePoint {
+        let wanted = u[0] * self.total_area();
+        let face = self.area_up_to.partition_point(|&area| area <= wanted);
+        let root = u[1].sqrt();
+        let (v, w) = (root * (1.0 - u[2]), root * u[2]);
+        SurfacePoint {
+            face: face.min(self.faces.len() - 1) as u32,
+            barycentric: [(1.0 - root).max(0.0), v, w],
+        }
+    }
+
+    /// Longest edge of all, mm.
+    pub fn longest_edge(&self) -> f64 {
+        let sides = self.corners.iter().flat_map(|corners| {
+            [0, 1, 2].map(|edge: usize| corners[edge].distance_squared(corners[(edge + 1) % 3]))
+        });
+        sides.fold(0.0, f64::max).sqrt()
+    }
+}

@@ -1,0 +1,119 @@
+//! Which faces touch: vertices at one place become one, and edges are paired.
+
+use glam::DVec3;
+
+use super::{NONE, SurfaceError};
+
+/// More than this would not leave room for the numbers of edges.
+const MOST: usize = 1 << 30;
+
+pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
+    match positions.iter().position(|at| !at.is_finite()) {
+        Some(vertex) => Err(SurfaceError::NotFinite {
+            vertex,
+            at: positions[vertex],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The mesh with equal positions merged, each to the first vertex that has it. Vertices that no face names are kept.
+pub(super) fn welded(
+    positions: Vec<DVec3>,
+    mut faces: Vec<[u32; 3]>,
+) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), SurfaceError> {
+    if faces.is_empty() {
+        return Err(SurfaceError::Empty);
+    }
+    let count = faces.len().max(positions.len());
+    if count > MOST {
+        return Err(SurfaceError::TooLarge { count });
+    }
+    for (face, corners) in faces.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&id| id as usize >= positions.len()) {
+            return Err(SurfaceError::NoSuchVertex {
+                face,
+                vertex,
+                vertices: positions.len(),
+            });
+        }
+    }
+    check_finite(&positions)?;
+    // Adding zero makes both zeros one.
+    let key = |id: u32| (positions[id as usize] + 0.0).to_array().map(f64::to_bits);
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_by_key(|&id| (key(id), id));
+    let mut first: Vec<u32> = (0..positions.len() as u32).collect();
+    for pair in 1..order.len() {
+        let (before, id) = (order[pair - 1], order[pair]);
+        if key(before) == key(id) {
+            first[id as usize] = first[before as usize];
+        }
+    }
+    for corners in &mut faces {
+        *corners = corners.map(|id| first[id as usize]);
+    }
+    Ok((positions, faces))
+}
+
+/// A key for each edge that only faces at the same edge share: its two vertices.
+pub(super) fn keys_of_vertices(faces: &[[u32; 3]]) -> Vec<[u64; 3]> {
+    let key = |a: u32, b: u32| (u64::from(a.min(b)) << 32) | u64::from(a.max(b));
+    faces
+        .iter()
+        .map(|&[a, b, c]| [key(a, b), key(b, c), key(c, a)])
+        .collect()
+}
+
+/// For each edge of each face the neighbour and which of its edges is the shared one.
+pub(super) type Pairs = (Vec<[u32; 3]>, Vec<[u8; 3]>);
+
+/// Pairs edges of equal key.
+pub(super) fn pair(
+    positions: &[DVec3],
+    faces: &[[u32; 3]],
+    keys: &[[u64; 3]],
+) -> Result<Pairs, SurfaceError> {
+    let mut edges: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * faces.len());
+    for (face, keys) in keys.iter().enumerate() {
+        for (edge, &key) in keys.iter().enumerate() {
+            edges.push((key, face as u32, edge as u8));
+        }
+    }
+    edges.sort_unstable();
+    let mut neighbours = vec![[NONE; 3]; faces.len()];
+    let mut neighbour_edges = vec![[0; 3]; faces.len()];
+    for group in edges.chunk_by(|a, b| a.0 == b.0) {
+        let (_, face, edge) = group[0];
+        let (start, end) = ends(faces, face, edge);
+        if group.len() > 2 {
+            return Err(SurfaceError::NotManifold {
+                from: positions[start as usize],
+                to: positions[end as usize],
+                faces: group.iter().map(|&(_, face, _)| face).collect(),
+            });
+        }
+        let Some(&(_, other, theirs)) = group.get(1) else {
+            continue;
+        };
+        // A face folded onto itself has an edge twice, and no area: that is found when the faces are flattened.
+        if face != other && ends(faces, other, theirs).0 == start {
+            return Err(SurfaceError::OppositeOrientation {
+                from: positions[start as usize],
+                to: positions[end as usize],
+                faces: [face, other],
+            });
+        }
+        neighbours[face as usize][usize::from(edge)] = other;
+        neighbour_edges[face as usize][usize::from(edge)] = theirs;
+        neighbours[other as usize][usize::from(theirs)] = face;
+        neighbour_edges[other as usize][usize::from(theirs)] = edge;
+    }
+    Ok((neighbours, neighbour_edges))
+}
+
+fn ends(faces: &[[u32; 3]], face: u32, edge: u8) -> (u32, u32) {
+    let corners = faces[face as usize];
+    let edge = usize::from(edge);
+    (corners[edge], corners[(edge + 1) % 3])
+}
