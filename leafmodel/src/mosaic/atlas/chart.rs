@@ -1,6 +1,6 @@
 //! Faces that look the same way, drawn as seen from there.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
@@ -115,18 +115,30 @@ fn turned(faces: Vec<u32>, corners: Vec<[DVec2; 3]>) -> Chart {
 
 /// Which faces stay if none may cover a texel's middle that an earlier one covers.
 fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
-    let mut owners = BTreeSet::new();
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    for &p in drawn.iter().flatten() {
+        low = low.min(p);
+        high = high.max(p);
+    }
+    let size = ((high - low) * texels_per_mm).ceil();
+    let (columns, rows) = (size.x as usize + 1, size.y as usize + 1);
+    let mut owned = vec![false; columns * rows];
     drawn
         .iter()
         .map(|corners| {
+            let scaled = corners.map(|p| (p - low) * texels_per_mm);
             let mut covered = Vec::new();
-            let scaled = corners.map(|p| p * texels_per_mm);
-            each_texel(&scaled, INSIDE, |x, y, _| covered.push((x, y)));
-            if covered.iter().any(|texel| owners.contains(texel)) {
-                return false;
+            each_texel(&scaled, INSIDE, |x, y, _| {
+                covered.push(y as usize * columns + x as usize);
+            });
+            let free = covered.iter().all(|&texel| !owned[texel]);
+            if free {
+                for texel in covered {
+                    owned[texel] = true;
+                }
             }
-            owners.extend(covered);
-            true
+            free
         })
         .collect()
 }
