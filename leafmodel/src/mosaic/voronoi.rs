@@ -273,6 +273,14 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
                 }
                 continue;
             }
+            // The others are no nearer: beyond twice the way to the furthest corner none can cut.
+            let furthest = polygon
+                .iter()
+                .map(|(p, _)| p.distance_squared(at))
+                .fold(0.0, f64::max);
+            if place.distance_squared(at) > 4.0 * furthest * (1.0 + 1e-9) {
+                break;
+            }
             clip(&polygon, at, place, other, &mut spare);
             std::mem::swap(&mut polygon, &mut spare);
             if polygon.is_empty() {
