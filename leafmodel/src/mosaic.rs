@@ -9,18 +9,22 @@
 //! - **Always true**: distances are measured on the surface, faces unfolded into a plane ([`patch`]), never through space.
 //! - **Left out**: what genes do inside a cell.
 
+pub mod atlas;
 mod control;
 mod division;
 mod growth;
+pub mod noise_pattern;
+pub mod paint;
 pub mod patch;
 mod plan;
-pub mod noise_pattern;
 mod relaxation;
 pub mod shapes;
 mod simulation;
+pub mod statistics;
 pub mod surface;
 #[cfg(test)]
 mod testing;
+pub mod voronoi;
 mod walk;
 
 pub use self::control::{ControlError, ControlImage, CylinderControl, Steered};

@@ -35,7 +35,9 @@ pub enum AtlasError {
         texels: u32,
     },
     /// More charts than texels can hold with their gutters.
-    #[error("{charts} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise the number of texels")]
+    #[error(
+        "{charts} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise the number of texels"
+    )]
     TooManyCharts {
         /// How many charts there are.
         charts: usize,

@@ -34,6 +34,10 @@ pub(crate) enum Use {
     MosaicImage = 14,
     /// Gradients of noise patterns.
     NoiseGradient = 15,
+    /// How a null model shuffles the kinds of cells.
+    Shuffle = 16,
+    /// Where the pattern of a mosaic is looked at.
+    PatternProbe = 17,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -9,6 +9,8 @@ use crate::mosaic::surface::Surface;
 
 /// Directions in a right angle that are tried for the smallest box around a chart.
 const TURNS: u32 = 16;
+/// Least weight of a middle that lies inside a face and not on its edge.
+const INSIDE: f64 = 1e-6;
 
 /// A connected part of a surface seen along one direction, mm.
 #[derive(Clone, Debug)]
@@ -69,23 +71,99 @@ pub(super) fn charts(surface: &Surface, agree: f64, texels_per_mm: f64) -> Vec<C
         let keep = |i: &usize| kept[*i];
         let corners = (0..faces.len()).filter(keep).map(|i| drawn[i]).collect();
         let faces = (0..faces.len()).filter(keep).map(|i| faces[i]).collect();
+        // Faces given back have higher numbers than the seed, so that the loop comes to them.
         charts.push(turned(faces, corners));
-        // Faces given back may have lower numbers, but none below the seed: those are all taken.
-        if !kept.iter().all(|&kept| kept) {
-            charts.extend(charts_of_rest(surface, &normals, &mut taken, agree, seed));
-        }
     }
     charts
 }
 
-/// One chart a face for what a chart gave back and no later seed would reach.
-fn charts_of_rest(
-    surface: &Surface,
-    _normals: &[DVec3],
-    taken: &mut [bool],
-    _agree: f64,
-    seed: u32,
-) -> Vec<Chart> {
-    let _ = (surface, taken, seed);
-    Vec::new()
+/// The chart turned to a small box that is no taller than wide.
+fn turned(faces: Vec<u32>, corners: Vec<[DVec2; 3]>) -> Chart {
+    let bounds = |turn: DVec2| {
+        let mut low = DVec2::INFINITY;
+        let mut high = DVec2::NEG_INFINITY;
+        for p in corners.iter().flatten() {
+            let p = turn.rotate(*p);
+            low = low.min(p);
+            high = high.max(p);
+        }
+        (low, high)
+    };
+    let best = (0..TURNS)
+        .map(|i| {
+            let angle = FRAC_PI_2 * f64::from(i) / f64::from(TURNS);
+            let turn = DVec2::new(libm::cos(angle), libm::sin(angle));
+            let (low, high) = bounds(turn);
+            (turn, (high - low).element_product())
+        })
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(DVec2::X, |(turn, _)| turn);
+    let (low, high) = bounds(best);
+    let size = high - low;
+    let turn = if size.y > size.x { best.perp() } else { best };
+    let (low, high) = bounds(turn);
+    Chart {
+        faces,
+        corners: corners
+            .into_iter()
+            .map(|corners| corners.map(|p| turn.rotate(p)))
+            .collect(),
+        low,
+        high,
+    }
+}
+
+/// Which faces stay if none may cover a texel's middle that an earlier one covers.
+fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    for &p in drawn.iter().flatten() {
+        low = low.min(p);
+        high = high.max(p);
+    }
+    let size = ((high - low) * texels_per_mm).ceil();
+    let (columns, rows) = (size.x as usize + 1, size.y as usize + 1);
+    let mut owned = vec![false; columns * rows];
+    drawn
+        .iter()
+        .map(|corners| {
+            let scaled = corners.map(|p| (p - low) * texels_per_mm);
+            let mut covered = Vec::new();
+            each_texel(&scaled, INSIDE, |x, y, _| {
+                covered.push(y as usize * columns + x as usize);
+            });
+            let free = covered.iter().all(|&texel| !owned[texel]);
+            if free {
+                for texel in covered {
+                    owned[texel] = true;
+                }
+            }
+            free
+        })
+        .collect()
+}
+
+/// Calls `visit(column, row, weights of the second and third corner)` for each texel whose middle lies in a triangle.
+///
+/// `margin` is the least weight that counts as inside: a little above 0 leaves shared edges to neither face, below 0 gives
+/// them to both. Coordinates are texels.
+pub(super) fn each_texel(
+    corners: &[DVec2; 3],
+    margin: f64,
+    mut visit: impl FnMut(i64, i64, [f64; 2]),
+) {
+    let [a, b, c] = *corners;
+    let twice = (b - a).perp_dot(c - a);
+    let low = a.min(b).min(c) - 0.5;
+    let high = a.max(b).max(c) - 0.5;
+    for y in low.y.ceil() as i64..=high.y.floor() as i64 {
+        for x in low.x.ceil() as i64..=high.x.floor() as i64 {
+            let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - a;
+            let v = p.perp_dot(c - a) / twice;
+            let w = (b - a).perp_dot(p) / twice;
+            if v >= margin && w >= margin && 1.0 - v - w >= margin {
+                visit(x, y, [v, w]);
+            }
+        }
+    }
 }

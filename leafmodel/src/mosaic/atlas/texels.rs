@@ -1,0 +1,162 @@
+//! Which place of the surface each texel shows.
+
+use glam::DVec2;
+
+use super::Texel;
+use super::chart::{Chart, each_texel};
+use crate::mosaic::surface::{Surface, SurfacePoint};
+
+/// Least weight that counts as inside: middles on an edge must not fall between two faces.
+const ON_EDGE: f64 = -1e-9;
+/// Most faces that a walk beyond a border crosses.
+const MOST_STEPS: u32 = 256;
+
+/// Texels inside the faces, and those within the gutter, which show where a straight way on beyond the border leads.
+pub(super) fn shown(
+    surface: &Surface,
+    charts: &[Chart],
+    in_texels: &[[DVec2; 3]],
+    texels: u32,
+    gutter: u32,
+) -> Vec<Texel> {
+    let side = texels as usize;
+    let mut shown = vec![Texel::NOTHING; side * side];
+    for (corners, face) in in_texels.iter().zip(0..) {
+        each_texel(corners, ON_EDGE, |x, y, [v, w]| {
+            let texel = &mut shown[y as usize * side + x as usize];
+            if texel.face == u32::MAX {
+                let point = SurfacePoint {
+                    face,
+                    barycentric: [1.0 - v - w, v, w],
+                };
+                *texel = Texel::showing(&point);
+            }
+        });
+    }
+    let mut chart_of = vec![0; in_texels.len()];
+    for (number, chart) in charts.iter().enumerate() {
+        for &face in &chart.faces {
+            chart_of[face as usize] = number;
+        }
+    }
+    let mut nearest = vec![f32::INFINITY; side * side];
+    for (corners, face) in in_texels.iter().zip(0..) {
+        for edge in 0..3 {
+            let same_chart = surface
+                .neighbour(face, edge)
+                .is_some_and(|beyond| chart_of[beyond as usize] == chart_of[face as usize]);
+            if same_chart {
+                continue;
+            }
+            let ends = [corners[edge], corners[(edge + 1) % 3]];
+            each_texel_near(ends, gutter, side, |index, middle, distance| {
+                let inside = shown[index].face != u32::MAX && nearest[index] == f32::INFINITY;
+                if inside || distance as f32 >= nearest[index] {
+                    return;
+                }
+                nearest[index] = distance as f32;
+                let point = beyond_border(surface, face, edge, corners, middle);
+                shown[index] = Texel::showing(&point);
+            });
+        }
+    }
+    shown
+}
+
+/// Calls `visit(index, middle, distance)` for texels whose middle is within the gutter of a line.
+fn each_texel_near(
+    [from, to]: [DVec2; 2],
+    gutter: u32,
+    side: usize,
+    mut visit: impl FnMut(usize, DVec2, f64),
+) {
+    let reach = f64::from(gutter);
+    let low = (from.min(to) - reach - 0.5).ceil().max(DVec2::ZERO);
+    let high = (from.max(to) + reach - 0.5)
+        .floor()
+        .min(DVec2::splat(side as f64 - 1.0));
+    for y in low.y as i64..=high.y as i64 {
+        for x in low.x as i64..=high.x as i64 {
+            let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let distance = middle.distance(nearest_on(from, to, middle));
+            if distance <= reach {
+                visit(y as usize * side + x as usize, middle, distance);
+            }
+        }
+    }
+}
+
+fn nearest_on(from: DVec2, to: DVec2, p: DVec2) -> DVec2 {
+    let along = to - from;
+    let share = (p - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+    from + along * share.clamp(0.0, 1.0)
+}
+
+/// Where a place beyond an edge of a chart lies on the surface: straight on from the nearest point of the edge.
+fn beyond_border(
+    surface: &Surface,
+    face: u32,
+    edge: usize,
+    corners: &[DVec2; 3],
+    middle: DVec2,
+) -> SurfacePoint {
+    let [a, b, c] = *corners;
+    let twice = (b - a).perp_dot(c - a);
+    // The drawing is an affine image of the face's own frame.
+    let in_frame = |p: DVec2| {
+        let v = (p - a).perp_dot(c - a) / twice;
+        let w = (b - a).perp_dot(p - a) / twice;
+        let flat = surface.corners(face);
+        flat[0] + (flat[1] - flat[0]) * v + (flat[2] - flat[0]) * w
+    };
+    let start = in_frame(nearest_on(corners[edge], corners[(edge + 1) % 3], middle));
+    let target = in_frame(middle);
+    match (surface.neighbour(face, edge), surface.unfold(face, edge)) {
+        (Some(beyond), Some(unfold)) => walk(
+            surface,
+            beyond,
+            surface.neighbour_edge(face, edge),
+            unfold.apply_inverse(start),
+            unfold.apply_inverse(target),
+        ),
+        _ => surface.point(face, start),
+    }
+}
+
+/// Where a straight way in a face's frame ends that goes on over unfolded neighbours; at a margin it stops.
+fn walk(
+    surface: &Surface,
+    mut face: u32,
+    mut entered: Option<usize>,
+    mut from: DVec2,
+    mut to: DVec2,
+) -> SurfacePoint {
+    for _ in 0..MOST_STEPS {
+        let corners = surface.corners(face);
+        let way = to - from;
+        let exit = (0..3)
+            .filter(|&edge| Some(edge) != entered)
+            .filter_map(|edge| {
+                let start = corners[edge];
+                let along = corners[(edge + 1) % 3] - start;
+                let outwards = way.perp_dot(along);
+                // Positive where the way leads out, as corners go round anticlockwise.
+                (outwards > 0.0).then(|| (edge, (start - from).perp_dot(along) / outwards))
+            })
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((edge, share)) = exit.filter(|&(_, share)| share < 1.0) else {
+            break;
+        };
+        let crossing = from + way * share.max(0.0);
+        let (Some(beyond), Some(unfold)) =
+            (surface.neighbour(face, edge), surface.unfold(face, edge))
+        else {
+            return surface.point(face, crossing);
+        };
+        from = unfold.apply_inverse(crossing);
+        to = unfold.apply_inverse(to);
+        entered = surface.neighbour_edge(face, edge);
+        face = beyond;
+    }
+    surface.point(face, to)
+}

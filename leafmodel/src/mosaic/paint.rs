@@ -1,0 +1,277 @@
+//! From cells to tissue: which types of cells a place has, blended over the edges between unlike cells.
+//!
+//! Inside a patch of one type its weight is 1. Over an edge between unlike cells the weights pass smoothly from one to the
+//! other over a width of choice. Edges between cells of the same type show nothing.
+//!
+//! - **In**: a surface, cells with their types, the width over which types blend.
+//! - **Out**: weights of the types at any point, and what the tissue holds there.
+//! - **Always true**: weights are in [0, 1] and add up to 1; they change continuously within a face.
+//! - **Left out**: mixing is linear in contents per area, as pigments of neighbouring cells in one light path add up.
+
+mod sheet;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+pub use self::sheet::SheetField;
+use super::patch::PatchFinder;
+use super::surface::{Surface, SurfacePoint};
+use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
+use crate::optics::Contents;
+
+/// Faces worked on together.
+const CHUNK: usize = 256;
+
+/// A border between cells of unlike types, in the frame of a face.
+#[derive(Clone, Copy, Debug)]
+struct Border {
+    from: DVec2,
+    to: DVec2,
+    kinds: [u16; 2],
+}
+
+/// Which types of cells a surface has where.
+#[derive(Clone, Debug)]
+pub struct TypeField {
+    voronoi: Voronoi,
+    corners: Vec<[DVec2; 3]>,
+    kinds: Vec<u16>,
+    types: usize,
+    half_blend: f64,
+    /// For each face the borders that can be felt in it.
+    borders: Vec<Vec<Border>>,
+}
+
+impl TypeField {
+    /// Cells at `sites` whose types (below `types`) are `kinds`, blended over `blend_mm` (0 for hard edges).
+    ///
+    /// Searching is per face: on a mesh whose faces hold hundreds of cells, subdivide it first.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many kinds as sites, no site at all, or a kind is not below `types`.
+    pub fn new(
+        surface: &Surface,
+        sites: &[SurfacePoint],
+        kinds: &[u16],
+        types: usize,
+        blend_mm: f64,
+    ) -> Self {
+        assert!(!sites.is_empty(), "a mosaic has cells");
+        assert_eq!(sites.len(), kinds.len(), "each cell has a kind");
+        assert!(
+            kinds.iter().all(|&kind| usize::from(kind) < types),
+            "kinds count from 0"
+        );
+        let voronoi = Voronoi::new(surface, sites);
+        Self::of_cells(surface, voronoi, kinds, types, blend_mm)
+    }
+
+    /// The same from a tessellation that is there already.
+    pub fn of_cells(
+        surface: &Surface,
+        voronoi: Voronoi,
+        kinds: &[u16],
+        types: usize,
+        blend_mm: f64,
+    ) -> Self {
+        let count = surface.faces().len() as u32;
+        let half_blend = 0.5 * blend_mm.max(0.0);
+        let own: Vec<Vec<Border>> = (0..count)
+            .map(|face| borders_in(&voronoi, kinds, face))
+            .collect();
+        let faces: Vec<u32> = (0..count).collect();
+        let borders = if half_blend == 0.0 {
+            vec![Vec::new(); faces.len()]
+        } else {
+            faces
+                .par_chunks(CHUNK)
+                .flat_map_iter(|chunk| {
+                    let mut finder = PatchFinder::new(surface);
+                    chunk
+                        .iter()
+                        .map(|&face| felt(surface, &mut finder, &own, face, half_blend))
+                        .collect::<Vec<_>>()
+                })
+                .collect()
+        };
+        Self {
+            voronoi,
+            corners: (0..count).map(|face| surface.corners(face)).collect(),
+            kinds: kinds.to_vec(),
+            types,
+            half_blend,
+            borders,
+        }
+    }
+
+    /// The tessellation.
+    pub fn voronoi(&self) -> &Voronoi {
+        &self.voronoi
+    }
+
+    /// How many types there are.
+    pub fn types(&self) -> usize {
+        self.types
+    }
+
+    /// The type of the cell nearest to a point. On a part of the surface without any cell, type 0.
+    pub fn kind(&self, point: &SurfacePoint) -> u16 {
+        self.kind_at(point.face, self.flat(point))
+    }
+
+    fn kind_at(&self, face: u32, flat: DVec2) -> u16 {
+        let cell = self.voronoi.nearest(face, flat);
+        cell.map_or(0, |cell| self.kinds[cell as usize])
+    }
+
+    fn flat(&self, point: &SurfacePoint) -> DVec2 {
+        let [a, b, c] = self.corners[point.face as usize];
+        let [u, v, w] = point.barycentric;
+        a * u + b * v + c * w
+    }
+
+    /// Weights of all types at a point, ≥ 0, sum 1, written to `weights` (one for each type).
+    ///
+    /// With `d` the distance to the nearest border of a type's patches and `b` the blend's width, a type beyond the border
+    /// has `S(½ − d / b)` and the type of the place itself `S(½ + d / b)`, `S` the smooth step `3 t² − 2 t³` held at 0 and 1; where
+    /// three types meet these are divided by their sum.
+    ///
+    /// # Panics
+    ///
+    /// If `weights` has another length than there are types.
+    pub fn type_weights(&self, point: &SurfacePoint, weights: &mut [f64]) {
+        assert_eq!(weights.len(), self.types, "a weight for each type");
+        let flat = self.flat(point);
+        let own = usize::from(self.kind_at(point.face, flat));
+        let borders = &self.borders[point.face as usize];
+        if borders.is_empty() {
+            weights.fill(0.0);
+            weights[own] = 1.0;
+            return;
+        }
+        weights.fill(f64::INFINITY);
+        for border in borders {
+            let distance = distance_to_segment(border.from, border.to, flat);
+            for kind in border.kinds {
+                let least = &mut weights[usize::from(kind)];
+                *least = least.min(distance);
+            }
+        }
+        weights[own] = f64::INFINITY;
+        let depth = weights.iter().copied().fold(f64::INFINITY, f64::min);
+        let blend = 2.0 * self.half_blend;
+        let mut sum = 0.0;
+        for (kind, weight) in weights.iter_mut().enumerate() {
+            *weight = if kind == own {
+                smooth_step(0.5 + depth / blend)
+            } else {
+                smooth_step(0.5 - *weight / blend)
+            };
+            sum += *weight;
+        }
+        for weight in weights {
+            *weight /= sum;
+        }
+    }
+
+    /// What the tissue holds at a point if tissue of each type holds `of_types`; `weights` is room to work in.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many contents and weights as types.
+    pub fn contents(
+        &self,
+        point: &SurfacePoint,
+        of_types: &[Contents],
+        weights: &mut [f64],
+    ) -> Contents {
+        assert_eq!(of_types.len(), self.types, "contents for each type");
+        self.type_weights(point, weights);
+        let mut sum = [0.0; Contents::COUNT];
+        for (contents, &weight) in of_types.iter().zip(&*weights) {
+            if weight > 0.0 {
+                for (sum, value) in sum.iter_mut().zip(contents.to_array()) {
+                    *sum += weight * value;
+                }
+            }
+        }
+        Contents::from_array(sum)
+    }
+
+    /// Contents at many points at once, on all threads; `None` stays `None`.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many contents as types.
+    pub fn paint(
+        &self,
+        points: impl IndexedParallelIterator<Item = Option<SurfacePoint>>,
+        of_types: &[Contents],
+    ) -> Vec<Option<Contents>> {
+        points
+            .map_init(
+                || vec![0.0; self.types],
+                |weights, point| point.map(|point| self.contents(&point, of_types, weights)),
+            )
+            .collect()
+    }
+}
+
+/// `3 t² − 2 t³` between 0 and 1.
+fn smooth_step(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// The borders between unlike cells within a face.
+fn borders_in(voronoi: &Voronoi, kinds: &[u16], face: u32) -> Vec<Border> {
+    let mut borders = Vec::new();
+    for piece in voronoi.pieces(face) {
+        for (from, to, beside) in piece.edges() {
+            // Each border is met from both sides; the lower cell's is kept.
+            if beside == FACE_EDGE || beside < piece.cell {
+                continue;
+            }
+            let pair = [kinds[piece.cell as usize], kinds[beside as usize]];
+            if pair[0] != pair[1] {
+                borders.push(Border {
+                    from,
+                    to,
+                    kinds: pair,
+                });
+            }
+        }
+    }
+    borders
+}
+
+/// The borders around a face that lie within `reach` of it.
+fn felt(
+    surface: &Surface,
+    finder: &mut PatchFinder,
+    own: &[Vec<Border>],
+    face: u32,
+    reach: f64,
+) -> Vec<Border> {
+    let corners = surface.corners(face);
+    let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let size = corners.map(|corner| corner.distance(centre));
+    let reach_of_centre = reach + size[0].max(size[1]).max(size[2]);
+    let mut borders = Vec::new();
+    for (other, unfold) in finder.patch(face, reach).faces() {
+        for border in &own[*other as usize] {
+            let (from, to) = (unfold.apply(border.from), unfold.apply(border.to));
+            if distance_to_segment(from, to, centre) <= reach_of_centre {
+                borders.push(Border {
+                    from,
+                    to,
+                    kinds: border.kinds,
+                });
+            }
+        }
+    }
+    borders
+}

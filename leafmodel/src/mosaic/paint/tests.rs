@@ -1,0 +1,146 @@
+use glam::DVec3;
+
+use super::*;
+use crate::mosaic::shapes::sphere;
+use crate::mosaic::voronoi::tests::{scattered, surface};
+
+fn kinds(sites: usize, types: u16) -> Vec<u16> {
+    (0..sites).map(|i| (i * 7 % 11) as u16 % types).collect()
+}
+
+/// A square sheet of side 10 mm.
+fn square() -> Surface {
+    let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
+    let coarse = Surface::new(
+        corners.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec(),
+        vec![[0, 1, 2], [0, 2, 3]],
+    )
+    .expect("a sheet");
+    coarse.subdivided(1.0).expect("a good length").0
+}
+
+fn contents(chlorophyll: f64) -> Contents {
+    Contents::new(1.5, chlorophyll, 8.0, 0.0, 0.0, 0.01, 0.005).expect("in range")
+}
+
+#[test]
+fn weights_add_up_to_one_and_hard_edges_show_the_nearest_cell() {
+    let ball = surface(sphere(20.0, 2.0).expect("good sizes"));
+    let sites = scattered(&ball, 500, 1);
+    let kinds = kinds(500, 3);
+    let soft = TypeField::new(&ball, &sites, &kinds, 3, 0.8);
+    let hard = TypeField::new(&ball, &sites, &kinds, 3, 0.0);
+    let mut weights = [0.0; 3];
+    let mut mixed = 0;
+    for probe in scattered(&ball, 3000, 2) {
+        soft.type_weights(&probe, &mut weights);
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!(weights.iter().all(|&w| (0.0..=1.0).contains(&w)));
+        mixed += usize::from(weights.iter().all(|&w| w < 1.0));
+        let own = usize::from(soft.kind(&probe));
+        assert!(
+            weights.iter().all(|&w| w <= weights[own] + 1e-9),
+            "the own type is strongest"
+        );
+        hard.type_weights(&probe, &mut weights);
+        assert_eq!(weights[own], 1.0);
+    }
+    assert!(mixed > 300 && mixed < 2700, "{mixed} places lie in a blend");
+}
+
+#[test]
+fn the_blend_is_half_and_half_on_the_edge_and_done_at_its_width() {
+    let sheet = square();
+    let field = TypeField::new(
+        &sheet,
+        &[
+            at(&sheet, DVec2::new(3.0, 5.0)),
+            at(&sheet, DVec2::new(7.0, 5.0)),
+        ],
+        &[0, 1],
+        2,
+        1.0,
+    );
+    let mut weights = [0.0; 2];
+    for (x, expected) in [
+        (4.4, 1.0),
+        (4.75, 0.84375),
+        (5.0, 0.5),
+        (5.25, 0.15625),
+        (5.6, 0.0),
+    ] {
+        field.type_weights(&at(&sheet, DVec2::new(x, 3.3)), &mut weights);
+        assert!((weights[0] - expected).abs() < 1e-9, "{x}: {weights:?}");
+    }
+}
+
+/// The point of a flat sheet at a place, by looking at all faces.
+fn at(sheet: &Surface, p: DVec2) -> SurfacePoint {
+    let one = SurfacePoint {
+        face: 0,
+        barycentric: [1.0, 0.0, 0.0],
+    };
+    let field = TypeField::new(sheet, &[one], &[0], 1, 0.0);
+    SheetField::new(sheet, field, false).locate(p)
+}
+
+#[test]
+fn weights_are_continuous_over_faces_of_a_flat_sheet() {
+    let sheet = square();
+    let sites = scattered(&sheet, 60, 4);
+    let kinds = kinds(60, 3);
+    let field = TypeField::new(&sheet, &sites, &kinds, 3, 0.5);
+    let field = SheetField::new(&sheet, field, false);
+    let (mut last, mut now) = ([0.0; 3], [0.0; 3]);
+    for line in 0..20 {
+        for step in 0..20_000 {
+            let p = DVec2::new(5e-4 * f64::from(step), 0.17 + 0.5 * f64::from(line));
+            field.field().type_weights(&field.locate(p), &mut now);
+            if step > 0 {
+                for (a, b) in last.iter().zip(&now) {
+                    // The smooth step's slope is at most 3/2 over the width of 0.5 mm; sums of three divide by at least ½,
+                    // which makes each weight at most six times as steep.
+                    assert!((a - b).abs() < 5e-4 * 3.0 * 6.0, "{p}: {last:?} {now:?}");
+                }
+            }
+            last = now;
+        }
+    }
+}
+
+#[test]
+fn beyond_the_margin_the_nearest_point_of_the_sheet_counts() {
+    let sheet = square();
+    for (outside, nearest) in [
+        ((-0.7, 4.2), (0.0, 4.2)),
+        ((10.6, 10.9), (10.0, 10.0)),
+        ((3.3, 3.4), (3.3, 3.4)),
+    ] {
+        let found = sheet.position(&at(&sheet, DVec2::from(outside)));
+        assert!(
+            found.truncate().distance(DVec2::from(nearest)) < 1e-9,
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn the_two_faces_of_a_blade_hold_half_of_its_contents_each() {
+    let sheet = square();
+    let both = Surface::both_faces(&sheet).expect("a small sheet");
+    let adaxial = at(&sheet, DVec2::new(5.0, 5.0));
+    let [u, v, w] = adaxial.barycentric;
+    let abaxial = SurfacePoint {
+        face: adaxial.face + sheet.faces().len() as u32,
+        barycentric: [u, w, v],
+    };
+    let field = TypeField::new(&both, &[adaxial, abaxial], &[0, 1], 2, 0.1);
+    let field = SheetField::new(&both, field, true);
+    let found = field.at(
+        DVec2::new(4.0, 6.0),
+        &[contents(60.0), contents(10.0)],
+        &mut [0.0; 2],
+    );
+    assert!((found.chlorophyll - 35.0).abs() < 1e-9);
+    assert!((found.water - 0.01).abs() < 1e-12 && (found.structure - 1.5).abs() < 1e-12);
+}

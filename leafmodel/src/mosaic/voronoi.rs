@@ -1,0 +1,324 @@
+//! Cells as polygons: each face cut into the parts that lie nearest to each cell.
+//!
+//! Distances are those of the plane into which a face's surroundings unfold ([`super::patch`]), so never through space. Within a
+//! face the tessellation is exact; on curved surfaces two faces may unfold a far cell a little differently, and a border may
+//! then jump by as much at their edge.
+//!
+//! - **In**: a [`Surface`] and the places of the cells.
+//! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas, neighbours.
+//! - **Always true**: the pieces of a face fill it and do not overlap; a cell that shares its place with none has positive area.
+//! - **Left out**: parts of a surface that no cell can be reached from stay empty.
+
+#[cfg(test)]
+pub(in crate::mosaic) mod tests;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::patch::PatchFinder;
+use super::surface::{Surface, SurfacePoint};
+
+/// No cell: an edge of the face itself.
+pub const FACE_EDGE: u32 = u32::MAX;
+/// First radius searched, in mean distances between cells.
+const FIRST_RADIUS: f64 = 2.0;
+/// Most doublings of that radius.
+const MOST_DOUBLINGS: u32 = 40;
+/// Faces worked on together.
+const CHUNK: usize = 256;
+
+/// The part of a face that lies nearest to one cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The cell.
+    pub cell: u32,
+    /// Corners in the face's frame, mm, anticlockwise.
+    pub corners: Vec<DVec2>,
+    /// The cell across the edge from each corner to the next, or [`FACE_EDGE`].
+    pub beside: Vec<u32>,
+}
+
+impl Piece {
+    /// Its area, mm².
+    pub fn area(&self) -> f64 {
+        let first = self.corners[0];
+        self.corners
+            .windows(2)
+            .map(|pair| 0.5 * (pair[0] - first).perp_dot(pair[1] - first))
+            .sum()
+    }
+
+    /// Its edges: both ends and the cell across.
+    pub fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2, u32)> + '_ {
+        let count = self.corners.len();
+        (0..count).map(move |k| {
+            (
+                self.corners[k],
+                self.corners[(k + 1) % count],
+                self.beside[k],
+            )
+        })
+    }
+}
+
+/// A polygon in space that belongs to a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellPolygon {
+    /// The cell.
+    pub cell: u32,
+    /// The face that it is part of.
+    pub face: u32,
+    /// Corners, mm, anticlockwise seen from outside.
+    pub corners: Vec<DVec3>,
+}
+
+/// One face: its pieces, and the cells that can be nearest to points of it, in its frame.
+#[derive(Clone, Debug, Default)]
+struct Cut {
+    pieces: Vec<Piece>,
+    near: Vec<(u32, DVec2)>,
+}
+
+/// The Voronoi tessellation of a surface by its cells.
+#[derive(Clone, Debug)]
+pub struct Voronoi {
+    cuts: Vec<Cut>,
+    areas: Vec<f64>,
+    /// For each cell its neighbours by rising number, with the length of the common border, mm.
+    neighbours: Vec<Vec<(u32, f64)>>,
+}
+
+impl Voronoi {
+    /// Tessellates a surface by cells at these places. Without cells nothing belongs to anyone.
+    pub fn new(surface: &Surface, sites: &[SurfacePoint]) -> Self {
+        let in_face = by_face(surface, sites);
+        let spacing = (surface.total_area() / sites.len().max(1) as f64).sqrt();
+        let faces: Vec<u32> = (0..surface.faces().len() as u32).collect();
+        let cuts: Vec<Cut> = if sites.is_empty() {
+            vec![Cut::default(); faces.len()]
+        } else {
+            faces
+                .par_chunks(CHUNK)
+                .flat_map_iter(|chunk| {
+                    let mut finder = PatchFinder::new(surface);
+                    let cut = |&face: &u32| {
+                        let near = near(surface, &mut finder, &in_face, face, spacing);
+                        cut_face(surface, face, near)
+                    };
+                    chunk.iter().map(cut).collect::<Vec<_>>()
+                })
+                .collect()
+        };
+        let mut areas = vec![0.0; sites.len()];
+        let mut borders = Vec::new();
+        for piece in cuts.iter().flat_map(|cut| &cut.pieces) {
+            areas[piece.cell as usize] += piece.area();
+            for (from, to, beside) in piece.edges() {
+                if beside != FACE_EDGE {
+                    borders.push((piece.cell, beside, from.distance(to)));
+                }
+            }
+        }
+        borders.sort_by_key(|&(cell, beside, _)| (cell, beside));
+        let mut neighbours: Vec<Vec<(u32, f64)>> = vec![Vec::new(); sites.len()];
+        for (cell, beside, length) in borders {
+            let list = &mut neighbours[cell as usize];
+            match list.last_mut() {
+                Some((last, sum)) if *last == beside => *sum += length,
+                Some(_) | None => list.push((beside, length)),
+            }
+        }
+        Self {
+            cuts,
+            areas,
+            neighbours,
+        }
+    }
+
+    /// The pieces of a face.
+    pub fn pieces(&self, face: u32) -> &[Piece] {
+        &self.cuts[face as usize].pieces
+    }
+
+    /// Area of each cell, mm².
+    pub fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// The cells that share a border with a cell by rising number, and the border's length, mm.
+    pub fn neighbours(&self, cell: u32) -> &[(u32, f64)] {
+        &self.neighbours[cell as usize]
+    }
+
+    /// The cell nearest to a place of a face's frame (mm); `None` where no cell can be reached.
+    pub fn nearest(&self, face: u32, flat: DVec2) -> Option<u32> {
+        let near = &self.cuts[face as usize].near;
+        let mut best = None;
+        let mut least = f64::INFINITY;
+        for &(cell, at) in near {
+            let distance = at.distance_squared(flat);
+            if distance < least {
+                least = distance;
+                best = Some(cell);
+            }
+        }
+        best
+    }
+
+    /// All pieces as polygons in space, face by face.
+    pub fn polygons<'a>(&'a self, surface: &'a Surface) -> impl Iterator<Item = CellPolygon> + 'a {
+        self.cuts.iter().zip(0..).flat_map(move |(cut, face)| {
+            cut.pieces.iter().map(move |piece| CellPolygon {
+                cell: piece.cell,
+                face,
+                corners: piece
+                    .corners
+                    .iter()
+                    .map(|&corner| surface.position(&surface.point(face, corner)))
+                    .collect(),
+            })
+        })
+    }
+}
+
+/// For each face the cells in it, in its frame.
+fn by_face(surface: &Surface, sites: &[SurfacePoint]) -> Vec<Vec<(u32, DVec2)>> {
+    let mut in_face = vec![Vec::new(); surface.faces().len()];
+    for (site, number) in sites.iter().zip(0..) {
+        in_face[site.face as usize].push((number, surface.flat(site)));
+    }
+    in_face
+}
+
+/// The cells that can be nearest to a point of a face.
+fn near(
+    surface: &Surface,
+    finder: &mut PatchFinder,
+    in_face: &[Vec<(u32, DVec2)>],
+    face: u32,
+    spacing: f64,
+) -> Vec<(u32, DVec2)> {
+    let triangle = surface.corners(face);
+    let mut radius = FIRST_RADIUS * spacing;
+    let mut faces_before = 0;
+    for _ in 0..MOST_DOUBLINGS {
+        let patch = finder.patch(face, radius);
+        let mut found: Vec<(u32, DVec2)> = Vec::new();
+        for (other, unfold) in patch.faces() {
+            let cells = in_face[*other as usize].iter();
+            found.extend(cells.map(|&(cell, at)| (cell, unfold.apply(at))));
+        }
+        // No point of the face is further than this from some cell.
+        let bound = found
+            .iter()
+            .map(|(_, at)| {
+                let far = triangle.map(|corner| corner.distance_squared(*at));
+                far[0].max(far[1]).max(far[2])
+            })
+            .fold(f64::INFINITY, f64::min)
+            .sqrt();
+        let whole = patch.faces().len() == faces_before;
+        if bound <= radius || (whole && patch.faces().len() == surface.faces().len()) {
+            let slack = bound * (1.0 + 1e-9);
+            found.retain(|(_, at)| distance_to_triangle(&triangle, *at) <= slack);
+            found.sort_by_key(|(cell, _)| *cell);
+            return found;
+        }
+        faces_before = patch.faces().len();
+        radius *= 2.0;
+    }
+    Vec::new()
+}
+
+/// Distance of a point to a triangle, 0 inside.
+pub(super) fn distance_to_triangle(corners: &[DVec2; 3], p: DVec2) -> f64 {
+    let inside =
+        (0..3).all(|k| (corners[(k + 1) % 3] - corners[k]).perp_dot(p - corners[k]) >= 0.0);
+    if inside {
+        return 0.0;
+    }
+    (0..3)
+        .map(|k| distance_to_segment(corners[k], corners[(k + 1) % 3], p))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Distance of a point to a segment.
+pub(super) fn distance_to_segment(from: DVec2, to: DVec2, p: DVec2) -> f64 {
+    let (along, way) = (to - from, p - from);
+    let share = way.dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+    way.distance(along * share.clamp(0.0, 1.0))
+}
+
+/// Cuts a face by the bisectors between the cells near it.
+fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
+    let triangle = surface.corners(face);
+    let mut pieces = Vec::new();
+    let mut others = near.clone();
+    for &(cell, at) in &near {
+        // The nearest cut away most.
+        others.sort_by(|a, b| {
+            let to = |other: &(u32, DVec2)| other.1.distance_squared(at);
+            to(a).total_cmp(&to(b)).then(a.0.cmp(&b.0))
+        });
+        let mut polygon: Vec<(DVec2, u32)> = triangle.map(|p| (p, FACE_EDGE)).to_vec();
+        let mut spare = Vec::with_capacity(12);
+        for &(other, place) in &others {
+            if other == cell {
+                continue;
+            }
+            if place == at {
+                // Of cells at one place the first takes all.
+                if other < cell {
+                    polygon.clear();
+                }
+                continue;
+            }
+            // The others are no nearer: beyond twice the way to the furthest corner none can cut.
+            let furthest = polygon
+                .iter()
+                .map(|(p, _)| p.distance_squared(at))
+                .fold(0.0, f64::max);
+            if place.distance_squared(at) > 4.0 * furthest * (1.0 + 1e-9) {
+                break;
+            }
+            clip(&polygon, at, place, other, &mut spare);
+            std::mem::swap(&mut polygon, &mut spare);
+            if polygon.is_empty() {
+                break;
+            }
+        }
+        if polygon.len() >= 3 {
+            let (corners, beside) = polygon.into_iter().unzip();
+            let piece = Piece {
+                cell,
+                corners,
+                beside,
+            };
+            if piece.area() > 0.0 {
+                pieces.push(piece);
+            }
+        }
+    }
+    Cut { pieces, near }
+}
+
+/// The part of a polygon that is at least as near to `at` as to `other`; new edges are tagged.
+fn clip(polygon: &[(DVec2, u32)], at: DVec2, other: DVec2, tag: u32, kept: &mut Vec<(DVec2, u32)>) {
+    kept.clear();
+    let normal = other - at;
+    let middle = at.midpoint(other);
+    let beyond = |p: DVec2| (p - middle).dot(normal);
+    for (k, &(p, edge)) in polygon.iter().enumerate() {
+        let (q, _) = polygon[(k + 1) % polygon.len()];
+        let (sp, sq) = (beyond(p), beyond(q));
+        let crossing = || p + (q - p) * (sp / (sp - sq));
+        if sp <= 0.0 {
+            kept.push((p, edge));
+            if sq > 0.0 {
+                kept.push((crossing(), tag));
+            }
+        } else if sq <= 0.0 {
+            kept.push((crossing(), edge));
+        }
+    }
+}
