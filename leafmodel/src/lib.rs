@@ -11,6 +11,7 @@ pub mod measure;
 pub mod mosaic;
 pub mod optics;
 pub mod shape;
+pub mod solid;
 pub mod species;
 pub mod transport;
 pub mod venation;

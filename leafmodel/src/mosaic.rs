@@ -16,6 +16,7 @@ mod growth;
 pub mod noise_pattern;
 pub mod paint;
 pub mod patch;
+pub mod pattern;
 mod plan;
 mod relaxation;
 pub mod shapes;

@@ -1,0 +1,156 @@
+//! A mosaic as tissue: what cells of each type hold.
+
+use glam::DVec2;
+use thiserror::Error;
+
+use super::paint::{SheetField, TypeField};
+use super::shapes::{ShapeError, sheet};
+use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError, SurfacePoint};
+use crate::optics::Contents;
+use crate::shape::outline::Outline;
+
+/// Cells on a surface are drawn on triangles of about this share of the distance between cells at the start.
+const EDGE_OVER_SPACING: f64 = 1.0;
+
+/// A mosaic whose cells hold pigments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MosaicPattern {
+    /// How its cells come about.
+    pub plan: MosaicPlan,
+    /// What tissue of each type holds, in the order of the types.
+    pub contents: Vec<Contents>,
+    /// Width over which unlike cells blend into one another, mm, 0 to 100.
+    pub blend_mm: f64,
+    /// On a leaf: whether each face has cells of its own.
+    pub faces: LeafFaces,
+}
+
+/// Where on a leaf cells live.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LeafFaces {
+    /// One layer of cells: the pattern goes through the blade.
+    #[default]
+    Through,
+    /// Both faces, joined at the margin; a leaf holds at each point the mean of what its two faces say.
+    Both,
+}
+
+/// Why there is no pattern.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PatternError {
+    /// The cells.
+    #[error(transparent)]
+    Mosaic(#[from] MosaicError),
+    /// The surface on which they live.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The sheet or body as triangles.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// Contents that do not belong to the types.
+    #[error("there are {types} cell types and contents for {contents}")]
+    Contents {
+        /// How many types there are.
+        types: usize,
+        /// For how many there are contents.
+        contents: usize,
+    },
+    /// An edge that cannot be blended.
+    #[error("blend_mm is {blend_mm}, it must be from 0 to 100")]
+    Blend {
+        /// Its width, mm.
+        blend_mm: f64,
+    },
+}
+
+impl MosaicPattern {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`PatternError`] for the first that is wrong.
+    pub fn validate(&self) -> Result<(), PatternError> {
+        self.plan.validate()?;
+        if self.contents.len() != self.plan.types.len() {
+            return Err(PatternError::Contents {
+                types: self.plan.types.len(),
+                contents: self.contents.len(),
+            });
+        }
+        if !(0.0..=100.0).contains(&self.blend_mm) {
+            let blend_mm = self.blend_mm;
+            return Err(PatternError::Blend { blend_mm });
+        }
+        Ok(())
+    }
+
+    /// Length of edge, mm, that suits triangles on which the mosaic is to grow, for a surface of `area` mm².
+    pub fn edge_mm(&self, area: f64) -> f64 {
+        EDGE_OVER_SPACING * (area / self.plan.initial_cells as f64).sqrt()
+    }
+
+    /// Grows the mosaic on a surface.
+    ///
+    /// # Errors
+    ///
+    /// [`PatternError`]; [`MosaicError::Stopped`] when `is_stopped` says so.
+    pub fn grow(
+        &self,
+        surface: &Surface,
+        seed: u64,
+        is_stopped: &dyn Fn() -> bool,
+    ) -> Result<(Mosaic, TypeField), PatternError> {
+        self.validate()?;
+        let days = [self.plan.days];
+        let mosaic = Mosaic::grow_until(surface, &self.plan, seed, &days, is_stopped)?.remove(0);
+        let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
+        let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
+        let types = self.plan.types.len();
+        let field = TypeField::new(&mosaic.surface, &sites, &kinds, types, self.blend_mm);
+        Ok((mosaic, field))
+    }
+
+    /// Grows the mosaic on a leaf's lamina.
+    ///
+    /// # Errors
+    ///
+    /// As [`MosaicPattern::grow`].
+    pub fn on_lamina(
+        &self,
+        outline: &Outline,
+        seed: u64,
+        is_stopped: &dyn Fn() -> bool,
+    ) -> Result<LaminaPattern, PatternError> {
+        self.validate()?;
+        let both = self.faces == LeafFaces::Both;
+        let area = outline.area() * if both { 2.0 } else { 1.0 };
+        let shape = sheet(outline, self.edge_mm(area))?;
+        let one = Surface::new(shape.positions, shape.faces)?;
+        let surface = if both {
+            Surface::both_faces(&one)?
+        } else {
+            one
+        };
+        let (mosaic, field) = self.grow(&surface, seed, is_stopped)?;
+        Ok(LaminaPattern {
+            sheet: SheetField::new(&mosaic.surface, field, both),
+            contents: self.contents.clone(),
+        })
+    }
+}
+
+/// A mosaic on a lamina, ready to be asked what the tissue holds.
+#[derive(Clone, Debug)]
+pub struct LaminaPattern {
+    sheet: SheetField,
+    contents: Vec<Contents>,
+}
+
+impl LaminaPattern {
+    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it. `weights` is room
+    /// to work in.
+    pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Contents {
+        weights.resize(self.contents.len(), 0.0);
+        self.sheet.at(point, &self.contents, weights)
+    }
+}

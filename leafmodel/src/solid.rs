@@ -1,0 +1,172 @@
+//! Bodies of solid tissue: fruits, stems, caps of mushrooms.
+//!
+//! - **In**: a shape, what its outer tissue holds, and a mosaic if it has one.
+//! - **Out**: a mesh with texture coordinates, and a map of contents over them.
+//! - **Always true**: contents are per area of the surface, of the tissue down to the depth that the optics are told.
+//! - **Left out**: the inside.
+
+mod shape;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use thiserror::Error;
+
+pub use self::shape::{SolidMesh, SolidShape, smooth_normals};
+use crate::blade::contents_map::ContentsMap;
+use crate::mosaic::atlas::{Atlas, AtlasError};
+use crate::mosaic::pattern::{MosaicPattern, PatternError};
+use crate::mosaic::shapes::{Shape, ShapeError};
+use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError};
+use crate::optics::Contents;
+
+/// Texels around each chart of the map.
+const GUTTER: u32 = 3;
+/// Edges where there is no mosaic, over the root of the area.
+const PLAIN_EDGE: f64 = 0.02;
+
+/// Everything that decides a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidPlan {
+    /// Its shape.
+    pub shape: SolidShape,
+    /// Same plan and seed, same body, bit for bit.
+    pub seed: u64,
+    /// What its outer tissue holds per area of the surface where no mosaic says otherwise.
+    pub contents: Contents,
+    /// Cells with contents of their own.
+    pub mosaic: Option<MosaicPattern>,
+    /// Texels of the map of contents along a side, 16 to 8192.
+    pub map_size: u32,
+}
+
+/// A body as mesh and map. Lengths are millimetres.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Points.
+    pub positions: Vec<DVec3>,
+    /// Unit normals, outwards.
+    pub normals: Vec<DVec3>,
+    /// Texture coordinates, 0 to 1.
+    pub uvs: Vec<DVec2>,
+    /// Points of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Contents over the texture coordinates.
+    pub contents: ContentsMap,
+    /// The mosaic, if the body has one.
+    pub mosaic: Option<Mosaic>,
+}
+
+/// Why a body cannot be grown.
+#[derive(Debug, Error)]
+pub enum SolidError {
+    /// Its shape.
+    #[error("shape: {0}")]
+    Shape(#[from] ShapeError),
+    /// Its surface.
+    #[error("shape: {0}")]
+    Surface(#[from] SurfaceError),
+    /// Its mosaic.
+    #[error("mosaic: {0}")]
+    Mosaic(#[from] PatternError),
+    /// Its map.
+    #[error("map_size: {0}")]
+    Atlas(#[from] AtlasError),
+}
+
+impl SolidError {
+    /// Whether growing was stopped, and nothing is wrong.
+    pub fn is_stop(&self) -> bool {
+        matches!(
+            self,
+            Self::Mosaic(PatternError::Mosaic(MosaicError::Stopped))
+        )
+    }
+}
+
+impl Solid {
+    /// Grows the body of a plan, or gives up when `is_stopped` says so.
+    ///
+    /// # Errors
+    ///
+    /// [`SolidError`] of the first stage whose numbers are out of range.
+    pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, SolidError> {
+        if let Some(pattern) = &plan.mosaic {
+            pattern.validate()?;
+        }
+        let area = plan.shape.area()?;
+        let edge_mm = plan
+            .mosaic
+            .as_ref()
+            .map_or(f64::INFINITY, |pattern| pattern.edge_mm(area))
+            .min(PLAIN_EDGE * area.sqrt());
+        let shape = plan.shape.triangles(edge_mm)?;
+        let Some(pattern) = &plan.mosaic else {
+            return Ok(Self::plain(shape, plan.contents));
+        };
+        let surface = Surface::new(shape.positions.clone(), shape.faces.clone())?;
+        let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
+        let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
+        let texels = atlas.texels();
+        let painted = field.paint(
+            (0..texels * texels)
+                .into_par_iter()
+                .map(|texel| atlas.shown(texel % texels, texel / texels)),
+            &pattern.contents,
+        );
+        let texel = |contents: Option<Contents>| {
+            let contents = contents.unwrap_or(plan.contents);
+            contents.to_array().map(|value| value as f32)
+        };
+        let contents = ContentsMap {
+            width: texels,
+            height: texels,
+            texels: painted.into_iter().map(texel).collect(),
+        };
+        let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
+        let mut triangles = Vec::with_capacity(shape.faces.len());
+        // A point has as many vertices as charts meet in it.
+        let mut vertices: Vec<Vec<(DVec2, u32)>> = vec![Vec::new(); shape.positions.len()];
+        for (face, corners) in shape.faces.iter().zip(atlas.uvs()) {
+            let mut triangle = [0; 3];
+            for ((index, &point), &uv) in triangle.iter_mut().zip(face).zip(corners) {
+                let known = &mut vertices[point as usize];
+                *index = known
+                    .iter()
+                    .find(|(other, _)| *other == uv)
+                    .map(|(_, vertex)| *vertex)
+                    .unwrap_or_else(|| {
+                        let vertex = positions.len() as u32;
+                        positions.push(shape.positions[point as usize]);
+                        normals.push(shape.normals[point as usize]);
+                        uvs.push(uv);
+                        known.push((uv, vertex));
+                        vertex
+                    });
+            }
+            triangles.push(triangle);
+        }
+        Ok(Self {
+            positions,
+            normals,
+            uvs,
+            triangles,
+            contents,
+            mosaic: Some(mosaic),
+        })
+    }
+
+    fn plain(shape: Shape, contents: Contents) -> Self {
+        Self {
+            uvs: vec![DVec2::splat(0.5); shape.positions.len()],
+            positions: shape.positions,
+            normals: shape.normals,
+            triangles: shape.faces,
+            contents: ContentsMap {
+                width: 1,
+                height: 1,
+                texels: vec![contents.to_array().map(|value| value as f32)],
+            },
+            mosaic: None,
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What bodies there are.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, lathe, rounded_cube};
+
+/// The shape of a body, mm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SolidShape {
+    /// An ellipsoid about the origin; a sphere if its semi-axes are alike.
+    Ellipsoid {
+        /// Half the extents along x, y and z.
+        semi_axes_mm: DVec3,
+    },
+    /// A cube about the origin with rounded edges.
+    RoundedCube {
+        /// Length of a side.
+        side_mm: f64,
+        /// Radius of its edges, up to half the side.
+        corner_radius_mm: f64,
+    },
+    /// A smooth profile turned about the z axis.
+    Lathe {
+        /// Points (distance from the axis, height), from below.
+        profile_mm: Vec<DVec2>,
+    },
+    /// Triangles made elsewhere.
+    Mesh(Arc<SolidMesh>),
+}
+
+/// Triangles made elsewhere, and the file that they come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidMesh {
+    /// What the scene calls the file.
+    pub file: String,
+    /// Millimetres per unit of the file.
+    pub scale_mm: f64,
+    /// The triangles, mm.
+    pub shape: Shape,
+}
+
+impl SolidShape {
+    /// Area, mm², to within a few per cent.
+    ///
+    /// # Errors
+    ///
+    /// [`ShapeError`] if there is no such shape.
+    pub fn area(&self) -> Result<f64, ShapeError> {
+        let size = match self {
+            Self::Ellipsoid { semi_axes_mm } => semi_axes_mm.max_element(),
+            Self::RoundedCube { side_mm, .. } => *side_mm,
+            Self::Lathe { profile_mm } => profile_mm
+                .iter()
+                .flat_map(|point| point.to_array())
+                .fold(0.0, |most, value| value.abs().max(most)),
+            Self::Mesh(mesh) => return Ok(area(&mesh.shape)),
+        };
+        self.triangles(0.1 * size).map(|shape| area(&shape))
+    }
+
+    /// As triangles with edges of at most `max_edge_mm`; meshes made elsewhere as they are.
+    ///
+    /// # Errors
+    ///
+    /// [`ShapeError`] if there is no such shape.
+    pub fn triangles(&self, max_edge_mm: f64) -> Result<Shape, ShapeError> {
+        match self {
+            Self::Ellipsoid { semi_axes_mm } => ellipsoid(*semi_axes_mm, max_edge_mm),
+            Self::RoundedCube {
+                side_mm,
+                corner_radius_mm,
+            } => rounded_cube(*side_mm, *corner_radius_mm, max_edge_mm),
+            Self::Lathe { profile_mm } => lathe(profile_mm, max_edge_mm),
+            Self::Mesh(mesh) => Ok(mesh.shape.clone()),
+        }
+    }
+}
+
+fn area(shape: &Shape) -> f64 {
+    let corner = |vertex: u32| shape.positions[vertex as usize];
+    let doubled = shape.faces.iter().map(|&[a, b, c]| {
+        let (a, b, c) = (corner(a), corner(b), corner(c));
+        (b - a).cross(c - a).length()
+    });
+    0.5 * doubled.sum::<f64>()
+}
+
+/// Unit normals at the points of a mesh that has none: the mean of the faces around, by area.
+pub fn smooth_normals(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; positions.len()];
+    for &[a, b, c] in faces {
+        let corner = |vertex: u32| positions[vertex as usize];
+        let normal = (corner(b) - corner(a)).cross(corner(c) - corner(a));
+        for vertex in [a, b, c] {
+            sums[vertex as usize] += normal;
+        }
+    }
+    sums.into_iter()
+        .map(|sum| sum.try_normalize().unwrap_or(DVec3::Z))
+        .collect()
+}
