@@ -26,7 +26,7 @@ const THROWS: u32 = 1000;
 const CHILD_TRIES: u64 = 16;
 
 /// Faces are cut until no edge is longer than this, over the radius.
-const LONGEST_EDGE: f64 = 0.8;
+const LONGEST_EDGE: f64 = 1.5;
 
 /// A cell of a mosaic.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,6 +13,13 @@ use crate::mosaic::surface::{Surface, Unfold};
 /// How far a block reaches from the middle of its base, as a share of the radius.
 const HUB: f64 = 0.4;
 
+/// The same where faces are many: then looking through the faces of a patch takes longer than looking through its cells, and
+/// fewer blocks take less memory.
+const HUB_OF_MANY: f64 = 0.8;
+
+/// Faces in a square whose side is the radius that count as many.
+const MANY: f64 = 50.0;
+
 /// Faces of a block are turned against its base by no more than an angle of this cosine (20°).
 const LEAST_COSINE: f64 = 0.94;
 
@@ -31,19 +38,23 @@ pub(super) struct Block {
 
 /// Cuts a surface into blocks for repulsion within a radius. Every face is in one of them.
 pub(super) fn blocks(surface: &Surface, radius: f64) -> Vec<Block> {
-    let owned = own_faces(surface, radius);
+    let per_square = surface.faces().len() as f64 * radius * radius / surface.total_area();
+    let hub = radius * if per_square > MANY { HUB_OF_MANY } else { HUB };
+    let owned = own_faces(surface, hub);
     let block = |finder: &mut PatchFinder<'_>, own: &Vec<u32>| {
         let base = own[0];
         let centre = surface.flat(&surface.centre(base));
         // The faces were put together with the hub as their bound, a lone base may be larger.
         let corners = surface.corners(base);
-        let hub = corners.iter().map(|corner| corner.distance(centre));
-        let hub = hub.fold(if own.len() > 1 { HUB * radius } else { 0.0 }, f64::max);
-        let patch = finder.patch_of_disc(base, hub, radius);
+        let base_reach = corners.iter().map(|corner| corner.distance(centre));
+        let own_hub = base_reach.fold(if own.len() > 1 { hub } else { 0.0 }, f64::max);
+        let patch = finder.patch_of_disc(base, own_hub, radius);
+        let mut sorted = own.clone();
+        sorted.sort_unstable();
         let mut mine = Vec::with_capacity(own.len());
         let mut reach: f64 = 0.0;
         for &(face, unfold) in patch.faces() {
-            if own.contains(&face) {
+            if sorted.binary_search(&face).is_ok() {
                 mine.push((face, unfold));
                 for corner in surface.corners(face) {
                     reach = reach.max(unfold.apply(corner).distance(centre));
@@ -64,7 +75,7 @@ pub(super) fn blocks(surface: &Surface, radius: f64) -> Vec<Block> {
 }
 
 /// The faces of each block, the base first.
-fn own_faces(surface: &Surface, radius: f64) -> Vec<Vec<u32>> {
+fn own_faces(surface: &Surface, hub: f64) -> Vec<Vec<u32>> {
     let count = surface.faces().len();
     let normals: Vec<_> = (0..count as u32).map(|face| surface.normal(face)).collect();
     let mut taken = vec![false; count];
@@ -75,13 +86,11 @@ fn own_faces(surface: &Surface, radius: f64) -> Vec<Vec<u32>> {
             continue;
         }
         let centre = surface.flat(&surface.centre(base as u32));
-        let patch = finder.patch_of_disc(base as u32, 0.0, HUB * radius);
+        let patch = finder.patch_of_disc(base as u32, 0.0, hub);
         let mut own = Vec::new();
         for &(face, unfold) in patch.faces() {
             let corners = surface.corners(face).map(|corner| unfold.apply(corner));
-            let within = corners
-                .iter()
-                .all(|corner| corner.distance(centre) <= HUB * radius);
+            let within = corners.iter().all(|corner| corner.distance(centre) <= hub);
             let flat = normals[base].dot(normals[face as usize]) >= LEAST_COSINE;
             let joins = face as usize == base || (within && flat);
             if joins && !taken[face as usize] {

@@ -414,6 +414,7 @@ fn what_a_plan_has_wrong_is_named() {
         types: MosaicPlan::two_types([0.1, 0.1], [0.5, 0.8], 0.1, 0.0),
         initial_relaxations: 0,
         step: 0.0,
+        radius_weight: 10.0,
         ..small(100_000, 1000.0)
     };
     let error = Mosaic::grow(&square(10.0, 5.0), &explosive, 1).expect_err("too many");
