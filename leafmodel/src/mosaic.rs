@@ -10,13 +10,28 @@
 //! - **Left out**: what genes do inside a cell.
 
 pub mod atlas;
+#[cfg(test)]
+mod claims;
+mod control;
+mod division;
+mod growth;
 pub mod noise_pattern;
 pub mod paint;
 pub mod patch;
+mod plan;
+mod relaxation;
 pub mod shapes;
+mod simulation;
 pub mod statistics;
 pub mod surface;
+#[cfg(test)]
+mod testing;
 pub mod voronoi;
+mod walk;
 
+pub use self::control::{ControlError, ControlImage, CylinderControl, Steered};
+pub use self::growth::{GrowthCourse, SurfaceGrowth};
 pub use self::patch::{Patch, PatchFinder};
+pub use self::plan::{CellType, MosaicError, MosaicPlan, RadiusRule};
+pub use self::simulation::{Cell, Mosaic};
 pub use self::surface::{Ancestry, Surface, SurfaceError, SurfacePoint, Unfold};

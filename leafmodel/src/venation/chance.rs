@@ -24,6 +24,14 @@ pub(crate) enum Use {
     Light = 8,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
+    /// Where a cell of a mosaic is thrown, and where beside its parent a child lies.
+    MosaicPlace = 11,
+    /// The type of a cell of a mosaic.
+    MosaicKind = 12,
+    /// When a cell of a mosaic divides.
+    MosaicDivision = 13,
+    /// The images that steer a mosaic.
+    MosaicImage = 14,
     /// Gradients of noise patterns.
     NoiseGradient = 15,
     /// How a null model shuffles the kinds of cells.

@@ -1,0 +1,111 @@
+//! When cells divide, and into what.
+
+use glam::DVec2;
+
+use super::plan::CellType;
+use crate::venation::chance::{Use, bits, uniform};
+
+/// Diameter of the disc in which a child lies, over the repulsion radius.
+pub(super) const CHILD_DISC: f64 = 0.01;
+
+/// Beyond this mean (relaxation events) the spread of a Poisson number is below a third of a per cent and left away.
+const LARGE_MEAN: f64 = 1e5;
+
+/// `exp(-mean)` of parts above this would lose digits.
+const PART: f64 = 500.0;
+
+/// After how many relaxation events, 1 or more, a cell divides: Poisson distributed about `mean`. None if never.
+///
+/// Draws of 0 count as 1: a cell has to be there before it divides.
+pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64> {
+    if !mean.is_finite() {
+        return None;
+    }
+    if mean > LARGE_MEAN {
+        return Some(mean as u64);
+    }
+    let mut left = mean;
+    let mut drawn = 0;
+    let mut part = 0;
+    while left > 0.0 {
+        let now = left.min(PART);
+        drawn += poisson(now, uniform(id, Use::MosaicDivision, counter * 256 + part));
+        left -= now;
+        part += 1;
+    }
+    Some(drawn.max(1))
+}
+
+/// A Poisson number from a uniform one, by inversion.
+fn poisson(mean: f64, u: f64) -> u64 {
+    let mut probability = libm::exp(-mean);
+    let mut up_to = probability;
+    let mut number = 0;
+    while u >= up_to && (number as f64) < mean + 40.0 * (mean + 1.0).sqrt() {
+        number += 1;
+        probability *= mean / number as f64;
+        up_to += probability;
+    }
+    number
+}
+
+/// The type of a cell from the probabilities of all types and a uniform number.
+pub(super) fn chosen(probabilities: impl IntoIterator<Item = f64>, u: f64) -> u16 {
+    let mut up_to = 0.0;
+    let mut last = 0;
+    for (kind, probability) in probabilities.into_iter().enumerate() {
+        up_to += probability;
+        if probability > 0.0 {
+            last = kind as u16;
+            if u < up_to {
+                break;
+            }
+        }
+    }
+    last
+}
+
+/// The type of the child that a cell of a type has at its division number `counter`.
+pub(super) fn kind_of_child(parent: &CellType, id: u64, counter: u64) -> u16 {
+    let u = uniform(id, Use::MosaicKind, counter);
+    chosen(parent.switching.iter().copied(), u)
+}
+
+/// Name of the child, from which all its chances come.
+pub(super) fn child_id(parent: u64, counter: u64) -> u64 {
+    bits(parent, Use::MosaicDivision, u64::MAX - counter)
+}
+
+/// Where the child lies, from its parent, for a radius of 1: uniform in a disc; `attempt` gives others.
+pub(super) fn place_of_child(id: u64, attempt: u64) -> DVec2 {
+    let u = [0, 1].map(|k| uniform(id, Use::MosaicPlace, 2 * attempt + k));
+    let angle = u[1] * std::f64::consts::TAU;
+    DVec2::new(libm::cos(angle), libm::sin(angle)) * (0.5 * CHILD_DISC * u[0].sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_of_division_are_poisson_distributed() {
+        for mean in [2.0, 20.0, 700.0] {
+            let n = 20_000;
+            let draws = (0..n).map(|i| events_to_division(i, 3, mean).expect("finite") as f64);
+            let draws: Vec<f64> = draws.collect();
+            let average = draws.iter().sum::<f64>() / n as f64;
+            let variance = draws.iter().map(|x| (x - average).powi(2)).sum::<f64>() / n as f64;
+            // Standard error of the mean √(mean/n); zeros count as one, which for mean 2 adds e⁻² = 0.135.
+            let raised = libm::exp(-mean);
+            assert!(
+                (average - mean - raised).abs() < 4.5 * (mean / n as f64).sqrt(),
+                "{average}"
+            );
+            if mean > 10.0 {
+                assert!((variance / mean - 1.0).abs() < 0.05, "{variance}");
+            }
+        }
+        assert_eq!(events_to_division(1, 0, f64::INFINITY), None);
+        assert_eq!(events_to_division(1, 0, 3e6), Some(3_000_000));
+    }
+}

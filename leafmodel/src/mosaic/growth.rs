@@ -1,0 +1,86 @@
+//! A surface that grows while its cells divide.
+
+use glam::DVec3;
+
+use super::plan::{MosaicError, in_range};
+
+/// Whether and how the surface grows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SurfaceGrowth {
+    /// It has its final size from the start. Cells divide at the rates of their types and crowd.
+    #[default]
+    None,
+    /// It grows in each direction from a part of its final size to that size. Cells keep their place in the tissue and their
+    /// area: a region has as many divisions as its growth makes room for, shared among its cells by the rates of their types.
+    Anisotropic {
+        /// Size along x, y and z at the start over the final size, 0.01 to 10.
+        start: DVec3,
+        /// How the size goes from the one to the other.
+        course: GrowthCourse,
+    },
+}
+
+/// How size goes from the first to the last over the days of the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum GrowthCourse {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// Slowly, fast, slowly.
+    Logistic {
+        /// When growth is fastest, as a share of the days, 0 to 1.
+        middle: f64,
+        /// How much faster than even it is about, 1 to 100: the rate of the logistic function over the days.
+        steepness: f64,
+    },
+}
+
+impl GrowthCourse {
+    /// Share of growth that is done when a share of the days has gone: 0 at 0, 1 at 1, rising.
+    pub fn done(&self, share: f64) -> f64 {
+        let share = share.clamp(0.0, 1.0);
+        match *self {
+            Self::Linear => share,
+            Self::Logistic { middle, steepness } => {
+                let at = |x: f64| 1.0 / (1.0 + libm::exp(-steepness * (x - middle)));
+                ((at(share) - at(0.0)) / (at(1.0) - at(0.0))).clamp(0.0, 1.0)
+            }
+        }
+    }
+}
+
+impl SurfaceGrowth {
+    pub(super) fn validate(&self) -> Result<(), MosaicError> {
+        let Self::Anisotropic { start, course } = *self else {
+            return Ok(());
+        };
+        for (axis, value) in ["x", "y", "z"].iter().zip(start.to_array()) {
+            let good = (0.01..=10.0).contains(&value);
+            in_range(
+                &format!("size at the start along {axis}"),
+                value,
+                good,
+                "0.01 to 10",
+            )?;
+        }
+        if let GrowthCourse::Logistic { middle, steepness } = course {
+            in_range(
+                "middle of growth",
+                middle,
+                (0.0..=1.0).contains(&middle),
+                "0 to 1",
+            )?;
+            let good = (1.0..=100.0).contains(&steepness);
+            in_range("steepness of growth", steepness, good, "1 to 100")?;
+        }
+        Ok(())
+    }
+
+    /// Size over final size along each axis when a share of the days has gone; none if nothing grows.
+    pub(super) fn size(&self, share: f64) -> Option<DVec3> {
+        match self {
+            Self::None => None,
+            Self::Anisotropic { start, course } => Some(start.lerp(DVec3::ONE, course.done(share))),
+        }
+    }
+}

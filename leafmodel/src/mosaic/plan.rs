@@ -1,0 +1,341 @@
+//! What a clonal mosaic grows from.
+
+use thiserror::Error;
+
+use super::control::{ControlError, CylinderControl};
+use super::growth::SurfaceGrowth;
+use super::surface::SurfaceError;
+
+/// Rounding that a sum of probabilities may show.
+const TOLERANCE: f64 = 1e-6;
+
+/// A kind of cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellType {
+    /// What it is called.
+    pub name: String,
+    /// Mean days between divisions, positive; infinity: it never divides.
+    pub division_days: f64,
+    /// Share of the initial cells that are of this type, 0 to 1; over all types the sum is 1.
+    pub initial_probability: f64,
+    /// For each type the probability that a child is of it; the sum is 1.
+    pub switching: Vec<f64>,
+    /// For each type how far cells of both adhere: 0 (they repel in full) to 1 (not at all). As a matrix, symmetric.
+    pub adhesion: Vec<f64>,
+}
+
+/// Which number of cells decides the radius within which cells repel one another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RadiusRule {
+    /// The initial one: the radius stays while cells crowd.
+    #[default]
+    Initial,
+    /// Each day's, with that day's area.
+    Daily,
+}
+
+/// A mosaic: cell types, and how long and by what rules they grow.
+///
+/// # Source
+///
+/// The paper \[walter-plants\] gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
+/// relaxations a day, adhesion 0 between types) has the values that the authors' program starts with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MosaicPlan {
+    /// Cells at the start, 1 or more.
+    pub initial_cells: usize,
+    /// How long the mosaic grows, days, 0 or more.
+    pub days: f64,
+    /// `w_r`: the radius within which cells repel one another over the root of the mean area of a cell, 0.1 to 10.
+    pub radius_weight: f64,
+    /// `ρ`: relaxation events a day, 1 to 1000.
+    pub relaxations_per_day: u32,
+    /// How far a cell moves for a force of 1, as a share of the radius, 0 to 1.
+    pub step: f64,
+    /// Relaxation events before the first day, with no adhesion at all.
+    pub initial_relaxations: u32,
+    /// `step` in these, 0 to 1.
+    pub initial_step: f64,
+    /// Which number of cells decides the radius.
+    pub radius: RadiusRule,
+    /// The types, one or more.
+    pub types: Vec<CellType>,
+    /// Cylinders that steer what happens where; of those that steer the same, each acts on what the one before left.
+    pub controls: Vec<CylinderControl>,
+    /// Whether the surface grows meanwhile.
+    pub growth: SurfaceGrowth,
+}
+
+/// Why a plan cannot be grown.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MosaicError {
+    /// A number outside its range.
+    #[error("{field} is {value}, outside {range}")]
+    OutOfRange {
+        /// Which number.
+        field: String,
+        /// What it is.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A plan without cell types, or with more than there are numbers for.
+    #[error("there are {count} cell types; a mosaic has 1 to 1000")]
+    Types {
+        /// How many there are.
+        count: usize,
+    },
+    /// A row with more or fewer numbers than types.
+    #[error("{field} of type \"{name}\" has {length} numbers; there are {types} types")]
+    RowLength {
+        /// Which row.
+        field: &'static str,
+        /// Whose it is.
+        name: String,
+        /// Its length.
+        length: usize,
+        /// What its length should be.
+        types: usize,
+    },
+    /// Probabilities that do not make one.
+    #[error("{field} sum to {sum}, not to 1")]
+    NotOne {
+        /// Which ones.
+        field: String,
+        /// Their sum.
+        sum: f64,
+    },
+    /// Adhesion that depends on who asks.
+    #[error(
+        "adhesion of \"{first}\" to \"{second}\" is {there}, of \"{second}\" to \"{first}\" {back}; the two have to be equal"
+    )]
+    Asymmetric {
+        /// One type.
+        first: String,
+        /// The other type.
+        second: String,
+        /// Adhesion of the first to the second.
+        there: f64,
+        /// Adhesion of the second to the first.
+        back: f64,
+    },
+    /// A cylinder that steers nothing sensible.
+    #[error("control {number} (from 0): {error}")]
+    Control {
+        /// Which of the plan's controls.
+        number: usize,
+        /// What is wrong with it.
+        error: ControlError,
+    },
+    /// Blocked areas that leave no room.
+    #[error("the blocked areas leave no room for cells: {tries} throws found none")]
+    AllBlocked {
+        /// How many throws were made.
+        tries: u32,
+    },
+    /// More cells than can be handled.
+    #[error(
+        "on day {day} there are more than {most} cells; make the days fewer or the divisions rarer"
+    )]
+    TooManyCells {
+        /// When.
+        day: f64,
+        /// How many can be handled.
+        most: usize,
+    },
+    /// A surface that cannot be grown on.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Growing was stopped.
+    #[error("stopped")]
+    Stopped,
+}
+
+impl Default for MosaicPlan {
+    /// The croton of the paper's Fig. 1.
+    fn default() -> Self {
+        Self {
+            initial_cells: 2000,
+            days: 35.0,
+            radius_weight: 1.0,
+            relaxations_per_day: 4,
+            step: 0.066,
+            initial_relaxations: 70,
+            initial_step: 0.005,
+            radius: RadiusRule::Initial,
+            types: Self::two_types([10.0, 10.0], [0.5, 0.8], 0.1, 0.0),
+            controls: Vec::new(),
+            growth: SurfaceGrowth::None,
+        }
+    }
+}
+
+impl MosaicPlan {
+    /// The paper's two types, foreground (0) and background (1), which do not adhere to one another.
+    ///
+    /// `division_days` and `adhesion` (`α_FF`, `α_BB`) are those of foreground and background, `initial_share` is that of the
+    /// foreground, and `switching` the probability that a child of a background cell is foreground.
+    pub fn two_types(
+        division_days: [f64; 2],
+        adhesion: [f64; 2],
+        initial_share: f64,
+        switching: f64,
+    ) -> Vec<CellType> {
+        vec![
+            CellType {
+                name: "foreground".into(),
+                division_days: division_days[0],
+                initial_probability: initial_share,
+                switching: vec![1.0, 0.0],
+                adhesion: vec![adhesion[0], 0.0],
+            },
+            CellType {
+                name: "background".into(),
+                division_days: division_days[1],
+                initial_probability: 1.0 - initial_share,
+                switching: vec![switching, 1.0 - switching],
+                adhesion: vec![0.0, adhesion[1]],
+            },
+        ]
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`MosaicError`] for the first that is wrong.
+    pub fn validate(&self) -> Result<(), MosaicError> {
+        let numbers = [
+            (
+                "initial_cells",
+                self.initial_cells as f64,
+                1.0..=4e6,
+                "1 to 4000000",
+            ),
+            ("days", self.days, 0.0..=1e5, "0 to 100000"),
+            ("radius_weight", self.radius_weight, 0.1..=10.0, "0.1 to 10"),
+            (
+                "relaxations_per_day",
+                f64::from(self.relaxations_per_day),
+                1.0..=1000.0,
+                "1 to 1000",
+            ),
+            ("step", self.step, 0.0..=1.0, "0 to 1"),
+            (
+                "initial_relaxations",
+                f64::from(self.initial_relaxations),
+                0.0..=1e5,
+                "0 to 100000",
+            ),
+            ("initial_step", self.initial_step, 0.0..=1.0, "0 to 1"),
+        ];
+        for (field, value, allowed, range) in numbers {
+            in_range(field, value, allowed.contains(&value), range)?;
+        }
+        let count = self.types.len();
+        if !(1..=1000).contains(&count) {
+            return Err(MosaicError::Types { count });
+        }
+        for kind in &self.types {
+            kind.validate(count)?;
+        }
+        let initial = self.types.iter().map(|kind| kind.initial_probability);
+        sums_to_one(
+            "the initial probabilities of the types".into(),
+            initial.sum(),
+        )?;
+        self.adhesion_is_symmetric()?;
+        self.growth.validate()?;
+        for (number, control) in self.controls.iter().enumerate() {
+            let checked = control.validate(count);
+            checked.map_err(|error| MosaicError::Control { number, error })?;
+        }
+        Ok(())
+    }
+
+    fn adhesion_is_symmetric(&self) -> Result<(), MosaicError> {
+        for (i, first) in self.types.iter().enumerate() {
+            for (j, second) in self.types.iter().enumerate().skip(i + 1) {
+                let (there, back) = (first.adhesion[j], second.adhesion[i]);
+                if there != back {
+                    return Err(MosaicError::Asymmetric {
+                        first: first.name.clone(),
+                        second: second.name.clone(),
+                        there,
+                        back,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl CellType {
+    fn validate(&self, types: usize) -> Result<(), MosaicError> {
+        let name = &self.name;
+        // Infinity is in the range: such cells never divide.
+        let divides = self.division_days > 0.0;
+        in_range(
+            &format!("division_days of type \"{name}\""),
+            self.division_days,
+            divides,
+            "what is positive",
+        )?;
+        let share = self.initial_probability;
+        let good = (0.0..=1.0).contains(&share);
+        in_range(
+            &format!("initial_probability of type \"{name}\""),
+            share,
+            good,
+            "0 to 1",
+        )?;
+        for (field, row) in [("switching", &self.switching), ("adhesion", &self.adhesion)] {
+            if row.len() != types {
+                return Err(MosaicError::RowLength {
+                    field,
+                    name: name.clone(),
+                    length: row.len(),
+                    types,
+                });
+            }
+            for &value in row {
+                let good = (0.0..=1.0).contains(&value);
+                in_range(
+                    &format!("{field} of type \"{name}\""),
+                    value,
+                    good,
+                    "0 to 1",
+                )?;
+            }
+        }
+        let sum = self.switching.iter().sum();
+        sums_to_one(
+            format!("the switching probabilities of type \"{name}\""),
+            sum,
+        )
+    }
+}
+
+pub(super) fn in_range(
+    field: &str,
+    value: f64,
+    good: bool,
+    range: &'static str,
+) -> Result<(), MosaicError> {
+    if good {
+        return Ok(());
+    }
+    Err(MosaicError::OutOfRange {
+        field: field.to_owned(),
+        value,
+        range,
+    })
+}
+
+fn sums_to_one(field: String, sum: f64) -> Result<(), MosaicError> {
+    if (sum - 1.0).abs() <= TOLERANCE {
+        return Ok(());
+    }
+    Err(MosaicError::NotOne { field, sum })
+}

@@ -1,0 +1,95 @@
+//! The surface cut into blocks of faces that share one patch.
+//!
+//! Where faces are small against the radius, a patch for each would hold the same hundreds of faces again and again. So
+//! neighbouring faces that lie nearly in a plane are put together, as far as a share of the radius reaches; the patch of the
+//! middle one serves all. On surfaces that bend without stretching nothing is lost by that.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use crate::mosaic::patch::PatchFinder;
+use crate::mosaic::surface::{Surface, Unfold};
+
+/// How far a block reaches from the middle of its base, as a share of the radius.
+const HUB: f64 = 0.4;
+
+/// Faces of a block are turned against its base by no more than an angle of this cosine (20°).
+const LEAST_COSINE: f64 = 0.94;
+
+/// Faces whose cells look for neighbours together.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// Its own faces, and how each lies in the frame of the base.
+    pub own: Vec<(u32, Unfold)>,
+    /// All faces within the radius of the own ones, in the frame of the base.
+    pub near: Vec<(u32, Unfold)>,
+    /// Middle of the base in its frame, mm.
+    pub centre: DVec2,
+    /// Distance of the farthest point of the own faces from `centre`, mm.
+    pub reach: f64,
+}
+
+/// Cuts a surface into blocks for repulsion within a radius. Every face is in one of them.
+pub(super) fn blocks(surface: &Surface, radius: f64) -> Vec<Block> {
+    let owned = own_faces(surface, radius);
+    let block = |finder: &mut PatchFinder<'_>, own: &Vec<u32>| {
+        let base = own[0];
+        let centre = surface.flat(&surface.centre(base));
+        // The faces were put together with the hub as their bound, a lone base may be larger.
+        let corners = surface.corners(base);
+        let hub = corners.iter().map(|corner| corner.distance(centre));
+        let hub = hub.fold(if own.len() > 1 { HUB * radius } else { 0.0 }, f64::max);
+        let patch = finder.patch_of_disc(base, hub, radius);
+        let mut mine = Vec::with_capacity(own.len());
+        let mut reach: f64 = 0.0;
+        for &(face, unfold) in patch.faces() {
+            if own.contains(&face) {
+                mine.push((face, unfold));
+                for corner in surface.corners(face) {
+                    reach = reach.max(unfold.apply(corner).distance(centre));
+                }
+            }
+        }
+        Block {
+            own: mine,
+            near: patch.faces().to_vec(),
+            centre,
+            reach,
+        }
+    };
+    owned
+        .par_iter()
+        .map_init(|| PatchFinder::new(surface), block)
+        .collect()
+}
+
+/// The faces of each block, the base first.
+fn own_faces(surface: &Surface, radius: f64) -> Vec<Vec<u32>> {
+    let count = surface.faces().len();
+    let normals: Vec<_> = (0..count as u32).map(|face| surface.normal(face)).collect();
+    let mut taken = vec![false; count];
+    let mut finder = PatchFinder::new(surface);
+    let mut owned = Vec::new();
+    for base in 0..count {
+        if taken[base] {
+            continue;
+        }
+        let centre = surface.flat(&surface.centre(base as u32));
+        let patch = finder.patch_of_disc(base as u32, 0.0, HUB * radius);
+        let mut own = Vec::new();
+        for &(face, unfold) in patch.faces() {
+            let corners = surface.corners(face).map(|corner| unfold.apply(corner));
+            let within = corners
+                .iter()
+                .all(|corner| corner.distance(centre) <= HUB * radius);
+            let flat = normals[base].dot(normals[face as usize]) >= LEAST_COSINE;
+            let joins = face as usize == base || (within && flat);
+            if joins && !taken[face as usize] {
+                taken[face as usize] = true;
+                own.push(face);
+            }
+        }
+        owned.push(own);
+    }
+    owned
+}
