@@ -10,6 +10,8 @@
 //! - **Left out**: what genes do inside a cell.
 
 pub mod atlas;
+#[cfg(test)]
+mod claims;
 mod control;
 mod division;
 mod growth;

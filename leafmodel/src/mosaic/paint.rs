@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 pub use self::sheet::SheetField;
 use super::patch::PatchFinder;
+use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
 use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
 use crate::optics::Contents;
@@ -67,6 +68,17 @@ impl TypeField {
         );
         let voronoi = Voronoi::new(surface, sites);
         Self::of_cells(surface, voronoi, kinds, types, blend_mm)
+    }
+
+    /// The cells of a mosaic of a plan with `types` types.
+    ///
+    /// # Panics
+    ///
+    /// If a cell is of no such type.
+    pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Self {
+        let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
+        let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
+        Self::new(&mosaic.surface, &sites, &kinds, types, blend_mm)
     }
 
     /// The same from a tessellation that is there already.
