@@ -30,6 +30,7 @@ pub mod interface;
 pub mod pigments;
 pub mod pile;
 pub mod plate;
+pub mod presets;
 pub mod solid;
 
 pub use constituents::{Coefficients, OutsideTable, ProspectD, SpecificAbsorption};
