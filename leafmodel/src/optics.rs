@@ -3,7 +3,8 @@
 //! The leaf is a pile of `N` identical absorbing plates with rough faces. [`constituents`] holds
 //! what one unit of each constituent absorbs, [`absorption`] turns contents into the absorption
 //! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
-//! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops.
+//! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
+//! [`pigments`] says which substances the pigment columns consist of.
 //!
 //! - **In**: [`Contents`] per leaf area, a wavelength in nm.
 //! - **Out**: [`ReflectanceTransmittance`], both in [0, 1], for light at near-normal incidence.
@@ -26,11 +27,15 @@ pub mod constituents;
 pub mod contents;
 pub mod fast;
 pub mod interface;
+pub mod pigments;
 pub mod pile;
 pub mod plate;
+pub mod presets;
+pub mod solid;
 
 pub use constituents::{Coefficients, OutsideTable, ProspectD, SpecificAbsorption};
 pub use contents::{Contents, ContentsError};
 pub use interface::Interface;
+pub use pigments::{Pigments, PigmentsError};
 pub use pile::ReflectanceTransmittance;
 pub use plate::layer_transmissivity;

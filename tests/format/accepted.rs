@@ -436,6 +436,25 @@ fn what_nothing_uses_is_a_warning() {
 }
 
 #[test]
+fn betalains_and_anthocyanins_in_one_leaf_are_a_warning() {
+    let leaf = "\n[materials.odd.leaf.contents]\nstructure = 1.5\nchlorophyll_ug_per_cm2 = 30\n\
+                carotenoids_ug_per_cm2 = 8\nbetacyanins_ug_per_cm2 = 5\nwater_cm = 0.01\n\
+                dry_matter_g_per_cm2 = 0.005\n";
+    let codes = |text: &str| -> Vec<&'static str> {
+        let scene = text_of("minimal.toml") + leaf + text;
+        let loaded = accept(&scene, "minimal.toml", &[]);
+        let codes = loaded.warnings.iter();
+        codes.map(renderer::scene::report::Warning::code).collect()
+    };
+    assert_eq!(codes(""), ["scene::unused"]);
+    let both = codes("anthocyanins_ug_per_cm2 = 2\n");
+    assert!(
+        both.contains(&"scene::betalains_and_anthocyanins"),
+        "{both:?}"
+    );
+}
+
+#[test]
 fn petioles_and_compound_leaves_mean_what_the_book_says() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let petiole = scene.leaves[1].value.plan.petiole;

@@ -9,26 +9,72 @@
 /// In-leaf over in-solution absorptivity of vacuolar pigments: an assumption, 0.4 to 0.55 are as likely.
 pub const PACKAGING: f64 = 0.5;
 
-/// Molar absorptivity of betanin in water at its peak, L mol⁻¹ cm⁻¹ (60 000 to 65 000).
-const BETANIN_EPSILON: f64 = 62_500.0;
-/// Molar mass of betanin, g mol⁻¹.
-const BETANIN_MOLAR_MASS: f64 = 550.5;
-/// Molar absorptivity of indicaxanthin and vulgaxanthin I, L mol⁻¹ cm⁻¹ (unverified).
-const BETAXANTHIN_EPSILON: f64 = 48_000.0;
-/// Molar mass of indicaxanthin, g mol⁻¹.
-const INDICAXANTHIN_MOLAR_MASS: f64 = 308.3;
-
-/// Specific absorption of betacyanins in a leaf at a wavelength in nm, cm² µg⁻¹.
-pub fn betacyanin(wavelength_nm: f64) -> f64 {
-    let width = if wavelength_nm < 538.0 { 41.0 } else { 28.0 };
-    let peak = PACKAGING * in_solution(BETANIN_EPSILON, BETANIN_MOLAR_MASS);
-    peak * gaussian(wavelength_nm - 538.0, width)
+/// Which betacyanin a leaf holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Betacyanin {
+    /// That of beet and chard: peak 538 nm, 60 000 to 65 000 L mol⁻¹ cm⁻¹ in water.
+    Betanin,
+    /// That of amaranths: peak 536 nm, 56 600 L mol⁻¹ cm⁻¹ (unverified); betanin's widths.
+    Amaranthine,
 }
 
-/// Specific absorption of betaxanthins in a leaf at a wavelength in nm, cm² µg⁻¹.
+/// Which betaxanthin a leaf holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Betaxanthin {
+    /// That of cacti: taken at 480 nm.
+    Indicaxanthin,
+    /// Vulgaxanthin I, of beet: taken at 477 nm.
+    Vulgaxanthin,
+}
+
+impl Betacyanin {
+    /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹.
+    pub(super) fn epsilon(self) -> f64 {
+        match self {
+            Self::Betanin => 62_500.0,
+            Self::Amaranthine => 56_600.0,
+        }
+    }
+
+    /// Specific absorption in a leaf at a wavelength in nm, cm² µg⁻¹, with a packaging factor.
+    pub fn specific(self, wavelength_nm: f64, packaging: f64) -> f64 {
+        let (peak_nm, molar_mass) = match self {
+            Self::Betanin => (538.0, 550.5),
+            Self::Amaranthine => (536.0, 726.6),
+        };
+        let width = if wavelength_nm < peak_nm { 41.0 } else { 28.0 };
+        let peak = packaging * in_solution(self.epsilon(), molar_mass);
+        peak * gaussian(wavelength_nm - peak_nm, width)
+    }
+}
+
+impl Betaxanthin {
+    /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹ (unverified).
+    pub(super) fn epsilon(self) -> f64 {
+        match self {
+            Self::Indicaxanthin | Self::Vulgaxanthin => 48_000.0,
+        }
+    }
+
+    /// Specific absorption in a leaf at a wavelength in nm, cm² µg⁻¹, with a packaging factor.
+    pub fn specific(self, wavelength_nm: f64, packaging: f64) -> f64 {
+        let (peak_nm, molar_mass) = match self {
+            Self::Indicaxanthin => (480.0, 308.3),
+            Self::Vulgaxanthin => (477.0, 339.3),
+        };
+        let peak = packaging * in_solution(self.epsilon(), molar_mass);
+        peak * gaussian(wavelength_nm - peak_nm, 32.0)
+    }
+}
+
+/// Specific absorption of betanin in a leaf at a wavelength in nm, cm² µg⁻¹.
+pub fn betacyanin(wavelength_nm: f64) -> f64 {
+    Betacyanin::Betanin.specific(wavelength_nm, PACKAGING)
+}
+
+/// Specific absorption of indicaxanthin in a leaf at a wavelength in nm, cm² µg⁻¹.
 pub fn betaxanthin(wavelength_nm: f64) -> f64 {
-    let peak = PACKAGING * in_solution(BETAXANTHIN_EPSILON, INDICAXANTHIN_MOLAR_MASS);
-    peak * gaussian(wavelength_nm - 480.0, 32.0)
+    Betaxanthin::Indicaxanthin.specific(wavelength_nm, PACKAGING)
 }
 
 /// Specific absorption (Napierian, cm² µg⁻¹) in solution from a molar absorptivity (decadic, L mol⁻¹ cm⁻¹) and a molar mass (g mol⁻¹).

@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 
 use thiserror::Error;
 
-use super::betalains;
 use super::interface::Interface;
+use super::pigments::Pigments;
 
 /// First wavelength of the table, nm.
 pub const FIRST_NM: f64 = 400.0;
@@ -79,25 +79,45 @@ impl ProspectD {
     /// As [`ProspectD::coefficients`], with the table's end values outside 400 to 2500 nm. Nothing
     /// is published there; chlorophyll goes on absorbing below 400 nm, so the end value is a fair stand-in.
     pub fn coefficients_extrapolated(wavelength_nm: f64) -> Coefficients {
+        Self::coefficients_of(&Pigments::default(), wavelength_nm)
+    }
+
+    /// As [`ProspectD::coefficients_extrapolated`], with pigment columns that consist of these substances
+    /// (which [`Pigments::checked`] has found good). Columns other than PROSPECT's own are linear between whole nanometres too.
+    pub fn coefficients_of(pigments: &Pigments, wavelength_nm: f64) -> Coefficients {
         let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
         let row = (place.floor() as usize).min(ROWS - 2);
         let fraction = place - row as f64;
         let (low, high) = (table()[row], table()[row + 1]);
         let between = |column: usize| low[column] + fraction * (high[column] - low[column]);
         // As a column of the table would be: linear between whole nanometres, with end values outside.
-        let band = |absorption: fn(f64) -> f64| {
+        let band = |absorption: &dyn Fn(f64) -> f64| {
             let below = FIRST_NM + row as f64;
             let (low, high) = (absorption(below), absorption(below + 1.0));
             low + fraction * (high - low)
         };
+        let own_or = |column: usize, mix: &dyn Fn(f64) -> Option<f64>| {
+            if mix(FIRST_NM).is_none() {
+                return between(column);
+            }
+            band(&|nm| mix(nm).expect("a mix has all wavelengths or none"))
+        };
         Coefficients {
             interface: Interface::of_index(between(0)),
             absorption: SpecificAbsorption {
-                chlorophyll: between(1),
-                carotenoids: between(2),
-                anthocyanins: between(3),
-                betacyanins: band(betalains::betacyanin),
-                betaxanthins: band(betalains::betaxanthin),
+                chlorophyll: own_or(1, &|nm| pigments.chlorophyll.specific(nm)),
+                carotenoids: own_or(2, &|nm| pigments.carotenoids.specific(nm)),
+                anthocyanins: own_or(3, &|nm| pigments.anthocyanins.specific(nm, anthocyanin)),
+                betacyanins: band(&|nm| {
+                    pigments
+                        .betacyanins
+                        .specific(nm, pigments.betalain_packaging)
+                }),
+                betaxanthins: band(&|nm| {
+                    pigments
+                        .betaxanthins
+                        .specific(nm, pigments.betalain_packaging)
+                }),
                 brown: between(4),
                 water: between(5),
                 dry_matter: between(6),
@@ -112,6 +132,14 @@ impl ProspectD {
             .filter_map(|line| line.strip_prefix('#'))
             .map(str::trim)
     }
+}
+
+/// The anthocyanin column at a wavelength in nm, with the table's end values outside.
+fn anthocyanin(wavelength_nm: f64) -> f64 {
+    let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
+    let row = (place.floor() as usize).min(ROWS - 2);
+    let (low, high) = (table()[row][3], table()[row + 1][3]);
+    low + (place - row as f64) * (high - low)
 }
 
 /// Rows by whole nanometre: n, then the six specific absorptions.

@@ -94,6 +94,14 @@ impl Contents {
         Ok(self)
     }
 
+    /// Whether there are betalains and anthocyanins in one leaf, which no plant has: betalains occur in the Caryophyllales
+    /// only (beet, amaranths, cacti), in place of anthocyanins. Optics computes such a leaf all the same.
+    ///
+    /// For a map the greatest value of each content answers for all its points: the rule holds for plants, not for points.
+    pub fn mixes_betalains_and_anthocyanins(&self) -> bool {
+        self.anthocyanins > 0.0 && (self.betacyanins > 0.0 || self.betaxanthins > 0.0)
+    }
+
     /// How many fields there are.
     pub const COUNT: usize = 9;
 
@@ -182,6 +190,19 @@ mod tests {
             message,
             "structure is 0.99, it must be finite and at least 1"
         );
+    }
+
+    #[test]
+    fn betalains_go_with_any_pigment_but_anthocyanins() {
+        let mut values = GREEN;
+        assert!(Contents::from_array(values).mixes_betalains_and_anthocyanins());
+        values[3] = 0.0;
+        assert!(!Contents::from_array(values).mixes_betalains_and_anthocyanins());
+        values[3] = 1.0;
+        values[4] = 0.0;
+        assert!(Contents::from_array(values).mixes_betalains_and_anthocyanins());
+        values[5] = 0.0;
+        assert!(!Contents::from_array(values).mixes_betalains_and_anthocyanins());
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
     let water = block.number("water_cm", Limits::closed(0.0, 1.0));
     let dry_matter = block.number("dry_matter_g_per_cm2", Limits::closed(0.0, 1.0));
     block.finish();
-    Some(Contents {
+    let contents = Contents {
         structure: structure?,
         chlorophyll: chlorophyll?,
         carotenoids: carotenoids?,
@@ -31,5 +31,14 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
         brown,
         water: water?,
         dry_matter: dry_matter?,
-    })
+    };
+    if contents.mixes_betalains_and_anthocyanins() {
+        block.cx.warn(
+            &block.at,
+            "scene::betalains_and_anthocyanins",
+            "this leaf holds betalains and anthocyanins, which never occur in the same plant".to_owned(),
+            "betalains occur in the Caryophyllales only (beet, amaranths, cacti), in place of anthocyanins: leave one out",
+        );
+    }
+    Some(contents)
 }

@@ -1,0 +1,204 @@
+//! Every figure behind the pigments, with its source.
+
+use super::chlorophyll;
+use super::{Aglycone, AnthocyaninMix, Carotenoid, CarotenoidMix, ChlorophyllMix, Pigments};
+use crate::optics::betalains::{self, Betacyanin, Betaxanthin};
+
+/// How far a figure can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// Seen in the source.
+    Verified,
+    /// Fitted for this project to data that were seen.
+    Fitted,
+    /// Recalled from the literature, not seen in a source.
+    Unverified,
+    /// An assumption of this project.
+    Assumed,
+}
+
+impl Basis {
+    /// One word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Verified => "verified",
+            Self::Fitted => "fitted",
+            Self::Unverified => "unverified",
+            Self::Assumed => "assumed",
+        }
+    }
+}
+
+/// A number behind the pigments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Of what.
+    pub of: String,
+    /// The number.
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// How far it can be trusted.
+    pub basis: Basis,
+    /// Where it is from.
+    pub source: &'static str,
+}
+
+const EPSILON: &str = "L/(mol cm)";
+const PER_CM: &str = "1/cm";
+
+impl Pigments {
+    /// Every number that a finer class than PROSPECT-D's rests on, with its source.
+    pub fn figures() -> Vec<Figure> {
+        let mut figures = plastid();
+        figures.extend(vacuolar());
+        figures
+    }
+}
+
+/// Of pigments in plastids.
+fn plastid() -> Vec<Figure> {
+    let mut figures = Vec::new();
+    let mut add = |of: String, value, unit, basis, source| {
+        figures.push(Figure {
+            of,
+            value,
+            unit,
+            basis,
+            source,
+        });
+    };
+    for (name, bands) in [("a", chlorophyll::A), ("b", chlorophyll::B)] {
+        add(
+            format!("chlorophyll {name}, peak in diethyl ether"),
+            bands.epsilon,
+            EPSILON,
+            Basis::Fitted,
+            "PhotochemCAD (Du et al. 1998; Dixon et al. 2005), Gaussians fitted to 0.3 and 0.4 % of the peak",
+        );
+    }
+    add(
+        "chlorophyll, a over b".into(),
+        ChlorophyllMix::A_TO_B,
+        "",
+        Basis::Verified,
+        "medians of the 276 leaves of ANGERS",
+    );
+    add(
+        "chlorophyll, shift".into(),
+        ChlorophyllMix::SHIFT_PER_CM,
+        PER_CM,
+        Basis::Assumed,
+        "red peak at 661 nm in ether, 675 to 680 nm in PROSPECT-D",
+    );
+    add(
+        "chlorophyll, packaging".into(),
+        ChlorophyllMix::PACKAGING,
+        "",
+        Basis::Assumed,
+        "PROSPECT-D's red peak over that in solution",
+    );
+    for carotenoid in Carotenoid::ALL {
+        let bands = carotenoid.in_solution();
+        add(
+            format!("{}, peak in methanol", carotenoid.name()),
+            bands.epsilon,
+            EPSILON,
+            Basis::Unverified,
+            "recalled; the shape is fitted to LipidBank's plots to about 1 % of the peak",
+        );
+    }
+    add(
+        "carotenoids, shift".into(),
+        CarotenoidMix::SHIFT_PER_CM,
+        PER_CM,
+        Basis::Unverified,
+        "20 to 30 nm between methanol and protein; the lower end",
+    );
+    add(
+        "carotenoids, packaging".into(),
+        CarotenoidMix::PACKAGING,
+        "",
+        Basis::Assumed,
+        "PROSPECT-D at 444 nm over lutein in solution",
+    );
+    figures
+}
+
+/// Of pigments in vacuoles.
+fn vacuolar() -> Vec<Figure> {
+    let mut figures = Vec::new();
+    let mut add = |of: String, value, unit, basis, source| {
+        figures.push(Figure {
+            of,
+            value,
+            unit,
+            basis,
+            source,
+        });
+    };
+    for aglycone in Aglycone::ALL {
+        add(
+            format!("{}, peak", aglycone.name()),
+            aglycone.peak_nm(),
+            "nm",
+            Basis::Verified,
+            "Belitz, Grosch and Schieberle, Food Chemistry, table 18.22",
+        );
+        let (basis, source) = match aglycone {
+            Aglycone::Pelargonidin => (
+                Basis::Verified,
+                "middle of 15 600 to 36 000, by author and solvent",
+            ),
+            Aglycone::Cyanidin => (Basis::Verified, "aqueous, pH 1; others give 29 600"),
+            Aglycone::Peonidin => (Basis::Unverified, "middle of 11 300 to 14 100"),
+            Aglycone::Delphinidin => (Basis::Unverified, "at 543 nm"),
+            Aglycone::Petunidin => (Basis::Unverified, "middle of 12 900 to 18 900"),
+            Aglycone::Malvidin => (Basis::Unverified, "at 520 nm"),
+        };
+        add(
+            format!("{}-3-glucoside, peak", aglycone.name()),
+            aglycone.epsilon(),
+            EPSILON,
+            basis,
+            source,
+        );
+    }
+    add(
+        "anthocyanins, quinonoidal peak".into(),
+        AnthocyaninMix::BLUE_PEAK_NM,
+        "nm",
+        Basis::Verified,
+        "middle of 570 to 600 nm (secondary source); its height is assumed to be the red form's",
+    );
+    for (name, epsilon, basis, source) in [
+        (
+            "betanin",
+            Betacyanin::Betanin.epsilon(),
+            Basis::Verified,
+            "in water, middle of 60 000 to 65 000 (vendors' compilation)",
+        ),
+        (
+            "amaranthine",
+            Betacyanin::Amaranthine.epsilon(),
+            Basis::Unverified,
+            "recalled",
+        ),
+        (
+            "indicaxanthin, vulgaxanthin I",
+            Betaxanthin::Indicaxanthin.epsilon(),
+            Basis::Unverified,
+            "recalled; the band's width too",
+        ),
+    ] {
+        add(format!("{name}, peak"), epsilon, EPSILON, basis, source);
+    }
+    add(
+        "betalains, packaging".into(),
+        betalains::PACKAGING,
+        "",
+        Basis::Assumed,
+        "by analogy with anthocyanin, 0.4 to 0.55",
+    );
+    figures
+}

@@ -1,0 +1,152 @@
+//! Colours of leaves as contents, by name.
+//!
+//! Each is one leaf of its kind, not a mean, and says what its numbers rest on. Leaves of a species:
+//! [`crate::species`].
+
+use super::contents::Contents;
+
+/// What the contents of a preset rest on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PresetBasis {
+    /// Within the range of the leaves of ANGERS (276 leaves of 47 taxa).
+    Angers,
+    /// Measured on such a leaf.
+    Measured,
+    /// Fitted to measured reflectance and transmittance of such a leaf.
+    Fitted,
+    /// Chosen by eye within what leaves of the kind are known to hold.
+    Estimate,
+}
+
+impl PresetBasis {
+    /// One word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Angers => "range of ANGERS",
+            Self::Measured => "measured",
+            Self::Fitted => "fitted",
+            Self::Estimate => "estimate",
+        }
+    }
+}
+
+/// A colour of leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    /// Its name, lower case with hyphens.
+    pub name: &'static str,
+    /// What such a leaf holds.
+    pub contents: Contents,
+    /// What the numbers rest on.
+    pub basis: PresetBasis,
+}
+
+/// A row: N, chlorophyll, carotenoids, anthocyanins, brown, water, dry matter.
+const fn preset(name: &'static str, values: [f64; 7], basis: PresetBasis) -> Preset {
+    let [
+        structure,
+        chlorophyll,
+        carotenoids,
+        anthocyanins,
+        brown,
+        water,
+        dry_matter,
+    ] = values;
+    Preset {
+        name,
+        contents: Contents {
+            structure,
+            chlorophyll,
+            carotenoids,
+            anthocyanins,
+            betacyanins: 0.0,
+            betaxanthins: 0.0,
+            brown,
+            water,
+            dry_matter,
+        },
+        basis,
+    }
+}
+
+/// All of them, from green over yellow and red to brown.
+#[rustfmt::skip]
+pub const ALL: [Preset; 19] = {
+    use PresetBasis::{Angers, Estimate, Fitted, Measured};
+    [
+        preset("sun-green", [1.6, 45.0, 10.0, 0.5, 0.0, 0.011, 0.006], Angers),
+        preset("shade-thin", [1.3, 35.0, 8.0, 0.0, 0.0, 0.008, 0.003], Angers),
+        preset("dark-evergreen", [2.1, 75.0, 15.0, 1.0, 0.0, 0.022, 0.013], Angers),
+        preset("chlorotic", [1.5, 6.0, 3.0, 0.0, 0.0, 0.010, 0.004], Angers),
+        preset("golden", [1.55, 1.0, 7.1, 0.0, 0.0, 0.0064, 0.0036], Measured),
+        preset("white-sector", [1.2, 1.6, 0.04, 0.0, 0.0, 0.0084, 0.0022], Measured),
+        preset("cream-sector", [1.9, 1.8, 0.7, 0.0, 0.0, 0.0157, 0.0047], Measured),
+        preset("young-red-flush", [1.4, 12.0, 4.0, 15.0, 0.0, 0.010, 0.003], Estimate),
+        preset("birch-yellow", [1.51, 1.2, 5.2, 0.4, 0.33, 0.0094, 0.0038], Fitted),
+        preset("oak-yellow-brown", [1.27, 2.0, 4.8, 0.0, 0.27, 0.0078, 0.0034], Fitted),
+        preset("ginkgo-yellow", [1.7, 0.8, 9.0, 0.0, 0.03, 0.011, 0.006], Estimate),
+        preset("poplar-yellow", [1.6, 1.5, 6.0, 0.0, 0.10, 0.009, 0.005], Estimate),
+        preset("sugar-maple-orange", [1.6, 2.0, 7.0, 4.0, 0.1, 0.008, 0.005], Estimate),
+        preset("red-maple-scarlet", [1.7, 3.0, 5.0, 15.0, 0.1, 0.008, 0.005], Estimate),
+        preset("sweetgum-purple-red", [1.7, 8.0, 6.0, 30.0, 0.1, 0.009, 0.006], Estimate),
+        preset("smoke-tree-purple", [1.7, 35.0, 8.0, 30.0, 0.0, 0.010, 0.006], Estimate),
+        preset("croton-red", [2.1, 15.0, 8.0, 25.0, 0.0, 0.02, 0.008], Estimate),
+        preset("croton-yellow", [2.1, 3.0, 10.0, 0.0, 0.0, 0.02, 0.008], Estimate),
+        preset("brown-litter", [2.2, 0.3, 0.8, 0.0, 1.1, 0.001, 0.007], Estimate),
+    ]
+};
+
+/// The preset of this name.
+pub fn by_name(name: &str) -> Option<Preset> {
+    ALL.into_iter().find(|preset| preset.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::ProspectD;
+
+    #[test]
+    fn names_differ_are_found_and_hold_valid_contents() {
+        for preset in ALL {
+            assert_eq!(by_name(preset.name), Some(preset));
+            assert!(preset.contents.checked().is_ok(), "{}", preset.name);
+        }
+        assert_eq!(by_name("mauve"), None);
+    }
+
+    #[test]
+    fn colours_are_those_of_the_names() {
+        let reflectance = |name: &str, nm: f64| {
+            let contents = by_name(name).expect("a preset").contents;
+            let at = ProspectD::coefficients(nm).expect("in range");
+            at.reflectance_transmittance(&contents).reflectance
+        };
+        let [green, yellow, red] = [545.0, 580.0, 650.0];
+        for name in ["sun-green", "shade-thin", "dark-evergreen"] {
+            assert!(
+                reflectance(name, green) > 1.5 * reflectance(name, 675.0),
+                "{name}"
+            );
+        }
+        for name in [
+            "golden",
+            "birch-yellow",
+            "ginkgo-yellow",
+            "poplar-yellow",
+            "croton-yellow",
+        ] {
+            assert!(
+                reflectance(name, yellow) > 2.0 * reflectance(name, 450.0),
+                "{name}"
+            );
+        }
+        for name in ["red-maple-scarlet", "sweetgum-purple-red", "croton-red"] {
+            assert!(
+                reflectance(name, red) > 1.3 * reflectance(name, green),
+                "{name}"
+            );
+        }
+        assert!(reflectance("white-sector", 480.0) > 0.8 * reflectance("white-sector", yellow));
+    }
+}
