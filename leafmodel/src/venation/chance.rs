@@ -24,6 +24,10 @@ pub(crate) enum Use {
     Light = 8,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
+    /// The seed of the patches in which a leaf begins to age, or dies.
+    Ageing = 15,
+    /// The seed of the noise in a layer of contents.
+    Layer = 16,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.
