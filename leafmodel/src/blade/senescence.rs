@@ -20,6 +20,10 @@ pub struct Senescence {
 
 /// What decides which tissue dies first.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a leaf has one, and what copies freely is easier to change"
+)]
 pub enum AgeSource {
     /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of \[xia2007\]).
     Revenue {

@@ -117,6 +117,37 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
+/// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or `A`.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_weights(path: &Path, alpha: bool) -> Result<Picture, ImageError> {
+    super::read_file(path, |bytes| {
+        let malformed = |error: image::ImageError| ImageError::Malformed {
+            what: error.to_string(),
+        };
+        let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+        let (width, height) = reader().into_dimensions().map_err(malformed)?;
+        check_size(u64::from(width), u64::from(height), 4, 12)?;
+        let mut reader = reader();
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(MOST_BYTES);
+        reader.limits(limits);
+        let pixels = reader.decode().map_err(malformed)?.into_luma_alpha16();
+        let share = |pixel: &image::LumaA<u16>| f32::from(pixel.0[usize::from(alpha)]) / 65535.0;
+        Ok(Picture {
+            width,
+            height,
+            layers: vec![Layer {
+                name: if alpha { "A" } else { "grey" }.to_owned(),
+                data: pixels.pixels().map(share).collect(),
+            }],
+            attributes: Vec::new(),
+        })
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::tone;
