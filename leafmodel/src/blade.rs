@@ -8,9 +8,14 @@
 //! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
 //! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each vertex).
 
+pub mod ageing;
+pub mod ageing_courses;
 pub mod contents_map;
+mod distances;
 mod form;
 pub mod frame;
+pub mod layers;
+pub mod masks;
 pub mod mesh;
 pub mod mottle;
 pub mod petiole;

@@ -16,11 +16,13 @@ use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
 pub use self::stages::LeafStage;
 use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
+use crate::blade::ageing::Place;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
+use crate::blade::layers::Layer;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
-use crate::blade::senescence::{AgeSource, Senescence, Withering};
+use crate::blade::senescence::{Senescence, Withering};
 use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::CompoundForm;
@@ -42,6 +44,8 @@ pub struct LeafPlan {
     pub venation: VenationPlan,
     /// What the tissue holds, and how veins change it.
     pub tissue: Tissue,
+    /// What lies on the tissue between veins, the later on top.
+    pub layers: Vec<Layer>,
     /// How far it has aged; a leaf in summer has not.
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
@@ -115,25 +119,44 @@ impl LeafPlan {
             return Ok(());
         };
         senescence.validate()?;
-        let AgeSource::Revenue { .. } = senescence.source;
+        if !senescence.needs_cells() {
+            return Ok(());
+        }
         let earns = matches!(self.venation, VenationPlan::Transport(_))
             || matches!(self.outline.contour, Contour::Transport(_));
         earns.then_some(()).ok_or(LeafError::NoRevenue)
     }
 
     /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of its margin.
-    fn withering(&self, lamina: &Lamina) -> Result<Option<Withering>, LeafError> {
+    pub(crate) fn withering(
+        &self,
+        lamina: &Lamina,
+        place: &Place<'_>,
+    ) -> Result<Option<Withering>, LeafError> {
         self.check_senescence()?;
-        let Some(Senescence {
-            source: AgeSource::Revenue { share },
-            blend,
-            contents,
-        }) = self.senescence
-        else {
+        let Some(senescence) = &self.senescence else {
             return Ok(None);
         };
-        let field = self.death_field(lamina)?.ok_or(LeafError::NoRevenue)?;
-        Ok(Some(Withering::by_revenue(field, share, blend, contents)))
+        let deaths = if senescence.needs_cells() {
+            self.death_field(lamina)?
+        } else {
+            None
+        };
+        let withering = Withering::new(senescence, place, deaths, self.seed);
+        withering.ok_or(LeafError::NoRevenue).map(Some)
+    }
+}
+
+impl Lamina {
+    /// The lamina as ageing and masks see it; `veins` are its own.
+    pub(crate) fn place<'a>(&'a self, frame: &'a UvFrame, veins: &'a [VeinSegment]) -> Place<'a> {
+        Place {
+            frame,
+            margin: self.outline.points(),
+            veins,
+            base: self.outline.base(),
+            apex: self.outline.apex(),
+        }
     }
 }
 
@@ -155,6 +178,7 @@ impl Leaf {
     pub fn grow_unless(plan: &LeafPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, LeafError> {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
         plan.tissue.validate()?;
+        plan.layers.iter().try_for_each(Layer::validate)?;
         plan.form.validate()?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
@@ -179,11 +203,12 @@ impl Leaf {
             .transpose()?;
         let frame = UvFrame::around(outline.points());
         let veins: Vec<VeinSegment> = network.segments().collect();
-        let withering = plan.withering(&lamina)?;
-        let contents = ContentsMap::paint_withering(
-            &frame,
-            &veins,
+        let place = lamina.place(&frame, &veins);
+        let withering = plan.withering(&lamina, &place)?;
+        let contents = ContentsMap::paint_layered(
+            &place,
             &plan.tissue,
+            &plan.layers,
             withering.as_ref(),
             plan.map_size,
             plan.seed,
@@ -255,6 +280,7 @@ mod tests {
                 mottle: 0.1,
                 mottle_scale_mm: 2.0,
             },
+            layers: Vec::new(),
             senescence: None,
             form: BladeForm {
                 fold: 0.3,

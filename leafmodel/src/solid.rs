@@ -130,18 +130,17 @@ impl Solid {
             let mut triangle = [0; 3];
             for ((index, &point), &uv) in triangle.iter_mut().zip(face).zip(corners) {
                 let known = &mut vertices[point as usize];
-                *index = known
-                    .iter()
-                    .find(|(other, _)| *other == uv)
-                    .map(|(_, vertex)| *vertex)
-                    .unwrap_or_else(|| {
-                        let vertex = positions.len() as u32;
-                        positions.push(shape.positions[point as usize]);
-                        normals.push(shape.normals[point as usize]);
-                        uvs.push(uv);
-                        known.push((uv, vertex));
-                        vertex
-                    });
+                let found = known.iter().find(|(other, _)| *other == uv);
+                *index = if let Some(&(_, vertex)) = found {
+                    vertex
+                } else {
+                    let vertex = positions.len() as u32;
+                    positions.push(shape.positions[point as usize]);
+                    normals.push(shape.normals[point as usize]);
+                    uvs.push(uv);
+                    known.push((uv, vertex));
+                    vertex
+                };
             }
             triangles.push(triangle);
         }

@@ -108,6 +108,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             mottle: 0.1,
             mottle_scale_mm: 1.5,
         },
+        layers: Vec::new(),
         senescence: None,
         form: BladeForm {
             fold: 8.0_f64.to_radians(),

@@ -1,8 +1,11 @@
 //! Maps of what the tissue holds, sampled over the box of a blade.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
+use super::ageing::Place;
 use super::frame::UvFrame;
+use super::layers::{Layer, LayerFields};
 use super::mottle::Mottle;
 use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
@@ -39,22 +42,32 @@ impl ContentsMap {
         map_size: u32,
         seed: u64,
     ) -> Result<Self, TissueError> {
-        Self::paint_withering(frame, veins, tissue, None, map_size, seed)
+        let place = Place {
+            frame,
+            margin: &[],
+            veins,
+            base: frame.min,
+            apex: frame.min + frame.size,
+        };
+        Self::paint_layered(&place, tissue, &[], None, map_size, seed)
     }
 
-    /// As [`ContentsMap::paint`], of a leaf that has aged.
+    /// As [`ContentsMap::paint`], of a leaf with layers that has aged: layers change the tissue between veins, what they bring ages, then
+    /// come the factors of veins and the mottle.
     ///
     /// # Errors
     ///
-    /// As [`ContentsMap::paint`].
-    pub fn paint_withering(
-        frame: &UvFrame,
-        veins: &[VeinSegment],
+    /// As [`ContentsMap::paint`], and for layers out of range.
+    pub fn paint_layered(
+        place: &Place<'_>,
         tissue: &Tissue,
+        layers: &[Layer],
         withering: Option<&Withering>,
         map_size: u32,
         seed: u64,
     ) -> Result<Self, TissueError> {
+        let (frame, veins) = (place.frame, place.veins);
+        layers.iter().try_for_each(Layer::validate)?;
         let valid = (16..=8192).contains(&map_size);
         TissueError::unless(valid, "map_size", f64::from(map_size), "from 16 to 8192")?;
         for value in frame.min.to_array() {
@@ -73,18 +86,20 @@ impl ContentsMap {
         let painter = Painter {
             frame,
             tissue,
+            layers: LayerFields::new(layers, place, seed),
             withering,
             field,
             mottle: (tissue.mottle > 0.0).then(|| Mottle::new(seed, tissue.mottle_scale_mm)),
         };
-        let mut texels = Vec::with_capacity(width as usize * height as usize);
-        for row in 0..height {
-            let v = (f64::from(row) + 0.5) / f64::from(height);
-            texels.extend((0..width).map(|column| {
-                let u = (f64::from(column) + 0.5) / f64::from(width);
-                painter.texel(DVec2::new(u, v))
-            }));
-        }
+        let mut texels = vec![[0.0; Contents::COUNT]; width as usize * height as usize];
+        let rows = texels.par_chunks_mut(width as usize).enumerate();
+        rows.for_each(|(row, texels)| {
+            let v = (row as f64 + 0.5) / f64::from(height);
+            for (column, texel) in texels.iter_mut().enumerate() {
+                let u = (column as f64 + 0.5) / f64::from(width);
+                *texel = painter.texel(DVec2::new(u, v));
+            }
+        });
         Ok(Self {
             width,
             height,
@@ -96,6 +111,7 @@ impl ContentsMap {
 struct Painter<'a> {
     frame: &'a UvFrame,
     tissue: &'a Tissue,
+    layers: LayerFields<'a>,
     withering: Option<&'a Withering>,
     field: VeinField,
     mottle: Option<Mottle>,
@@ -105,7 +121,7 @@ impl Painter<'_> {
     fn texel(&self, uv: DVec2) -> [f32; Contents::COUNT] {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
-        let living = self.tissue.lamina;
+        let living = self.layers.contents(self.tissue.lamina, point);
         let lamina = self
             .withering
             .map_or(living, |withering| withering.contents(living, point));

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::ageing::{AgeingLeaf, Course, Place};
 use super::tissue::TissueError;
 use crate::optics::Contents;
 use crate::transport::DeathField;
@@ -11,7 +12,7 @@ use crate::transport::DeathField;
 pub struct Senescence {
     /// What decides which tissue dies first, and how far it has come.
     pub source: AgeSource,
-    /// Width of the transition from living to dead, in the unit of the source, 0.001 to 1.
+    /// Width of the transition from living to dead, in the unit of the source: 0.001 to 1 of the revenue, 0.001 to 1000 days.
     pub blend: f64,
     /// Contents of dead tissue between veins; veins change them as they do those of living tissue.
     pub contents: Contents,
@@ -19,11 +20,22 @@ pub struct Senescence {
 
 /// What decides which tissue dies first.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a leaf has one, and what copies freely is easier to change"
+)]
 pub enum AgeSource {
     /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of \[xia2007\]).
     Revenue {
         /// What cells earn now, as a share of what they earned when the leaf was full-grown: 1 is summer, 0 all are dead.
         share: f64,
+    },
+    /// Days of a course, at each place from when that begins to age.
+    Day {
+        /// Days since the leaf began to age where it does so first, 0 to 10000; at 0 it has not aged.
+        day: f64,
+        /// What happens meanwhile, and where first.
+        course: Course,
     },
 }
 
@@ -34,11 +46,20 @@ impl Senescence {
     ///
     /// [`TissueError`] for the first that is out of range, by name.
     pub fn validate(&self) -> Result<(), TissueError> {
-        let AgeSource::Revenue { share } = self.source;
-        let valid = (0.0..=1.0).contains(&share);
-        TissueError::unless(valid, "senescence.revenue_share", share, "from 0 to 1")?;
-        let valid = (0.001..=1.0).contains(&self.blend);
-        let range = "from 0.001 to 1";
+        let (most, range) = match self.source {
+            AgeSource::Revenue { share } => {
+                let valid = (0.0..=1.0).contains(&share);
+                TissueError::unless(valid, "senescence.revenue_share", share, "from 0 to 1")?;
+                (1.0, "from 0.001 to 1")
+            }
+            AgeSource::Day { day, course } => {
+                let valid = (0.0..=1e4).contains(&day);
+                TissueError::unless(valid, "senescence.day", day, "from 0 to 10000")?;
+                course.validate()?;
+                (1000.0, "from 0.001 to 1000")
+            }
+        };
+        let valid = (0.001..=most).contains(&self.blend);
         TissueError::unless(valid, "senescence.blend", self.blend, range)?;
         for (index, value) in self.contents.to_array().into_iter().enumerate() {
             let least = if index == 0 { 1.0 } else { 0.0 };
@@ -54,44 +75,105 @@ impl Senescence {
     }
 }
 
+impl Senescence {
+    /// Whether it can be told only from the cells of a transport leaf.
+    pub fn needs_cells(&self) -> bool {
+        match self.source {
+            AgeSource::Revenue { .. } => true,
+            AgeSource::Day { course, .. } => {
+                course.onset.deaths_days > 0.0 || course.death.deaths_days > 0.0
+            }
+        }
+    }
+}
+
 /// An ageing leaf: where its tissue is how far.
 #[derive(Clone, Debug)]
-pub struct Withering {
-    field: DeathField,
-    /// Tissue with a greater age value than this has begun to die.
-    threshold: f64,
-    blend: f64,
-    dead: Contents,
+pub struct Withering(Way);
+
+#[derive(Clone, Debug)]
+enum Way {
+    Revenue {
+        field: Box<DeathField>,
+        /// Tissue with a greater age value than this has begun to die.
+        threshold: f64,
+        blend: f64,
+        dead: Contents,
+    },
+    Day(Box<AgeingLeaf>),
 }
 
 impl Withering {
+    /// Ageing of the leaf that `place` describes; `deaths` tells when its cells die, if it has any, and `seed` which patches come first.
+    ///
+    /// `None` if it cannot be told without cells.
+    pub fn new(
+        senescence: &Senescence,
+        place: &Place<'_>,
+        deaths: Option<DeathField>,
+        seed: u64,
+    ) -> Option<Self> {
+        let Senescence {
+            source,
+            blend,
+            contents,
+        } = *senescence;
+        if senescence.needs_cells() && deaths.is_none() {
+            return None;
+        }
+        match source {
+            AgeSource::Revenue { share } => {
+                deaths.map(|field| Self::by_revenue(field, share, blend, contents))
+            }
+            AgeSource::Day { day, course } => {
+                let end = (blend, contents);
+                let leaf = AgeingLeaf::new(course, day, end, place, deaths.as_ref(), seed);
+                Some(Self(Way::Day(Box::new(leaf))))
+            }
+        }
+    }
+
     /// Ageing by the deaths of a transport leaf's cells.
     pub fn by_revenue(field: DeathField, share: f64, blend: f64, dead: Contents) -> Self {
         // So that at a share of 1 the first to die are still alive, and at 0 the last are dead.
         let threshold = share * (1.0 + blend) - blend;
-        Self {
-            field,
+        Self(Way::Revenue {
+            field: Box::new(field),
             threshold,
             blend,
             dead,
-        }
+        })
     }
 
     /// How dead the tissue at a point (mm) is: 0 alive, 1 dead, a smooth step over the blend between.
     pub fn dead_share(&self, point: DVec2) -> f64 {
-        let t = ((self.field.at(point) - self.threshold) / self.blend).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        match &self.0 {
+            Way::Revenue {
+                field,
+                threshold,
+                blend,
+                ..
+            } => {
+                let t = ((field.at(point) - threshold) / blend).clamp(0.0, 1.0);
+                t * t * (3.0 - 2.0 * t)
+            }
+            Way::Day(leaf) => leaf.dead_share(point),
+        }
     }
 
     /// What the tissue at a point (mm) holds between veins if `living` is what it held alive.
     pub fn contents(&self, living: Contents, point: DVec2) -> Contents {
-        let dead_share = self.dead_share(point);
-        let dead = self.dead.to_array();
-        let mut mixed = living.to_array();
-        for (value, dead) in mixed.iter_mut().zip(dead) {
-            *value += (dead - *value) * dead_share;
+        match &self.0 {
+            Way::Revenue { dead, .. } => {
+                let dead_share = self.dead_share(point);
+                let mut mixed = living.to_array();
+                for (value, dead) in mixed.iter_mut().zip(dead.to_array()) {
+                    *value += (dead - *value) * dead_share;
+                }
+                Contents::from_array(mixed)
+            }
+            Way::Day(leaf) => leaf.contents(living, point),
         }
-        Contents::from_array(mixed)
     }
 }
 

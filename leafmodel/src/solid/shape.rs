@@ -53,7 +53,7 @@ impl SolidShape {
             Self::RoundedCube { side_mm, .. } => *side_mm,
             Self::Lathe { profile_mm } => profile_mm
                 .iter()
-                .flat_map(|point| point.to_array())
+                .flat_map(glam::DVec2::to_array)
                 .fold(0.0, |most, value| value.abs().max(most)),
             Self::Mesh(mesh) => return Ok(area(&mesh.shape)),
         };

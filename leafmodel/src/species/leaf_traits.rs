@@ -247,6 +247,7 @@ impl LeafTraits {
                 mottle: 0.1,
                 mottle_scale_mm: 1.5,
             },
+            layers: Vec::new(),
             senescence: None,
             petiole: None,
             compound: None,

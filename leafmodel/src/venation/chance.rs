@@ -38,6 +38,10 @@ pub(crate) enum Use {
     Shuffle = 16,
     /// Where the pattern of a mosaic is looked at.
     PatternProbe = 17,
+    /// The seed of the patches in which a leaf begins to age, or dies.
+    Ageing = 18,
+    /// The seed of the noise in a layer of contents.
+    Layer = 19,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -4,7 +4,7 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageBuffer, ImageEncoder, ImageFormat, ImageReader, Limits, Rgb};
+use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
 use super::tone::from_srgb;
 use super::{ImageError, Layer, MOST_BYTES, Picture, REC709, atomic, check_size};
@@ -86,7 +86,7 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
-    let pixels = decode_stored(bytes)?;
+    let pixels = decode_stored(bytes, 3)?.into_rgb16();
     let (width, height) = pixels.dimensions();
     // 8-bit values arrive as 257 times themselves, so one table serves both.
     let linear: Vec<f32> = (0..=u16::MAX)
@@ -107,34 +107,41 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// Values of a PNG file as they are stored, 0 to 1, for pictures that steer something and are not looked at: width, height and
-/// the red channel (grey pictures have but one) row by row from the top.
+/// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or `A`.
 ///
 /// # Errors
 ///
 /// As [`read`].
-pub fn read_grey(path: &Path) -> Result<(usize, usize, Vec<f64>), ImageError> {
+pub fn read_weights(path: &Path, alpha: bool) -> Result<Picture, ImageError> {
     super::read_file(path, |bytes| {
-        let pixels = decode_stored(bytes)?;
-        let values = pixels.pixels().map(|pixel| f64::from(pixel.0[0]) / 65535.0);
+        let pixels = decode_stored(bytes, 4)?.into_luma_alpha16();
         let (width, height) = pixels.dimensions();
-        Ok((width as usize, height as usize, values.collect()))
+        let share = |pixel: &image::LumaA<u16>| f32::from(pixel.0[usize::from(alpha)]) / 65535.0;
+        Ok(Picture {
+            width,
+            height,
+            layers: vec![Layer {
+                name: if alpha { "A" } else { "grey" }.to_owned(),
+                data: pixels.pixels().map(share).collect(),
+            }],
+            attributes: Vec::new(),
+        })
     })
 }
 
-/// Pixels as they are stored; 8-bit values arrive as 257 times themselves.
-fn decode_stored(bytes: &[u8]) -> Result<ImageBuffer<Rgb<u16>, Vec<u16>>, ImageError> {
+/// Pixels as they are stored, of at most so many channels.
+fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError> {
     let malformed = |error: image::ImageError| ImageError::Malformed {
         what: error.to_string(),
     };
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let (width, height) = reader().into_dimensions().map_err(malformed)?;
-    check_size(u64::from(width), u64::from(height), 3, 12)?;
+    check_size(u64::from(width), u64::from(height), channels, 12)?;
     let mut reader = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    Ok(reader.decode().map_err(malformed)?.into_rgb16())
+    reader.decode().map_err(malformed)
 }
 
 #[cfg(test)]

@@ -152,6 +152,84 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     Ok(ContentsTexture::new(width, height, texels))
 }
 
+/// The weights of a mask: pixels across and values row by row from v = 0, and what is wrong otherwise.
+///
+/// An EXR's first row is v = 0, as of maps; a PNG's last, so that it looks as the leaf lies with its apex up. Of an EXR the named
+/// channel is taken, or the only one; of a PNG the grey, or `"A"`, its alpha, both as they are written, 0 to 1.
+///
+/// # Errors
+///
+/// What is wrong with the file, without its name.
+pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), String> {
+    let is_png = file
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    if is_png {
+        let alpha = match channel {
+            None | Some("grey") => false,
+            Some("A") => true,
+            Some(other) => {
+                return Err(format!(
+                    "has no channel \"{}\": a PNG has \"grey\" and \"A\"",
+                    other.escape_debug()
+                ));
+            }
+        };
+        let picture =
+            portable_network::read_weights(file, alpha).map_err(|error| said(file, &error))?;
+        let width = picture.width as usize;
+        let mut values: Vec<f32> = picture
+            .layers
+            .into_iter()
+            .flat_map(|layer| layer.data)
+            .collect();
+        let rows = values.len() / width.max(1);
+        for row in 0..rows / 2 {
+            let (low, high) = values.split_at_mut((rows - 1 - row) * width);
+            low[row * width..(row + 1) * width].swap_with_slice(&mut high[..width]);
+        }
+        return Ok((width, values));
+    }
+    let picture = openexr::read(file).map_err(|error| said(file, &error))?;
+    let found = match channel {
+        Some(name) => picture.layers.iter().find(|layer| layer.name == name),
+        None if picture.layers.len() == 1 => picture.layers.first(),
+        None => None,
+    };
+    let Some(layer) = found else {
+        let names: Vec<String> = picture
+            .layers
+            .iter()
+            .take(20)
+            .map(|layer| format!("\"{}\"", layer.name.escape_debug()))
+            .collect();
+        let names = names.join(", ");
+        return Err(match channel {
+            Some(name) => format!("has no channel \"{}\", but {names}", name.escape_debug()),
+            None => format!("has several channels, {names}: name one"),
+        });
+    };
+    if layer.data.iter().any(|value| !value.is_finite()) {
+        return Err("holds values that are not finite".to_owned());
+    }
+    Ok((picture.width as usize, layer.data.clone()))
+}
+
+/// An error without the path in front, which a report names as it was written.
+fn said(file: &Path, error: &dyn std::fmt::Display) -> String {
+    let text = error.to_string();
+    let path = file.display().to_string();
+    let rest = text.strip_prefix(&path).unwrap_or(&text);
+    rest.trim_start_matches([':', ' ']).to_owned()
+}
+
+impl AssetError {
+    /// What is wrong, without the file's path in front.
+    pub fn without_path(&self, file: &Path) -> String {
+        said(file, self)
+    }
+}
+
 /// An environment picture: EXR with R, G, B or PNG (its sRGB values made linear).
 ///
 /// # Errors

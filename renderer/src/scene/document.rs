@@ -14,6 +14,7 @@ mod compound;
 mod contents;
 pub(crate) mod context;
 mod film;
+mod layers;
 mod leaf;
 mod light;
 mod limits;

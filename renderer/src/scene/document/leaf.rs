@@ -9,6 +9,7 @@ use leafmodel::optics::Contents;
 
 use super::compound::read_compound;
 use super::contents::read_contents;
+use super::layers::read_layers;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
 use super::outline::read_outline;
@@ -57,6 +58,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         matches!(outline.plan.contour, Contour::Transport(_))
             || matches!(venation, VenationPlan::Transport(_))
     });
+    let layers = read_layers(block);
     let is_aged = block.entry("senescence").is_some();
     let senescence = read_senescence(block, earns);
     let form = read_form(block, length_mm.unwrap_or(100.0));
@@ -76,6 +78,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         outline: outline?.plan,
         venation: venation?,
         tissue: tissue?,
+        layers: layers?,
         senescence,
         form,
         petiole,

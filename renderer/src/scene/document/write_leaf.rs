@@ -2,20 +2,24 @@
 //!
 //! The mirror image of [`super::leaf`], [`super::outline`] and [`super::venation`]: same keys, same defaults.
 
+mod layers;
 mod outline;
 mod venation;
 
 use leafmodel::blade::BladeForm;
+use leafmodel::blade::ageing::Delay;
+use leafmodel::blade::ageing_courses::{LITTER, YELLOW};
 use leafmodel::blade::senescence::{AgeSource, Senescence};
 use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
+use self::layers::layers;
 use self::outline::outline;
 use self::venation::{arcuate, auxin, filled, vein_style};
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
-use super::senescence::BLEND;
+use super::senescence::{BLEND, BLEND_DAYS, delays, numbers};
 use super::tree::{Entry, Node, Table, Value};
 use super::{write, write_compound};
 use crate::scene::source::Place;
@@ -120,6 +124,7 @@ fn leaf(plan: &LeafPlan) -> Keys {
     let (veins, mottle) = tissue(&plan.tissue);
     keys.block_if_any("veins", veins);
     keys.block_if_any("mottle", mottle);
+    keys.block_if_any("layers", layers(&plan.layers));
     if let Some(aged) = &plan.senescence {
         keys.block("senescence", senescence(aged));
     }
@@ -174,10 +179,40 @@ fn tissue(tissue: &Tissue) -> (Keys, Keys) {
 /// The block `senescence`.
 fn senescence(senescence: &Senescence) -> Keys {
     let mut keys = Keys::default();
-    let AgeSource::Revenue { share } = senescence.source;
-    keys.number("revenue_share", share);
-    keys.number_unless("blend", senescence.blend, BLEND);
-    keys.block("contents", contents(&senescence.contents));
+    match senescence.source {
+        AgeSource::Revenue { share } => {
+            keys.number("revenue_share", share);
+            keys.number_unless("blend", senescence.blend, BLEND);
+            keys.block("contents", contents(&senescence.contents));
+        }
+        AgeSource::Day { day, mut course } => {
+            keys.number("day", day);
+            keys.number_unless("blend_days", senescence.blend, BLEND_DAYS);
+            let mut usual = YELLOW;
+            let defaults = numbers(&mut usual).map(|(_, value, ..)| *value);
+            for ((key, value, ..), default) in numbers(&mut course).into_iter().zip(defaults) {
+                keys.number_unless(key, *value, default);
+            }
+            keys.block_if_any("onset", delay(course.onset, YELLOW.onset));
+            keys.block_if_any("death", delay(course.death, YELLOW.death));
+            if senescence.contents != LITTER {
+                keys.block("contents", contents(&senescence.contents));
+            }
+        }
+    }
+    keys
+}
+
+/// What of a delay is other than usual.
+fn delay(mut delay: Delay, mut usual: Delay) -> Keys {
+    let mut keys = Keys::default();
+    let order = f64::from(usual.veins_order);
+    keys.number_unless("veins_order", f64::from(delay.veins_order), order);
+    for ((key, value, ..), (_, default, ..)) in
+        delays(&mut delay).into_iter().zip(delays(&mut usual))
+    {
+        keys.number_unless(key, *value, *default);
+    }
     keys
 }
 

@@ -37,6 +37,7 @@ fn plain() -> LeafPlan {
         tissue: default_tissue(Contents::from_array([
             1.5, 40.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.006,
         ])),
+        layers: Vec::new(),
         senescence: None,
         form: default_form(80.0),
         petiole: None,
@@ -531,7 +532,7 @@ proptest! {
     ) {
         let outline = OutlinePlan { contour, teeth };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, senescence, form, petiole, compound, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers: Vec::new(), senescence, form, petiole, compound, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.
@@ -554,6 +555,127 @@ proptest! {
     fn whole_degrees_stay_whole(angle in -355..355_i32) {
         prop_assert_eq!(degrees(f64::from(angle).to_radians()), f64::from(angle));
     }
+}
+
+#[test]
+fn layers_and_days_read_back_to_the_same() {
+    use leafmodel::blade::ageing_courses::{COURSES, LITTER};
+    use leafmodel::blade::layers::{Change, Layer, Mode};
+    use leafmodel::blade::masks::{Mask, RimWidth};
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut number = 0;
+    let mut layer = |mask, mode, share| {
+        number += 1;
+        let mut values = [None; Contents::COUNT];
+        values[number] = Some(0.25);
+        values[6] = Some(1.0);
+        Layer {
+            name: format!("layer-{number}"),
+            mask,
+            share,
+            change: Change::Values { mode, values },
+        }
+    };
+    let rim = |width| Mask::Margin {
+        width,
+        softness_mm: 0.7,
+        wander: 0.4,
+        wander_scale_mm: 8.0,
+    };
+    let layers = vec![
+        layer(Mask::Everywhere, Mode::Replace, 1.0),
+        layer(rim(RimWidth::Mm(3.0)), Mode::Add, 0.5),
+        layer(rim(RimWidth::HalfWidths(0.3)), Mode::Multiply, 0.25),
+        layer(
+            Mask::Veins {
+                orders: [2, 4],
+                width_mm: 0.6,
+                softness_mm: 0.5,
+                outside: true,
+            },
+            Mode::Multiply,
+            1.0,
+        ),
+        layer(
+            Mask::Midrib {
+                width_mm: 2.0,
+                softness_mm: 1.0,
+            },
+            Mode::Replace,
+            1.0,
+        ),
+        layer(Mask::BaseToTip { from: 0.9, to: 0.1 }, Mode::Replace, 1.0),
+        layer(
+            Mask::Noise {
+                scale_mm: 3.0,
+                threshold: -0.2,
+                softness: 0.5,
+            },
+            Mode::Replace,
+            0.0,
+        ),
+    ];
+    for (name, mut course) in COURSES {
+        course.half_days = 12.5;
+        course.onset.tip_days = -3.0;
+        course.death.veins_order = 3;
+        let plan = LeafPlan {
+            layers: layers.clone(),
+            senescence: Some(Senescence {
+                source: AgeSource::Day { day: 21.5, course },
+                blend: 6.0,
+                contents: Contents {
+                    brown: 0.8,
+                    ..LITTER
+                },
+            }),
+            ..plain()
+        };
+        let text = leaf_to_toml("beech", &plan);
+        let leaves = parse_leaves(&text, "beech", folder.path(), &[]);
+        let leaves = leaves.unwrap_or_else(|errors| panic!("{name}: {errors}\n{text}"));
+        assert_eq!(leaves[0].value.plan, plan, "{text}");
+        // By its name alone.
+        let named = text.replace("day = 21.5", &format!("day = 21.5\ncourse = \"{name}\""));
+        assert!(parse_leaves(&named, "beech", folder.path(), &[]).is_ok());
+    }
+}
+
+#[test]
+fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
+    use leafmodel::blade::layers::Change;
+    use leafmodel::blade::masks::Mask;
+
+    use crate::export::mitsuba::map_picture;
+    use crate::image::{openexr, portable_network};
+    use crate::material::contents_texture::ContentsTexture;
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let grey = [0, 0, 0, 51, 51, 51, 255, 255, 255, 102, 102, 102];
+    portable_network::write(&folder.path().join("rim.png"), 2, 2, &grey).expect("a picture");
+    let texels = vec![[2.0, 30.0, 8.0, 2.0, 1.0, 3.0, 0.5, 0.02, 0.01]; 6];
+    let map = map_picture(&ContentsTexture::new(3, 2, texels.clone()));
+    openexr::write(&map, &folder.path().join("map.exr")).expect("a map");
+    let text = leaf_to_toml("beech", &plain())
+        + "[leaves.beech.layers.all]\nmap = \"map.exr\"\n\
+           [leaves.beech.layers.rim]\nimage = { file = \"rim.png\" }\ncontents = { brown = 1 }\n\
+           [leaves.beech.layers.part]\nimage = { file = \"map.exr\", channel = \"brown\" }\ncontents = { brown = 1 }\n";
+    let read = |text: &str| match parse_leaves(text, "beech", folder.path(), &[]) {
+        Ok(mut leaves) => leaves.remove(0).value.plan,
+        Err(errors) => panic!("{errors}\n{text}"),
+    };
+    let plan = read(&text);
+    let [all, rim, part] = plan.layers.as_slice() else {
+        panic!("three layers: {:?}", plan.layers);
+    };
+    assert!(matches!(&all.change, Change::Map(map) if map.texels == texels));
+    // As written, not as light; the lowest row first.
+    let share = |byte: u8| [f32::from(byte) / 255.0];
+    let weights = [255, 102, 0, 51].map(share);
+    assert!(matches!(&rim.mask, Mask::Picture(picture) if picture.texels == weights));
+    assert!(matches!(&part.mask, Mask::Picture(picture) if picture.texels == [[0.5]; 6]));
+    assert_eq!(read(&leaf_to_toml("beech", &plan)), plan);
 }
 
 #[test]

@@ -1,0 +1,424 @@
+//! Ageing by the calendar: when tissue at a place begins to age, and what it then holds from day to day.
+//!
+//! A [`Delay`] makes a day of a place; a [`Course`] makes contents of the days that have gone by since. `docs/src/theory/ageing.md`
+//! has the equations, and of every number whether it was measured or is our estimate.
+
+use glam::DVec2;
+
+use super::distances::Distances;
+use super::frame::UvFrame;
+use super::mottle::Mottle;
+use super::tissue::TissueError;
+use crate::optics::Contents;
+use crate::transport::DeathField;
+use crate::venation::chance::{self, Use};
+use crate::venation::network::VeinSegment;
+
+/// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine red-senescing species).
+pub const ANTHOCYANIN_BELOW: f64 = 20.0;
+
+/// How many days later something begins at one place than where it begins first: the sum of all terms, each ≥ 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Delay {
+    /// Days by which tissue at veins comes after tissue far from them; negative: before. −1000 to 1000.
+    pub veins_days: f64,
+    /// Distance, mm, over which that falls to 1/e, 0.01 to 1000.
+    pub veins_reach_mm: f64,
+    /// Highest order of veins that count, 1 to 20.
+    pub veins_order: u8,
+    /// Days by which the inside comes after the margin, 0 to 1000.
+    pub margin_days: f64,
+    /// Distance, mm, over which that rises to 1 − 1/e, 0.01 to 1000.
+    pub margin_reach_mm: f64,
+    /// Days by which the base comes after the apex; negative: before. −1000 to 1000.
+    pub tip_days: f64,
+    /// Days by which patches differ at most, 0 to 1000.
+    pub noise_days: f64,
+    /// Size of those patches, mm, 0.01 to 1000.
+    pub noise_scale_mm: f64,
+    /// Days by which the cell of a transport leaf that dies last comes after the one that dies first, 0 to 1000.
+    pub deaths_days: f64,
+}
+
+impl Delay {
+    /// Everywhere at once.
+    pub const NONE: Self = Self {
+        veins_days: 0.0,
+        veins_reach_mm: 1.0,
+        veins_order: 20,
+        margin_days: 0.0,
+        margin_reach_mm: 5.0,
+        tip_days: 0.0,
+        noise_days: 0.0,
+        noise_scale_mm: 8.0,
+        deaths_days: 0.0,
+    };
+
+    fn validate(&self) -> Result<(), TissueError> {
+        let days = "from 0 to 1000";
+        for (field, value, least) in [
+            ("veins_days", self.veins_days, -1000.0),
+            ("margin_days", self.margin_days, 0.0),
+            ("tip_days", self.tip_days, -1000.0),
+            ("noise_days", self.noise_days, 0.0),
+            ("deaths_days", self.deaths_days, 0.0),
+        ] {
+            let range = if least < 0.0 {
+                "from -1000 to 1000"
+            } else {
+                days
+            };
+            TissueError::unless((least..=1000.0).contains(&value), field, value, range)?;
+        }
+        for (field, value) in [
+            ("veins_reach_mm", self.veins_reach_mm),
+            ("margin_reach_mm", self.margin_reach_mm),
+            ("noise_scale_mm", self.noise_scale_mm),
+        ] {
+            let valid = (0.01..=1000.0).contains(&value);
+            TissueError::unless(valid, field, value, "from 0.01 to 1000")?;
+        }
+        let valid = (1..=20).contains(&self.veins_order);
+        let order = f64::from(self.veins_order);
+        TissueError::unless(valid, "veins_order", order, "from 1 to 20")
+    }
+}
+
+/// How contents change with the days since tissue began to age.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    /// Where tissue begins to age first.
+    pub onset: Delay,
+    /// Days after which half of the chlorophyll is gone, 0.1 to 1000.
+    pub half_days: f64,
+    /// Steepness of that loss: a logistic whose exponent is this much at `half_days`, 0.1 to 50. Small is nearly first-order decay.
+    pub steepness: f64,
+    /// Chlorophyll that stays, µg cm⁻², 0 to 1000; less if there was less.
+    pub chlorophyll_rest: f64,
+    /// Share of carotenoids that goes with chlorophyll (violaxanthin and other xanthophylls), 0 to 1.
+    pub labile_carotenoids: f64,
+    /// How many times longer the others last than chlorophyll, 1 to 100.
+    pub persistence: f64,
+    /// Anthocyanins that are made, µg cm⁻², 0 to 1000: what there is in the end, if there was less.
+    pub anthocyanins: f64,
+    /// Days in which all but 1/e of that is made once chlorophyll has fallen below [`ANTHOCYANIN_BELOW`], 0.1 to 1000.
+    pub anthocyanin_days: f64,
+    /// Brown pigments of tissue without chlorophyll that is still alive, 0 to 100.
+    pub brown: f64,
+    /// Factor on structure, 1 to 10, on water, 0 to 1, and on dry matter, 0 to 1, where chlorophyll is gone.
+    pub structure_factor: f64,
+    /// See `structure_factor`.
+    pub water_factor: f64,
+    /// See `structure_factor`.
+    pub dry_matter_factor: f64,
+    /// Day on which the first tissue dies, 0 to 10000.
+    pub death_day: f64,
+    /// Where it dies first.
+    pub death: Delay,
+}
+
+impl Course {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for the first that is out of range, by name.
+    pub fn validate(&self) -> Result<(), TissueError> {
+        self.onset.validate()?;
+        self.death.validate()?;
+        for (field, value, least, most, range) in [
+            ("half_days", self.half_days, 0.1, 1e3, "from 0.1 to 1000"),
+            ("steepness", self.steepness, 0.1, 50.0, "from 0.1 to 50"),
+            (
+                "chlorophyll_rest",
+                self.chlorophyll_rest,
+                0.0,
+                1e3,
+                "from 0 to 1000",
+            ),
+            (
+                "labile_carotenoids",
+                self.labile_carotenoids,
+                0.0,
+                1.0,
+                "from 0 to 1",
+            ),
+            ("persistence", self.persistence, 1.0, 100.0, "from 1 to 100"),
+            (
+                "anthocyanins",
+                self.anthocyanins,
+                0.0,
+                1e3,
+                "from 0 to 1000",
+            ),
+            (
+                "anthocyanin_days",
+                self.anthocyanin_days,
+                0.1,
+                1e3,
+                "from 0.1 to 1000",
+            ),
+            ("brown", self.brown, 0.0, 100.0, "from 0 to 100"),
+            (
+                "structure_factor",
+                self.structure_factor,
+                1.0,
+                10.0,
+                "from 1 to 10",
+            ),
+            ("water_factor", self.water_factor, 0.0, 1.0, "from 0 to 1"),
+            (
+                "dry_matter_factor",
+                self.dry_matter_factor,
+                0.0,
+                1.0,
+                "from 0 to 1",
+            ),
+            ("death_day", self.death_day, 0.0, 1e4, "from 0 to 10000"),
+        ] {
+            TissueError::unless((least..=most).contains(&value), field, value, range)?;
+        }
+        Ok(())
+    }
+
+    /// Share of chlorophyll that is left after some multiple of `half_days`: 1 at 0, about ½ at 1, falling to 0.
+    fn left(&self, halves: f64) -> f64 {
+        let q = self.steepness;
+        (1.0 + libm::exp(-q)) / (1.0 + libm::exp(q * (halves - 1.0)))
+    }
+
+    /// Days after which chlorophyll has fallen from `start` to [`ANTHOCYANIN_BELOW`]; infinite if it never does.
+    fn days_to_anthocyanin(&self, start: f64) -> f64 {
+        if start <= ANTHOCYANIN_BELOW {
+            return 0.0;
+        }
+        if self.chlorophyll_rest >= ANTHOCYANIN_BELOW {
+            return f64::INFINITY;
+        }
+        let share = (ANTHOCYANIN_BELOW - self.chlorophyll_rest) / (start - self.chlorophyll_rest);
+        let q = self.steepness;
+        let odds = (1.0 + libm::exp(-q)) / share - 1.0;
+        self.half_days * (1.0 + libm::log(odds) / q)
+    }
+
+    /// What tissue holds, still alive, `age` days after it began to age. At 0 and before, `living` itself.
+    #[must_use]
+    pub fn senescent(&self, living: Contents, age: f64) -> Contents {
+        if age <= 0.0 {
+            return living;
+        }
+        let halves = age / self.half_days;
+        let left = self.left(halves);
+        let rest = self.chlorophyll_rest.min(living.chlorophyll);
+        let persistent = self.left(halves / self.persistence);
+        let labile = self.labile_carotenoids;
+        let mut anthocyanins = living.anthocyanins;
+        if self.anthocyanins > anthocyanins {
+            let since = age - self.days_to_anthocyanin(living.chlorophyll);
+            if since > 0.0 {
+                let made = 1.0 - libm::exp(-since / self.anthocyanin_days);
+                anthocyanins += (self.anthocyanins - anthocyanins) * made;
+            }
+        }
+        let towards = |factor: f64| 1.0 + (factor - 1.0) * (1.0 - left);
+        Contents {
+            structure: living.structure * towards(self.structure_factor),
+            chlorophyll: rest + (living.chlorophyll - rest) * left,
+            carotenoids: living.carotenoids * (labile * left + (1.0 - labile) * persistent),
+            anthocyanins,
+            betacyanins: living.betacyanins,
+            betaxanthins: living.betaxanthins,
+            brown: living.brown + (self.brown - living.brown).max(0.0) * (1.0 - left),
+            water: living.water * towards(self.water_factor),
+            dry_matter: living.dry_matter * towards(self.dry_matter_factor),
+        }
+    }
+}
+
+/// The flat leaf as ageing and masks see it.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// Where it is asked.
+    pub frame: &'a UvFrame,
+    /// The margin, a closed polygon, mm.
+    pub margin: &'a [DVec2],
+    /// All veins.
+    pub veins: &'a [VeinSegment],
+    /// Where the midrib begins, mm.
+    pub base: DVec2,
+    /// Where it ends, mm.
+    pub apex: DVec2,
+}
+
+impl Place<'_> {
+    /// Distances to the margin.
+    pub(super) fn margin_distances(&self) -> Distances {
+        let next = self.margin.iter().cycle().skip(1);
+        let sides = self.margin.iter().zip(next).map(|(&a, &b)| [a, b]);
+        Distances::new(sides.collect(), self.frame)
+    }
+
+    /// Distances to the axes of veins of some orders.
+    pub(super) fn vein_distances(&self, orders: [u8; 2]) -> Distances {
+        let [first, last] = orders;
+        let counts = self
+            .veins
+            .iter()
+            .filter(|vein| (first..=last).contains(&vein.order));
+        Distances::new(
+            counts.map(|vein| [vein.from, vein.to]).collect(),
+            self.frame,
+        )
+    }
+
+    /// 0 at the base to 1 at the apex.
+    pub(super) fn along(&self) -> Along {
+        let axis = self.apex - self.base;
+        Along {
+            base: self.base,
+            axis: axis / axis.length_squared().max(f64::MIN_POSITIVE),
+        }
+    }
+}
+
+/// Where along the midrib a point lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Along {
+    base: DVec2,
+    axis: DVec2,
+}
+
+impl Along {
+    pub(super) fn at(self, p: DVec2) -> f64 {
+        (p - self.base).dot(self.axis).clamp(0.0, 1.0)
+    }
+}
+
+/// A [`Delay`] made ready for many points of one leaf.
+#[derive(Clone, Debug)]
+struct DelayField {
+    delay: Delay,
+    veins: Option<Distances>,
+    margin: Option<Distances>,
+    along: Along,
+    noise: Option<Mottle>,
+    deaths: Option<DeathField>,
+}
+
+impl DelayField {
+    fn new(
+        delay: Delay,
+        place: &Place<'_>,
+        deaths: Option<&DeathField>,
+        seed: u64,
+        number: u64,
+    ) -> Self {
+        let noise_seed = chance::bits(seed, Use::Ageing, number);
+        Self {
+            delay,
+            veins: (delay.veins_days != 0.0).then(|| place.vein_distances([1, delay.veins_order])),
+            margin: (delay.margin_days > 0.0).then(|| place.margin_distances()),
+            along: place.along(),
+            noise: (delay.noise_days > 0.0).then(|| Mottle::new(noise_seed, delay.noise_scale_mm)),
+            deaths: deaths.filter(|_| delay.deaths_days > 0.0).cloned(),
+        }
+    }
+
+    /// Days, ≥ 0.
+    fn at(&self, p: DVec2) -> f64 {
+        let delay = &self.delay;
+        let mut days = 0.0;
+        if let Some(veins) = &self.veins {
+            let near = libm::exp(-veins.at(p) / delay.veins_reach_mm);
+            days += if delay.veins_days > 0.0 {
+                delay.veins_days * near
+            } else {
+                -delay.veins_days * (1.0 - near)
+            };
+        }
+        if let Some(margin) = &self.margin {
+            days += delay.margin_days * (1.0 - libm::exp(-margin.at(p) / delay.margin_reach_mm));
+        }
+        let along = self.along.at(p);
+        days += if delay.tip_days > 0.0 {
+            delay.tip_days * (1.0 - along)
+        } else {
+            -delay.tip_days * along
+        };
+        if let Some(noise) = self.noise {
+            days += delay.noise_days * 0.5 * (1.0 + noise.at(p));
+        }
+        if let Some(deaths) = &self.deaths {
+            days += delay.deaths_days * (1.0 - deaths.at(p));
+        }
+        days
+    }
+}
+
+/// A leaf on a day of its course.
+#[derive(Clone, Debug)]
+pub(super) struct AgeingLeaf {
+    course: Course,
+    day: f64,
+    /// Days from living to dead.
+    blend: f64,
+    dead: Contents,
+    onset: DelayField,
+    death: DelayField,
+}
+
+impl AgeingLeaf {
+    pub(super) fn new(
+        course: Course,
+        day: f64,
+        (blend, dead): (f64, Contents),
+        place: &Place<'_>,
+        deaths: Option<&DeathField>,
+        seed: u64,
+    ) -> Self {
+        Self {
+            course,
+            day,
+            blend,
+            dead,
+            onset: DelayField::new(course.onset, place, deaths, seed, 0),
+            death: DelayField::new(course.death, place, deaths, seed, 1),
+        }
+    }
+
+    pub(super) fn dead_share(&self, p: DVec2) -> f64 {
+        let days = self.day - self.course.death_day;
+        if days <= 0.0 {
+            return 0.0;
+        }
+        let t = ((days - self.death.at(p)) / self.blend).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    pub(super) fn contents(&self, living: Contents, p: DVec2) -> Contents {
+        if self.day <= 0.0 {
+            return living;
+        }
+        let aged = self.course.senescent(living, self.day - self.onset.at(p));
+        let share = self.dead_share(p);
+        if share <= 0.0 {
+            return aged;
+        }
+        // Death brings back no pigment and takes no brown.
+        let dead = Contents {
+            chlorophyll: self.dead.chlorophyll.min(aged.chlorophyll),
+            carotenoids: self.dead.carotenoids.min(aged.carotenoids),
+            brown: self.dead.brown.max(aged.brown),
+            ..self.dead
+        }
+        .to_array();
+        let mut mixed = aged.to_array();
+        for (value, dead) in mixed.iter_mut().zip(dead) {
+            *value += (dead - *value) * share;
+        }
+        Contents::from_array(mixed)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,229 @@
+//! Layers of contents: what lies where on the lamina, each on top of those before.
+//!
+//! A layer is a change of contents, a [`Mask`] that says where, and a share: where it weighs `w`, the contents `C` below it become
+//! `C + (C′ − C) w`. Layers make what the living lamina holds between veins; ageing, veins and the mottle come after, in this order.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::ageing::Place;
+use super::frame::UvFrame;
+use super::masks::{Mask, MaskField, Picture};
+use super::tissue::TissueError;
+use crate::optics::Contents;
+use crate::venation::chance::{self, Use};
+
+/// A layer of contents.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What the plan calls it.
+    pub name: String,
+    /// Where it lies.
+    pub mask: Mask,
+    /// Factor on the mask's weight, 0 to 1.
+    pub share: f64,
+    /// What it changes.
+    pub change: Change,
+}
+
+/// What a layer makes of the contents below it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Some of the contents, in the order of [`Contents::to_array`], are changed by numbers; the others stay.
+    Values {
+        /// How.
+        mode: Mode,
+        /// By what, or as factors; −1000 to 1000 with [`Mode::Add`], else 0 to 1000.
+        values: [Option<f64>; Contents::COUNT],
+    },
+    /// All of them are those of a map over the leaf's box.
+    Map(Arc<Picture<{ Contents::COUNT }>>),
+}
+
+/// How numbers change contents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// They take their place.
+    Replace,
+    /// They are added; no content falls below 0, structure not below 1.
+    Add,
+    /// They are factors.
+    Multiply,
+}
+
+impl Layer {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for the first that is out of range, by name.
+    pub fn validate(&self) -> Result<(), TissueError> {
+        self.mask.validate()?;
+        let valid = (0.0..=1.0).contains(&self.share);
+        TissueError::unless(valid, "layers.share", self.share, "from 0 to 1")?;
+        if let Change::Values { mode, values } = &self.change {
+            for (name, value) in Contents::NAMES.into_iter().zip(values) {
+                let Some(value) = *value else { continue };
+                let (least, range) = match (mode, name) {
+                    (Mode::Add, _) => (-1000.0, "from -1000 to 1000"),
+                    (Mode::Replace, "structure") => (1.0, "from 1 to 1000"),
+                    (Mode::Replace | Mode::Multiply, _) => (0.0, "from 0 to 1000"),
+                };
+                TissueError::unless((least..=1000.0).contains(&value), name, value, range)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Layers made ready for many points of one leaf.
+#[derive(Debug)]
+pub(super) struct LayerFields<'a> {
+    frame: &'a UvFrame,
+    layers: Vec<(&'a Layer, MaskField<'a>)>,
+}
+
+impl<'a> LayerFields<'a> {
+    pub(super) fn new(layers: &'a [Layer], place: &Place<'a>, seed: u64) -> Self {
+        let ready = layers.iter().enumerate().map(|(number, layer)| {
+            let seed = chance::bits(seed, Use::Layer, number as u64);
+            (layer, MaskField::new(&layer.mask, place, seed))
+        });
+        Self {
+            frame: place.frame,
+            layers: ready.collect(),
+        }
+    }
+
+    /// What the lamina holds at a point (mm) where below all layers it holds `ground`.
+    pub(super) fn contents(&self, ground: Contents, p: DVec2) -> Contents {
+        if self.layers.is_empty() {
+            return ground;
+        }
+        let mut values = ground.to_array();
+        for (layer, mask) in &self.layers {
+            let weight = layer.share * mask.at(p);
+            if weight <= 0.0 {
+                continue;
+            }
+            match &layer.change {
+                Change::Values { mode, values: by } => {
+                    for (index, (value, by)) in values.iter_mut().zip(by).enumerate() {
+                        let Some(by) = *by else { continue };
+                        let target = match mode {
+                            Mode::Replace => by,
+                            Mode::Add => *value + by,
+                            Mode::Multiply => *value * by,
+                        };
+                        *value += (target.max(least(index)) - *value) * weight;
+                    }
+                }
+                Change::Map(map) => {
+                    let targets = map.at(self.frame.uv(p));
+                    for (index, (value, target)) in values.iter_mut().zip(targets).enumerate() {
+                        *value += (target.max(least(index)) - *value) * weight;
+                    }
+                }
+            }
+        }
+        Contents::from_array(values)
+    }
+}
+
+/// The least that there can be of a content.
+fn least(index: usize) -> f64 {
+    if index == 0 { 1.0 } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: UvFrame = UvFrame {
+        min: DVec2::ZERO,
+        size: DVec2::new(10.0, 10.0),
+    };
+
+    fn ground() -> Contents {
+        Contents::from_array([1.5, 40.0, 9.0, 1.0, 0.0, 0.0, 0.1, 0.01, 0.005])
+    }
+
+    fn layer(mode: Mode, chlorophyll: f64, share: f64) -> Layer {
+        let mut values = [None; Contents::COUNT];
+        values[1] = Some(chlorophyll);
+        Layer {
+            name: "test".to_owned(),
+            mask: Mask::Everywhere,
+            share,
+            change: Change::Values { mode, values },
+        }
+    }
+
+    fn painted(layers: &[Layer]) -> Contents {
+        let place = Place {
+            frame: &FRAME,
+            margin: &[],
+            veins: &[],
+            base: DVec2::ZERO,
+            apex: DVec2::Y,
+        };
+        LayerFields::new(layers, &place, 1).contents(ground(), DVec2::ONE)
+    }
+
+    #[test]
+    fn layers_replace_add_and_multiply_by_their_share_and_leave_the_rest() {
+        for (mode, by, share, chlorophyll) in [
+            (Mode::Replace, 10.0, 1.0, 10.0),
+            (Mode::Replace, 10.0, 0.5, 25.0),
+            (Mode::Add, -10.0, 0.5, 35.0),
+            (Mode::Add, -100.0, 1.0, 0.0),
+            (Mode::Multiply, 0.5, 1.0, 20.0),
+            (Mode::Multiply, 0.5, 0.0, 40.0),
+        ] {
+            let expected = Contents {
+                chlorophyll,
+                ..ground()
+            };
+            assert_eq!(painted(&[layer(mode, by, share)]), expected);
+        }
+    }
+
+    #[test]
+    fn later_layers_lie_on_top() {
+        let (pale, twice) = (
+            layer(Mode::Replace, 10.0, 1.0),
+            layer(Mode::Multiply, 2.0, 1.0),
+        );
+        let chlorophyll = |layers: &[Layer]| painted(layers).chlorophyll;
+        assert_eq!(chlorophyll(&[pale.clone(), twice.clone()]), 20.0);
+        assert_eq!(chlorophyll(&[twice, pale]), 10.0);
+        assert_eq!(painted(&[]), ground());
+    }
+
+    #[test]
+    fn a_map_takes_the_place_of_all_contents() {
+        let texel = [2.0, 30.0, 8.0, 2.0, 1.0, 3.0, 0.5, 0.02, 0.01];
+        let map = Picture {
+            file: "map.exr".to_owned(),
+            channel: None,
+            width: 1,
+            texels: vec![texel],
+        };
+        let layer = Layer {
+            change: Change::Map(Arc::new(map)),
+            ..layer(Mode::Replace, 0.0, 1.0)
+        };
+        let found = painted(&[layer]).to_array().map(|value| value as f32);
+        assert_eq!(found, texel);
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_refused_by_name() {
+        let field = |layer: Layer| layer.validate().expect_err("out of range").field;
+        assert_eq!(field(layer(Mode::Replace, -1.0, 1.0)), "chlorophyll");
+        assert_eq!(field(layer(Mode::Multiply, f64::NAN, 1.0)), "chlorophyll");
+        assert_eq!(field(layer(Mode::Add, 1.0, 1.1)), "layers.share");
+        assert_eq!(layer(Mode::Add, -1.0, 1.0).validate(), Ok(()));
+    }
+}

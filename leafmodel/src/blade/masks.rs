@@ -1,0 +1,421 @@
+//! Where a layer of contents lies: weights from 0 to 1 over the lamina.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::ageing::{Along, Place};
+use super::distances::Distances;
+use super::frame::UvFrame;
+use super::mottle::Mottle;
+use super::tissue::TissueError;
+
+/// A picture over the box of a leaf, decoded.
+///
+/// Texel centres are at `((column + ½) / width, (row + ½) / height)` of the leaf's [`UvFrame`], row 0 at the least y; between them values
+/// are blended linearly, beyond them the outermost goes on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture<const N: usize> {
+    /// The file that it came from, as the plan names it.
+    pub file: String,
+    /// Which of its channels, if the plan names one.
+    pub channel: Option<String>,
+    /// Texels across, ≥ 1.
+    pub width: usize,
+    /// Row by row, ≥ 1 whole rows.
+    pub texels: Vec<[f32; N]>,
+}
+
+impl<const N: usize> Picture<N> {
+    /// The values at texture coordinates.
+    #[must_use]
+    pub fn at(&self, uv: DVec2) -> [f64; N] {
+        let height = self.texels.len() / self.width;
+        let axis = |t: f64, count: usize| {
+            let place = (t * count as f64 - 0.5).clamp(0.0, (count - 1) as f64);
+            let first = place as usize;
+            (first, (first + 1).min(count - 1), place - first as f64)
+        };
+        let (left, right, x) = axis(uv.x, self.width);
+        let (low, high, y) = axis(uv.y, height);
+        let texel = |row: usize, column: usize| self.texels[row * self.width + column];
+        let corners = [
+            texel(low, left),
+            texel(low, right),
+            texel(high, left),
+            texel(high, right),
+        ];
+        std::array::from_fn(|i| {
+            let [a, b, c, d] = corners.map(|corner| f64::from(corner[i]));
+            let (near, far) = (a + (b - a) * x, c + (d - c) * x);
+            near + (far - near) * y
+        })
+    }
+
+    fn validate(&self) -> Result<(), TissueError> {
+        let whole = self.width > 0 && !self.texels.is_empty();
+        let whole = whole && self.texels.len().is_multiple_of(self.width);
+        let texels = self.texels.len() as f64;
+        TissueError::unless(
+            whole,
+            "texels of a picture",
+            texels,
+            "whole rows, 1 at least",
+        )
+    }
+}
+
+/// Where a layer lies. Edges are smooth steps of width `softness_mm` about where they are said to be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mask {
+    /// Everywhere alike.
+    Everywhere,
+    /// Within some distance of the margin.
+    Margin {
+        /// How wide the rim is.
+        width: RimWidth,
+        /// Width of its edge, mm, 0.001 to 1000.
+        softness_mm: f64,
+        /// Share by which its width varies along the margin, 0 to 1.
+        wander: f64,
+        /// Size of those variations, mm, 0.01 to 1000.
+        wander_scale_mm: f64,
+    },
+    /// Within some distance of the axes of veins, or outside of it.
+    Veins {
+        /// Lowest and highest order that count, 1 to 20.
+        orders: [u8; 2],
+        /// Distance, mm, 0 to 1000.
+        width_mm: f64,
+        /// Width of the edge, mm, 0.001 to 1000.
+        softness_mm: f64,
+        /// Whether it lies between veins instead.
+        outside: bool,
+    },
+    /// Within some distance of the straight line from base to apex.
+    Midrib {
+        /// Distance, mm, 0 to 1000.
+        width_mm: f64,
+        /// Width of the edge, mm, 0.001 to 1000.
+        softness_mm: f64,
+    },
+    /// Nothing before one place along the midrib, all after another: 0 is the base, 1 the apex, and either may come first.
+    BaseToTip {
+        /// Where there is nothing of it, 0 to 1.
+        from: f64,
+        /// Where there is all of it, 0 to 1, other than `from`.
+        to: f64,
+    },
+    /// Where gradient noise in [−1, 1] is above a threshold.
+    Noise {
+        /// Size of patches, mm, 0.01 to 1000.
+        scale_mm: f64,
+        /// −1 to 1: at −1 nearly all is covered, at 1 nothing.
+        threshold: f64,
+        /// Width of the edge in the noise's own unit, 0.001 to 2.
+        softness: f64,
+    },
+    /// What a picture says, held within 0 to 1.
+    Picture(Arc<Picture<1>>),
+}
+
+/// How wide a rim along the margin is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RimWidth {
+    /// In millimetres, 0 to 1000.
+    Mm(f64),
+    /// As a share of half the width of the leaf's box, 0 to 2.
+    HalfWidths(f64),
+}
+
+impl Mask {
+    pub(super) fn validate(&self) -> Result<(), TissueError> {
+        let soft = |mm: f64| {
+            let valid = (0.001..=1000.0).contains(&mm);
+            TissueError::unless(valid, "softness_mm", mm, "from 0.001 to 1000")
+        };
+        let wide = |mm: f64| {
+            let valid = (0.0..=1000.0).contains(&mm);
+            TissueError::unless(valid, "width_mm", mm, "from 0 to 1000")
+        };
+        let scale = |field, mm: f64| {
+            let valid = (0.01..=1000.0).contains(&mm);
+            TissueError::unless(valid, field, mm, "from 0.01 to 1000")
+        };
+        match self {
+            Self::Everywhere => Ok(()),
+            Self::Margin {
+                width,
+                softness_mm,
+                wander,
+                wander_scale_mm,
+            } => {
+                match *width {
+                    RimWidth::Mm(mm) => wide(mm)?,
+                    RimWidth::HalfWidths(share) => {
+                        let valid = (0.0..=2.0).contains(&share);
+                        TissueError::unless(valid, "width_share", share, "from 0 to 2")?;
+                    }
+                }
+                soft(*softness_mm)?;
+                let valid = (0.0..=1.0).contains(wander);
+                TissueError::unless(valid, "wander", *wander, "from 0 to 1")?;
+                scale("wander_scale_mm", *wander_scale_mm)
+            }
+            Self::Veins {
+                orders: [first, last],
+                width_mm,
+                softness_mm,
+                ..
+            } => {
+                let valid = 1 <= *first && first <= last && *last <= 20;
+                let range = "rising, from 1 to 20";
+                TissueError::unless(valid, "orders", f64::from(*last), range)?;
+                wide(*width_mm)?;
+                soft(*softness_mm)
+            }
+            Self::Midrib {
+                width_mm,
+                softness_mm,
+            } => {
+                wide(*width_mm)?;
+                soft(*softness_mm)
+            }
+            Self::BaseToTip { from, to } => {
+                for (field, value) in [("from", *from), ("to", *to)] {
+                    let valid = (0.0..=1.0).contains(&value);
+                    TissueError::unless(valid, field, value, "from 0 to 1")?;
+                }
+                TissueError::unless(from != to, "to", *to, "other than `from`")
+            }
+            Self::Noise {
+                scale_mm,
+                threshold,
+                softness,
+            } => {
+                scale("scale_mm", *scale_mm)?;
+                let valid = (-1.0..=1.0).contains(threshold);
+                TissueError::unless(valid, "threshold", *threshold, "from -1 to 1")?;
+                let valid = (0.001..=2.0).contains(softness);
+                TissueError::unless(valid, "softness", *softness, "from 0.001 to 2")
+            }
+            Self::Picture(picture) => picture.validate(),
+        }
+    }
+}
+
+/// A mask made ready for many points of one leaf.
+#[derive(Debug)]
+pub(super) struct MaskField<'a> {
+    frame: &'a UvFrame,
+    along: Along,
+    mask: &'a Mask,
+    distances: Option<Distances>,
+    noise: Option<Mottle>,
+}
+
+impl<'a> MaskField<'a> {
+    pub(super) fn new(mask: &'a Mask, place: &Place<'a>, seed: u64) -> Self {
+        let (mut distances, mut noise) = (None, None);
+        match mask {
+            Mask::Everywhere | Mask::BaseToTip { .. } | Mask::Picture(_) => {}
+            Mask::Margin {
+                wander,
+                wander_scale_mm,
+                ..
+            } => {
+                distances = Some(place.margin_distances());
+                noise = (*wander > 0.0).then(|| Mottle::new(seed, *wander_scale_mm));
+            }
+            Mask::Veins { orders, .. } => distances = Some(place.vein_distances(*orders)),
+            Mask::Midrib { .. } => {
+                let line = vec![[place.base, place.apex]];
+                distances = Some(Distances::new(line, place.frame));
+            }
+            Mask::Noise { scale_mm, .. } => noise = Some(Mottle::new(seed, *scale_mm)),
+        }
+        Self {
+            frame: place.frame,
+            along: place.along(),
+            mask,
+            distances,
+            noise,
+        }
+    }
+
+    /// The weight at a point (mm), 0 to 1.
+    pub(super) fn at(&self, p: DVec2) -> f64 {
+        let distance = || self.distances.as_ref().map_or(0.0, |field| field.at(p));
+        let noise = || self.noise.map_or(0.0, |noise| noise.at(p));
+        match *self.mask {
+            Mask::Everywhere => 1.0,
+            Mask::Margin {
+                width,
+                softness_mm,
+                wander,
+                ..
+            } => {
+                let mm = match width {
+                    RimWidth::Mm(mm) => mm,
+                    RimWidth::HalfWidths(share) => share * 0.5 * self.frame.size.x,
+                };
+                let mm = mm * (1.0 + wander * noise());
+                step((mm - distance()) / softness_mm)
+            }
+            Mask::Veins {
+                width_mm,
+                softness_mm,
+                outside,
+                ..
+            } => {
+                let inside = step((width_mm - distance()) / softness_mm);
+                if outside { 1.0 - inside } else { inside }
+            }
+            Mask::Midrib {
+                width_mm,
+                softness_mm,
+            } => step((width_mm - distance()) / softness_mm),
+            Mask::BaseToTip { from, to } => {
+                step((self.along.at(p) - 0.5 * (from + to)) / (to - from))
+            }
+            Mask::Noise {
+                threshold,
+                softness,
+                ..
+            } => step((noise() - threshold) / softness),
+            Mask::Picture(ref picture) => {
+                let [value] = picture.at(self.frame.uv(p));
+                value.clamp(0.0, 1.0)
+            }
+        }
+    }
+}
+
+/// 0 up to −½, 1 from ½ on, smooth between.
+fn step(x: f64) -> f64 {
+    let t = (x + 0.5).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::venation::network::VeinSegment;
+
+    const FRAME: UvFrame = UvFrame {
+        min: DVec2::new(-10.0, 0.0),
+        size: DVec2::new(20.0, 40.0),
+    };
+    const MARGIN: [DVec2; 4] = [
+        DVec2::new(-10.0, 0.0),
+        DVec2::new(10.0, 0.0),
+        DVec2::new(10.0, 40.0),
+        DVec2::new(-10.0, 40.0),
+    ];
+
+    fn weight(mask: &Mask, x: f64, y: f64) -> f64 {
+        let vein = |order, x: f64| VeinSegment {
+            from: DVec2::new(x, 0.0),
+            to: DVec2::new(x, 40.0),
+            radius_from: 0.2,
+            radius_to: 0.1,
+            order,
+        };
+        let veins = [vein(1, 0.0), vein(2, 5.0), vein(3, -5.0)];
+        let place = Place {
+            frame: &FRAME,
+            margin: &MARGIN,
+            veins: &veins,
+            base: DVec2::ZERO,
+            apex: DVec2::new(0.0, 40.0),
+        };
+        assert_eq!(mask.validate(), Ok(()));
+        MaskField::new(mask, &place, 7).at(DVec2::new(x, y))
+    }
+
+    #[test]
+    fn a_rim_lies_along_the_margin_by_millimetres_or_by_half_widths() {
+        for width in [RimWidth::Mm(3.0), RimWidth::HalfWidths(0.3)] {
+            let rim = Mask::Margin {
+                width,
+                softness_mm: 1.0,
+                wander: 0.0,
+                wander_scale_mm: 5.0,
+            };
+            assert_eq!(weight(&rim, 0.0, 1.0), 1.0);
+            assert!((weight(&rim, 7.0, 20.0) - 0.5).abs() < 1e-9);
+            assert_eq!(weight(&rim, 0.0, 20.0), 0.0);
+        }
+    }
+
+    #[test]
+    fn veins_of_the_orders_asked_for_count_and_no_others() {
+        let veins = |orders, outside| Mask::Veins {
+            orders,
+            width_mm: 1.0,
+            softness_mm: 0.5,
+            outside,
+        };
+        for (orders, at) in [([1, 1], 0.0), ([2, 2], 5.0), ([3, 20], -5.0)] {
+            for x in [0.0, 5.0, -5.0] {
+                let inside = if x == at { 1.0 } else { 0.0 };
+                assert_eq!(weight(&veins(orders, false), x, 20.0), inside);
+                assert_eq!(weight(&veins(orders, true), x, 20.0), 1.0 - inside);
+            }
+        }
+        // No such veins: nothing is near them.
+        assert_eq!(weight(&veins([7, 9], false), 0.0, 20.0), 0.0);
+    }
+
+    #[test]
+    fn the_midrib_and_the_way_along_it_count_from_the_base() {
+        let midrib = Mask::Midrib {
+            width_mm: 2.0,
+            softness_mm: 0.1,
+        };
+        assert_eq!(weight(&midrib, 1.0, 10.0), 1.0);
+        assert_eq!(weight(&midrib, 3.0, 10.0), 0.0);
+        let (up, down) = (
+            Mask::BaseToTip { from: 0.0, to: 1.0 },
+            Mask::BaseToTip { from: 1.0, to: 0.0 },
+        );
+        for y in [0.0, 10.0, 20.0, 40.0] {
+            let sum = weight(&up, 3.0, y) + weight(&down, 3.0, y);
+            assert!((sum - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(weight(&up, 0.0, 0.0), 0.0);
+        assert_eq!(weight(&up, 0.0, 40.0), 1.0);
+    }
+
+    #[test]
+    fn noise_covers_less_the_higher_its_threshold() {
+        let covered = |threshold: f64| {
+            let noise = Mask::Noise {
+                scale_mm: 2.0,
+                threshold,
+                softness: 0.2,
+            };
+            (0..200)
+                .map(|i| weight(&noise, f64::from(i % 20) - 10.0, f64::from(i / 5)))
+                .sum::<f64>()
+        };
+        let [all, half, none] = [-1.0, 0.0, 1.0].map(covered);
+        assert!(all > 190.0 && (60.0..140.0).contains(&half) && none < 10.0);
+    }
+
+    #[test]
+    fn a_picture_lies_over_the_box_with_row_0_at_the_base() {
+        let picture = Picture {
+            file: "rim.png".to_owned(),
+            channel: None,
+            width: 2,
+            texels: vec![[0.0], [0.25], [0.5], [3.0]],
+        };
+        let mask = Mask::Picture(Arc::new(picture));
+        assert_eq!(weight(&mask, -10.0, 0.0), 0.0);
+        assert_eq!(weight(&mask, 10.0, 0.0), 0.25);
+        assert_eq!(weight(&mask, -10.0, 40.0), 0.5);
+        assert_eq!(weight(&mask, 10.0, 40.0), 1.0);
+        assert_eq!(weight(&mask, 0.0, 0.0), 0.125);
+    }
+}
