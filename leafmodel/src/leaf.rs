@@ -26,6 +26,7 @@ use crate::blade::senescence::{Senescence, Withering};
 use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::CompoundForm;
+use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
@@ -46,6 +47,8 @@ pub struct LeafPlan {
     pub tissue: Tissue,
     /// What lies on the tissue between veins, the later on top.
     pub layers: Vec<Layer>,
+    /// Cells of several types, each with contents of its own, in place of the tissue's lamina; layers come on top.
+    pub mosaic: Option<MosaicPattern>,
     /// How far it has aged; a leaf in summer has not.
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
@@ -103,6 +106,9 @@ pub enum LeafError {
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
+    /// The mosaic of its cells.
+    #[error("mosaic: {0}")]
+    Mosaic(#[from] PatternError),
     /// The tissue.
     #[error("tissue: {0}")]
     Tissue(#[from] TissueError),
@@ -179,20 +185,31 @@ impl Leaf {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
         plan.tissue.validate()?;
         plan.layers.iter().try_for_each(Layer::validate)?;
+        if let Some(mosaic) = &plan.mosaic {
+            mosaic.validate()?;
+        }
         plan.form.validate()?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
         }
-        Self::from_lamina(plan, plan.grow_lamina_unless(is_stopped)?)
+        Self::from_lamina_unless(plan, plan.grow_lamina_unless(is_stopped)?, is_stopped)
     }
 
     /// Blade and contents of a lamina that the plan has brought forth.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Blade`], [`LeafError::Tissue`].
+    /// [`LeafError::Blade`], [`LeafError::Mosaic`], [`LeafError::Tissue`].
     pub fn from_lamina(plan: &LeafPlan, lamina: Lamina) -> Result<Self, LeafError> {
+        Self::from_lamina_unless(plan, lamina, &|| false)
+    }
+
+    fn from_lamina_unless(
+        plan: &LeafPlan,
+        lamina: Lamina,
+        is_stopped: &dyn Fn() -> bool,
+    ) -> Result<Self, LeafError> {
         let Lamina {
             outline, network, ..
         } = &lamina;
@@ -205,9 +222,14 @@ impl Leaf {
         let veins: Vec<VeinSegment> = network.segments().collect();
         let place = lamina.place(&frame, &veins);
         let withering = plan.withering(&lamina, &place)?;
+        let pattern = plan.mosaic.as_ref();
+        let pattern = pattern
+            .map(|pattern| pattern.on_lamina(outline, plan.seed, is_stopped))
+            .transpose()?;
         let contents = ContentsMap::paint_layered(
             &place,
             &plan.tissue,
+            pattern.as_ref(),
             &plan.layers,
             withering.as_ref(),
             plan.map_size,
@@ -281,6 +303,7 @@ mod tests {
                 mottle_scale_mm: 2.0,
             },
             layers: Vec::new(),
+            mosaic: None,
             senescence: None,
             form: BladeForm {
                 fold: 0.3,

@@ -12,14 +12,14 @@
 pub mod atlas;
 #[cfg(test)]
 mod claims;
-mod control;
+pub mod control;
 mod division;
-mod growth;
+pub mod growth;
 pub mod noise_pattern;
 pub mod paint;
 pub mod patch;
 pub mod pattern;
-mod plan;
+pub mod plan;
 mod relaxation;
 pub mod shapes;
 mod simulation;

@@ -109,6 +109,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             mottle_scale_mm: 1.5,
         },
         layers: Vec::new(),
+        mosaic: None,
         senescence: None,
         form: BladeForm {
             fold: 8.0_f64.to_radians(),

@@ -7,7 +7,7 @@ page's ω_o (towards the camera) and the other way round, and its `eval` has the
 Parameters of the plugin:
 
 - `tissue`: `contents`, `map` or `measured`, and with it
-  the seven numbers of `prospect.CONTENTS`; or `map`, an EXR with channels of those names; or
+  the numbers of `prospect.CONTENTS`; or `map`, an EXR with channels of those names; or
   `reflectance` and `transmittance`, spectra;
 - `prospect` (the table's file) and `extrapolate`, for the first two;
 - `abaxial_ratio`: a spectrum, 1 if absent;
@@ -28,7 +28,7 @@ import OpenImageIO as oiio
 
 from .coat import COUNT_AZIMUTH, COUNT_MU, Coat
 from .lookup import Table, cell
-from .prospect import CONTENTS, Prospect
+from .prospect import BETALAINS, CONTENTS, Prospect
 
 Double = dr.float64_array_t(mi.UnpolarizedSpectrum)
 FACES = ("adaxial", "abaxial")
@@ -49,7 +49,11 @@ class ContentsMap:
         # Two texels at least each way, so that there is a cell to interpolate in.
         self.tables = {}
         for name in CONTENTS:
-            plane = np.asarray(pixels)[:, :, names.index(name)]
+            # Maps of PROSPECT-D's inputs alone have no betalains.
+            if name in BETALAINS and name not in names:
+                plane = np.zeros((self.height, self.width), dtype=np.float32)
+            else:
+                plane = np.asarray(pixels)[:, :, names.index(name)]
             plane = np.pad(plane, ((0, self.height == 1), (0, self.width == 1)), mode="edge")
             self.tables[name] = Table(plane)
         self.stride = max(self.width, 2)

@@ -20,8 +20,11 @@ import numpy as np
 
 from .lookup import Table, cell
 
-# The contents in the order of the table's columns after the refractive index.
-ABSORBERS = ("chlorophyll", "carotenoids", "anthocyanins", "brown", "water", "dry_matter")
+# PROSPECT-D's own absorbers, in the order of the published table's columns after the refractive index.
+PROSPECT_D = ("chlorophyll", "carotenoids", "anthocyanins", "brown", "water", "dry_matter")
+# Those of exported tables, which have betalains besides.
+BETALAINS = ("betacyanins", "betaxanthins")
+ABSORBERS = (*PROSPECT_D[:3], *BETALAINS, *PROSPECT_D[3:])
 CONTENTS = ("structure", *ABSORBERS)
 # Refractive indices for which t_av is tabulated; linear between is good to 1e-9 at this count.
 INDEX_RANGE = (1.2, 1.7)
@@ -89,7 +92,8 @@ class Prospect:
         self.extrapolate = extrapolate
         self.first, self.last = rows[0, 0], rows[-1, 0]
         self.count = len(rows)
-        assert rows.shape[1] == 2 + len(ABSORBERS)
+        columns = {2 + len(names): names for names in (PROSPECT_D, ABSORBERS)}
+        self.absorbers = columns[rows.shape[1]]
         assert np.array_equal(rows[:, 0], np.arange(self.first, self.last + 0.5))
         self.index = Table(rows[:, 1], double=True)
         self.absorption = [Table(column, double=True) for column in rows[:, 2:].T]
@@ -111,7 +115,7 @@ class Prospect:
         index, share = cell(kind, kind(wavelengths) - self.first, self.count)
         n = self._between(self.index, index, share)
         total = kind(0.0)
-        for name, table in zip(ABSORBERS, self.absorption, strict=True):
+        for name, table in zip(self.absorbers, self.absorption, strict=True):
             total = total + kind(contents[name]) * self._between(table, index, share)
         structure = dr.maximum(kind(contents["structure"]), 1.0)
         tau, lost = transmissivity(dr.maximum(total / structure, 0.0))

@@ -10,6 +10,7 @@ use super::mottle::Mottle;
 use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use super::vein_field::VeinField;
+use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::Contents;
 use crate::venation::network::VeinSegment;
 
@@ -49,10 +50,10 @@ impl ContentsMap {
             base: frame.min,
             apex: frame.min + frame.size,
         };
-        Self::paint_layered(&place, tissue, &[], None, map_size, seed)
+        Self::paint_layered(&place, tissue, None, &[], None, map_size, seed)
     }
 
-    /// As [`ContentsMap::paint`], of a leaf with layers that has aged: layers change the tissue between veins, what they bring ages, then
+    /// As [`ContentsMap::paint`], of a leaf with a mosaic and layers that has aged: the mosaic stands in for the tissue's lamina, layers change the tissue between veins, what they bring ages, then
     /// come the factors of veins and the mottle.
     ///
     /// # Errors
@@ -61,6 +62,7 @@ impl ContentsMap {
     pub fn paint_layered(
         place: &Place<'_>,
         tissue: &Tissue,
+        pattern: Option<&LaminaPattern>,
         layers: &[Layer],
         withering: Option<&Withering>,
         map_size: u32,
@@ -86,6 +88,7 @@ impl ContentsMap {
         let painter = Painter {
             frame,
             tissue,
+            pattern,
             layers: LayerFields::new(layers, place, seed),
             withering,
             field,
@@ -95,9 +98,10 @@ impl ContentsMap {
         let rows = texels.par_chunks_mut(width as usize).enumerate();
         rows.for_each(|(row, texels)| {
             let v = (row as f64 + 0.5) / f64::from(height);
+            let mut weights = Vec::new();
             for (column, texel) in texels.iter_mut().enumerate() {
                 let u = (column as f64 + 0.5) / f64::from(width);
-                *texel = painter.texel(DVec2::new(u, v));
+                *texel = painter.texel(DVec2::new(u, v), &mut weights);
             }
         });
         Ok(Self {
@@ -111,6 +115,7 @@ impl ContentsMap {
 struct Painter<'a> {
     frame: &'a UvFrame,
     tissue: &'a Tissue,
+    pattern: Option<&'a LaminaPattern>,
     layers: LayerFields<'a>,
     withering: Option<&'a Withering>,
     field: VeinField,
@@ -118,10 +123,13 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    fn texel(&self, uv: DVec2) -> [f32; Contents::COUNT] {
+    fn texel(&self, uv: DVec2, weights: &mut Vec<f64>) -> [f32; Contents::COUNT] {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
-        let living = self.layers.contents(self.tissue.lamina, point);
+        let cells = self.pattern.map_or(self.tissue.lamina, |pattern| {
+            pattern.contents(point, weights)
+        });
+        let living = self.layers.contents(cells, point);
         let lamina = self
             .withering
             .map_or(living, |withering| withering.contents(living, point));

@@ -248,6 +248,7 @@ impl LeafTraits {
                 mottle_scale_mm: 1.5,
             },
             layers: Vec::new(),
+            mosaic: None,
             senescence: None,
             petiole: None,
             compound: None,

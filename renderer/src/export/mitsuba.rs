@@ -14,6 +14,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use leafmodel::optics::ProspectD;
 use serde_json::json;
 use thiserror::Error;
 
@@ -50,8 +51,32 @@ pub enum ExportError {
     },
 }
 
-/// PROSPECT-D's table as it ships with leafmodel.
-const PROSPECT_TABLE: &str = include_str!("../../../leafmodel/src/optics/prospect_d.csv");
+/// PROSPECT-D's table with its notice, and what betalains absorb in columns of their own.
+fn absorption_table() -> String {
+    let mut text: String = ProspectD::notice()
+        .map(|line| format!("# {line}\n"))
+        .collect();
+    text += "wavelength_nm,refractive_index,chlorophyll,carotenoids,anthocyanins,betacyanins,betaxanthins,brown,water,dry_matter\n";
+    for nm in 400..=2500 {
+        let at = ProspectD::coefficients_extrapolated(f64::from(nm));
+        let k = at.absorption;
+        let columns = [
+            at.interface.refractive_index,
+            k.chlorophyll,
+            k.carotenoids,
+            k.anthocyanins,
+            k.betacyanins,
+            k.betaxanthins,
+            k.brown,
+            k.water,
+            k.dry_matter,
+        ];
+        text += &nm.to_string();
+        text.extend(columns.map(|value| format!(",{value}")));
+        text.push('\n');
+    }
+    text
+}
 
 /// Writes the folder `dir`, whole or not at all; an earlier export there is replaced.
 ///
@@ -122,7 +147,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             fs::copy(file, &path).map_err(|source| ExportError::Write { path, source })?;
         }
     }
-    save("prospect_d.csv", PROSPECT_TABLE.as_bytes())?;
+    save("prospect_d.csv", absorption_table().as_bytes())?;
     let mut spectra = Spectra::default();
     save(
         "scene.xml",

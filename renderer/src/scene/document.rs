@@ -20,6 +20,7 @@ mod light;
 mod limits;
 mod material;
 mod mesh;
+mod mosaic;
 pub(crate) mod names;
 mod object;
 mod outline;

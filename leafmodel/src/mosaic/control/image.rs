@@ -12,6 +12,8 @@ pub enum ControlImage {
     Constant(f64),
     /// Pixels; between their middles values are blended.
     Picture {
+        /// What the scene calls its file; empty if there is none.
+        file: String,
         /// Pixels round the axis.
         width: usize,
         /// Pixels along the axis.
@@ -66,6 +68,7 @@ impl ControlImage {
                 width,
                 height,
                 values,
+                ..
             } => {
                 if width * height != values.len() || values.is_empty() {
                     return Err(ControlError::PictureSize {
@@ -130,6 +133,7 @@ impl ControlImage {
                 width,
                 height: rows,
                 values,
+                ..
             } => picture(*width, *rows, values, turn, height),
             Self::Stripes {
                 count,

@@ -13,6 +13,7 @@ fn about_z(image: ControlImage) -> CylinderControl {
 #[test]
 fn angle_and_height_say_where_in_the_picture_a_point_lies() {
     let picture = ControlImage::Picture {
+        file: String::new(),
         width: 4,
         height: 2,
         values: vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7],
@@ -129,6 +130,7 @@ fn what_a_control_has_wrong_is_named() {
     );
     assert_eq!(
         refused(about_z(ControlImage::Picture {
+            file: String::new(),
             width: 3,
             height: 2,
             values: vec![0.5; 5]

@@ -42,3 +42,36 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
     }
     Some(contents)
 }
+
+/// Reads a block of contents of which all may be left out, and are then those of `base`.
+pub(crate) fn read_changed(block: &Block<'_>, base: Contents) -> Contents {
+    const PIGMENT: Limits = Limits::closed(0.0, 1000.0);
+    let mut contents = base;
+    for (key, limits, value) in [
+        ("structure", STRUCTURE, &mut contents.structure),
+        ("chlorophyll_ug_per_cm2", PIGMENT, &mut contents.chlorophyll),
+        ("carotenoids_ug_per_cm2", PIGMENT, &mut contents.carotenoids),
+        (
+            "anthocyanins_ug_per_cm2",
+            PIGMENT,
+            &mut contents.anthocyanins,
+        ),
+        ("betacyanins_ug_per_cm2", PIGMENT, &mut contents.betacyanins),
+        (
+            "betaxanthins_ug_per_cm2",
+            PIGMENT,
+            &mut contents.betaxanthins,
+        ),
+        ("brown", Limits::closed(0.0, 100.0), &mut contents.brown),
+        ("water_cm", Limits::closed(0.0, 1.0), &mut contents.water),
+        (
+            "dry_matter_g_per_cm2",
+            Limits::closed(0.0, 1.0),
+            &mut contents.dry_matter,
+        ),
+    ] {
+        *value = block.number_or(key, limits, *value);
+    }
+    block.finish();
+    contents
+}

@@ -12,6 +12,7 @@ use super::contents::read_contents;
 use super::layers::read_layers;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
+use super::mosaic::read_mosaic;
 use super::outline::read_outline;
 use super::petiole::read_petiole;
 use super::reader::Block;
@@ -58,6 +59,8 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         matches!(outline.plan.contour, Contour::Transport(_))
             || matches!(venation, VenationPlan::Transport(_))
     });
+    let is_patterned = block.entry("mosaic").is_some();
+    let mosaic = contents.and_then(|contents| read_mosaic(block, contents));
     let layers = read_layers(block);
     let is_aged = block.entry("senescence").is_some();
     let senescence = read_senescence(block, earns);
@@ -69,7 +72,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     block.finish();
-    if is_aged && senescence.is_none() {
+    if (is_aged && senescence.is_none()) || (is_patterned && mosaic.is_none()) {
         return None;
     }
     let plan = LeafPlan {
@@ -79,6 +82,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         venation: venation?,
         tissue: tissue?,
         layers: layers?,
+        mosaic,
         senescence,
         form,
         petiole,

@@ -3,6 +3,7 @@
 //! The mirror image of [`super::leaf`], [`super::outline`] and [`super::venation`]: same keys, same defaults.
 
 mod layers;
+mod mosaic;
 mod outline;
 mod venation;
 
@@ -16,6 +17,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
 use self::layers::layers;
+use self::mosaic::mosaic;
 use self::outline::outline;
 use self::venation::{arcuate, auxin, filled, vein_style};
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
@@ -124,6 +126,9 @@ fn leaf(plan: &LeafPlan) -> Keys {
     let (veins, mottle) = tissue(&plan.tissue);
     keys.block_if_any("veins", veins);
     keys.block_if_any("mottle", mottle);
+    if let Some(pattern) = &plan.mosaic {
+        keys.block("mosaic", mosaic(pattern));
+    }
     keys.block_if_any("layers", layers(&plan.layers));
     if let Some(aged) = &plan.senescence {
         keys.block("senescence", senescence(aged));

@@ -38,6 +38,7 @@ fn plain() -> LeafPlan {
             1.5, 40.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.006,
         ])),
         layers: Vec::new(),
+        mosaic: None,
         senescence: None,
         form: default_form(80.0),
         petiole: None,
@@ -532,7 +533,7 @@ proptest! {
     ) {
         let outline = OutlinePlan { contour, teeth };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers: Vec::new(), senescence, form, petiole, compound, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers: Vec::new(), mosaic: None, senescence, form, petiole, compound, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.
@@ -675,6 +676,90 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     let weights = [255, 102, 0, 51].map(share);
     assert!(matches!(&rim.mask, Mask::Picture(picture) if picture.texels == weights));
     assert!(matches!(&part.mask, Mask::Picture(picture) if picture.texels == [[0.5]; 6]));
+    assert_eq!(read(&leaf_to_toml("beech", &plan)), plan);
+}
+
+#[test]
+fn a_mosaic_with_all_that_it_can_have_reads_back_to_the_same() {
+    use leafmodel::mosaic::pattern::LeafFaces;
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let grey = [0, 0, 0, 51, 51, 51, 255, 255, 255, 102, 102, 102];
+    crate::image::portable_network::write(&folder.path().join("g.png"), 2, 2, &grey)
+        .expect("a picture");
+    let mosaic = r#"
+[leaves.beech.mosaic]
+cells = 300
+days = 12.5
+radius_weight = 2
+relaxations_per_day = 3
+step = 0.05
+initial_relaxations = 20
+initial_step = 0.01
+radius = "daily"
+blend_mm = 0.4
+faces = "both"
+growth = { start = [0.3, 0.2, 1], middle = 0.4, steepness = 6 }
+[leaves.beech.mosaic.types.yellow]
+initial_share = 0.25
+division_days = 6
+adhesion = { yellow = 0.5, white = 0.2 }
+contents = { chlorophyll_ug_per_cm2 = 3, betaxanthins_ug_per_cm2 = 2 }
+[leaves.beech.mosaic.types.green]
+initial_share = 0.5
+division_days = 9
+switching = { yellow = 0.125 }
+[leaves.beech.mosaic.types.white]
+initial_share = 0.25
+[leaves.beech.mosaic.controls.a]
+from_mm = [0, 0, 0]
+to_mm = [0, 80, 0]
+radius_mm = 20
+steers = "initial_type"
+type = "yellow"
+stripes = { count = 5, share = 0.3, waviness = 0.1 }
+[leaves.beech.mosaic.controls.b]
+from_mm = [0, 0, 0]
+to_mm = [0, 80, 0]
+steers = "division_rate"
+low = 0.5
+rings = { count = 4 }
+[leaves.beech.mosaic.controls.c]
+from_mm = [0, 0, 0]
+to_mm = [0, 80, 0]
+steers = "adhesion"
+type = "yellow"
+other_type = "green"
+noise = { around = 3, octaves = 2, threshold = 0.5, seed = 7 }
+[leaves.beech.mosaic.controls.d]
+from_mm = [0, 0, 0]
+to_mm = [0, 80, 0]
+steers = "blocked"
+picture = { path = "g.png" }
+[leaves.beech.mosaic.controls.e]
+from_mm = [0, 0, 0]
+to_mm = [0, 80, 0]
+steers = "division_rate"
+type = "green"
+constant = 0.5
+"#;
+    let read = |text: &str| match parse_leaves(text, "beech", folder.path(), &[]) {
+        Ok(mut leaves) => leaves.remove(0).value.plan,
+        Err(errors) => panic!("{errors}\n{text}"),
+    };
+    let plan = read(&(leaf_to_toml("beech", &plain()) + mosaic));
+    let pattern = plan.mosaic.as_ref().expect("it has a mosaic");
+    assert_eq!(pattern.validate(), Ok(()));
+    assert_eq!(pattern.faces, LeafFaces::Both);
+    let [yellow, green, white] = pattern.plan.types.as_slice() else {
+        panic!("three types: {:?}", pattern.plan.types);
+    };
+    assert_eq!(green.switching, [0.125, 0.875, 0.0]);
+    assert_eq!((white.adhesion[0], yellow.adhesion[2]), (0.2, 0.2));
+    assert_eq!(white.division_days, f64::INFINITY);
+    assert_eq!(pattern.contents[0].betaxanthins, 2.0);
+    assert_eq!(pattern.contents[1], plan.tissue.lamina);
+    assert_eq!(pattern.plan.controls.len(), 5);
     assert_eq!(read(&leaf_to_toml("beech", &plan)), plan);
 }
 
