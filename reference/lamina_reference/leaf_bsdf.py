@@ -129,7 +129,10 @@ class LeafBSDF(mi.BSDF):
             if self.kind == "map":
                 self.map = ContentsMap(Path(str(mi.file_resolver().resolve(str(props.get("map"))))))
             elif self.kind == "contents":
-                self.contents = {name: float(props.get(name)) for name in CONTENTS}
+                self.contents = {
+                    name: float(props.get(name, 0.0) if name in BETALAINS else props.get(name))
+                    for name in CONTENTS
+                }
             else:
                 raise ValueError(f"tissue = {self.kind}, not contents, map or measured")
 
