@@ -25,11 +25,11 @@ fn rows() -> Vec<Row> {
                 .split(',')
                 .map(|figure| figure.parse().expect("a figure is a number"))
                 .collect();
-            let contents = Contents::from_array(figures[..7].try_into().expect("seven contents"));
+            let [n, cab, car, ant, brown, cw, cm] =
+                figures[..7].try_into().expect("seven contents");
             Row {
                 case,
-                contents: contents
-                    .checked()
+                contents: Contents::new(n, cab, car, ant, brown, cw, cm)
                     .expect("the reference holds valid leaves"),
                 wavelength_nm: figures[7],
                 reflectance: figures[8],
