@@ -1,10 +1,49 @@
 //! Piecewise constant distributions in one and two dimensions.
 
+/// Where to look for a number among rising borders: the range of borders for each of as many equal parts of [0, 1]
+/// (the cutpoint method, \[chen1974\]), so that a search takes the same few steps however many borders there are.
+#[derive(Clone, Debug)]
+pub struct Guide {
+    /// How many borders lie in parts before each one, and all of them at the end.
+    before: Box<[u32]>,
+}
+
+impl Guide {
+    /// For borders that rise within [0, 1], at least one and fewer than 2³².
+    pub fn new<T: Copy + Into<f64>>(borders: &[T]) -> Self {
+        let mut before = vec![0; borders.len() + 2];
+        for &border in borders {
+            before[Self::part(borders.len(), border.into()) + 1] += 1;
+        }
+        let mut sum = 0;
+        for count in &mut before {
+            sum += *count;
+            *count = sum;
+        }
+        Self {
+            before: before.into(),
+        }
+    }
+
+    /// How many of the borders that this guide was made for are at most `u`, in [0, 1].
+    pub fn count_up_to<T: Copy + PartialOrd + Into<f64>>(&self, borders: &[T], u: T) -> usize {
+        // Rising numbers come into rising parts, so that all before are smaller and all behind greater, to the bit.
+        let part = Self::part(borders.len(), u.into());
+        let [first, last] = [self.before[part], self.before[part + 1]].map(|count| count as usize);
+        first + borders[first..last].partition_point(|&border| border <= u)
+    }
+
+    fn part(parts: usize, u: f64) -> usize {
+        (u * parts as f64) as usize
+    }
+}
+
 /// Steps of equal width over [0, 1) with given weights.
 #[derive(Clone, Debug)]
 pub struct Piecewise1d {
     /// From 0 to 1, one more than there are steps.
     cumulative: Box<[f32]>,
+    guide: Guide,
     mean: f64,
 }
 
@@ -13,7 +52,7 @@ impl Piecewise1d {
     pub fn new(weights: &[f32]) -> Self {
         let total: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
         let mut sum = 0.0;
-        let cumulative = std::iter::once(0.0)
+        let cumulative: Box<[f32]> = std::iter::once(0.0)
             .chain(weights.iter().map(|&weight| {
                 sum += if total > 0.0 {
                     f64::from(weight) / total
@@ -24,6 +63,7 @@ impl Piecewise1d {
             }))
             .collect();
         Self {
+            guide: Guide::new(&cumulative),
             cumulative,
             mean: total / weights.len() as f64,
         }
@@ -42,11 +82,8 @@ impl Piecewise1d {
     /// The step that `u` in [0, 1) falls into, and where in it, in [0, 1).
     pub fn sample(&self, u: f32) -> (usize, f32) {
         let steps = self.cumulative.len() - 1;
-        let mut step = self
-            .cumulative
-            .partition_point(|&border| border <= u)
-            .clamp(1, steps)
-            - 1;
+        let below = self.guide.count_up_to(&self.cumulative, u);
+        let mut step = below.clamp(1, steps) - 1;
         // The last step that u can reach may be empty when rounding closes the sum early.
         while step > 0 && self.probability(step) <= 0.0 {
             step -= 1;
@@ -107,6 +144,21 @@ impl Piecewise2d {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_guided_search_finds_what_a_search_through_all_borders_finds() {
+        let mut borders = vec![0.0_f32; 40];
+        borders.extend((1..300_u16).map(|i| (f32::from(i) / 300.0).powi(3)));
+        borders.extend([0.999_999_9, 1.0, 1.0]);
+        let guide = Guide::new(&borders);
+        let near = |x: f32| [x.next_down(), x, x.next_up()];
+        let even = (0..=5000).map(|i| i as f32 / 5000.0);
+        for u in borders.iter().copied().flat_map(near).chain(even) {
+            let u = u.clamp(0.0, 1.0);
+            let expected = borders.partition_point(|&border| border <= u);
+            assert_eq!(guide.count_up_to(&borders, u), expected, "{u}");
+        }
+    }
 
     #[test]
     fn steps_are_drawn_as_often_as_they_weigh() {

@@ -1,5 +1,6 @@
 //! Which wavelengths a path carries, and what its radiance adds to the film.
 
+use crate::sampling::distribution::Guide;
 use crate::scene::description::Band;
 use crate::spectrum::cie;
 use crate::spectrum::lanes::Lanes;
@@ -29,6 +30,7 @@ pub struct VisibleDistribution {
     step_nm: f64,
     /// Cumulative, from 0 to 1, one more than there are steps.
     cumulative: Vec<f64>,
+    guide: Guide,
     /// Linear sRGB of radiance 1 nm wide at each border of the steps, divided by the ȳ integral.
     rgb: Vec<[f32; 3]>,
 }
@@ -69,6 +71,7 @@ impl VisibleDistribution {
         Self {
             first_nm: range_nm[0],
             step_nm,
+            guide: Guide::new(&cumulative),
             cumulative,
             rgb,
         }
@@ -76,11 +79,8 @@ impl VisibleDistribution {
 
     /// A wavelength and its density for `u` in [0, 1).
     fn draw(&self, u: f64) -> (f32, f32) {
-        let step = self
-            .cumulative
-            .partition_point(|&border| border <= u)
-            .clamp(1, self.cumulative.len() - 1)
-            - 1;
+        let below = self.guide.count_up_to(&self.cumulative, u);
+        let step = below.clamp(1, self.cumulative.len() - 1) - 1;
         let mass = self.cumulative[step + 1] - self.cumulative[step];
         let within = ((u - self.cumulative[step]) / mass).clamp(0.0, 1.0);
         let nm = self.first_nm + (step as f64 + within) * self.step_nm;
