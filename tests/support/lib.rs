@@ -2,4 +2,5 @@
 
 pub mod chi_square;
 pub mod directional;
+pub mod golden;
 pub mod picture;
