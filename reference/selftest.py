@@ -28,7 +28,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from lamina_reference import compare, leaf_bsdf, prospect, render
+from lamina_reference import colour, colours, compare, leaf_bsdf, prospect, render
 from lamina_reference.coat import Coat, albedo
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -143,6 +143,21 @@ def test_prospect_without_absorption_loses_nothing() -> None:
         r, t = model.spectra(kind(np.linspace(400.0, 700.0, 301)), contents)
         lost = 1.0 - np.array(r) - np.array(t)
         assert np.all(lost > -1e-8) and np.all(lost < 1e-8 + 10.0 * little), (plates, little, lost)
+
+
+def test_colours_of_the_presets_are_those_of_colour_science() -> None:
+    rows = colours.rows(colours.program())
+    assert len(rows) == 2 * 19, len(rows)
+    for row in rows:
+        assert row.worst < colours.MOST, row
+        assert row.spectra_differ_by < 1e-8, row
+
+
+def test_a_colour_five_percent_too_bright_is_told_apart() -> None:
+    sun_green = np.array([0.0855, 0.1068, 0.0494])
+    assert colour.delta_e_of_xyz(sun_green, sun_green) == 0.0
+    assert colour.delta_e_of_xyz(sun_green, 1.05 * sun_green) > colours.MOST
+    assert colour.delta_e_of_xyz(sun_green, sun_green * [1.03, 1.0, 1.0]) > colours.MOST
 
 
 def test_coat_albedo_is_the_integral_over_directions() -> None:
