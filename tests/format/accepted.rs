@@ -3,6 +3,9 @@
 use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
+use leafmodel::optics::Pigments;
+use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
+use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
 use leafmodel::shape::growth::RateCurve;
 use leafmodel::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
@@ -213,6 +216,56 @@ fn spectra_are_read_in_every_form() {
             ..
         }
     ));
+}
+
+#[test]
+fn pigments_are_those_that_are_written_and_else_prospects() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Material::Leaf { pigments, .. } = &scene.materials[2].value else {
+        panic!("green is {:?}", scene.materials[2].value);
+    };
+    let green = Pigments {
+        chlorophyll: ChlorophyllMix::Bands {
+            a_to_b: 3.1,
+            shift_per_cm: -380.0,
+            packaging: 0.4,
+        },
+        carotenoids: CarotenoidMix::Bands {
+            shares: [0.25, 0.5, 0.1, 0.15, 0.0],
+            shift_per_cm: -900.0,
+            packaging: 0.3,
+        },
+        anthocyanins: AnthocyaninMix::Aglycones {
+            shares: [0.1, 0.5, 0.1, 0.1, 0.1, 0.1],
+            shift_nm: 15.0,
+            blue_fraction: 0.05,
+        },
+        betacyanins: Betacyanin::Amaranthine,
+        betaxanthins: Betaxanthin::Vulgaxanthin,
+        betalain_packaging: 0.45,
+    };
+    assert_eq!(**pigments, green);
+    assert_eq!(green.checked(), Ok(green));
+    let Material::Leaf { pigments, .. } = &scene.materials[3].value else {
+        panic!("mapped is {:?}", scene.materials[3].value);
+    };
+    assert_eq!(**pigments, Pigments::default());
+    let shifted = accept(
+        &text_of("whole.toml"),
+        "whole.toml",
+        &["leaves.beech.pigments.anthocyanins.shift_nm=20"],
+    );
+    let AnthocyaninMix::Aglycones {
+        shares, shift_nm, ..
+    } = shifted.description.leaves[0]
+        .value
+        .plan
+        .pigments
+        .anthocyanins
+    else {
+        panic!("the override is read");
+    };
+    assert_eq!((shares, shift_nm), ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], 20.0));
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
+use leafmodel::optics::Pigments;
 
 /// A whole scene.
 #[derive(Clone, Debug)]
@@ -173,6 +174,8 @@ pub enum Material {
     Leaf {
         /// What decides R and T.
         tissue: LeafTissue,
+        /// What the pigments of its contents are.
+        pigments: Box<Pigments>,
         /// Abaxial over adaxial reflectance.
         abaxial_ratio: Spectrum,
         /// Adaxial and abaxial coat.

@@ -9,6 +9,7 @@ use thiserror::Error;
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::Palette;
 use crate::scene::description;
 use crate::scene::world::build_coat;
 use crate::spectrum::Curve;
@@ -49,16 +50,17 @@ pub enum PlantError {
     Mesh(#[from] MeshError),
 }
 
-/// Grows a leaf.
+/// Grows a leaf whose pigments are those of `palette`.
 ///
 /// # Errors
 ///
 /// [`PlantError`] if the plan cannot be carried out.
-pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
+pub fn grow(leaf: &description::Leaf, palette: &Palette) -> Result<GrownLeaf, PlantError> {
     let whole = WholeLeaf::grow(&leaf.plan)?;
     let stalk_contents = whole.stalk_contents(&leaf.plan)?;
     let material = |tissue| LeafMaterial {
         tissue,
+        palette: palette.clone(),
         abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
         coats: leaf.coats.map(build_coat),
     };

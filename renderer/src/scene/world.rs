@@ -17,6 +17,7 @@ use crate::light::environment::EnvironmentLight;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::Palettes;
 use crate::scene::assets::{self, AssetError};
 use crate::scene::description::{self, Description, FilmKind, ObjectShape};
 use crate::scene::plants::{self, Piece, PlantError};
@@ -34,6 +35,8 @@ pub struct World {
     pub materials: Vec<Material>,
     /// Whose each material is.
     pub owners: Vec<MaterialOwner>,
+    /// What pigments leaves have, each choice once.
+    pub palettes: Palettes,
     /// Lights, in the scene's order.
     pub lights: Vec<Light>,
     /// How lights are sampled.
@@ -143,19 +146,23 @@ impl World {
         }
         let wavelengths = wavelength_sampler(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
+        let mut palettes = Palettes::default();
         let mut materials = Vec::new();
         for material in &scene.materials {
-            materials.push(build_material(&material.name, &material.value)?);
+            let built = build_material(&material.name, &material.value, &mut palettes)?;
+            materials.push(built);
         }
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
         // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, leaf) in scene.leaves.iter().enumerate() {
-            let grown = plants::grow(&leaf.value).map_err(|source| WorldError::Plant {
-                name: leaf.name.clone(),
-                source: Box::new(source),
-            })?;
+            let palette = palettes.of(&leaf.value.plan.pigments);
+            let grown =
+                plants::grow(&leaf.value, &palette).map_err(|source| WorldError::Plant {
+                    name: leaf.name.clone(),
+                    source: Box::new(source),
+                })?;
             let pieces = grown.pieces.into_iter().map(|piece| Piece {
                 mesh: meshes.len() + piece.mesh,
                 material: materials.len() + piece.material,
@@ -190,6 +197,7 @@ impl World {
             objects,
             materials,
             owners,
+            palettes,
             selection: LightSelection::new(&lights, &powers),
             lights,
             camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
@@ -361,7 +369,11 @@ fn sphere(radius: f64, segments: u32) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(positions, Some(normals), Some(uvs), triangles)
 }
 
-fn build_material(name: &str, material: &description::Material) -> Result<Material, WorldError> {
+fn build_material(
+    name: &str,
+    material: &description::Material,
+    palettes: &mut Palettes,
+) -> Result<Material, WorldError> {
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
             Material::Diffuse(Curve::from_description(reflectance))
@@ -372,6 +384,7 @@ fn build_material(name: &str, material: &description::Material) -> Result<Materi
         }),
         description::Material::Leaf {
             tissue,
+            pigments,
             abaxial_ratio,
             coats,
         } => {
@@ -397,6 +410,7 @@ fn build_material(name: &str, material: &description::Material) -> Result<Materi
             };
             Material::Leaf(Box::new(LeafMaterial {
                 tissue,
+                palette: palettes.of(pigments),
                 abaxial_ratio: Curve::from_description(abaxial_ratio),
                 coats: coats.map(build_coat),
             }))

@@ -15,6 +15,7 @@ use super::material::{read_abaxial_ratio, read_coats};
 use super::mosaic::read_mosaic;
 use super::outline::read_outline;
 use super::petiole::read_petiole;
+use super::pigments::read_pigments;
 use super::reader::Block;
 use super::senescence::read_senescence;
 use super::spectrum::require_prospect;
@@ -54,6 +55,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         // Its blocks are read all the same, so that their errors are found too.
         read_tissue(block, VEIN_FACTORS);
     }
+    let pigments = read_pigments(block);
     let earns = outline.as_ref().zip(venation.as_ref());
     let earns = earns.map(|(outline, venation)| {
         matches!(outline.plan.contour, Contour::Transport(_))
@@ -86,6 +88,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         senescence,
         form,
         petiole,
+        pigments: pigments?,
         compound: compound.as_ref().map(|read| read.form.clone()),
         map_size,
     };
