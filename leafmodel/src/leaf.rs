@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod combinations;
 mod fields;
+mod holders;
 mod lamina;
 pub mod outline_plan;
 mod stages;

@@ -508,6 +508,42 @@ fn betalains_and_anthocyanins_in_one_leaf_are_a_warning() {
 }
 
 #[test]
+fn betalains_and_anthocyanins_in_parts_of_one_leaf_are_one_warning_that_names_them() {
+    let leaf = "\n[leaves.beet]\nlength_mm = 50\n[leaves.beet.outline.cubic]\n[leaves.beet.venation.arcuate]\n\
+                [leaves.beet.contents]\nstructure = 1.5\nchlorophyll_ug_per_cm2 = 30\ncarotenoids_ug_per_cm2 = 8\n\
+                betacyanins_ug_per_cm2 = 5\nwater_cm = 0.01\ndry_matter_g_per_cm2 = 0.005\n";
+    let told = |text: &str| -> Vec<String> {
+        let scene = text_of("minimal.toml") + leaf + text;
+        let loaded = accept(&scene, "minimal.toml", &[]);
+        let found = loaded.warnings.iter();
+        let found = found.filter(|warning| warning.code() == "scene::betalains_and_anthocyanins");
+        found.map(|warning| warning.render(false)).collect()
+    };
+    assert!(told("").is_empty());
+    for (part, text) in [
+        (
+            "layers.spots",
+            "[leaves.beet.layers.spots]\nmidrib = { width_mm = 2 }\ncontents = { anthocyanins_ug_per_cm2 = 3 }\n",
+        ),
+        (
+            "senescence",
+            "[leaves.beet.senescence]\nday = 20\ncourse = \"red\"\n",
+        ),
+        (
+            "mosaic.types.red",
+            "[leaves.beet.mosaic]\ndays = 3\n[leaves.beet.mosaic.types.green]\ninitial_share = 0.5\n\
+             [leaves.beet.mosaic.types.red]\ninitial_share = 0.5\n\
+             contents = { betacyanins_ug_per_cm2 = 0, anthocyanins_ug_per_cm2 = 3 }\n",
+        ),
+    ] {
+        let told = told(text);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].contains(&format!("`{part}`")), "{}", told[0]);
+        assert!(told[0].contains("[leaves.beet"), "{}", told[0]);
+    }
+}
+
+#[test]
 fn petioles_and_compound_leaves_mean_what_the_book_says() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let petiole = scene.leaves[1].value.plan.petiole;

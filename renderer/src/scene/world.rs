@@ -1,5 +1,7 @@
 //! The finished scene: immutable, shared by every thread.
 
+mod notes;
+
 use std::path::PathBuf;
 
 use glam::{DMat4, DVec3, Vec2, Vec3};
@@ -152,6 +154,8 @@ impl World {
             let built = build_material(&material.name, &material.value, &mut palettes)?;
             materials.push(built);
         }
+        let names = scene.materials.iter().map(|named| named.name.as_str());
+        notes.extend(notes::on_maps(names.zip(&materials)));
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
         // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
