@@ -5,6 +5,7 @@ use leafmodel::optics::solid::{ETA, ReflectanceTable, SCATTERING_PER_MM, Solid};
 use leafmodel::optics::{Contents, ProspectD};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::leaf::Coat;
+use renderer::material::palette::Palette;
 use renderer::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
 use renderer::material::{Material, PathSpectra};
 use renderer::sampling::stream::Stream;
@@ -23,7 +24,13 @@ fn rind() -> Contents {
 fn material(contents: Contents, optics: Solid, coat: Coat) -> Material {
     let table = ReflectanceTables::default().of(optics.eta);
     let tissue = SolidTissue::Uniform(contents);
-    Material::Solid(Box::new(SolidMaterial::new(tissue, optics, table, coat)))
+    Material::Solid(Box::new(SolidMaterial::new(
+        tissue,
+        Palette::default(),
+        optics,
+        table,
+        coat,
+    )))
 }
 
 fn spectra() -> PathSpectra<4> {

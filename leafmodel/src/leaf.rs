@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod combinations;
 mod fields;
+mod holders;
 mod lamina;
 pub mod outline_plan;
 mod stages;
@@ -27,6 +28,7 @@ use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::CompoundForm;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
+use crate::optics::Pigments;
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
@@ -58,6 +60,8 @@ pub struct LeafPlan {
     /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`] grows the one leaflet,
     /// [`WholeLeaf::grow`](crate::compound::WholeLeaf::grow) all of them.
     pub compound: Option<CompoundForm>,
+    /// What the pigments of its contents are; the whole leaf has the same.
+    pub pigments: Pigments,
     /// Texels of the content maps along the longer side of the leaf, 16 to 8192.
     pub map_size: u32,
 }
@@ -317,6 +321,7 @@ mod tests {
             },
             petiole: None,
             compound: None,
+            pigments: Pigments::default(),
             map_size: 64,
         }
     }

@@ -17,7 +17,7 @@ use crate::mosaic::atlas::{Atlas, AtlasError};
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::mosaic::shapes::{Shape, ShapeError};
 use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError};
-use crate::optics::Contents;
+use crate::optics::{Contents, Pigments};
 
 /// Texels around each chart of the map.
 const GUTTER: u32 = 3;
@@ -37,6 +37,8 @@ pub struct SolidPlan {
     pub contents: Contents,
     /// Cells with contents of their own.
     pub mosaic: Option<MosaicPattern>,
+    /// What the pigments of its contents are.
+    pub pigments: Pigments,
     /// Texels of the map of contents along a side, 16 to 8192.
     pub map_size: u32,
 }

@@ -25,7 +25,7 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::Contents;
+use crate::optics::{Contents, Pigments};
 use crate::venation::plan::AuxinPlan;
 
 pub use self::list::PRESETS;
@@ -123,6 +123,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
         },
         petiole: None,
         compound: None,
+        pigments: Pigments::default(),
         map_size: 1600,
     }
 }

@@ -20,19 +20,43 @@ Array = NDArray[np.float64]
 
 _OBSERVER = science.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
 _D65 = science.SDS_ILLUMINANTS["D65"]
+_D65_XY = science.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]["D65"]
 
 
-def srgb_under_d65(wavelengths: Array, values: Array) -> Array:
-    """Linear sRGB (white is 1, 1, 1) of a reflectance or transmittance lit by D65.
+def xyz_under_d65(wavelengths: Array, values: Array) -> Array:
+    """XYZ (Y of the perfect diffuser is 1) of a reflectance or transmittance lit by D65.
 
-    `wavelengths` in nm, rising by a constant step; `values` of the same shape. Not clipped.
+    `wavelengths` in nm, rising by 1; `values` of the same shape. By ASTM E308, 360 to 780 nm by
+    1 nm; below the first wavelength its value holds.
     """
     spectrum = science.SpectralDistribution(dict(zip(wavelengths, values, strict=True)))
-    shape = science.SpectralShape(380, 780, 5)
-    xyz = science.sd_to_XYZ(
-        spectrum.align(shape), _OBSERVER.copy().align(shape), _D65.copy().align(shape)
-    )
-    return np.asarray(science.XYZ_to_RGB(xyz / 100.0, "sRGB"), dtype=np.float64)
+    shape = science.SpectralShape(360, 780, 1)
+    spectrum = spectrum.align(shape, extrapolator_kwargs={"method": "Constant"})
+    observer, d65 = _OBSERVER.copy().align(shape), _D65.copy().align(shape)
+    xyz = science.sd_to_XYZ(spectrum, observer, d65, method="ASTM E308")
+    return np.asarray(xyz, dtype=np.float64) / 100.0
+
+
+def hex_of(xyz: Array) -> str:
+    """Encoded sRGB as web pages write it, clipped."""
+    srgb = science.XYZ_to_sRGB(xyz)
+    return "#" + "".join(f"{round(255.0 * float(c)):02x}" for c in np.clip(srgb, 0.0, 1.0))
+
+
+def srgb_of_hex(text: str) -> Array:
+    """Encoded sRGB in [0, 1] of `#rrggbb`."""
+    return np.array([int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)])
+
+
+def delta_e_of_xyz(ours: Array, theirs: Array) -> float:
+    """ΔE2000 of two colours under D65, Y of white 1."""
+    lab = [science.XYZ_to_Lab(xyz, _D65_XY) for xyz in (ours, theirs)]
+    return float(science.delta_E(*lab, method="CIE 2000"))
+
+
+def delta_e_of_hex(ours: str, theirs: str) -> float:
+    """ΔE2000 of two colours as web pages write them."""
+    return delta_e_of_xyz(*(science.sRGB_to_XYZ(srgb_of_hex(text)) for text in (ours, theirs)))
 
 
 def delta_e_2000(ours: Array, theirs: Array, bands: list[float]) -> Array | None:

@@ -2,6 +2,7 @@
 
 pub mod contents_texture;
 pub mod leaf;
+pub mod palette;
 pub mod solid;
 
 use glam::Vec2;
@@ -11,7 +12,11 @@ use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
 use crate::spectrum::{Curve, Wavelengths};
 use leaf::{LeafMaterial, LeafOptics};
+use palette::Palette;
 use solid::SolidMaterial;
+
+/// Palettes whose constants a path keeps. Among more it works some out again at a change of leaf, which costs as much as a hit does.
+const KEPT: usize = 4;
 
 /// The materials, a closed set.
 #[derive(Clone, Debug)]
@@ -31,8 +36,8 @@ pub enum Material {
 pub struct PathSpectra<const N: usize> {
     /// The path's wavelengths.
     pub wavelengths: Wavelengths<N>,
-    /// PROSPECT's tables at them, from the first leaf on.
-    optics: Option<LeafOptics<N>>,
+    /// PROSPECT's constants at them, of each palette from its first leaf on, in the slot that its number points at.
+    optics: [Option<LeafOptics<N>>; KEPT],
 }
 
 impl<const N: usize> PathSpectra<N> {
@@ -40,18 +45,20 @@ impl<const N: usize> PathSpectra<N> {
     pub fn new(wavelengths: Wavelengths<N>) -> Self {
         Self {
             wavelengths,
-            optics: None,
+            optics: [const { None }; KEPT],
         }
     }
 
-    fn optics(&mut self) -> &LeafOptics<N> {
-        self.optics
-            .get_or_insert_with(|| LeafOptics::new(&self.wavelengths))
+    fn optics(&mut self, palette: &Palette) -> &LeafOptics<N> {
+        let slot = &mut self.optics[palette.number() % KEPT];
+        // Another palette with the same slot makes way.
+        slot.take_if(|kept| kept.palette() != palette.number());
+        slot.get_or_insert_with(|| LeafOptics::new(palette, &self.wavelengths))
     }
 
     /// What contents absorb in all at each of the wavelengths, `Σ C K`, ≥ 0.
-    fn absorption(&mut self, contents: &Contents) -> [f64; N] {
-        self.optics().absorption(contents)
+    fn absorption(&mut self, palette: &Palette, contents: &Contents) -> [f64; N] {
+        self.optics(palette).absorption(contents)
     }
 }
 

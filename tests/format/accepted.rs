@@ -3,6 +3,9 @@
 use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
+use leafmodel::optics::Pigments;
+use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
+use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
 use leafmodel::shape::growth::RateCurve;
 use leafmodel::solid::SolidShape;
 use leafmodel::venation::plan::{
@@ -279,13 +282,74 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
             .iter()
             .all(|n| (n.length() - 1.0).abs() < 1e-12)
     );
-    let Material::Solid { tissue, optics } = &scene.materials[5].value else {
+    let ChlorophyllMix::Bands { a_to_b, .. } = solid(1).plan.pigments.chlorophyll else {
+        panic!("the ball's pigments are {:?}", solid(1).plan.pigments);
+    };
+    assert_eq!(a_to_b, 6.0);
+    assert_eq!(solid(2).plan.pigments, Pigments::default());
+    let Material::Solid {
+        tissue,
+        pigments,
+        optics,
+    } = &scene.materials[5].value
+    else {
         panic!("rind is {:?}", scene.materials[5].value);
     };
     assert!(
         matches!(tissue, SolidTissue::Contents { contents, extrapolate: true } if contents.betaxanthins == 1.0)
     );
     assert_eq!((optics.tissue.depth_mm, optics.coat.eta), (0.5, 1.33));
+    assert_eq!(pigments.betaxanthins, Betaxanthin::Vulgaxanthin);
+}
+
+#[test]
+fn pigments_are_those_that_are_written_and_else_prospects() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Material::Leaf { pigments, .. } = &scene.materials[2].value else {
+        panic!("green is {:?}", scene.materials[2].value);
+    };
+    let green = Pigments {
+        chlorophyll: ChlorophyllMix::Bands {
+            a_to_b: 3.1,
+            shift_per_cm: -380.0,
+            packaging: 0.4,
+        },
+        carotenoids: CarotenoidMix::Bands {
+            shares: [0.25, 0.5, 0.1, 0.15, 0.0],
+            shift_per_cm: -900.0,
+            packaging: 0.3,
+        },
+        anthocyanins: AnthocyaninMix::Aglycones {
+            shares: [0.1, 0.5, 0.1, 0.1, 0.1, 0.1],
+            shift_nm: 15.0,
+            blue_fraction: 0.05,
+        },
+        betacyanins: Betacyanin::Amaranthine,
+        betaxanthins: Betaxanthin::Vulgaxanthin,
+        betalain_packaging: 0.45,
+    };
+    assert_eq!(**pigments, green);
+    assert_eq!(green.checked(), Ok(green));
+    let Material::Leaf { pigments, .. } = &scene.materials[3].value else {
+        panic!("mapped is {:?}", scene.materials[3].value);
+    };
+    assert_eq!(**pigments, Pigments::default());
+    let shifted = accept(
+        &text_of("whole.toml"),
+        "whole.toml",
+        &["leaves.beech.pigments.anthocyanins.shift_nm=20"],
+    );
+    let AnthocyaninMix::Aglycones {
+        shares, shift_nm, ..
+    } = shifted.description.leaves[0]
+        .value
+        .plan
+        .pigments
+        .anthocyanins
+    else {
+        panic!("the override is read");
+    };
+    assert_eq!((shares, shift_nm), ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], 20.0));
 }
 
 #[test]
@@ -525,6 +589,64 @@ fn betalains_and_anthocyanins_in_one_leaf_are_a_warning() {
         both.contains(&"scene::betalains_and_anthocyanins"),
         "{both:?}"
     );
+}
+
+#[test]
+fn betalains_and_anthocyanins_in_cells_of_one_body_are_a_warning() {
+    let told = |own: &str, cells: &str| {
+        let solid = format!(
+            "\n[solids.odd.shape.sphere]\nradius_mm = 10\n[solids.odd.contents]\n{own}\n\
+             [solids.odd.mosaic]\ndays = 3\n[solids.odd.mosaic.types.red]\ninitial_share = 1\n\
+             contents = {{ {cells} }}\n"
+        );
+        let loaded = accept(&(text_of("minimal.toml") + &solid), "minimal.toml", &[]);
+        let codes = loaded
+            .warnings
+            .iter()
+            .map(renderer::scene::report::Warning::code);
+        codes
+            .filter(|code| *code == "scene::betalains_and_anthocyanins")
+            .count()
+    };
+    let (red, yellow) = ("anthocyanins_ug_per_cm2 = 3", "betaxanthins_ug_per_cm2 = 2");
+    assert_eq!(told(red, red), 0);
+    assert_eq!(told(red, yellow), 1);
+}
+
+#[test]
+fn betalains_and_anthocyanins_in_parts_of_one_leaf_are_one_warning_that_names_them() {
+    let leaf = "\n[leaves.beet]\nlength_mm = 50\n[leaves.beet.outline.cubic]\n[leaves.beet.venation.arcuate]\n\
+                [leaves.beet.contents]\nstructure = 1.5\nchlorophyll_ug_per_cm2 = 30\ncarotenoids_ug_per_cm2 = 8\n\
+                betacyanins_ug_per_cm2 = 5\nwater_cm = 0.01\ndry_matter_g_per_cm2 = 0.005\n";
+    let told = |text: &str| -> Vec<String> {
+        let scene = text_of("minimal.toml") + leaf + text;
+        let loaded = accept(&scene, "minimal.toml", &[]);
+        let found = loaded.warnings.iter();
+        let found = found.filter(|warning| warning.code() == "scene::betalains_and_anthocyanins");
+        found.map(|warning| warning.render(false)).collect()
+    };
+    assert!(told("").is_empty());
+    for (part, text) in [
+        (
+            "layers.spots",
+            "[leaves.beet.layers.spots]\nmidrib = { width_mm = 2 }\ncontents = { anthocyanins_ug_per_cm2 = 3 }\n",
+        ),
+        (
+            "senescence",
+            "[leaves.beet.senescence]\nday = 20\ncourse = \"red\"\n",
+        ),
+        (
+            "mosaic.types.red",
+            "[leaves.beet.mosaic]\ndays = 3\n[leaves.beet.mosaic.types.green]\ninitial_share = 0.5\n\
+             [leaves.beet.mosaic.types.red]\ninitial_share = 0.5\n\
+             contents = { betacyanins_ug_per_cm2 = 0, anthocyanins_ug_per_cm2 = 3 }\n",
+        ),
+    ] {
+        let told = told(text);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].contains(&format!("`{part}`")), "{}", told[0]);
+        assert!(told[0].contains("[leaves.beet"), "{}", told[0]);
+    }
 }
 
 #[test]

@@ -28,6 +28,17 @@ pub enum Betaxanthin {
 }
 
 impl Betacyanin {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Betanin, Self::Amaranthine];
+
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Betanin => "betanin",
+            Self::Amaranthine => "amaranthine",
+        }
+    }
+
     /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹.
     pub(super) fn epsilon(self) -> f64 {
         match self {
@@ -49,6 +60,17 @@ impl Betacyanin {
 }
 
 impl Betaxanthin {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Indicaxanthin, Self::Vulgaxanthin];
+
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Indicaxanthin => "indicaxanthin",
+            Self::Vulgaxanthin => "vulgaxanthin",
+        }
+    }
+
     /// Molar absorptivity at the peak, L mol⁻¹ cm⁻¹ (unverified).
     pub(super) fn epsilon(self) -> f64 {
         match self {

@@ -16,6 +16,8 @@ pub enum PresetBasis {
     Fitted,
     /// Chosen by eye within what leaves of the kind are known to hold.
     Estimate,
+    /// Taken to be absent; nobody has measured that it is.
+    Absent,
 }
 
 impl PresetBasis {
@@ -26,6 +28,7 @@ impl PresetBasis {
             Self::Measured => "measured",
             Self::Fitted => "fitted",
             Self::Estimate => "estimate",
+            Self::Absent => "taken to be absent",
         }
     }
 }
@@ -35,14 +38,41 @@ impl PresetBasis {
 pub struct Preset {
     /// Its name, lower case with hyphens.
     pub name: &'static str,
+    /// Which leaf it is.
+    pub about: &'static str,
     /// What such a leaf holds.
     pub contents: Contents,
-    /// What the numbers rest on.
+    /// What the numbers rest on, taken together.
     pub basis: PresetBasis,
 }
 
+impl Preset {
+    /// What the number at `index` of [`Contents::to_array`] rests on.
+    ///
+    /// Nobody measures a number of plates: it is fitted, with the contents as measured. A content of 0 is taken to be absent.
+    pub fn basis_of(&self, index: usize) -> PresetBasis {
+        let values = self.contents.to_array();
+        match (Contents::NAMES[index], self.basis) {
+            _ if values[index] == 0.0 => PresetBasis::Absent,
+            ("structure", PresetBasis::Measured) => PresetBasis::Fitted,
+            // Structure, chlorophyll and carotenoids of purple leaves are in ANGERS.
+            ("structure" | "chlorophyll" | "carotenoids", _) if self.name == SMOKE_TREE => {
+                PresetBasis::Angers
+            }
+            (_, basis) => basis,
+        }
+    }
+}
+
+const SMOKE_TREE: &str = "smoke-tree-purple";
+
 /// A row: N, chlorophyll, carotenoids, anthocyanins, brown, water, dry matter.
-const fn preset(name: &'static str, values: [f64; 7], basis: PresetBasis) -> Preset {
+const fn preset(
+    name: &'static str,
+    about: &'static str,
+    values: [f64; 7],
+    basis: PresetBasis,
+) -> Preset {
     let [
         structure,
         chlorophyll,
@@ -54,6 +84,7 @@ const fn preset(name: &'static str, values: [f64; 7], basis: PresetBasis) -> Pre
     ] = values;
     Preset {
         name,
+        about,
         contents: Contents {
             structure,
             chlorophyll,
@@ -74,25 +105,25 @@ const fn preset(name: &'static str, values: [f64; 7], basis: PresetBasis) -> Pre
 pub const ALL: [Preset; 19] = {
     use PresetBasis::{Angers, Estimate, Fitted, Measured};
     [
-        preset("sun-green", [1.6, 45.0, 10.0, 0.5, 0.0, 0.011, 0.006], Angers),
-        preset("shade-thin", [1.3, 35.0, 8.0, 0.0, 0.0, 0.008, 0.003], Angers),
-        preset("dark-evergreen", [2.1, 75.0, 15.0, 1.0, 0.0, 0.022, 0.013], Angers),
-        preset("chlorotic", [1.5, 6.0, 3.0, 0.0, 0.0, 0.010, 0.004], Angers),
-        preset("golden", [1.55, 1.0, 7.1, 0.0, 0.0, 0.0064, 0.0036], Measured),
-        preset("white-sector", [1.2, 1.6, 0.04, 0.0, 0.0, 0.0084, 0.0022], Measured),
-        preset("cream-sector", [1.9, 1.8, 0.7, 0.0, 0.0, 0.0157, 0.0047], Measured),
-        preset("young-red-flush", [1.4, 12.0, 4.0, 15.0, 0.0, 0.010, 0.003], Estimate),
-        preset("birch-yellow", [1.51, 1.2, 5.2, 0.4, 0.33, 0.0094, 0.0038], Fitted),
-        preset("oak-yellow-brown", [1.27, 2.0, 4.8, 0.0, 0.27, 0.0078, 0.0034], Fitted),
-        preset("ginkgo-yellow", [1.7, 0.8, 9.0, 0.0, 0.03, 0.011, 0.006], Estimate),
-        preset("poplar-yellow", [1.6, 1.5, 6.0, 0.0, 0.10, 0.009, 0.005], Estimate),
-        preset("sugar-maple-orange", [1.6, 2.0, 7.0, 4.0, 0.1, 0.008, 0.005], Estimate),
-        preset("red-maple-scarlet", [1.7, 3.0, 5.0, 15.0, 0.1, 0.008, 0.005], Estimate),
-        preset("sweetgum-purple-red", [1.7, 8.0, 6.0, 30.0, 0.1, 0.009, 0.006], Estimate),
-        preset("smoke-tree-purple", [1.7, 35.0, 8.0, 30.0, 0.0, 0.010, 0.006], Estimate),
-        preset("croton-red", [2.1, 15.0, 8.0, 25.0, 0.0, 0.02, 0.008], Estimate),
-        preset("croton-yellow", [2.1, 3.0, 10.0, 0.0, 0.0, 0.02, 0.008], Estimate),
-        preset("brown-litter", [2.2, 0.3, 0.8, 0.0, 1.1, 0.001, 0.007], Estimate),
+        preset("sun-green", "a green leaf of the sun", [1.6, 45.0, 10.0, 0.5, 0.0, 0.011, 0.006], Angers),
+        preset("shade-thin", "a thin leaf of the shade", [1.3, 35.0, 8.0, 0.0, 0.0, 0.008, 0.003], Angers),
+        preset("dark-evergreen", "an evergreen such as cherry laurel or holly", [2.1, 75.0, 15.0, 1.0, 0.0, 0.022, 0.013], Angers),
+        preset("chlorotic", "a pale leaf at the low end of chlorophyll", [1.5, 6.0, 3.0, 0.0, 0.0, 0.010, 0.004], Angers),
+        preset("golden", "Robinia pseudoacacia 'Frisia'", [1.55, 1.0, 7.1, 0.0, 0.0, 0.0064, 0.0036], Measured),
+        preset("white-sector", "white part of Acer negundo 'Variegatum'", [1.2, 1.6, 0.04, 0.0, 0.0, 0.0084, 0.0022], Measured),
+        preset("cream-sector", "cream part of a variegated ivy (Hedera)", [1.9, 1.8, 0.7, 0.0, 0.0, 0.0157, 0.0047], Measured),
+        preset("young-red-flush", "a young leaf, red before it is green", [1.4, 12.0, 4.0, 15.0, 0.0, 0.010, 0.003], Estimate),
+        preset("birch-yellow", "birch in autumn", [1.51, 1.2, 5.2, 0.4, 0.33, 0.0094, 0.0038], Fitted),
+        preset("oak-yellow-brown", "oak in autumn", [1.27, 2.0, 4.8, 0.0, 0.27, 0.0078, 0.0034], Fitted),
+        preset("ginkgo-yellow", "ginkgo in autumn", [1.7, 0.8, 9.0, 0.0, 0.03, 0.011, 0.006], Estimate),
+        preset("poplar-yellow", "poplar in autumn", [1.6, 1.5, 6.0, 0.0, 0.10, 0.009, 0.005], Estimate),
+        preset("sugar-maple-orange", "sugar maple in autumn", [1.6, 2.0, 7.0, 4.0, 0.1, 0.008, 0.005], Estimate),
+        preset("red-maple-scarlet", "red maple in autumn", [1.7, 3.0, 5.0, 15.0, 0.1, 0.008, 0.005], Estimate),
+        preset("sweetgum-purple-red", "sweetgum (Liquidambar) in autumn", [1.7, 8.0, 6.0, 30.0, 0.1, 0.009, 0.006], Estimate),
+        preset(SMOKE_TREE, "a purple smoke tree (Cotinus), green beneath its red", [1.7, 35.0, 8.0, 30.0, 0.0, 0.010, 0.006], Estimate),
+        preset("croton-red", "red part of a croton (Codiaeum)", [2.1, 15.0, 8.0, 25.0, 0.0, 0.02, 0.008], Estimate),
+        preset("croton-yellow", "yellow part of a croton (Codiaeum)", [2.1, 3.0, 10.0, 0.0, 0.0, 0.02, 0.008], Estimate),
+        preset("brown-litter", "a dead leaf on the ground", [2.2, 0.3, 0.8, 0.0, 1.1, 0.001, 0.007], Estimate),
     ]
 };
 
@@ -113,6 +144,23 @@ mod tests {
             assert!(preset.contents.checked().is_ok(), "{}", preset.name);
         }
         assert_eq!(by_name("mauve"), None);
+    }
+
+    #[test]
+    fn each_number_says_what_it_rests_on() {
+        use PresetBasis::{Absent, Angers, Estimate, Fitted, Measured};
+        let basis = |name: &str| {
+            let preset = by_name(name).expect("a preset");
+            std::array::from_fn::<_, { Contents::COUNT }, _>(|index| preset.basis_of(index))
+        };
+        let golden = [
+            Fitted, Measured, Measured, Absent, Absent, Absent, Absent, Measured, Measured,
+        ];
+        assert_eq!(basis("golden"), golden);
+        let purple = [
+            Angers, Angers, Angers, Estimate, Absent, Absent, Absent, Estimate, Estimate,
+        ];
+        assert_eq!(basis("smoke-tree-purple"), purple);
     }
 
     #[test]

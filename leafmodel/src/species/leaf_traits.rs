@@ -13,7 +13,7 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::Contents;
+use crate::optics::{Contents, Pigments};
 use crate::venation::plan::AuxinPlan;
 
 pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
@@ -262,6 +262,7 @@ impl LeafTraits {
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,
             },
+            pigments: Pigments::default(),
             map_size: 1600,
         }
     }

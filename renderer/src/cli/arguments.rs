@@ -1,8 +1,12 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod optics;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+
+pub use optics::OpticsArguments;
 
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
 pub const GREETING: &str = "\
@@ -73,35 +77,6 @@ pub struct RenderArguments {
     /// Write times, memory and speed as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
-}
-
-/// `lamina optics`: PROSPECT-D's inputs.
-#[derive(Args, Clone, Debug, PartialEq)]
-pub struct OpticsArguments {
-    /// Structure N, number of plates, at least 1
-    #[arg(long, default_value_t = 1.5, value_parser = at_least_one)]
-    pub n: f64,
-    /// Chlorophyll a + b, µg/cm²
-    #[arg(long, default_value_t = 40.0, value_parser = at_least_zero)]
-    pub cab: f64,
-    /// Carotenoids, µg/cm²
-    #[arg(long, default_value_t = 8.0, value_parser = at_least_zero)]
-    pub car: f64,
-    /// Anthocyanins, µg/cm²
-    #[arg(long, default_value_t = 0.0, value_parser = at_least_zero)]
-    pub ant: f64,
-    /// Brown pigments, PROSPECT's unit
-    #[arg(long, default_value_t = 0.0, value_parser = at_least_zero)]
-    pub brown: f64,
-    /// Water, cm
-    #[arg(long, default_value_t = 0.01, value_parser = at_least_zero)]
-    pub cw: f64,
-    /// Dry matter, g/cm²
-    #[arg(long, default_value_t = 0.009, value_parser = at_least_zero)]
-    pub cm: f64,
-    /// Table to write: `wavelength_nm,R,T`
-    #[arg(long, value_name = "FILE.csv")]
-    pub out: PathBuf,
 }
 
 /// `lamina export`.
@@ -200,23 +175,6 @@ pub fn file_and_leaf(leaf: &str) -> (PathBuf, Option<&str>) {
     }
 }
 
-fn at_least_zero(text: &str) -> Result<f64, String> {
-    at_least(0.0, text)
-}
-
-fn at_least_one(text: &str) -> Result<f64, String> {
-    at_least(1.0, text)
-}
-
-fn at_least(least: f64, text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if value.is_finite() && value >= least {
-        Ok(value)
-    } else {
-        Err(format!("write a finite number of at least {least}"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
@@ -268,6 +226,11 @@ mod tests {
             "lamina optics --n 0.5 --out a.csv",
             "lamina optics --cab nan --out a.csv",
             "lamina optics --cab -1 --out a.csv",
+            "lamina optics --betacyanins -1 --out a.csv",
+            "lamina optics",
+            "lamina optics --cab 3",
+            "lamina optics --list --out a.csv",
+            "lamina optics --preset sun-green --presett x --out a.csv",
             "lamina export pbrt a.toml --out b",
             "lamina compare a.exr",
             "lamina grow",

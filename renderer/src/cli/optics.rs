@@ -1,52 +1,85 @@
-//! `lamina optics`: PROSPECT-D as a table.
+//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and the colours that they have.
+
+mod colour;
+mod leaf;
 
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::path::Path;
 
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::{Contents, ProspectD, presets};
+use serde_json::json;
 
+use self::leaf::Chosen;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::{Failure, check_writable, say};
 use crate::image::atomic;
 
 pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
-    let contents = Contents::new(
-        arguments.n,
-        arguments.cab,
-        arguments.car,
-        arguments.ant,
-        arguments.brown,
-        arguments.cw,
-        arguments.cm,
-    )
-    .map_err(Failure::bad)?;
-    check_writable(&arguments.out)?;
+    if arguments.list {
+        let longest = presets::ALL.iter().map(|preset| preset.name.len()).max();
+        for preset in presets::ALL {
+            let width = longest.unwrap_or(0);
+            say(format!("{:<width$}  {}", preset.name, preset.basis.word()));
+        }
+        return Ok(());
+    }
+    let chosen = leaf::choose(arguments)?;
+    let files = [
+        arguments.out.as_deref(),
+        arguments.colour.as_ref().and_then(|file| file.as_deref()),
+    ];
+    for file in files.into_iter().flatten() {
+        check_writable(file)?;
+    }
+    let Chosen { contents, .. } = chosen;
+    if contents.mixes_betalains_and_anthocyanins() {
+        eprintln!(
+            "warning: this leaf holds betalains and anthocyanins, which never occur in the same plant: betalains occur in the \
+             Caryophyllales only (beet, amaranths, cacti), in place of anthocyanins"
+        );
+    }
+    if arguments.about {
+        say(chosen.about());
+    }
+    if let Some(file) = &arguments.out {
+        write(file, table(&contents).as_bytes())?;
+    }
+    if let Some(file) = &arguments.colour {
+        let colours = colour::Colours::of(&contents);
+        match file {
+            Some(file) => {
+                let report = json!({ "contents": chosen.json(), "colours": colours.json() });
+                write(file, format!("{report:#}\n").as_bytes())?;
+            }
+            None => say(colours.table()),
+        }
+    }
+    eprintln!(
+        "PROSPECT-D, table of Feret, Gitelson, Noble and Jacquemoud (2017): {}",
+        chosen.line()
+    );
+    Ok(())
+}
+
+/// R and T at every nanometre of PROSPECT-D's table.
+fn table(contents: &Contents) -> String {
     let mut table = String::from("wavelength_nm,R,T\n");
     for nm in 400..=2500 {
-        let optics = ProspectD::coefficients(f64::from(nm))
-            .map_err(Failure::bad)?
-            .reflectance_transmittance(&contents);
-        // Seventeen digits give back the very number.
-        writeln!(
+        let at = ProspectD::coefficients_extrapolated(f64::from(nm));
+        let optics = at.reflectance_transmittance(contents);
+        // Seventeen digits give back the very number. Writing to a String cannot fail.
+        let _ = writeln!(
             table,
             "{nm},{:.17},{:.17}",
             optics.reflectance, optics.transmittance
-        )
-        .map_err(Failure::system)?;
+        );
     }
-    atomic::replace(&arguments.out, |file| file.write_all(table.as_bytes()))
-        .map_err(Failure::system)?;
-    eprintln!(
-        "PROSPECT-D, table of Feret, Gitelson, Noble and Jacquemoud (2017), N {} Cab {} Car {} Ant {} brown {} \
-         Cw {} Cm {}",
-        arguments.n,
-        arguments.cab,
-        arguments.car,
-        arguments.ant,
-        arguments.brown,
-        arguments.cw,
-        arguments.cm
-    );
-    say(arguments.out.display());
+    table
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)?;
+    say(path.display());
     Ok(())
 }

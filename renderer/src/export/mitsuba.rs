@@ -14,7 +14,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use leafmodel::optics::ProspectD;
+use leafmodel::optics::{Pigments, ProspectD};
 use serde_json::json;
 use thiserror::Error;
 
@@ -22,6 +22,7 @@ use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::Material;
 use crate::material::contents_texture::{CHANNELS, ContentsTexture};
 use crate::material::leaf::LeafTissue;
+use crate::material::palette::Palette;
 use crate::material::solid::SolidTissue;
 use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
@@ -52,14 +53,26 @@ pub enum ExportError {
     },
 }
 
-/// PROSPECT-D's table with its notice, and what betalains absorb in columns of their own.
-fn absorption_table() -> String {
+/// Where in the export the table of a palette lies.
+fn absorption_file(palette: &Palette) -> String {
+    match palette.number() {
+        0 => "prospect_d.csv".to_owned(),
+        number => format!("pigments-{number}.csv"),
+    }
+}
+
+/// PROSPECT-D's table with its notice, with the columns of these pigments, and what betalains absorb in columns of their own.
+fn absorption_table(pigments: &Pigments) -> String {
     let mut text: String = ProspectD::notice()
         .map(|line| format!("# {line}\n"))
         .collect();
+    if *pigments != Pigments::default() {
+        text +=
+            "# Some of the pigments are others than PROSPECT-D's: those that the scene names.\n";
+    }
     text += "wavelength_nm,refractive_index,chlorophyll,carotenoids,anthocyanins,betacyanins,betaxanthins,brown,water,dry_matter\n";
     for nm in 400..=2500 {
-        let at = ProspectD::coefficients_extrapolated(f64::from(nm));
+        let at = ProspectD::coefficients_of(pigments, f64::from(nm));
         let k = at.absorption;
         let columns = [
             at.interface.refractive_index,
@@ -157,7 +170,10 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             fs::copy(file, &path).map_err(|source| ExportError::Write { path, source })?;
         }
     }
-    save("prospect_d.csv", absorption_table().as_bytes())?;
+    for palette in world.palettes.iter() {
+        let table = absorption_table(palette.pigments());
+        save(&absorption_file(palette), table.as_bytes())?;
+    }
     let mut spectra = Spectra::default();
     save(
         "scene.xml",
@@ -296,6 +312,52 @@ towards = [0, 0, 1]
             "two meshes, a map, the sun's spectrum, PROSPECT's table: {xml}"
         );
         assert!(out.join("lamina.json").is_file());
+    }
+
+    #[test]
+    fn each_palette_has_a_table_which_its_leaves_name() {
+        const PALETTES: &str = r#"
+[materials.mapped.leaf.pigments.chlorophyll]
+a_to_b = 8
+[materials.red.leaf.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 1
+carotenoids_ug_per_cm2 = 5
+anthocyanins_ug_per_cm2 = 20
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+[materials.red.leaf.pigments.anthocyanins]
+shift_nm = 15
+[materials.same.leaf.map]
+file = "map.exr"
+[materials.same.leaf.pigments.chlorophyll]
+a_to_b = 8
+"#;
+        let folder = tempfile::tempdir().expect("a folder");
+        openexr::write(&map_picture(&map()), &folder.path().join("map.exr")).expect("a map");
+        let text = SCENE.to_owned() + PALETTES;
+        let scene = load::parse(&text, "scene.toml", folder.path(), &[])
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("a scene that can be built");
+        let out = folder.path().join("out");
+        write(&scene, &world, &out).expect("it is written");
+        let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+        assert_eq!(xml.matches("value=\"pigments-1.csv\"").count(), 2);
+        assert_eq!(xml.matches("value=\"pigments-2.csv\"").count(), 1);
+        assert!(!out.join("pigments-3.csv").exists());
+        let row = |file: &str, nm: &str| -> Vec<f64> {
+            let text = fs::read_to_string(out.join(file)).expect("a table");
+            let line = text.lines().find(|line| line.starts_with(nm)).expect(nm);
+            let figures = line.split(',').skip(1);
+            figures
+                .map(|figure| figure.parse().expect("a number"))
+                .collect()
+        };
+        let (own, shifted) = (row("prospect_d.csv", "600,"), row("pigments-2.csv", "600,"));
+        let differ: Vec<usize> = (0..own.len()).filter(|i| own[*i] != shifted[*i]).collect();
+        assert_eq!(differ, [3], "anthocyanins alone: {own:?} and {shifted:?}");
+        assert!(shifted[3] > own[3], "moved towards the red");
     }
 
     #[test]

@@ -1,14 +1,13 @@
 //! A leaf's material: what decides its R and T, and its coats.
 
-use std::sync::OnceLock;
-
 use glam::Vec2;
 use leafmodel::optics::fast::PileLane;
-use leafmodel::optics::{Coefficients, Contents, Interface, ProspectD, SpecificAbsorption};
+use leafmodel::optics::{Contents, ProspectD};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf};
 use crate::material::PathSpectra;
 use crate::material::contents_texture::ContentsTexture;
+use crate::material::palette::Palette;
 use crate::spectrum::{Curve, Lanes, Wavelengths};
 
 /// A leaf's material.
@@ -16,6 +15,8 @@ use crate::spectrum::{Curve, Lanes, Wavelengths};
 pub struct LeafMaterial {
     /// What decides R and T.
     pub tissue: LeafTissue,
+    /// What its pigments are; measured spectra have no use for it.
+    pub palette: Palette,
     /// Abaxial over adaxial reflectance.
     pub abaxial_ratio: Curve,
     /// Adaxial and abaxial coat.
@@ -38,20 +39,27 @@ pub enum LeafTissue {
     },
 }
 
-/// PROSPECT-D's tables at a path's wavelengths.
+/// PROSPECT-D's constants at a path's wavelengths, for one palette.
 #[derive(Clone, Debug)]
 pub struct LeafOptics<const N: usize> {
+    palette: usize,
     lanes: [PileLane; N],
 }
 
 impl<const N: usize> LeafOptics<N> {
     /// At these wavelengths; outside 400–2500 nm the tables' end values hold (a scene that comes there has said so).
-    pub fn new(wavelengths: &Wavelengths<N>) -> Self {
+    pub fn new(palette: &Palette, wavelengths: &Wavelengths<N>) -> Self {
         Self {
+            palette: palette.number(),
             lanes: wavelengths
                 .nm
-                .map(|nm| PileLane::new(&coefficients(f64::from(nm)))),
+                .map(|nm| PileLane::new(&palette.coefficients(f64::from(nm)))),
         }
+    }
+
+    /// Number of the palette.
+    pub fn palette(&self) -> usize {
+        self.palette
     }
 
     /// R and T of a leaf with these contents.
@@ -69,44 +77,6 @@ impl<const N: usize> LeafOptics<N> {
         self.lanes
             .each_ref()
             .map(|lane| lane.absorption_per_plate(&whole))
-    }
-}
-
-/// First and last whole nanometre of PROSPECT's table.
-const TABLE_NM: [usize; 2] = [400, 2500];
-
-/// PROSPECT's constants, linear between whole nanometres.
-///
-/// The mean transmissivities of the faces are interpolated too instead of being worked out from the interpolated index: over
-/// one nanometre the difference is below 1e-7, and it is what a path would otherwise spend most of its time on.
-fn coefficients(nm: f64) -> Coefficients {
-    static TABLE: OnceLock<Vec<Coefficients>> = OnceLock::new();
-    let table = TABLE.get_or_init(|| {
-        (TABLE_NM[0]..=TABLE_NM[1])
-            .map(|nm| ProspectD::coefficients_extrapolated(nm as f64))
-            .collect()
-    });
-    let place = (nm - TABLE_NM[0] as f64).clamp(0.0, (table.len() - 1) as f64);
-    let below = (place as usize).min(table.len() - 2);
-    let share = place - below as f64;
-    let (a, b) = (&table[below], &table[below + 1]);
-    let between = |low: f64, high: f64| low + share * (high - low);
-    Coefficients {
-        interface: Interface {
-            refractive_index: between(a.interface.refractive_index, b.interface.refractive_index),
-            t_av_40: between(a.interface.t_av_40, b.interface.t_av_40),
-            t_av_90: between(a.interface.t_av_90, b.interface.t_av_90),
-        },
-        absorption: SpecificAbsorption {
-            chlorophyll: between(a.absorption.chlorophyll, b.absorption.chlorophyll),
-            carotenoids: between(a.absorption.carotenoids, b.absorption.carotenoids),
-            anthocyanins: between(a.absorption.anthocyanins, b.absorption.anthocyanins),
-            betacyanins: between(a.absorption.betacyanins, b.absorption.betacyanins),
-            betaxanthins: between(a.absorption.betaxanthins, b.absorption.betaxanthins),
-            brown: between(a.absorption.brown, b.absorption.brown),
-            water: between(a.absorption.water, b.absorption.water),
-            dry_matter: between(a.absorption.dry_matter, b.absorption.dry_matter),
-        },
     }
 }
 
@@ -129,7 +99,7 @@ impl LeafMaterial {
                         f64::from(reflectance.at(nm as f32))
                     }
                     (_, Some(contents)) => {
-                        ProspectD::coefficients_extrapolated(nm)
+                        ProspectD::coefficients_of(self.palette.pigments(), nm)
                             .reflectance_transmittance(contents)
                             .reflectance
                     }
@@ -142,8 +112,12 @@ impl LeafMaterial {
     /// The BSDF at texture coordinates `uv`.
     pub fn bsdf<const N: usize>(&self, uv: Vec2, spectra: &mut PathSpectra<N>) -> LeafBsdf<'_, N> {
         let (reflectance, transmittance) = match &self.tissue {
-            LeafTissue::Uniform(contents) => spectra.optics().reflectance_transmittance(contents),
-            LeafTissue::Map(map) => spectra.optics().reflectance_transmittance(&map.at(uv)),
+            LeafTissue::Uniform(contents) => spectra
+                .optics(&self.palette)
+                .reflectance_transmittance(contents),
+            LeafTissue::Map(map) => spectra
+                .optics(&self.palette)
+                .reflectance_transmittance(&map.at(uv)),
             LeafTissue::Measured {
                 reflectance,
                 transmittance,
@@ -159,28 +133,98 @@ impl LeafMaterial {
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::optics::Pigments;
+    use leafmodel::optics::pigments::{AnthocyaninMix, ChlorophyllMix};
+
     use super::*;
+    use crate::material::palette::Palettes;
+
+    fn at(nm: f32) -> Wavelengths<4> {
+        Wavelengths {
+            nm: [nm; 4],
+            pdf: [1.0; 4],
+        }
+    }
+
+    fn palettes() -> [Pigments; 6] {
+        std::array::from_fn(|i| match i {
+            0 => Pigments::default(),
+            1 => Pigments {
+                chlorophyll: ChlorophyllMix::bands(3.1),
+                ..Pigments::default()
+            },
+            _ => Pigments {
+                anthocyanins: AnthocyaninMix::Aglycones {
+                    shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+                    shift_nm: 5.0 * i as f64,
+                    blue_fraction: 0.0,
+                },
+                ..Pigments::default()
+            },
+        })
+    }
 
     #[test]
     fn along_a_path_prospect_gives_what_the_exact_model_gives() {
         let green = Contents::new(1.6, 45.0, 10.0, 0.5, 0.1, 0.011, 0.006).expect("a leaf");
-        for step in 0..1000 {
-            let nm = 395.0 + 2.13 * step as f32;
-            let optics = LeafOptics::<4>::new(&Wavelengths {
-                nm: [nm; 4],
-                pdf: [1.0; 4],
-            });
-            let (r, t) = optics.reflectance_transmittance(&green);
-            let exact = ProspectD::coefficients_extrapolated(f64::from(nm))
-                .reflectance_transmittance(&green);
-            assert!(
-                (f64::from(r.0[0]) - exact.reflectance).abs() < 1e-6,
-                "R at {nm} nm"
-            );
-            assert!(
-                (f64::from(t.0[3]) - exact.transmittance).abs() < 1e-6,
-                "T at {nm} nm"
-            );
+        let mut known = Palettes::default();
+        for pigments in &palettes()[..3] {
+            let palette = known.of(pigments);
+            for step in 0..1000 {
+                let nm = 395.0 + 2.13 * step as f32;
+                let optics = LeafOptics::<4>::new(&palette, &at(nm));
+                let (r, t) = optics.reflectance_transmittance(&green);
+                let exact = ProspectD::coefficients_of(pigments, f64::from(nm))
+                    .reflectance_transmittance(&green);
+                assert!(
+                    (f64::from(r.0[0]) - exact.reflectance).abs() < 1e-6,
+                    "R at {nm} nm"
+                );
+                assert!(
+                    (f64::from(t.0[3]) - exact.transmittance).abs() < 1e-6,
+                    "T at {nm} nm"
+                );
+            }
         }
+    }
+
+    #[test]
+    fn a_path_among_more_palettes_than_it_keeps_sees_each_as_it_is() {
+        let red = Contents::new(1.6, 5.0, 5.0, 20.0, 0.1, 0.011, 0.006).expect("a leaf");
+        let mut known = Palettes::default();
+        let palettes = palettes().map(|pigments| known.of(&pigments));
+        let mut spectra = PathSpectra::new(at(575.0));
+        for turn in 0..3 * palettes.len() {
+            let palette = &palettes[turn * 5 % palettes.len()];
+            let got = spectra.optics(palette).reflectance_transmittance(&red);
+            let alone = LeafOptics::new(palette, &at(575.0)).reflectance_transmittance(&red);
+            assert_eq!(got, alone);
+        }
+    }
+
+    #[test]
+    fn whether_a_coat_reflects_too_much_is_a_matter_of_the_palette() {
+        // In the blue form anthocyanins absorb at 655 nm, where PROSPECT-D's hardly do.
+        let red = Contents::new(2.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0).expect("a leaf");
+        let mut known = Palettes::default();
+        let mut exceeds = |pigments: &Pigments| {
+            let leaf = LeafMaterial {
+                tissue: LeafTissue::Uniform(red),
+                palette: known.of(pigments),
+                abaxial_ratio: Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+                coats: [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],
+            };
+            leaf.coat_exceeds_reflectance([655.0, 660.0]).is_some()
+        };
+        let blue = Pigments {
+            anthocyanins: AnthocyaninMix::Aglycones {
+                shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+                shift_nm: 0.0,
+                blue_fraction: 1.0,
+            },
+            ..Pigments::default()
+        };
+        assert!(!exceeds(&Pigments::default()));
+        assert!(exceeds(&blue));
     }
 }

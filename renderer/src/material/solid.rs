@@ -11,6 +11,7 @@ use leafmodel::optics::{Contents, ProspectD};
 use crate::bsdf::leaf::{Coat, LeafBsdf};
 use crate::material::PathSpectra;
 use crate::material::contents_texture::ContentsTexture;
+use crate::material::palette::Palette;
 use crate::spectrum::Lanes;
 
 /// What solid tissue holds per area of its surface.
@@ -26,6 +27,7 @@ pub enum SolidTissue {
 #[derive(Clone, Debug)]
 pub struct SolidMaterial {
     tissue: SolidTissue,
+    palette: Palette,
     optics: Solid,
     table: Arc<ReflectanceTable>,
     /// A body is seen from outside; a sheet of it looks alike from both sides.
@@ -50,15 +52,17 @@ impl ReflectanceTables {
 }
 
 impl SolidMaterial {
-    /// Tissue of these optics, in range, below a coat; `table` is that of the optics' refractive index, without a skin.
+    /// Tissue of these optics, in range, below a coat, whose pigments are those of `palette`; `table` is that of the optics' refractive index, without a skin.
     pub fn new(
         tissue: SolidTissue,
+        palette: Palette,
         optics: Solid,
         table: Arc<ReflectanceTable>,
         coat: Coat,
     ) -> Self {
         Self {
             tissue,
+            palette,
             optics,
             table,
             coats: [coat.clone(), coat],
@@ -68,6 +72,11 @@ impl SolidMaterial {
     /// What it holds.
     pub fn tissue(&self) -> &SolidTissue {
         &self.tissue
+    }
+
+    /// What its pigments are.
+    pub fn palette(&self) -> &Palette {
+        &self.palette
     }
 
     /// Reflectance at normal incidence of tissue that absorbs `absorption` in all, `Σ C K`.
@@ -87,7 +96,7 @@ impl SolidMaterial {
         (0..=steps)
             .map(|i| range_nm[0] + (range_nm[1] - range_nm[0]) * f64::from(i) / f64::from(steps))
             .find(|&nm| {
-                let at = ProspectD::coefficients_extrapolated(nm).absorption;
+                let at = ProspectD::coefficients_of(self.palette.pigments(), nm).absorption;
                 self.reflectance(at.of_leaf(&contents)) < coat - 1e-4
             })
     }
@@ -95,8 +104,8 @@ impl SolidMaterial {
     /// The BSDF at texture coordinates `uv`.
     pub fn bsdf<const N: usize>(&self, uv: Vec2, spectra: &mut PathSpectra<N>) -> LeafBsdf<'_, N> {
         let absorption = match &self.tissue {
-            SolidTissue::Uniform(contents) => spectra.absorption(contents),
-            SolidTissue::Map(map) => spectra.absorption(&map.at(uv)),
+            SolidTissue::Uniform(contents) => spectra.absorption(&self.palette, contents),
+            SolidTissue::Map(map) => spectra.absorption(&self.palette, &map.at(uv)),
         };
         let reflectance = Lanes(absorption.map(|absorption| self.reflectance(absorption) as f32));
         LeafBsdf::new(&self.coats, reflectance, Lanes::ZERO, Lanes::ONE)

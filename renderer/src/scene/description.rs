@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
+use leafmodel::optics::Pigments;
 use leafmodel::solid::SolidPlan;
 
 /// A whole scene.
@@ -176,6 +177,8 @@ pub enum Material {
     Leaf {
         /// What decides R and T.
         tissue: LeafTissue,
+        /// What the pigments of its contents are.
+        pigments: Box<Pigments>,
         /// Abaxial over adaxial reflectance.
         abaxial_ratio: Spectrum,
         /// Adaxial and abaxial coat.
@@ -185,6 +188,8 @@ pub enum Material {
     Solid {
         /// What it holds.
         tissue: SolidTissue,
+        /// What the pigments of its contents are.
+        pigments: Box<Pigments>,
         /// What becomes of light in it.
         optics: SolidOptics,
     },

@@ -27,6 +27,7 @@ mod outline;
 pub(crate) mod overrides;
 mod path;
 mod petiole;
+mod pigments;
 mod reader;
 mod senescence;
 mod solid;

@@ -13,6 +13,7 @@ use thiserror::Error;
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::Palette;
 use crate::material::solid::{SolidMaterial, SolidTissue};
 use crate::scene::description;
 use crate::scene::world::build_coat;
@@ -65,13 +66,15 @@ pub enum SolidError {
     Mesh(#[from] MeshError),
 }
 
-/// Grows a body of solid tissue, in the frame of its shape; `table` is that of its refractive index.
+/// Grows a body of solid tissue, in the frame of its shape, whose pigments are those of `palette`; `table` is that of its
+/// refractive index.
 ///
 /// # Errors
 ///
 /// [`SolidError`] if the plan cannot be carried out.
 pub fn grow_solid(
     solid: &description::Solid,
+    palette: Palette,
     table: Arc<ReflectanceTable>,
 ) -> Result<(TriangleMesh, SolidMaterial), SolidError> {
     let grown = Solid::grow(&solid.plan, &|| false)?;
@@ -88,20 +91,22 @@ pub fn grow_solid(
         map.texels,
     ));
     let optics = solid.optics;
-    let material = SolidMaterial::new(tissue, optics.tissue, table, build_coat(optics.coat));
+    let coat = build_coat(optics.coat);
+    let material = SolidMaterial::new(tissue, palette, optics.tissue, table, coat);
     Ok((mesh, material))
 }
 
-/// Grows a leaf.
+/// Grows a leaf whose pigments are those of `palette`.
 ///
 /// # Errors
 ///
 /// [`PlantError`] if the plan cannot be carried out.
-pub fn grow(leaf: &description::Leaf) -> Result<GrownLeaf, PlantError> {
+pub fn grow(leaf: &description::Leaf, palette: &Palette) -> Result<GrownLeaf, PlantError> {
     let whole = WholeLeaf::grow(&leaf.plan)?;
     let stalk_contents = whole.stalk_contents(&leaf.plan)?;
     let material = |tissue| LeafMaterial {
         tissue,
+        palette: palette.clone(),
         abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
         coats: leaf.coats.map(build_coat),
     };

@@ -1,5 +1,7 @@
 //! The finished scene: immutable, shared by every thread.
 
+mod notes;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -20,6 +22,7 @@ use crate::light::environment::EnvironmentLight;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
 use crate::scene::assets::{self, AssetError};
 use crate::scene::description::{self, Description, FilmKind, ObjectShape};
@@ -38,6 +41,8 @@ pub struct World {
     pub materials: Vec<Material>,
     /// Whose each material is.
     pub owners: Vec<MaterialOwner>,
+    /// What pigments leaves have, each choice once.
+    pub palettes: Palettes,
     /// Lights, in the scene's order.
     pub lights: Vec<Light>,
     /// How lights are sampled.
@@ -157,23 +162,21 @@ impl World {
         }
         let wavelengths = wavelength_sampler(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
-        let (mut materials, mut tables) = (Vec::new(), ReflectanceTables::default());
+        let mut known = Known::default();
+        let mut materials = Vec::new();
         for material in &scene.materials {
-            materials.push(build_material(
-                &material.name,
-                &material.value,
-                &mut tables,
-            )?);
+            let built = build_material(&material.name, &material.value, &mut known)?;
+            materials.push(built);
         }
-        let tables: Vec<_> = scene
-            .solids
-            .iter()
-            .map(|solid| tables.of(solid.value.optics.tissue.eta))
-            .collect();
+        let names = scene.materials.iter().map(|named| named.name.as_str());
+        notes.extend(notes::on_maps(names.zip(&materials)));
+        let (for_leaves, for_solids) = known.for_grown(scene);
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
-        let (grown_leaves, grown_solids) =
-            rayon::join(|| grow_leaves(scene), || grow_solids(scene, tables));
+        let (grown_leaves, grown_solids) = rayon::join(
+            || grow_leaves(scene, for_leaves),
+            || grow_solids(scene, for_solids),
+        );
         // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, grown) in grown_leaves?.into_iter().enumerate() {
@@ -222,6 +225,7 @@ impl World {
             objects,
             materials,
             owners,
+            palettes: known.palettes,
             selection: LightSelection::new(&lights, &powers),
             lights,
             camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
@@ -238,10 +242,37 @@ impl World {
     }
 }
 
-/// Grows the scene's leaves.
-fn grow_leaves(scene: &Description) -> Result<Vec<plants::GrownLeaf>, WorldError> {
-    let grown = scene.leaves.iter().map(|leaf| {
-        plants::grow(&leaf.value).map_err(|source| WorldError::Plant {
+/// What materials share, each made when it is first needed.
+#[derive(Default)]
+struct Known {
+    palettes: Palettes,
+    reflectances: ReflectanceTables,
+}
+
+impl Known {
+    /// What each leaf and each body of solid tissue needs.
+    fn for_grown(
+        &mut self,
+        scene: &Description,
+    ) -> (Vec<Palette>, Vec<(Palette, Arc<ReflectanceTable>)>) {
+        let leaves = scene.leaves.iter();
+        let leaves = leaves.map(|leaf| self.palettes.of(&leaf.value.plan.pigments));
+        let leaves = leaves.collect();
+        let solids = scene.solids.iter().map(|solid| {
+            let palette = self.palettes.of(&solid.value.plan.pigments);
+            (palette, self.reflectances.of(solid.value.optics.tissue.eta))
+        });
+        (leaves, solids.collect())
+    }
+}
+
+/// Grows the scene's leaves, each with its palette of pigments.
+fn grow_leaves(
+    scene: &Description,
+    palettes: Vec<Palette>,
+) -> Result<Vec<plants::GrownLeaf>, WorldError> {
+    let grown = scene.leaves.iter().zip(palettes).map(|(leaf, palette)| {
+        plants::grow(&leaf.value, &palette).map_err(|source| WorldError::Plant {
             name: leaf.name.clone(),
             source: Box::new(source),
         })
@@ -249,13 +280,14 @@ fn grow_leaves(scene: &Description) -> Result<Vec<plants::GrownLeaf>, WorldError
     grown.collect()
 }
 
-/// Grows the scene's bodies of solid tissue, each with the table of its refractive index.
+/// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive index.
 fn grow_solids(
     scene: &Description,
-    tables: Vec<Arc<ReflectanceTable>>,
+    shared: Vec<(Palette, Arc<ReflectanceTable>)>,
 ) -> Result<Vec<(TriangleMesh, SolidMaterial)>, WorldError> {
-    let grown = scene.solids.par_iter().zip(tables).map(|(solid, table)| {
-        plants::grow_solid(&solid.value, table).map_err(|source| WorldError::Solid {
+    let grown = scene.solids.par_iter().zip(shared);
+    let grown = grown.map(|(solid, (palette, table))| {
+        plants::grow_solid(&solid.value, palette, table).map_err(|source| WorldError::Solid {
             name: solid.name.clone(),
             source: Box::new(source),
         })
@@ -437,7 +469,7 @@ fn sphere(radius: f64, segments: u32) -> Result<TriangleMesh, MeshError> {
 fn build_material(
     name: &str,
     material: &description::Material,
-    tables: &mut ReflectanceTables,
+    known: &mut Known,
 ) -> Result<Material, WorldError> {
     let contents_map = |file| {
         assets::contents_map(file).map_err(|source| WorldError::Asset {
@@ -455,6 +487,7 @@ fn build_material(
         }),
         description::Material::Leaf {
             tissue,
+            pigments,
             abaxial_ratio,
             coats,
         } => {
@@ -473,20 +506,27 @@ fn build_material(
             };
             Material::Leaf(Box::new(LeafMaterial {
                 tissue,
+                palette: known.palettes.of(pigments),
                 abaxial_ratio: Curve::from_description(abaxial_ratio),
                 coats: coats.map(build_coat),
             }))
         }
-        description::Material::Solid { tissue, optics } => {
+        description::Material::Solid {
+            tissue,
+            pigments,
+            optics,
+        } => {
             let tissue = match tissue {
                 description::SolidTissue::Contents { contents, .. } => {
                     SolidTissue::Uniform(*contents)
                 }
                 description::SolidTissue::Map { file, .. } => SolidTissue::Map(contents_map(file)?),
             };
-            let table = tables.of(optics.tissue.eta);
+            let palette = known.palettes.of(pigments);
+            let table = known.reflectances.of(optics.tissue.eta);
             Material::Solid(Box::new(SolidMaterial::new(
                 tissue,
+                palette,
                 optics.tissue,
                 table,
                 build_coat(optics.coat),

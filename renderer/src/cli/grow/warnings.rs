@@ -21,6 +21,11 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
             network.steps()
         )),
     }
+    if let Some([anthocyanins, betalains]) = plan.anthocyanins_beside_betalains() {
+        warnings.push(format!(
+            "the leaf holds anthocyanins ({anthocyanins}) and betalains ({betalains}), which never occur in the same plant"
+        ));
+    }
     if network.edges().is_empty() {
         let advice = match &plan.venation {
             VenationPlan::Auxin(_) => "more darts or smaller birth distances let sources appear",

@@ -15,6 +15,7 @@ use crate::scene::description::{
 };
 use crate::scene::world::{MaterialOwner, World};
 
+use super::absorption_file;
 use super::spectra::{self, Spectra};
 
 /// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse, either way from the
@@ -155,15 +156,24 @@ fn number(name: &str, value: f64) -> String {
 
 fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spectra) -> String {
     let id = material_id(scene, world, material);
+    let table = match &world.materials[material] {
+        crate::material::Material::Leaf(leaf) => absorption_file(&leaf.palette),
+        crate::material::Material::Solid(solid) => absorption_file(solid.palette()),
+        crate::material::Material::Diffuse(_) | crate::material::Material::Dielectric(_) => {
+            String::new()
+        }
+    };
     if let MaterialOwner::Leaf { leaf, .. } = world.owners[material] {
         let leaf = &scene.leaves[leaf].value;
         let tissue = match &world.materials[material] {
             crate::material::Material::Leaf(own) => match &own.tissue {
                 material::leaf::LeafTissue::Uniform(contents) => {
-                    uniform_tissue(contents, leaf.extrapolate)
+                    uniform_tissue(contents, &table, leaf.extrapolate)
                 }
                 material::leaf::LeafTissue::Map(_)
-                | material::leaf::LeafTissue::Measured { .. } => map_tissue(&id, leaf.extrapolate),
+                | material::leaf::LeafTissue::Measured { .. } => {
+                    map_tissue(&id, &table, leaf.extrapolate)
+                }
             },
             crate::material::Material::Diffuse(_)
             | crate::material::Material::Dielectric(_)
@@ -173,7 +183,11 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
     }
     if let MaterialOwner::Solid(solid) = world.owners[material] {
         let solid = &scene.solids[solid].value;
-        return solid_bsdf(&id, &map_tissue(&id, solid.extrapolate), &solid.optics);
+        return solid_bsdf(
+            &id,
+            &map_tissue(&id, &table, solid.extrapolate),
+            &solid.optics,
+        );
     }
     match &scene.materials[material].value {
         Material::Diffuse { reflectance } => format!(
@@ -197,6 +211,7 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
         }
         Material::Leaf {
             tissue,
+            pigments: _,
             abaxial_ratio,
             coats,
         } => {
@@ -204,8 +219,8 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
                 LeafTissue::Contents {
                     contents,
                     extrapolate,
-                } => uniform_tissue(contents, *extrapolate),
-                LeafTissue::Map { extrapolate, .. } => map_tissue(&id, *extrapolate),
+                } => uniform_tissue(contents, &table, *extrapolate),
+                LeafTissue::Map { extrapolate, .. } => map_tissue(&id, &table, *extrapolate),
                 LeafTissue::Measured {
                     reflectance,
                     transmittance,
@@ -218,39 +233,43 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
             };
             leaf_bsdf(&id, &tissue, abaxial_ratio, coats, spectra)
         }
-        Material::Solid { tissue, optics } => {
+        Material::Solid {
+            tissue,
+            pigments: _,
+            optics,
+        } => {
             let tissue = match tissue {
                 SolidTissue::Contents {
                     contents,
                     extrapolate,
-                } => uniform_tissue(contents, *extrapolate),
-                SolidTissue::Map { extrapolate, .. } => map_tissue(&id, *extrapolate),
+                } => uniform_tissue(contents, &table, *extrapolate),
+                SolidTissue::Map { extrapolate, .. } => map_tissue(&id, &table, *extrapolate),
             };
             solid_bsdf(&id, &tissue, optics)
         }
     }
 }
 
-fn prospect(extrapolate: bool) -> String {
+fn prospect(table: &str, extrapolate: bool) -> String {
     format!(
-        "  <string name=\"prospect\" value=\"prospect_d.csv\"/>\n  \
+        "  <string name=\"prospect\" value=\"{table}\"/>\n  \
          <boolean name=\"extrapolate\" value=\"{extrapolate}\"/>\n"
     )
 }
 
-fn uniform_tissue(contents: &Contents, extrapolate: bool) -> String {
+fn uniform_tissue(contents: &Contents, table: &str, extrapolate: bool) -> String {
     let mut xml = String::from("  <string name=\"tissue\" value=\"contents\"/>\n");
-    xml += &prospect(extrapolate);
+    xml += &prospect(table, extrapolate);
     for (name, value) in Contents::NAMES.into_iter().zip(contents.to_array()) {
         xml += &number(name, value);
     }
     xml
 }
 
-fn map_tissue(id: &str, extrapolate: bool) -> String {
+fn map_tissue(id: &str, table: &str, extrapolate: bool) -> String {
     format!(
         "  <string name=\"tissue\" value=\"map\"/>\n  <string name=\"map\" value=\"maps/{id}.exr\"/>\n{}",
-        prospect(extrapolate)
+        prospect(table, extrapolate)
     )
 }
 

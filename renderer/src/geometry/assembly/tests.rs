@@ -358,8 +358,9 @@ fn many_equal_or_nested_boxes_are_built_in_time_and_traced_right() {
             TriangleMesh::new(positions, None, None, triangles).expect("no two are the same");
         let start = std::time::Instant::now();
         let geometry = alone(mesh);
+        // No benchmark: a build in quadratic time takes minutes, a sound one a fraction of a second on the slowest machine.
         assert!(
-            start.elapsed().as_secs_f32() < 2.0,
+            start.elapsed().as_secs_f32() < 30.0,
             "the build took {:?}",
             start.elapsed()
         );

@@ -8,13 +8,14 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
 use super::compound::read_compound;
-use super::contents::read_contents;
+use super::contents::{NEVER_TOGETHER, read_contents};
 use super::layers::read_layers;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
 use super::mosaic::read_mosaic;
 use super::outline::read_outline;
 use super::petiole::read_petiole;
+use super::pigments::read_pigments;
 use super::reader::Block;
 use super::senescence::read_senescence;
 use super::spectrum::require_prospect;
@@ -54,6 +55,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         // Its blocks are read all the same, so that their errors are found too.
         read_tissue(block, VEIN_FACTORS);
     }
+    let pigments = read_pigments(block);
     let earns = outline.as_ref().zip(venation.as_ref());
     let earns = earns.map(|(outline, venation)| {
         matches!(outline.plan.contour, Contour::Transport(_))
@@ -86,9 +88,11 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         senescence,
         form,
         petiole,
+        pigments: pigments?,
         compound: compound.as_ref().map(|read| read.form.clone()),
         map_size,
     };
+    warn_of_pigments(block, &plan);
     let fits = compound.is_none_or(|compound| compound.check(&plan));
     fits.then_some(Leaf {
         plan,
@@ -96,6 +100,25 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
         coats,
         extrapolate: block.cx.extrapolate.get(),
     })
+}
+
+/// Tells of anthocyanins and betalains in parts of one leaf; those of one block of contents are told there.
+fn warn_of_pigments(block: &Block<'_>, plan: &LeafPlan) {
+    let told = plan.tissue.lamina.mixes_betalains_and_anthocyanins()
+        || plan
+            .senescence
+            .as_ref()
+            .is_some_and(|senescence| senescence.contents.mixes_betalains_and_anthocyanins());
+    if told {
+        return;
+    }
+    if let Some([anthocyanins, betalains]) = plan.anthocyanins_beside_betalains() {
+        let message = format!(
+            "this leaf holds anthocyanins (`{anthocyanins}`) and betalains (`{betalains}`), which never occur in the same plant"
+        );
+        let code = "scene::betalains_and_anthocyanins";
+        block.cx.warn(&block.at, code, message, NEVER_TOGETHER);
+    }
 }
 
 /// Tissue of which only the contents are said.

@@ -4,6 +4,7 @@
 use super::contents::read_contents;
 use super::limits::Limits;
 use super::path::{Wanted, resolve};
+use super::pigments::read_pigments;
 use super::reader::Block;
 use super::solid::read_solid_material;
 use super::spectrum::{Role, read_spectrum, read_spectrum_or, require_prospect};
@@ -57,10 +58,13 @@ fn read_leaf(block: &Block<'_>) -> Option<Material> {
             .and_then(|inner| read_measured(&inner)),
         None => None,
     };
+    block.exclude("measured", "pigments");
+    let pigments = read_pigments(block);
     let abaxial_ratio = read_abaxial_ratio(block);
     let coats = read_coats(block);
     Some(Material::Leaf {
         tissue: tissue?,
+        pigments: Box::new(pigments?),
         abaxial_ratio: abaxial_ratio?,
         coats,
     })

@@ -9,14 +9,11 @@ use leafmodel::mosaic::plan::{CellType, MosaicPlan, RadiusRule};
 use leafmodel::optics::Contents;
 
 use super::contents::read_changed;
-use super::context::QUOTED;
 use super::limits::Limits;
 use super::names::Names;
 use super::reader::Block;
-use super::values::{number_at, text_at};
+use super::values::number_at;
 use crate::scene::error::SceneError;
-use crate::scene::nearest::nearest;
-use crate::scene::source::escaped;
 
 /// Width of the blend between unlike cells where nothing is said, mm.
 pub(crate) const BLEND_MM: f64 = 0.2;
@@ -40,12 +37,12 @@ pub(super) fn read_mosaic(owner: &Block<'_>, base: Contents) -> Option<MosaicPat
     let before = u64::from(default.initial_relaxations);
     let initial_relaxations = block.integer_or("initial_relaxations", 0, 100_000, before) as u32;
     let initial_step = block.number_or("initial_step", SHARE, default.initial_step);
-    let radius = match word(&block, "radius", &["initial", "daily"]) {
+    let radius = match block.word("radius", &["initial", "daily"]) {
         Some("daily") => RadiusRule::Daily,
         Some(_) | None => RadiusRule::Initial,
     };
     let blend_mm = block.number_or("blend_mm", Limits::closed(0.0, 100.0), BLEND_MM);
-    let faces = match word(&block, "faces", &["through", "both"]) {
+    let faces = match block.word("faces", &["through", "both"]) {
         Some("both") => LeafFaces::Both,
         Some(_) | None => LeafFaces::Through,
     };
@@ -73,22 +70,6 @@ pub(super) fn read_mosaic(owner: &Block<'_>, base: Contents) -> Option<MosaicPat
         blend_mm,
         faces,
     })
-}
-
-/// A word out of several, if it is there.
-fn word(block: &Block<'_>, key: &'static str, words: &[&'static str]) -> Option<&'static str> {
-    let (written, at) = text_at(block.cx, block.node(key)?, key)?;
-    let known = words.iter().copied().find(|word| *word == written);
-    if known.is_none() {
-        let error = SceneError::UnknownWord {
-            key: key.to_owned(),
-            word: escaped(written, QUOTED),
-            nearest: nearest(written, words.iter().copied()).map(str::to_owned),
-            known: super::values::listed(words.iter().copied()),
-        };
-        block.cx.error(at, error);
-    }
-    known
 }
 
 /// `growth`, which may be left out: the surface has its size from the start.

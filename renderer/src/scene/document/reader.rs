@@ -135,6 +135,22 @@ impl<'a> Block<'a> {
         text_at(self.cx, self.node(key)?, key)
     }
 
+    /// A word out of several that may be left out.
+    pub(crate) fn word(&self, key: &'static str, words: &[&'static str]) -> Option<&'static str> {
+        let (written, at) = self.optional_text(key)?;
+        let known = words.iter().copied().find(|word| *word == written);
+        if known.is_none() {
+            let error = SceneError::UnknownWord {
+                key: key.to_owned(),
+                word: escaped(written, QUOTED),
+                nearest: nearest(written, words.iter().copied()).map(str::to_owned),
+                known: listed(words.iter().copied()),
+            };
+            self.cx.error(at, error);
+        }
+        known
+    }
+
     /// A list of `N` numbers.
     pub(crate) fn numbers<const N: usize>(
         &self,

@@ -8,13 +8,14 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::solid::{SolidMesh, SolidPlan, SolidShape};
 
-use super::contents::read_changed;
+use super::contents::{NEVER_TOGETHER, read_changed};
 use super::context::QUOTED;
 use super::leaf::MAP_SIZE;
 use super::limits::Limits;
 use super::material::read_map;
 use super::mosaic::read_mosaic;
 use super::path::{Wanted, resolve};
+use super::pigments::read_pigments;
 use super::reader::Block;
 use super::spectrum::require_prospect;
 use super::tree::Value;
@@ -67,9 +68,11 @@ pub(super) fn read_solid_material(block: &Block<'_>) -> Option<Material> {
         }),
         None => None,
     };
+    let pigments = read_pigments(block);
     let optics = read_optics(block);
     Some(Material::Solid {
         tissue: tissue?,
+        pigments: Box::new(pigments?),
         optics,
     })
 }
@@ -87,6 +90,7 @@ pub(crate) fn read_solid(block: &Block<'_>) -> Option<Solid> {
     let is_patterned = block.entry("mosaic").is_some();
     let mosaic = read_mosaic(block, contents.unwrap_or(NOTHING));
     refuse_faces(block);
+    let pigments = read_pigments(block);
     let optics = read_optics(block);
     block.finish();
     if is_patterned && mosaic.is_none() {
@@ -97,8 +101,10 @@ pub(crate) fn read_solid(block: &Block<'_>) -> Option<Solid> {
         seed,
         contents: contents?,
         mosaic,
+        pigments: pigments?,
         map_size,
     };
+    tell_of_mixed_cells(block, &plan);
     Some(Solid {
         plan,
         optics,
@@ -110,14 +116,34 @@ pub(crate) fn read_solid(block: &Block<'_>) -> Option<Solid> {
 fn read_held(block: &Block<'_>) -> Contents {
     let contents = read_changed(block, NOTHING);
     if contents.mixes_betalains_and_anthocyanins() {
-        block.cx.warn(
-            &block.at,
-            "scene::betalains_and_anthocyanins",
-            "this tissue holds betalains and anthocyanins, which never occur in the same plant".to_owned(),
-            "betalains occur in the Caryophyllales only (beet, amaranths, cacti), in place of anthocyanins: leave one out",
-        );
+        tell_of_mixture(block, "this tissue holds");
     }
     contents
+}
+
+/// Tells of anthocyanins and betalains in unlike cells of one body; what the body itself holds is told there.
+fn tell_of_mixed_cells(block: &Block<'_>, plan: &SolidPlan) {
+    let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
+    let parts = std::iter::once(&plan.contents).chain(cells);
+    if plan.contents.mixes_betalains_and_anthocyanins() {
+        return;
+    }
+    let most = parts.fold([0.0_f64; Contents::COUNT], |most, part| {
+        let part = part.to_array();
+        std::array::from_fn(|i| most[i].max(part[i]))
+    });
+    if Contents::from_array(most).mixes_betalains_and_anthocyanins() {
+        tell_of_mixture(block, "cells of this body hold");
+    }
+}
+
+fn tell_of_mixture(block: &Block<'_>, what: &str) {
+    block.cx.warn(
+        &block.at,
+        "scene::betalains_and_anthocyanins",
+        format!("{what} betalains and anthocyanins, which never occur in the same plant"),
+        NEVER_TOGETHER,
+    );
 }
 
 /// A body has one skin: a mosaic on it has no `faces`.

@@ -5,6 +5,7 @@
 mod layers;
 mod mosaic;
 mod outline;
+mod pigments;
 mod venation;
 
 use leafmodel::blade::BladeForm;
@@ -19,6 +20,7 @@ use leafmodel::optics::Contents;
 use self::layers::layers;
 pub(super) use self::mosaic::mosaic;
 use self::outline::outline;
+pub(super) use self::pigments::pigments;
 use self::venation::{arcuate, auxin, filled, vein_style};
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
 use super::senescence::{BLEND, BLEND_DAYS, delays, numbers};
@@ -123,6 +125,7 @@ fn leaf(plan: &LeafPlan) -> Keys {
     };
     keys.block("venation", Keys::default().with(kind, block));
     keys.block("contents", contents(&plan.tissue.lamina));
+    keys.block_if_any("pigments", pigments(&plan.pigments));
     let (veins, mottle) = tissue(&plan.tissue);
     keys.block_if_any("veins", veins);
     keys.block_if_any("mottle", mottle);
@@ -252,4 +255,4 @@ pub(super) fn degrees(radians: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -11,7 +11,7 @@ use super::leaf::MAP_SIZE;
 use super::solid::{COAT_ALPHA, DEPTH_MM, NOTHING};
 use super::tree::Value;
 use super::write;
-use super::write_leaf::{Keys, list, mosaic, number};
+use super::write_leaf::{Keys, list, mosaic, number, pigments};
 use crate::scene::description::{Solid, SolidOptics};
 
 /// Text of a file with `format = 1` and the one body.
@@ -38,6 +38,7 @@ fn solid(body: &Solid) -> Keys {
     if let Some(pattern) = &plan.mosaic {
         keys.block("mosaic", mosaic(pattern));
     }
+    keys.block_if_any("pigments", pigments(&plan.pigments));
     keys
 }
 
@@ -196,6 +197,7 @@ mod tests {
             optics in (0.1..5.0, prop_oneof![Just(SCATTERING_PER_MM), 0.1..5.0], 1.0..2.0),
             coat in prop_oneof![Just(None), (1.0..2.0, 0.02..1.0).prop_map(Some)],
             held in prop::array::uniform8(prop_oneof![Just(0.0), 0.0..1.0]),
+            pigments in super::super::write_leaf::tests::pigments(),
             (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
         ) {
             let [b, c, d, e, f, g, h, i] = held;
@@ -208,6 +210,7 @@ mod tests {
                     seed,
                     contents,
                     mosaic: patterned.then(|| pattern(contents)),
+                    pigments,
                     map_size,
                 },
                 optics: SolidOptics {

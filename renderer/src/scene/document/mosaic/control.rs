@@ -3,7 +3,7 @@
 use glam::DVec3;
 use leafmodel::mosaic::control::{ControlImage, CylinderControl, Steered};
 
-use super::{SHARE, impossible, word};
+use super::{SHARE, impossible};
 use crate::image::portable_network;
 use crate::scene::document::context::QUOTED;
 use crate::scene::document::limits::Limits;
@@ -64,7 +64,7 @@ fn read_steered(block: &Block<'_>, types: &Names<'_>) -> Option<Steered> {
     block.needed("steers", || {
         "`steers = \"…\"`, one of `initial_type`, `division_rate`, `adhesion`, `blocked`".to_owned()
     })?;
-    let steers = word(block, "steers", &WORDS)?;
+    let steers = block.word("steers", &WORDS)?;
     let find = |key: &'static str| {
         let node = block.node(key)?;
         let found = types.find(block.cx, text_at(block.cx, node, key)?);

@@ -1,6 +1,9 @@
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::{Arrangement, CompoundForm, Feather};
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
+use leafmodel::optics::Pigments;
+use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
+use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
 use leafmodel::shape::contour_curve::{ContourCurve, ControlPoint};
 use leafmodel::shape::cubic_margin::CubicMargin;
 use leafmodel::shape::growth::RateCurve;
@@ -43,6 +46,7 @@ fn plain() -> LeafPlan {
         form: default_form(80.0),
         petiole: None,
         compound: None,
+        pigments: Pigments::default(),
         map_size: 1024,
     }
 }
@@ -523,17 +527,85 @@ fn petiole_or_compound() -> impl Strategy<Value = (Option<PetiolePlan>, Option<C
     ]
 }
 
+/// Shares that sum to 1, some of them 0.
+fn shares<const N: usize>() -> impl Strategy<Value = [f64; N]> {
+    proptest::array::uniform(prop_oneof![Just(0_u32), 1_u32..10]).prop_map(|mut parts: [u32; N]| {
+        parts[0] += u32::from(parts.iter().all(|part| *part == 0));
+        let sum = f64::from(parts.iter().sum::<u32>());
+        parts.map(|part| f64::from(part) / sum)
+    })
+}
+
+pub(in super::super) fn pigments() -> impl Strategy<Value = Pigments> {
+    let factor = || prop_oneof![Just(0.41), Just(0.29), Just(0.5), 0.01..1.0];
+    let chlorophyll = prop_oneof![
+        Just(ChlorophyllMix::Prospect),
+        (0.0..9.0).prop_map(ChlorophyllMix::bands),
+        (0.0..9.0, -500.0..500.0, factor()).prop_map(|(a_to_b, shift_per_cm, packaging)| {
+            ChlorophyllMix::Bands {
+                a_to_b,
+                shift_per_cm,
+                packaging,
+            }
+        }),
+    ];
+    let carotenoids = prop_oneof![
+        Just(CarotenoidMix::Prospect),
+        shares().prop_map(CarotenoidMix::bands),
+        (shares(), -1500.0..0.0, factor()).prop_map(|(shares, shift_per_cm, packaging)| {
+            CarotenoidMix::Bands {
+                shares,
+                shift_per_cm,
+                packaging,
+            }
+        }),
+    ];
+    let aglycones = prop_oneof![Just([0.0, 1.0, 0.0, 0.0, 0.0, 0.0]), shares()];
+    let numbers = (
+        prop_oneof![Just(0.0), 0.0..45.0],
+        prop_oneof![Just(0.0), 0.0..1.0],
+    );
+    let anthocyanins = prop_oneof![
+        Just(AnthocyaninMix::Prospect),
+        (aglycones, numbers).prop_map(|(shares, (shift_nm, blue_fraction))| {
+            AnthocyaninMix::Aglycones {
+                shares,
+                shift_nm,
+                blue_fraction,
+            }
+        }),
+    ];
+    let betacyanin = prop_oneof![Just(Betacyanin::Betanin), Just(Betacyanin::Amaranthine)];
+    let betaxanthin = prop_oneof![
+        Just(Betaxanthin::Indicaxanthin),
+        Just(Betaxanthin::Vulgaxanthin)
+    ];
+    let betalains = (betacyanin, betaxanthin, factor());
+    (chlorophyll, carotenoids, anthocyanins, betalains).prop_map(
+        |(chlorophyll, carotenoids, anthocyanins, (betacyanins, betaxanthins, packaging))| {
+            Pigments {
+                chlorophyll,
+                carotenoids,
+                anthocyanins,
+                betacyanins,
+                betaxanthins,
+                betalain_packaging: packaging,
+            }
+        },
+    )
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
 
     #[test]
     fn a_written_plan_reads_back_to_the_same(
         contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
-        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
+        pigments in pigments(), seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
     ) {
         let outline = OutlinePlan { contour, teeth };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers: Vec::new(), mosaic: None, senescence, form, petiole, compound, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers: Vec::new(), mosaic: None, senescence, form, petiole, compound, pigments, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

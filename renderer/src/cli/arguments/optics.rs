@@ -1,0 +1,87 @@
+//! `lamina optics` as written.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+
+/// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(group = ArgGroup::new("wanted").args(["list", "out", "colour", "about"]).required(true).multiple(true))]
+pub struct OpticsArguments {
+    /// Start from the contents of a preset; numbers that are given take the place of its own
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
+    /// Name the presets
+    #[arg(long, exclusive = true)]
+    pub list: bool,
+    /// Structure N, number of plates, at least 1 [default: 1.5]
+    #[arg(long, value_parser = at_least_one)]
+    pub n: Option<f64>,
+    /// Chlorophyll a + b, µg/cm² [default: 40]
+    #[arg(long, value_parser = at_least_zero)]
+    pub cab: Option<f64>,
+    /// Carotenoids, µg/cm² [default: 8]
+    #[arg(long, value_parser = at_least_zero)]
+    pub car: Option<f64>,
+    /// Anthocyanins, µg/cm² [default: 0]
+    #[arg(long, value_parser = at_least_zero)]
+    pub ant: Option<f64>,
+    /// Betacyanins (betanin), µg/cm²; not in PROSPECT-D [default: 0]
+    #[arg(long, value_name = "BETACYANINS", value_parser = at_least_zero)]
+    pub betacyanins: Option<f64>,
+    /// Betaxanthins (indicaxanthin), µg/cm²; not in PROSPECT-D [default: 0]
+    #[arg(long, value_name = "BETAXANTHINS", value_parser = at_least_zero)]
+    pub betaxanthins: Option<f64>,
+    /// Brown pigments, PROSPECT's unit [default: 0]
+    #[arg(long, value_parser = at_least_zero)]
+    pub brown: Option<f64>,
+    /// Water, cm [default: 0.01]
+    #[arg(long, value_parser = at_least_zero)]
+    pub cw: Option<f64>,
+    /// Dry matter, g/cm² [default: 0.009]
+    #[arg(long, value_parser = at_least_zero)]
+    pub cm: Option<f64>,
+    /// Table to write: `wavelength_nm,R,T`
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Print the colours of R and T under D65 (XYZ by CIE 1931 2°, sRGB), or write them as JSON
+    #[arg(long, value_name = "FILE.json", num_args = 0..=1)]
+    pub colour: Option<Option<PathBuf>>,
+    /// Print every number with what it rests on
+    #[arg(long)]
+    pub about: bool,
+}
+
+impl OpticsArguments {
+    /// The numbers that are given, in the order of [`leafmodel::optics::Contents`], with their options' names.
+    pub fn numbers(&self) -> [(&'static str, Option<f64>); 9] {
+        [
+            ("--n", self.n),
+            ("--cab", self.cab),
+            ("--car", self.car),
+            ("--ant", self.ant),
+            ("--betacyanins", self.betacyanins),
+            ("--betaxanthins", self.betaxanthins),
+            ("--brown", self.brown),
+            ("--cw", self.cw),
+            ("--cm", self.cm),
+        ]
+    }
+}
+
+fn at_least_zero(text: &str) -> Result<f64, String> {
+    at_least(0.0, text)
+}
+
+fn at_least_one(text: &str) -> Result<f64, String> {
+    at_least(1.0, text)
+}
+
+fn at_least(least: f64, text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value.is_finite() && value >= least {
+        Ok(value)
+    } else {
+        Err(format!("write a finite number of at least {least}"))
+    }
+}

@@ -1,0 +1,155 @@
+//! PROSPECT-D's constants for each palette of pigments that a scene has.
+//!
+//! Scenes rarely have more than one or two, so tables are made when the scene is built, once for each distinct palette,
+//! and paths know a palette by its number.
+
+use std::sync::{Arc, OnceLock};
+
+use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD, SpecificAbsorption};
+
+/// First and last whole nanometre of PROSPECT's table.
+const TABLE_NM: [usize; 2] = [400, 2500];
+
+/// What the pigment columns consist of, with the constants that follow from it. Copies share one table.
+#[derive(Clone, Debug)]
+pub struct Palette {
+    number: usize,
+    pigments: Pigments,
+    /// By whole nanometre.
+    table: Arc<[Coefficients]>,
+}
+
+/// PROSPECT-D's own columns, number 0.
+impl Default for Palette {
+    fn default() -> Self {
+        static OWN: OnceLock<Palette> = OnceLock::new();
+        OWN.get_or_init(|| Self::new(0, Pigments::default()))
+            .clone()
+    }
+}
+
+impl Palette {
+    fn new(number: usize, pigments: Pigments) -> Self {
+        let table = (TABLE_NM[0]..=TABLE_NM[1])
+            .map(|nm| ProspectD::coefficients_of(&pigments, nm as f64))
+            .collect();
+        Self {
+            number,
+            pigments,
+            table,
+        }
+    }
+
+    /// Its number among the palettes of the scene; 0 is PROSPECT-D's own.
+    pub fn number(&self) -> usize {
+        self.number
+    }
+
+    /// What its columns consist of.
+    pub fn pigments(&self) -> &Pigments {
+        &self.pigments
+    }
+
+    /// The constants at a wavelength in nm, linear between whole nanometres; outside 400–2500 nm the end values hold.
+    ///
+    /// The mean transmissivities of the faces are interpolated too instead of being worked out from the interpolated index: over
+    /// one nanometre the difference is below 1e-7, and it is what a path would otherwise spend most of its time on.
+    pub fn coefficients(&self, nm: f64) -> Coefficients {
+        let table = &self.table;
+        let place = (nm - TABLE_NM[0] as f64).clamp(0.0, (table.len() - 1) as f64);
+        let below = (place as usize).min(table.len() - 2);
+        let share = place - below as f64;
+        let (a, b) = (&table[below], &table[below + 1]);
+        let between = |low: f64, high: f64| low + share * (high - low);
+        Coefficients {
+            interface: Interface {
+                refractive_index: between(
+                    a.interface.refractive_index,
+                    b.interface.refractive_index,
+                ),
+                t_av_40: between(a.interface.t_av_40, b.interface.t_av_40),
+                t_av_90: between(a.interface.t_av_90, b.interface.t_av_90),
+            },
+            absorption: SpecificAbsorption {
+                chlorophyll: between(a.absorption.chlorophyll, b.absorption.chlorophyll),
+                carotenoids: between(a.absorption.carotenoids, b.absorption.carotenoids),
+                anthocyanins: between(a.absorption.anthocyanins, b.absorption.anthocyanins),
+                betacyanins: between(a.absorption.betacyanins, b.absorption.betacyanins),
+                betaxanthins: between(a.absorption.betaxanthins, b.absorption.betaxanthins),
+                brown: between(a.absorption.brown, b.absorption.brown),
+                water: between(a.absorption.water, b.absorption.water),
+                dry_matter: between(a.absorption.dry_matter, b.absorption.dry_matter),
+            },
+        }
+    }
+}
+
+/// The distinct palettes of a scene, by number; the first is PROSPECT-D's own.
+#[derive(Clone, Debug)]
+pub struct Palettes(Vec<Palette>);
+
+impl Default for Palettes {
+    fn default() -> Self {
+        Self(vec![Palette::default()])
+    }
+}
+
+impl Palettes {
+    /// The palette of these pigments, made when it is first asked for.
+    pub fn of(&mut self, pigments: &Pigments) -> Palette {
+        let known = self.0.iter().find(|palette| palette.pigments == *pigments);
+        if let Some(palette) = known {
+            return palette.clone();
+        }
+        let palette = Palette::new(self.0.len(), *pigments);
+        self.0.push(palette.clone());
+        palette
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Palette> {
+        self.0.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use leafmodel::optics::pigments::{CarotenoidMix, ChlorophyllMix};
+
+    use super::*;
+
+    fn low_b() -> Pigments {
+        Pigments {
+            chlorophyll: ChlorophyllMix::bands(8.0),
+            ..Pigments::default()
+        }
+    }
+
+    #[test]
+    fn equal_pigments_share_a_table_and_prospects_own_are_number_0() {
+        let mut palettes = Palettes::default();
+        let first = palettes.of(&low_b());
+        let own = palettes.of(&Pigments::default());
+        let again = palettes.of(&low_b());
+        assert_eq!([first.number(), own.number(), again.number()], [1, 0, 1]);
+        assert!(Arc::ptr_eq(&first.table, &again.table));
+        assert!(Arc::ptr_eq(&own.table, &Palette::default().table));
+        assert_eq!(palettes.iter().count(), 2);
+    }
+
+    #[test]
+    fn whole_nanometres_are_the_models_own_constants() {
+        let pigments = Pigments {
+            carotenoids: CarotenoidMix::bands([0.5, 0.5, 0.0, 0.0, 0.0]),
+            ..low_b()
+        };
+        let mut palettes = Palettes::default();
+        for pigments in [Pigments::default(), pigments] {
+            let palette = palettes.of(&pigments);
+            for nm in [400.0, 433.0, 679.0, 2500.0] {
+                let own = ProspectD::coefficients_of(&pigments, nm);
+                assert_eq!(palette.coefficients(nm), own);
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What is odd about a scene's materials and shows only once their files are read.
+
+use crate::material::Material;
+use crate::material::leaf::LeafTissue;
+use crate::material::solid::SolidTissue;
+
+/// Tells of maps with betalains and anthocyanins. At which texels each lies does not matter: no plant holds both.
+pub(super) fn on_maps<'m>(
+    materials: impl IntoIterator<Item = (&'m str, &'m Material)>,
+) -> Vec<String> {
+    let mixes = |material: &Material| match material {
+        // Contents are at least 0, so their means tell whether any texel has some.
+        Material::Leaf(leaf) => match &leaf.tissue {
+            LeafTissue::Map(map) => map.mean().mixes_betalains_and_anthocyanins(),
+            // Told where the contents are read.
+            LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => false,
+        },
+        Material::Solid(solid) => match solid.tissue() {
+            SolidTissue::Map(map) => map.mean().mixes_betalains_and_anthocyanins(),
+            SolidTissue::Uniform(_) => false,
+        },
+        Material::Diffuse(_) | Material::Dielectric(_) => false,
+    };
+    materials
+        .into_iter()
+        .filter(|(_, material)| mixes(material))
+        .map(|(name, _)| {
+            format!(
+                "materials.{name}: its map holds betalains and anthocyanins, which never occur in the same plant"
+            )
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bsdf::leaf::Coat;
+    use crate::material::contents_texture::ContentsTexture;
+    use crate::material::leaf::LeafMaterial;
+    use crate::material::palette::Palette;
+    use crate::spectrum::Curve;
+
+    /// Two texels: what the first holds of anthocyanins, and what the second holds of betaxanthins.
+    fn leaf(anthocyanins: f32, betaxanthins: f32) -> Material {
+        let first = [1.5, 30.0, 8.0, anthocyanins, 0.0, 0.0, 0.0, 0.01, 0.01];
+        let second = [1.5, 30.0, 8.0, 0.0, 0.0, betaxanthins, 0.0, 0.01, 0.01];
+        let coat = Coat::new(1.45, 0.3, 0.3);
+        Material::Leaf(Box::new(LeafMaterial {
+            tissue: LeafTissue::Map(ContentsTexture::new(2, 1, vec![first, second])),
+            palette: Palette::default(),
+            abaxial_ratio: Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+            coats: [coat.clone(), coat],
+        }))
+    }
+
+    #[test]
+    fn maps_that_hold_what_no_plant_does_are_told_by_name() {
+        let (both, red, yellow) = (leaf(2.0, 0.5), leaf(2.0, 0.0), leaf(0.0, 0.5));
+        let notes = on_maps([("beet", &both), ("maple", &red), ("cactus", &yellow)]);
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert!(notes[0].starts_with("materials.beet: "), "{notes:?}");
+    }
+}
