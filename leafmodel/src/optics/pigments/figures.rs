@@ -191,10 +191,32 @@ fn vacuolar(figures: &mut List) {
             "indicaxanthin, vulgaxanthin I",
             Betaxanthin::Indicaxanthin.epsilon(),
             Basis::Unverified,
-            "recalled; the band's width too",
+            "recalled",
         ),
     ] {
         figures.add(format!("{name}, peak"), epsilon, EPSILON, basis, source);
+    }
+    for (name, width_nm, basis, source) in [
+        (
+            "betanin, deviation towards the blue",
+            betalains::BETACYANIN_WIDTHS_NM[0],
+            Basis::Unverified,
+            "ratios of absorbance of Nilsson's photometry (1970)",
+        ),
+        (
+            "betanin, deviation towards the red",
+            betalains::BETACYANIN_WIDTHS_NM[1],
+            Basis::Unverified,
+            "ratios of absorbance of Nilsson's photometry (1970)",
+        ),
+        (
+            "betaxanthins, deviation",
+            betalains::BETAXANTHIN_WIDTH_NM,
+            Basis::Unverified,
+            "recalled",
+        ),
+    ] {
+        figures.add(name, width_nm, "nm", basis, source);
     }
     figures.add(
         "betalains, packaging",
