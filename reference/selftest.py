@@ -190,6 +190,7 @@ water_cm = 0.01
 dry_matter_g_per_cm2 = 0.005
 [materials.mixed.leaf.pigments.chlorophyll]
 a_to_b = 2.5
+bands = "solution"
 packaging = 0.38
 [materials.mixed.leaf.pigments.carotenoids]
 shares = { lutein = 0.4, beta_carotene = 0.2, zeaxanthin = 0.1, violaxanthin = 0.2, lycopene = 0.1 }
@@ -258,6 +259,17 @@ def test_exported_palettes_are_the_documented_pigments() -> None:
         assert known.sum() > 140, (name, known.sum())
         off = np.abs(column[name] - want)[known].max()
         assert off < 1e-12, (name, off)
+    # PROSPECT-D's column with another a/b: times the ratio of two mixes in solution.
+    with tempfile.TemporaryDirectory() as folder:
+        text = PALETTES.replace('bands = "solution"\npackaging = 0.38', "")
+        other = np.loadtxt(
+            [line for line in exported_table(text, Path(folder)).read_text().splitlines()
+             if line[:1].isdigit()], delimiter=","
+        )  # fmt: skip
+    ratio = ((2.5 * a + b) / 3.5) / ((3.1 * a + b) / 4.1)
+    known = np.isfinite(ratio)
+    off = np.abs(other[:, 2] - published["chlorophyll"] * ratio)[known].max()
+    assert known.sum() > 300 and off < 1e-12, off
     # The plugin reads the same table.
     kind = leaf_bsdf.Double
     contents = {**GREEN, "anthocyanins": 9.0}

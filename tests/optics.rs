@@ -1,6 +1,6 @@
 //! PROSPECT-D against figures computed independently (33 sets of contents × 211 wavelengths).
 
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::{Contents, Pigments, ProspectD, presets};
 
 const REFERENCE: &str = include_str!("data/prospect_d_reference.csv");
 const CASES: usize = 33;
@@ -54,5 +54,56 @@ fn reflectance_and_transmittance_agree_with_the_reference_to_1e_9() {
         let (r, t) = (leaf.reflectance, leaf.transmittance);
         assert!((r - row.reflectance).abs() < 1e-9, "{place}: R = {r}");
         assert!((t - row.transmittance).abs() < 1e-9, "{place}: T = {t}");
+    }
+}
+
+/// The book's page on pigments.
+const PAGE: &str = include_str!("../docs/src/theory/pigments.md");
+
+#[test]
+fn the_book_lists_every_figure_behind_the_pigments() {
+    let figures = Pigments::figures();
+    let rows: Vec<String> = figures
+        .iter()
+        .map(|figure| {
+            format!(
+                "| {} | {} | {} | {} | {} |",
+                figure.of,
+                figure.value,
+                figure.unit,
+                figure.basis.word(),
+                figure.source
+            )
+        })
+        .collect();
+    let missing: Vec<&String> = rows.iter().filter(|row| !PAGE.contains(*row)).collect();
+    assert!(missing.is_empty(), "not in the book:\n{missing:#?}");
+    let listed = PAGE
+        .split("## Every figure")
+        .nth(1)
+        .expect("the page has the list");
+    assert_eq!(
+        listed.lines().filter(|line| line.starts_with("| ")).count(),
+        rows.len() + 2,
+        "rows of the table, its head and the rule below it"
+    );
+}
+
+#[test]
+fn the_book_lists_the_presets_as_they_are() {
+    for preset in presets::ALL {
+        let c = preset.contents;
+        let row = format!(
+            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            preset.name,
+            c.structure,
+            c.chlorophyll,
+            c.carotenoids,
+            c.anthocyanins,
+            c.brown,
+            c.water,
+            c.dry_matter
+        );
+        assert!(PAGE.contains(&row), "not in the book: {row}");
     }
 }

@@ -9,6 +9,11 @@
 /// In-leaf over in-solution absorptivity of vacuolar pigments: an assumption, 0.4 to 0.55 are as likely.
 pub const PACKAGING: f64 = 0.5;
 
+/// Standard deviations of betanin's band in nm, on its blue and its red side (unverified).
+pub(super) const BETACYANIN_WIDTHS_NM: [f64; 2] = [41.0, 28.0];
+/// That of betaxanthins' bands (unverified).
+pub(super) const BETAXANTHIN_WIDTH_NM: f64 = 32.0;
+
 /// Which betacyanin a leaf holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Betacyanin {
@@ -53,7 +58,8 @@ impl Betacyanin {
             Self::Betanin => (538.0, 550.5),
             Self::Amaranthine => (536.0, 726.6),
         };
-        let width = if wavelength_nm < peak_nm { 41.0 } else { 28.0 };
+        let [blue, red] = BETACYANIN_WIDTHS_NM;
+        let width = if wavelength_nm < peak_nm { blue } else { red };
         let peak = packaging * in_solution(self.epsilon(), molar_mass);
         peak * gaussian(wavelength_nm - peak_nm, width)
     }
@@ -85,7 +91,7 @@ impl Betaxanthin {
             Self::Vulgaxanthin => (477.0, 339.3),
         };
         let peak = packaging * in_solution(self.epsilon(), molar_mass);
-        peak * gaussian(wavelength_nm - peak_nm, 32.0)
+        peak * gaussian(wavelength_nm - peak_nm, BETAXANTHIN_WIDTH_NM)
     }
 }
 

@@ -105,9 +105,13 @@ impl ProspectD {
         Coefficients {
             interface: Interface::of_index(between(0)),
             absorption: SpecificAbsorption {
-                chlorophyll: own_or(1, &|nm| pigments.chlorophyll.specific(nm)),
+                chlorophyll: own_or(1, &|nm| {
+                    pigments.chlorophyll.specific(nm, |nm| column(1, nm))
+                }),
                 carotenoids: own_or(2, &|nm| pigments.carotenoids.specific(nm)),
-                anthocyanins: own_or(3, &|nm| pigments.anthocyanins.specific(nm, anthocyanin)),
+                anthocyanins: own_or(3, &|nm| {
+                    pigments.anthocyanins.specific(nm, |nm| column(3, nm))
+                }),
                 betacyanins: band(&|nm| {
                     pigments
                         .betacyanins
@@ -134,11 +138,11 @@ impl ProspectD {
     }
 }
 
-/// The anthocyanin column at a wavelength in nm, with the table's end values outside.
-fn anthocyanin(wavelength_nm: f64) -> f64 {
+/// A column of the table at a wavelength in nm, with the table's end values outside.
+fn column(column: usize, wavelength_nm: f64) -> f64 {
     let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
     let row = (place.floor() as usize).min(ROWS - 2);
-    let (low, high) = (table()[row][3], table()[row + 1][3]);
+    let (low, high) = (table()[row][column], table()[row + 1][column]);
     low + (place - row as f64) * (high - low)
 }
 

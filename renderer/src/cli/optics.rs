@@ -1,6 +1,7 @@
 //! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and the colours that they have.
 
 mod colour;
+mod figures;
 mod leaf;
 
 use std::fmt::Write as _;
@@ -22,6 +23,10 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
             let width = longest.unwrap_or(0);
             say(format!("{:<width$}  {}", preset.name, preset.basis.word()));
         }
+        return Ok(());
+    }
+    if arguments.figures {
+        say(figures::table());
         return Ok(());
     }
     let chosen = leaf::choose(arguments)?;

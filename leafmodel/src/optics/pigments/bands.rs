@@ -23,15 +23,24 @@ impl Bands {
     /// Absorption over that of the peak in solution, with all bands moved by `shift` cm⁻¹, at a wavelength in nm.
     pub(super) fn shape(&self, wavelength_nm: f64, shift: f64) -> f64 {
         let in_solution = 1e7 / wavelength_nm - shift;
-        let sum: f64 = self
-            .gaussians
-            .iter()
+        self.sum(in_solution) * window(1e7 / in_solution, self.range_nm)
+    }
+
+    /// Specific absorption in solution, cm² µg⁻¹, of all bands moved by `shift` cm⁻¹, going on beyond the range of the fit.
+    pub(super) fn unbounded(&self, wavelength_nm: f64, shift: f64) -> f64 {
+        let peak = crate::optics::betalains::in_solution(self.epsilon, self.molar_mass);
+        peak * self.sum(1e7 / wavelength_nm - shift)
+    }
+
+    /// The Gaussians at a wavenumber in solution, cm⁻¹.
+    fn sum(&self, in_solution: f64) -> f64 {
+        let gaussians = self.gaussians.iter();
+        gaussians
             .map(|[height, centre, deviation]| {
                 let z = (in_solution - centre) / deviation;
                 height * libm::exp(-0.5 * z * z)
             })
-            .sum();
-        sum * window(1e7 / in_solution, self.range_nm)
+            .sum()
     }
 
     /// Specific absorption in the leaf, cm² µg⁻¹: the shape times the peak in solution times `packaging`.

@@ -43,7 +43,14 @@ pub(super) const B: Bands = Bands {
 pub enum ChlorophyllMix {
     /// PROSPECT-D's column of a + b.
     Prospect,
-    /// Chlorophyll a and b from their bands in solution.
+    /// PROSPECT-D's column with another a/b than the usual: times the absorption of this mix over that of
+    /// [`ChlorophyllMix::A_TO_B`], both from the bands in solution shifted by [`ChlorophyllMix::SHIFT_PER_CM`].
+    /// Bands keep the width that they have in leaves.
+    Apportioned {
+        /// Mass of a over mass of b, ≥ 0.
+        a_to_b: f64,
+    },
+    /// Chlorophyll a and b from their bands in solution, which are narrower than in leaves.
     Bands {
         /// Mass of a over mass of b, ≥ 0.
         a_to_b: f64,
@@ -71,10 +78,16 @@ impl ChlorophyllMix {
         }
     }
 
-    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own.
-    pub(crate) fn specific(&self, nm: f64) -> Option<f64> {
+    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by wavelength.
+    pub(crate) fn specific(&self, nm: f64, prospect: impl Fn(f64) -> f64) -> Option<f64> {
         match *self {
             Self::Prospect => None,
+            Self::Apportioned { a_to_b } => {
+                let of = |bands: Bands| bands.unbounded(nm, Self::SHIFT_PER_CM);
+                let mixed = |a_to_b: f64| (a_to_b * of(A) + of(B)) / (1.0 + a_to_b);
+                // The widest Gaussians reach over the whole column, so this is never 0.
+                Some(prospect(nm) * (mixed(a_to_b) / mixed(Self::A_TO_B)))
+            }
             Self::Bands {
                 a_to_b,
                 shift_per_cm,
@@ -87,19 +100,23 @@ impl ChlorophyllMix {
     }
 
     pub(super) fn check(&self) -> Result<(), PigmentsError> {
+        let ratio = |a_to_b: f64| {
+            within(
+                "chlorophyll a_to_b",
+                a_to_b,
+                (0.0..=1e6).contains(&a_to_b),
+                "from 0 to 1e6",
+            )
+        };
         match *self {
             Self::Prospect => Ok(()),
+            Self::Apportioned { a_to_b } => ratio(a_to_b),
             Self::Bands {
                 a_to_b,
                 shift_per_cm: shift,
                 packaging: factor,
             } => {
-                within(
-                    "chlorophyll a_to_b",
-                    a_to_b,
-                    (0.0..=1e6).contains(&a_to_b),
-                    "from 0 to 1e6",
-                )?;
+                ratio(a_to_b)?;
                 shift_per_cm("chlorophyll shift_per_cm", shift)?;
                 packaging("chlorophyll packaging", factor)
             }

@@ -50,26 +50,40 @@ const PER_CM: &str = "1/cm";
 impl Pigments {
     /// Every number that a finer class than PROSPECT-D's rests on, with its source.
     pub fn figures() -> Vec<Figure> {
-        let mut figures = plastid();
-        figures.extend(vacuolar());
-        figures
+        let mut figures = List::default();
+        plastid(&mut figures);
+        vacuolar(&mut figures);
+        figures.0
     }
 }
 
-/// Of pigments in plastids.
-fn plastid() -> Vec<Figure> {
-    let mut figures = Vec::new();
-    let mut add = |of: String, value, unit, basis, source| {
-        figures.push(Figure {
-            of,
+/// Figures in the making.
+#[derive(Default)]
+struct List(Vec<Figure>);
+
+impl List {
+    fn add(
+        &mut self,
+        of: impl Into<String>,
+        value: f64,
+        unit: &'static str,
+        basis: Basis,
+        source: &'static str,
+    ) {
+        self.0.push(Figure {
+            of: of.into(),
             value,
             unit,
             basis,
             source,
         });
-    };
+    }
+}
+
+/// Of pigments in plastids.
+fn plastid(figures: &mut List) {
     for (name, bands) in [("a", chlorophyll::A), ("b", chlorophyll::B)] {
-        add(
+        figures.add(
             format!("chlorophyll {name}, peak in diethyl ether"),
             bands.epsilon,
             EPSILON,
@@ -77,22 +91,22 @@ fn plastid() -> Vec<Figure> {
             "PhotochemCAD (Du et al. 1998; Dixon et al. 2005), Gaussians fitted to 0.3 and 0.4 % of the peak",
         );
     }
-    add(
-        "chlorophyll, a over b".into(),
+    figures.add(
+        "chlorophyll, a over b",
         ChlorophyllMix::A_TO_B,
         "",
         Basis::Verified,
         "medians of the 276 leaves of ANGERS",
     );
-    add(
-        "chlorophyll, shift".into(),
+    figures.add(
+        "chlorophyll, shift",
         ChlorophyllMix::SHIFT_PER_CM,
         PER_CM,
         Basis::Assumed,
         "red peak at 661 nm in ether, 675 to 680 nm in PROSPECT-D",
     );
-    add(
-        "chlorophyll, packaging".into(),
+    figures.add(
+        "chlorophyll, packaging",
         ChlorophyllMix::PACKAGING,
         "",
         Basis::Assumed,
@@ -100,7 +114,7 @@ fn plastid() -> Vec<Figure> {
     );
     for carotenoid in Carotenoid::ALL {
         let bands = carotenoid.in_solution();
-        add(
+        figures.add(
             format!("{}, peak in methanol", carotenoid.name()),
             bands.epsilon,
             EPSILON,
@@ -108,37 +122,26 @@ fn plastid() -> Vec<Figure> {
             "recalled; the shape is fitted to LipidBank's plots to about 1 % of the peak",
         );
     }
-    add(
-        "carotenoids, shift".into(),
+    figures.add(
+        "carotenoids, shift",
         CarotenoidMix::SHIFT_PER_CM,
         PER_CM,
         Basis::Unverified,
         "20 to 30 nm between methanol and protein; the lower end",
     );
-    add(
-        "carotenoids, packaging".into(),
+    figures.add(
+        "carotenoids, packaging",
         CarotenoidMix::PACKAGING,
         "",
         Basis::Assumed,
         "PROSPECT-D at 444 nm over lutein in solution",
     );
-    figures
 }
 
 /// Of pigments in vacuoles.
-fn vacuolar() -> Vec<Figure> {
-    let mut figures = Vec::new();
-    let mut add = |of: String, value, unit, basis, source| {
-        figures.push(Figure {
-            of,
-            value,
-            unit,
-            basis,
-            source,
-        });
-    };
+fn vacuolar(figures: &mut List) {
     for aglycone in Aglycone::ALL {
-        add(
+        figures.add(
             format!("{}, peak", aglycone.name()),
             aglycone.peak_nm(),
             "nm",
@@ -156,7 +159,7 @@ fn vacuolar() -> Vec<Figure> {
             Aglycone::Petunidin => (Basis::Unverified, "middle of 12 900 to 18 900"),
             Aglycone::Malvidin => (Basis::Unverified, "at 520 nm"),
         };
-        add(
+        figures.add(
             format!("{}-3-glucoside, peak", aglycone.name()),
             aglycone.epsilon(),
             EPSILON,
@@ -164,8 +167,8 @@ fn vacuolar() -> Vec<Figure> {
             source,
         );
     }
-    add(
-        "anthocyanins, quinonoidal peak".into(),
+    figures.add(
+        "anthocyanins, quinonoidal peak",
         AnthocyaninMix::BLUE_PEAK_NM,
         "nm",
         Basis::Verified,
@@ -188,17 +191,38 @@ fn vacuolar() -> Vec<Figure> {
             "indicaxanthin, vulgaxanthin I",
             Betaxanthin::Indicaxanthin.epsilon(),
             Basis::Unverified,
-            "recalled; the band's width too",
+            "recalled",
         ),
     ] {
-        add(format!("{name}, peak"), epsilon, EPSILON, basis, source);
+        figures.add(format!("{name}, peak"), epsilon, EPSILON, basis, source);
     }
-    add(
-        "betalains, packaging".into(),
+    for (name, width_nm, basis, source) in [
+        (
+            "betanin, deviation towards the blue",
+            betalains::BETACYANIN_WIDTHS_NM[0],
+            Basis::Unverified,
+            "ratios of absorbance of Nilsson's photometry (1970)",
+        ),
+        (
+            "betanin, deviation towards the red",
+            betalains::BETACYANIN_WIDTHS_NM[1],
+            Basis::Unverified,
+            "ratios of absorbance of Nilsson's photometry (1970)",
+        ),
+        (
+            "betaxanthins, deviation",
+            betalains::BETAXANTHIN_WIDTH_NM,
+            Basis::Unverified,
+            "recalled",
+        ),
+    ] {
+        figures.add(name, width_nm, "nm", basis, source);
+    }
+    figures.add(
+        "betalains, packaging",
         betalains::PACKAGING,
         "",
         Basis::Assumed,
         "by analogy with anthocyanin, 0.4 to 0.55",
     );
-    figures
 }

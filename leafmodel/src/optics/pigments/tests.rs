@@ -95,6 +95,7 @@ fn betalains_peak_where_their_class_does() {
 fn a_mix_is_linear_in_its_shares() {
     let shares = [0.3, 0.4, 0.1, 0.1, 0.1];
     let mixed = CarotenoidMix::bands(shares);
+    let of = |a_to_b, nm| ChlorophyllMix::bands(a_to_b).specific(nm, |_| f64::NAN);
     for nm in [420.0, 455.5, 490.0, 555.0] {
         let parts: f64 = (0..5)
             .map(|i| shares[i] * CarotenoidMix::bands(only(i)).specific(nm).expect("bands"))
@@ -102,9 +103,9 @@ fn a_mix_is_linear_in_its_shares() {
         let whole = mixed.specific(nm).expect("bands");
         assert!((whole - parts).abs() < 1e-15);
         // a/b = 3 is three parts of a and one of b; a/b = 1e6 still has a trace of b.
-        let a = ChlorophyllMix::bands(1e6).specific(nm).expect("bands");
-        let b = ChlorophyllMix::bands(0.0).specific(nm).expect("bands");
-        let three = ChlorophyllMix::bands(3.0).specific(nm).expect("bands");
+        let a = of(1e6, nm).expect("bands");
+        let b = of(0.0, nm).expect("bands");
+        let three = of(3.0, nm).expect("bands");
         assert!((three - (0.75 * a + 0.25 * b)).abs() < 1e-4 * three);
     }
 }
@@ -127,6 +128,50 @@ fn a_to_b_of_leaves_is_near_the_column_of_prospect() {
     let (red, blue) = (rms(600..=720), rms(400..=500));
     // Measured: 0.0157 and 0.0193 cm² µg⁻¹, of peaks of 0.07 and 0.09: bands in ether are narrower than in leaves.
     assert!(red < 0.0165 && blue < 0.0203, "{red}, {blue}");
+}
+
+#[test]
+fn at_the_usual_a_to_b_the_apportioned_column_is_prospects_to_the_bit() {
+    let usual = Pigments {
+        chlorophyll: ChlorophyllMix::Apportioned {
+            a_to_b: ChlorophyllMix::A_TO_B,
+        },
+        ..Pigments::default()
+    };
+    for nm in 400..=2500 {
+        let nm = f64::from(nm);
+        assert_eq!(at(&usual, nm), at(&Pigments::default(), nm), "{nm} nm");
+    }
+}
+
+#[test]
+fn more_b_absorbs_more_where_b_does_and_less_at_the_red_peak_of_a() {
+    let of = |a_to_b, nm| {
+        let pigments = Pigments {
+            chlorophyll: ChlorophyllMix::Apportioned { a_to_b },
+            ..Pigments::default()
+        };
+        at(&pigments, nm).chlorophyll
+    };
+    let usual = ChlorophyllMix::A_TO_B;
+    // b absorbs in the leaf near 461 and 660 nm, a near 435 and 679 nm.
+    for (nm, more) in [(461.0, true), (655.0, true), (435.0, false), (679.0, false)] {
+        assert_eq!(of(1.0, nm) > of(usual, nm), more, "{nm} nm");
+        assert_eq!(of(9.0, nm) < of(usual, nm), more, "{nm} nm");
+    }
+    // Linear in the shares, finite and at least 0 to the end of the column.
+    for nm in 400..=800 {
+        let nm = f64::from(nm);
+        let (a, b) = (of(1e6, nm), of(0.0, nm));
+        assert!(
+            a >= 0.0 && b >= 0.0 && a.is_finite() && b.is_finite(),
+            "{nm} nm"
+        );
+        assert!(
+            (of(3.0, nm) - (0.75 * a + 0.25 * b)).abs() <= 1e-5 * (a + b),
+            "{nm} nm"
+        );
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
-#[command(group = ArgGroup::new("wanted").args(["list", "out", "colour", "about"]).required(true).multiple(true))]
+#[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "about"]).required(true).multiple(true))]
 pub struct OpticsArguments {
     /// Start from the contents of a preset; numbers that are given take the place of its own
     #[arg(long, value_name = "NAME")]
@@ -14,6 +14,9 @@ pub struct OpticsArguments {
     /// Name the presets
     #[arg(long, exclusive = true)]
     pub list: bool,
+    /// Print every figure behind the finer pigments, how far it can be trusted, and its source
+    #[arg(long, exclusive = true)]
+    pub figures: bool,
     /// Structure N, number of plates, at least 1 [default: 1.5]
     #[arg(long, value_parser = at_least_one)]
     pub n: Option<f64>,

@@ -71,6 +71,20 @@ fn unknown_preset(wanted: &str) -> Failure {
     ))
 }
 
+/// Rows in columns that are two spaces apart.
+pub(super) fn in_columns<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    let lines = rows.iter().map(|row| {
+        let cells = row.iter().zip(widths);
+        let line: String = cells
+            .map(|(cell, width)| format!("  {cell:<width$}"))
+            .collect();
+        line.trim_end().to_owned()
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 impl Chosen {
     /// Preset and numbers in a line.
     pub(super) fn line(&self) -> String {
@@ -103,15 +117,10 @@ impl Chosen {
             };
             rows.push([what.to_owned(), value.to_string(), unit.to_owned(), basis]);
         }
-        let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
-        let [a, b, c] = [0, 1, 2].map(|column| width(column).unwrap_or(0));
         let mut text = String::new();
         if let Some(preset) = self.preset {
             text += &format!("{}: {}\n", preset.name, preset.about);
         }
-        let lines = rows.iter().map(|[what, value, unit, basis]| {
-            format!("  {what:<a$}  {value:<b$}  {unit:<c$}  {basis}")
-        });
-        text + &lines.collect::<Vec<_>>().join("\n")
+        text + &in_columns(&rows)
     }
 }

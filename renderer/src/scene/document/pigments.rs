@@ -28,16 +28,7 @@ pub(super) fn read_pigments(owner: &Block<'_>) -> Option<Pigments> {
     };
     let errors = block.cx.error_count();
     if let Some(inner) = block.optional_block("chlorophyll") {
-        let a_to_b = inner.number("a_to_b", A_TO_B);
-        let shift_per_cm =
-            inner.number_or("shift_per_cm", SHIFT_PER_CM, ChlorophyllMix::SHIFT_PER_CM);
-        let packaging = inner.number_or("packaging", PACKAGING, ChlorophyllMix::PACKAGING);
-        inner.finish();
-        pigments.chlorophyll = ChlorophyllMix::Bands {
-            a_to_b: a_to_b.unwrap_or(ChlorophyllMix::A_TO_B),
-            shift_per_cm,
-            packaging,
-        };
+        pigments.chlorophyll = read_chlorophyll(&inner);
     }
     if let Some(inner) = block.optional_block("carotenoids") {
         let shares = inner.block("shares", &[]).and_then(|table| {
@@ -83,6 +74,38 @@ pub(super) fn read_pigments(owner: &Block<'_>) -> Option<Pigments> {
     }
     block.finish();
     (block.cx.error_count() == errors).then_some(pigments)
+}
+
+/// Chlorophyll a and b; where there is an error it is noted, and what comes back does not matter.
+fn read_chlorophyll(block: &Block<'_>) -> ChlorophyllMix {
+    let a_to_b = block.number("a_to_b", A_TO_B);
+    let a_to_b = a_to_b.unwrap_or(ChlorophyllMix::A_TO_B);
+    let bands = block.word("bands", &["leaf", "solution"]);
+    let shift_per_cm = block.number_or("shift_per_cm", SHIFT_PER_CM, ChlorophyllMix::SHIFT_PER_CM);
+    let packaging = block.number_or("packaging", PACKAGING, ChlorophyllMix::PACKAGING);
+    block.finish();
+    if bands == Some("solution") {
+        return ChlorophyllMix::Bands {
+            a_to_b,
+            shift_per_cm,
+            packaging,
+        };
+    }
+    // Another word is told already.
+    let misspelt = block.table.get("bands").is_some() && bands.is_none();
+    for key in ["shift_per_cm", "packaging"] {
+        if let (Some(entry), false) = (block.table.get(key), misspelt) {
+            let error = SceneError::Impossible {
+                key: key.to_owned(),
+                problem:
+                    "only bands in solution are shifted and packed; those of leaves are so already"
+                        .to_owned(),
+                help: "write bands = \"solution\" beside it, or leave it out".to_owned(),
+            };
+            block.cx.error(&entry.key_at, error);
+        }
+    }
+    ChlorophyllMix::Apportioned { a_to_b }
 }
 
 /// Shares by mass, by the substances' names; what is not named has none.

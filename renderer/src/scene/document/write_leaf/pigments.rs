@@ -12,18 +12,22 @@ use crate::scene::document::tree::Value;
 /// The block `pigments`, empty if all are PROSPECT-D's.
 pub(in super::super) fn pigments(pigments: &Pigments) -> Keys {
     let mut keys = Keys::default();
-    if let ChlorophyllMix::Bands {
-        a_to_b,
-        shift_per_cm,
-        packaging,
-    } = pigments.chlorophyll
-    {
-        let mut block = Keys::default();
-        block.number("a_to_b", a_to_b);
-        block.number_unless("shift_per_cm", shift_per_cm, ChlorophyllMix::SHIFT_PER_CM);
-        block.number_unless("packaging", packaging, ChlorophyllMix::PACKAGING);
-        keys.block("chlorophyll", block);
+    let mut block = Keys::default();
+    match pigments.chlorophyll {
+        ChlorophyllMix::Prospect => {}
+        ChlorophyllMix::Apportioned { a_to_b } => block.number("a_to_b", a_to_b),
+        ChlorophyllMix::Bands {
+            a_to_b,
+            shift_per_cm,
+            packaging,
+        } => {
+            block.number("a_to_b", a_to_b);
+            block.value("bands", Value::Text("solution".to_owned()));
+            block.number_unless("shift_per_cm", shift_per_cm, ChlorophyllMix::SHIFT_PER_CM);
+            block.number_unless("packaging", packaging, ChlorophyllMix::PACKAGING);
+        }
     }
+    keys.block_if_any("chlorophyll", block);
     if let CarotenoidMix::Bands {
         shares: of,
         shift_per_cm,

@@ -540,6 +540,7 @@ pub(in super::super) fn pigments() -> impl Strategy<Value = Pigments> {
     let factor = || prop_oneof![Just(0.41), Just(0.29), Just(0.5), 0.01..1.0];
     let chlorophyll = prop_oneof![
         Just(ChlorophyllMix::Prospect),
+        (0.0..9.0).prop_map(|a_to_b| ChlorophyllMix::Apportioned { a_to_b }),
         (0.0..9.0).prop_map(ChlorophyllMix::bands),
         (0.0..9.0, -500.0..500.0, factor()).prop_map(|(a_to_b, shift_per_cm, packaging)| {
             ChlorophyllMix::Bands {

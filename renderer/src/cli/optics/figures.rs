@@ -1,0 +1,21 @@
+//! What the finer pigments rest on.
+
+use leafmodel::optics::Pigments;
+
+use super::leaf::in_columns;
+
+/// Every figure with its unit, how far it can be trusted, and its source.
+pub(super) fn table() -> String {
+    let head = ["figure", "value", "unit", "trust", "source"].map(str::to_owned);
+    let figures = Pigments::figures().into_iter().map(|figure| {
+        [
+            figure.of,
+            figure.value.to_string(),
+            figure.unit.to_owned(),
+            figure.basis.word().to_owned(),
+            figure.source.to_owned(),
+        ]
+    });
+    let rows: Vec<[String; 5]> = std::iter::once(head).chain(figures).collect();
+    in_columns(&rows)
+}
