@@ -25,6 +25,8 @@ const GUTTER: u32 = 3;
 const BAND: usize = 128;
 /// Edges where there is no mosaic, over the root of the area.
 const PLAIN_EDGE: f64 = 0.02;
+/// Edges that a mosaic's suit at most instead of one: borders between cells are sought face by face.
+const MOST_PER_SPACING: f64 = 3.0;
 
 /// Everything that decides a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,11 +106,11 @@ impl Solid {
             pattern.validate()?;
         }
         let area = plan.shape.area()?;
-        let edge_mm = plan
-            .mosaic
-            .as_ref()
-            .map_or(f64::INFINITY, |pattern| pattern.edge_mm(area))
-            .min(PLAIN_EDGE * area.sqrt());
+        let smooth_mm = PLAIN_EDGE * area.sqrt();
+        let edge_mm = plan.mosaic.as_ref().map_or(smooth_mm, |pattern| {
+            let suits_mm = pattern.edge_mm(area);
+            suits_mm.min(smooth_mm.max(suits_mm / MOST_PER_SPACING))
+        });
         let shape = plan.shape.triangles(edge_mm);
         if let Err(ShapeError::TooFine { triangles }) = shape {
             // Of edges a plan says nothing.
@@ -187,3 +189,6 @@ impl Solid {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
