@@ -234,7 +234,7 @@ fn charts_agree_along_the_edges_where_they_meet() {
         }
         let mean = sum / f64::from(count);
         eprintln!("{count} places: worst {worst:.4}, mean {mean:.5} of the range");
-        // Some ten texels make a blend, which two grids of texels sample at different places.
+        // Some fifteen texels make a blend, which two grids of texels sample at different places.
         assert!(count > 100, "only {count} places");
         assert!(worst < 0.1 && mean < 0.004, "worst {worst}, mean {mean}");
     }
