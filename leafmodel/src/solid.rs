@@ -16,7 +16,7 @@ use crate::blade::contents_map::ContentsMap;
 use crate::mosaic::atlas::{Atlas, AtlasError};
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::mosaic::shapes::{Shape, ShapeError};
-use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError};
+use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError, SurfacePoint};
 use crate::optics::Contents;
 
 /// Texels around each chart of the map.
@@ -120,7 +120,9 @@ impl Solid {
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };
-        let surface = Surface::new(shape.positions.clone(), shape.faces.clone())?;
+        // Meshes made elsewhere may be coarse: faces that hold many cells take long.
+        let coarse = Surface::new(shape.positions.clone(), shape.faces.clone())?;
+        let (surface, ancestry) = coarse.subdivided(pattern.edge_mm(area))?;
         let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
         let texels = atlas.texels();
@@ -142,23 +144,38 @@ impl Solid {
             let painted = field.paint(shown, &pattern.contents);
             contents.texels.extend(painted.into_iter().map(texel));
         }
+        let normal = |face: u32, corner: usize| {
+            let mut barycentric = [0.0; 3];
+            barycentric[corner] = 1.0;
+            let within = ancestry.carry_back(&SurfacePoint { face, barycentric });
+            let of_corners = shape.faces[within.face as usize];
+            let [a, b, c] = of_corners.map(|vertex| shape.normals[vertex as usize]);
+            let [u, v, w] = within.barycentric;
+            let between = a * u + b * v + c * w;
+            between.try_normalize().unwrap_or(surface.normal(face))
+        };
         let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut triangles = Vec::with_capacity(shape.faces.len());
-        // A point has as many vertices as charts meet in it.
-        let mut vertices: Vec<Vec<(DVec2, u32)>> = vec![Vec::new(); shape.positions.len()];
-        for (face, corners) in shape.faces.iter().zip(atlas.uvs()) {
+        let mut triangles = Vec::with_capacity(surface.faces().len());
+        // A point has as many vertices as charts and unlike normals meet in it.
+        let mut vertices: Vec<Vec<(DVec2, DVec3, u32)>> =
+            vec![Vec::new(); surface.positions().len()];
+        for (face, (points, corners)) in (0..).zip(surface.faces().iter().zip(atlas.uvs())) {
             let mut triangle = [0; 3];
-            for ((index, &point), &uv) in triangle.iter_mut().zip(face).zip(corners) {
-                let known = &mut vertices[point as usize];
-                let found = known.iter().find(|(other, _)| *other == uv);
-                *index = if let Some(&(_, vertex)) = found {
+            for corner in 0..3 {
+                let (point, uv) = (points[corner] as usize, corners[corner]);
+                let normal = normal(face, corner);
+                let known = &mut vertices[point];
+                let found = known
+                    .iter()
+                    .find(|(other_uv, other, _)| *other_uv == uv && *other == normal);
+                triangle[corner] = if let Some(&(.., vertex)) = found {
                     vertex
                 } else {
                     let vertex = positions.len() as u32;
-                    positions.push(shape.positions[point as usize]);
-                    normals.push(shape.normals[point as usize]);
+                    positions.push(surface.positions()[point]);
+                    normals.push(normal);
                     uvs.push(uv);
-                    known.push((uv, vertex));
+                    known.push((uv, normal, vertex));
                     vertex
                 };
             }

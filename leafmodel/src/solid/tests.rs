@@ -241,6 +241,50 @@ fn charts_agree_along_the_edges_where_they_meet() {
 }
 
 #[test]
+fn a_coarse_mesh_is_cut_fine_enough_for_its_cells_and_stays_closed_with_hard_edges() {
+    // A tetrahedron whose faces share no vertices, each with its own normal.
+    let corners = [
+        DVec3::ZERO,
+        DVec3::X * 20.0,
+        DVec3::Y * 20.0,
+        DVec3::Z * 20.0,
+    ];
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
+        let first = positions.len() as u32;
+        positions.extend(face.map(|corner: usize| corners[corner]));
+        faces.push([first, first + 1, first + 2]);
+    }
+    let normals = smooth_normals(&positions, &faces);
+    let shape = SolidShape::Mesh(Arc::new(SolidMesh {
+        file: "tetrahedron.obj".to_owned(),
+        scale_mm: 1.0,
+        shape: Shape {
+            positions,
+            normals,
+            faces,
+        },
+    }));
+    let mut pattern = pattern(1.0);
+    pattern.plan.initial_cells = 200;
+    let body = grow(&plan(shape, Some(pattern)));
+    assert!(body.triangles.len() > 200, "{}", body.triangles.len());
+    let mut edges: BTreeMap<_, i32> = BTreeMap::new();
+    for triangle in &body.triangles {
+        let [p, q, r] = triangle.map(|vertex| body.positions[vertex as usize]);
+        for (from, to) in [(p, q), (q, r), (r, p)] {
+            *edges.entry([bits(from), bits(to)]).or_default() += 1;
+            *edges.entry([bits(to), bits(from)]).or_default() -= 1;
+        }
+        let flat = (q - p).cross(r - p).normalize();
+        for &vertex in triangle {
+            assert!(body.normals[vertex as usize].distance(flat) < 1e-9);
+        }
+    }
+    assert!(edges.values().all(|&count| count == 0), "an edge is open");
+}
+
+#[test]
 fn a_body_has_the_same_bits_on_any_number_of_threads() {
     let plan = plan(closed_shapes().remove(0), Some(pattern(1.0)));
     let grown = |threads: usize| {
