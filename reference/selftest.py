@@ -30,7 +30,17 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from lamina_reference import colour, colours, compare, leaf_bsdf, pigments, prospect, render
+from lamina_reference import (
+    colour,
+    colours,
+    compare,
+    half_space,
+    leaf_bsdf,
+    pigments,
+    prospect,
+    render,
+    solid_bsdf,
+)
 from lamina_reference.coat import Coat, albedo
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -375,6 +385,65 @@ def test_leaf_is_reciprocal() -> None:
         assert np.all(np.abs(there - back) <= 2e-3 * there + 1e-6), coats
 
 
+def test_half_space_gives_the_anchors() -> None:
+    lines = (ROOT / "tests" / "data" / "transport_anchors.csv").read_text().splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    rows = [row for row in rows if row["b"] == "inf"]
+    assert len(rows) == 5
+    for row in rows:
+        got = half_space.reflectance(float(row["a"]), float(row["n"]))
+        assert abs(got - float(row["R1"])) < 1.5e-6, (row["n"], row["a"], got)
+
+
+def test_half_space_without_scattering_or_absorption() -> None:
+    for n in (1.0, 1.33, 1.38, 1.5):
+        assert half_space.reflectance(0.0, n) == ((n - 1.0) / (n + 1.0)) ** 2
+        assert abs(half_space.reflectance(1e-9, n) - ((n - 1.0) / (n + 1.0)) ** 2) < 1e-9
+        # R = 1 - c √(1 - a) near a = 1.
+        lost = [1.0 - half_space.reflectance(1.0 - x * x, n) for x in (1e-3, 1e-4)]
+        assert abs(lost[0] / lost[1] - 10.0) < 0.1, (n, lost)
+        table = half_space.table(n)
+        assert np.all(np.diff(table) < 0.0), n
+        at = 0.37 * (half_space.COUNT - 1)
+        between = np.interp(at, np.arange(half_space.COUNT), table)
+        assert abs(between - half_space.reflectance(1.0 - 0.37**2, n)) < 1e-7, n
+
+
+def solid(alpha: float, coat_eta: float, eta: float = 1.38) -> mi.BSDF:
+    """Solid tissue with a hundred times less of everything than `GREEN` but water."""
+    held = {name: 0.01 * value for name, value in GREEN.items()} | {"structure": 1.0, "water": 0.01}
+    return mi.load_dict({
+        "type": "lamina_solid", "tissue": "contents", "prospect": str(TABLE), **held,
+        "depth_mm": 0.5, "scattering_per_mm": 1.2, "eta": eta,
+        "coat_eta": coat_eta, "coat_alpha": alpha,
+    })  # fmt: skip
+
+
+def test_solid_gives_back_the_half_space() -> None:
+    kind = leaf_bsdf.Double
+    model = prospect.Prospect(TABLE, kind, False)
+    held = {name: 0.01 * value for name, value in GREEN.items()} | {"water": 0.01}
+    held |= dict.fromkeys(prospect.BETALAINS, 0.0)
+    absorbed = np.array(model.absorbed(kind(*WAVELENGTHS), held)).ravel() / 0.5
+    want = np.array([half_space.reflectance(1.2 / (1.2 + mu), 1.38) for mu in absorbed])
+    for alpha, coat_eta, side in ((0.05, 1.33, 1.0), (0.3, 1.38, -1.0), (0.6, 1.45, 1.0)):
+        got, error = throughputs(solid(alpha, coat_eta), (0.0, 0.0, side))
+        assert np.all(np.abs(got[0] - want) < 4.0 * error[0] + 1e-4), (alpha, got[0], want)
+        assert np.all(got[1] == 0.0), got[1]
+
+
+def test_solid_is_reciprocal() -> None:
+    rng = np.random.default_rng(8)
+    a, b = (rng.normal(size=(3, 4096)) for _ in range(2))
+    a, b = (v / np.sqrt((v * v).sum(axis=0)) for v in (a, b))
+    bsdf = solid(0.25, 1.4)
+    there = bsdf.eval(mi.BSDFContext(), hit(a), mi.Vector3f(b)) / dr.abs(mi.Float(b[2]))
+    back = bsdf.eval(mi.BSDFContext(), hit(b), mi.Vector3f(a)) / dr.abs(mi.Float(a[2]))
+    there, back = np.array(there), np.array(back)
+    assert np.all(np.abs(there - back) <= 2e-3 * there + 1e-6)
+    assert np.all(there[:, a[2] * b[2] < 0.0] == 0.0)
+
+
 def test_spectral_film_gives_the_mean_radiance_of_each_band() -> None:
     bands = [(450.0, 10.0), (550.0, 10.0), (650.0, 20.0), (750.0, 0.0)]
     sky = {"type": "irregular", "wavelengths": "300,900", "values": "1,7"}
@@ -468,7 +537,7 @@ def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
 
 def main() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
-    leaf_bsdf.register()
+    solid_bsdf.register()
     passed, failed = 0, 0
     for name, test in list(globals().items()):
         if not name.startswith("test_") or (

@@ -1,7 +1,7 @@
 //! Solid tissue as a material: the half-space is given back, whatever the coat.
 
 use glam::{Vec2, Vec3};
-use leafmodel::optics::solid::{ETA, ReflectanceTable, SCATTERING_PER_MM, Solid};
+use leafmodel::optics::solid::{ETA, HalfSpace, ReflectanceTable, SCATTERING_PER_MM, Solid};
 use leafmodel::optics::{Contents, ProspectD};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::leaf::Coat;
@@ -12,6 +12,7 @@ use renderer::sampling::stream::Stream;
 use renderer::spectrum::Wavelengths;
 use support::chi_square::{ChiSquare, sidak};
 use support::directional::{Scattered, directions, integrate};
+use support::picture::{mean_of, picture_of};
 
 const POINTS: u32 = 1 << 15;
 /// Lanes differ, so that one that leaks into another is seen.
@@ -84,34 +85,50 @@ fn anchors() -> Vec<[f64; 4]> {
         .collect()
 }
 
+/// A material whose albedo at 1450 nm, in the last lane, is this, by its water alone.
+fn watery(optics: Solid, albedo: f64, coat: Coat) -> Material {
+    let at = ProspectD::coefficients(1450.0).expect("in range");
+    let absorbed = optics.scattering_per_mm * (1.0 - albedo) / albedo;
+    let water_cm = absorbed * optics.depth_mm / at.absorption.water;
+    let contents = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, water_cm, 0.0).expect("in range");
+    material(contents, optics, coat)
+}
+
 #[test]
 fn the_material_gives_back_the_half_spaces_of_the_anchors() {
     let anchors = anchors();
     assert_eq!(anchors.len(), 5);
-    let water = ProspectD::coefficients(1450.0)
-        .expect("in range")
-        .absorption
-        .water;
     for [eta, albedo, normal, _] in anchors {
-        let optics = Solid { eta, ..fruit() };
-        // As much water as gives this albedo at 1450 nm.
-        let absorbed = optics.scattering_per_mm * (1.0 - albedo) / albedo;
-        let water_cm = absorbed * optics.depth_mm / water;
-        let contents = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, water_cm, 0.0).expect("in range");
-        let material = material(contents, optics, smooth(eta));
+        let material = watery(Solid { eta, ..fruit() }, albedo, smooth(eta));
         let mut spectra = spectra();
         let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
         let found = scattered(&bsdf, Vec3::Z, 3);
-        eprintln!(
-            "n = {eta}, a = {albedo}: R = {:.4} ({normal}), diffuse {:.4}",
-            found.reflected,
-            diffuse(&bsdf, 3)
-        );
+        eprintln!("n = {eta}, a = {albedo}: {found:?} for {normal}");
         assert!(
             (found.reflected - normal).abs() < 3e-4,
             "{eta} {albedo}: {found:?}"
         );
         assert_eq!(found.transmitted, 0.0);
+    }
+}
+
+#[test]
+fn under_diffuse_light_the_material_is_somewhat_darker_than_the_half_space() {
+    // The half-space reflects more at grazing incidence than a Lambertian tissue: what the model leaves out, in figures.
+    let space = HalfSpace::new(ETA);
+    for albedo in [0.5, 0.9, 0.99, 0.999] {
+        let material = watery(fruit(), albedo, smooth(ETA));
+        let mut spectra = spectra();
+        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        let (found, exact) = (diffuse(&bsdf, 3), space.reflected(albedo, 0.0));
+        let short = 1.0 - found / exact.diffuse;
+        eprintln!(
+            "a = {albedo}: R = {:.4}, diffuse {found:.4} for {:.4}, {:.1} % short",
+            exact.normal,
+            exact.diffuse,
+            100.0 * short
+        );
+        assert!((0.0..0.07).contains(&short), "{albedo}: {short}");
     }
 }
 
@@ -205,4 +222,26 @@ fn solid_tissue_is_sampled_as_its_density_says() {
         );
         assert!(outcome.p_value > level, "wo = {wo}: {outcome}");
     }
+}
+
+#[test]
+fn a_body_that_absorbs_nothing_is_invisible_under_an_even_sky_and_a_pigmented_one_is_not() {
+    let scene = |contents: &str| {
+        format!(
+            "format = 1\n[film.spectral]\nsize = [16, 16]\nspp = 16\nbands_nm = [680, 750]\nband_width_nm = 0\n\
+             [camera.perspective]\nposition_m = [0, -1, 0.3]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 8\n\
+             [integrator]\nroulette_below = 0\n[lights.sky.constant]\nradiance_w_m2_sr_nm = 2\n\
+             [solids.fruit]\nmap_size = 64\n[solids.fruit.shape.rounded_cube]\nside_mm = 80\ncorner_radius_mm = 20\n\
+             [solids.fruit.contents]\n{contents}\n[objects.fruit]\nsolid = \"fruit\"\n"
+        )
+    };
+    let bare = picture_of(&scene(""), 1);
+    for channel in 0..2 {
+        // Standard error some 2e-3: light samples and bounces are weighed against each other.
+        let mean = mean_of(&bare, channel);
+        assert!((mean - 2.0).abs() < 8e-3, "{mean}");
+    }
+    let green = picture_of(&scene("chlorophyll_ug_per_cm2 = 30"), 1);
+    let (red, infrared) = (mean_of(&green, 0), mean_of(&green, 1));
+    assert!(red < 0.8 * infrared && infrared < 2.0, "{red} {infrared}");
 }

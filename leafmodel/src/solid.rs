@@ -16,7 +16,7 @@ use crate::blade::contents_map::ContentsMap;
 use crate::mosaic::atlas::{Atlas, AtlasError};
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::mosaic::shapes::{Shape, ShapeError};
-use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError};
+use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError, SurfacePoint};
 use crate::optics::{Contents, Pigments};
 
 /// Texels around each chart of the map.
@@ -25,6 +25,8 @@ const GUTTER: u32 = 3;
 const BAND: usize = 128;
 /// Edges where there is no mosaic, over the root of the area.
 const PLAIN_EDGE: f64 = 0.02;
+/// Edges that a mosaic's suit at most instead of one: borders between cells are sought face by face.
+const MOST_PER_SPACING: f64 = 3.0;
 
 /// Everything that decides a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,11 +108,11 @@ impl Solid {
             pattern.validate()?;
         }
         let area = plan.shape.area()?;
-        let edge_mm = plan
-            .mosaic
-            .as_ref()
-            .map_or(f64::INFINITY, |pattern| pattern.edge_mm(area))
-            .min(PLAIN_EDGE * area.sqrt());
+        let smooth_mm = PLAIN_EDGE * area.sqrt();
+        let edge_mm = plan.mosaic.as_ref().map_or(smooth_mm, |pattern| {
+            let suits_mm = pattern.edge_mm(area);
+            suits_mm.min(smooth_mm.max(suits_mm / MOST_PER_SPACING))
+        });
         let shape = plan.shape.triangles(edge_mm);
         if let Err(ShapeError::TooFine { triangles }) = shape {
             // Of edges a plan says nothing.
@@ -120,7 +122,9 @@ impl Solid {
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };
-        let surface = Surface::new(shape.positions.clone(), shape.faces.clone())?;
+        // Meshes made elsewhere may be coarse: faces that hold many cells take long.
+        let coarse = Surface::new(shape.positions.clone(), shape.faces.clone())?;
+        let (surface, ancestry) = coarse.subdivided(pattern.edge_mm(area))?;
         let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
         let texels = atlas.texels();
@@ -142,23 +146,38 @@ impl Solid {
             let painted = field.paint(shown, &pattern.contents);
             contents.texels.extend(painted.into_iter().map(texel));
         }
+        let normal = |face: u32, corner: usize| {
+            let mut barycentric = [0.0; 3];
+            barycentric[corner] = 1.0;
+            let within = ancestry.carry_back(&SurfacePoint { face, barycentric });
+            let of_corners = shape.faces[within.face as usize];
+            let [a, b, c] = of_corners.map(|vertex| shape.normals[vertex as usize]);
+            let [u, v, w] = within.barycentric;
+            let between = a * u + b * v + c * w;
+            between.try_normalize().unwrap_or(surface.normal(face))
+        };
         let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut triangles = Vec::with_capacity(shape.faces.len());
-        // A point has as many vertices as charts meet in it.
-        let mut vertices: Vec<Vec<(DVec2, u32)>> = vec![Vec::new(); shape.positions.len()];
-        for (face, corners) in shape.faces.iter().zip(atlas.uvs()) {
+        let mut triangles = Vec::with_capacity(surface.faces().len());
+        // A point has as many vertices as charts and unlike normals meet in it.
+        let mut vertices: Vec<Vec<(DVec2, DVec3, u32)>> =
+            vec![Vec::new(); surface.positions().len()];
+        for (face, (points, corners)) in (0..).zip(surface.faces().iter().zip(atlas.uvs())) {
             let mut triangle = [0; 3];
-            for ((index, &point), &uv) in triangle.iter_mut().zip(face).zip(corners) {
-                let known = &mut vertices[point as usize];
-                let found = known.iter().find(|(other, _)| *other == uv);
-                *index = if let Some(&(_, vertex)) = found {
+            for corner in 0..3 {
+                let (point, uv) = (points[corner] as usize, corners[corner]);
+                let normal = normal(face, corner);
+                let known = &mut vertices[point];
+                let found = known
+                    .iter()
+                    .find(|(other_uv, other, _)| *other_uv == uv && *other == normal);
+                triangle[corner] = if let Some(&(.., vertex)) = found {
                     vertex
                 } else {
                     let vertex = positions.len() as u32;
-                    positions.push(shape.positions[point as usize]);
-                    normals.push(shape.normals[point as usize]);
+                    positions.push(surface.positions()[point]);
+                    normals.push(normal);
                     uvs.push(uv);
-                    known.push((uv, vertex));
+                    known.push((uv, normal, vertex));
                     vertex
                 };
             }
@@ -189,3 +208,6 @@ impl Solid {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -106,6 +106,15 @@ class Prospect:
         above = index + 1 if not isinstance(index, list) else [i + 1 for i in index]
         return low + share * (table.at(self.kind, above) - low)
 
+    def absorbed(self, wavelengths: Any, contents: dict[str, Any]) -> Any:
+        """Σ Cᵢ kᵢ of contents at `wavelengths` (nm); end values outside the table."""
+        kind = self.kind
+        index, share = cell(kind, kind(wavelengths) - self.first, self.count)
+        total = kind(0.0)
+        for name, table in zip(self.absorbers, self.absorption, strict=True):
+            total = total + kind(contents[name]) * self._between(table, index, share)
+        return total
+
     def spectra(self, wavelengths: Any, contents: dict[str, Any]) -> tuple[Any, Any]:
         """R and T at `wavelengths` (nm); `contents` is keyed by `CONTENTS`.
 
@@ -114,9 +123,7 @@ class Prospect:
         kind = self.kind
         index, share = cell(kind, kind(wavelengths) - self.first, self.count)
         n = self._between(self.index, index, share)
-        total = kind(0.0)
-        for name, table in zip(self.absorbers, self.absorption, strict=True):
-            total = total + kind(contents[name]) * self._between(table, index, share)
+        total = self.absorbed(wavelengths, contents)
         structure = dr.maximum(kind(contents["structure"]), 1.0)
         tau, lost = transmissivity(dr.maximum(total / structure, 0.0))
 

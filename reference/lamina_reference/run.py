@@ -22,13 +22,13 @@ from time import perf_counter, process_time
 from . import variant
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENES = ("flat-leaf", "furnace", "two-leaves", "textured-veins")
+SCENES = ("flat-leaf", "furnace", "two-leaves", "textured-veins", "solid-fruit")
 
 
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the four")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the five")
     parser.add_argument("--lamina", type=Path, default=ROOT / "target" / "release" / "lamina")
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"
@@ -76,9 +76,9 @@ def render_lamina(program: Path, scene: Path, spp: int, seeds: int, work: Path) 
 
 def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
     """Renders a scene twice and compares; gives the scene's name and the comparison."""
-    from . import compare, leaf_bsdf, render
+    from . import compare, render, solid_bsdf
 
-    leaf_bsdf.register()
+    solid_bsdf.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     exported = work / "exported"
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", exported)
@@ -95,9 +95,9 @@ def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
 
 def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
     """Seconds that both programs take for one picture at equal samples a pixel."""
-    from . import leaf_bsdf, render
+    from . import render, solid_bsdf
 
-    leaf_bsdf.register()
+    solid_bsdf.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", work / "exported")
     scene, facts = render.load(work / "exported")

@@ -435,6 +435,55 @@ position_m = [0, 0, 0.1]
     }
 
     #[test]
+    fn bodies_and_solid_materials_become_plugins_with_their_maps() {
+        const BODY: &str = r#"
+[solids.plum]
+map_size = 64
+depth_mm = 0.5
+coat = { eta = 1.33, alpha = 0.1 }
+[solids.plum.shape.sphere]
+radius_mm = 20
+[solids.plum.contents]
+anthocyanins_ug_per_cm2 = 20
+[solids.plum.mosaic]
+cells = 50
+days = 0
+[solids.plum.mosaic.types.one]
+initial_share = 1
+[materials.flesh.solid.contents]
+carotenoids_ug_per_cm2 = 5
+[objects.plum]
+solid = "plum"
+[objects.slab]
+mesh = "blade"
+material = "flesh"
+position_m = [0, 0, 0.1]
+"#;
+        let folder = tempfile::tempdir().expect("a folder");
+        openexr::write(&map_picture(&map()), &folder.path().join("map.exr")).expect("a map");
+        let text = SCENE.to_owned() + BODY;
+        let scene = load::parse(&text, "scene.toml", folder.path(), &[])
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("a scene that can be built");
+        let out = folder.path().join("out");
+        write(&scene, &world, &out).expect("it is written");
+        let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+        for id in ["solid-plum", "material-flesh"] {
+            let bsdf = format!("<bsdf type=\"lamina_solid\" id=\"{id}\">");
+            assert_eq!(xml.matches(&bsdf).count(), 1, "{xml}");
+            assert_eq!(xml.matches(&format!("<ref id=\"{id}\"/>")).count(), 1);
+        }
+        let numbers = [("depth_mm", 0.5), ("coat_eta", 1.33), ("coat_alpha", 0.1)];
+        for (name, value) in numbers {
+            assert!(xml.contains(&format!("name=\"{name}\" value=\"{value}\"")));
+        }
+        let map = crate::scene::assets::contents_map(&out.join("maps/solid-plum.exr"));
+        assert_eq!(map.expect("a contents map").size(), (64, 64));
+        assert!(out.join("meshes/plum.ply").is_file());
+    }
+
+    #[test]
     fn an_earlier_export_is_replaced_and_another_folder_is_left_alone() {
         let folder = tempfile::tempdir().expect("a folder");
         let (scene, world) = scene(folder.path());
