@@ -11,10 +11,14 @@ use tempfile::TempDir;
 mod accepted;
 #[path = "format/book.rs"]
 mod book;
+#[path = "format/leaves.rs"]
+mod leaves;
 #[path = "format/mutations.rs"]
 mod mutations;
 #[path = "format/refused.rs"]
 mod refused;
+#[path = "format/tissues.rs"]
+mod tissues;
 
 /// The folder of these tests' own files.
 fn own_folder() -> PathBuf {

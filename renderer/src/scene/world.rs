@@ -1,34 +1,35 @@
 //! The finished scene: immutable, shared by every thread.
 
+mod lights;
+mod materials;
+mod meshes;
 mod notes;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat4, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat4};
 use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::bsdf::dielectric::Dielectric;
-use crate::bsdf::leaf::Coat;
+use self::lights::{build_light, power};
+pub(in crate::scene) use self::materials::build_coat;
+use self::materials::{Known, build_material};
+use self::meshes::build_mesh;
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
 use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
 use crate::light::Light;
-use crate::light::area::AreaLight;
-use crate::light::distant::DistantLight;
-use crate::light::environment::EnvironmentLight;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
-use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::{Palette, Palettes};
-use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
-use crate::scene::assets::{self, AssetError};
+use crate::material::solid::SolidMaterial;
+use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, FilmKind, ObjectShape};
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
+use crate::spectrum::WavelengthSampler;
 use crate::spectrum::wavelengths::VisibleDistribution;
-use crate::spectrum::{Curve, WavelengthSampler};
 
 /// Everything that paths meet.
 #[derive(Debug)]
@@ -204,7 +205,7 @@ impl World {
             owners.push(MaterialOwner::Solid(number));
             materials.push(Material::Solid(Box::new(material)));
         }
-        notes.extend(notes_on_coats(scene, &materials, &owners, range_nm));
+        notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let (instances, mut objects) = place(scene, &leaves, &solids);
         let mut lights = Vec::new();
         for (number, light) in scene.lights.iter().enumerate() {
@@ -242,30 +243,6 @@ impl World {
     }
 }
 
-/// What materials share, each made when it is first needed.
-#[derive(Default)]
-struct Known {
-    palettes: Palettes,
-    reflectances: ReflectanceTables,
-}
-
-impl Known {
-    /// What each leaf and each body of solid tissue needs.
-    fn for_grown(
-        &mut self,
-        scene: &Description,
-    ) -> (Vec<Palette>, Vec<(Palette, Arc<ReflectanceTable>)>) {
-        let leaves = scene.leaves.iter();
-        let leaves = leaves.map(|leaf| self.palettes.of(&leaf.value.plan.pigments));
-        let leaves = leaves.collect();
-        let solids = scene.solids.iter().map(|solid| {
-            let palette = self.palettes.of(&solid.value.plan.pigments);
-            (palette, self.reflectances.of(solid.value.optics.tissue.eta))
-        });
-        (leaves, solids.collect())
-    }
-}
-
 /// Grows the scene's leaves, each with its palette of pigments.
 fn grow_leaves(
     scene: &Description,
@@ -293,48 +270,6 @@ fn grow_solids(
         })
     });
     grown.collect()
-}
-
-/// Tells of leaves and solid tissue whose coat reflects more than the whole should, each once.
-fn notes_on_coats(
-    scene: &Description,
-    materials: &[Material],
-    owners: &[MaterialOwner],
-    range_nm: [f64; 2],
-) -> Vec<String> {
-    let mut notes: Vec<(String, String)> = Vec::new();
-    for (material, owner) in materials.iter().zip(owners) {
-        let (exceeds, what) = match material {
-            Material::Leaf(leaf) => {
-                let what = ["the adaxial coat", "the leaf"];
-                (leaf.coat_exceeds_reflectance(range_nm), what)
-            }
-            Material::Solid(solid) => {
-                let what = ["the coat", "the solid tissue"];
-                (solid.coat_exceeds_reflectance(range_nm), what)
-            }
-            Material::Diffuse(_) | Material::Dielectric(_) => continue,
-        };
-        let [coat, whole] = what;
-        if let Some(nm) = exceeds {
-            let name = match owner {
-                MaterialOwner::Scene(number) => {
-                    format!("materials.{}", scene.materials[*number].name)
-                }
-                MaterialOwner::Leaf { leaf, .. } => format!("leaves.{}", scene.leaves[*leaf].name),
-                MaterialOwner::Solid(solid) => format!("solids.{}", scene.solids[*solid].name),
-            };
-            if notes.last().is_some_and(|(before, _)| *before == name) {
-                continue;
-            }
-            let note = format!(
-                "{name}: at {nm} nm {coat} alone reflects more than {whole} should; \
-                 {whole} reflects the coat's share there (lower the coat's eta)"
-            );
-            notes.push((name, note));
-        }
-    }
-    notes.into_iter().map(|(_, note)| note).collect()
 }
 
 /// Instances, and what they are: one of each object, in their order, then the other parts of leaves.
@@ -385,230 +320,5 @@ pub fn wavelength_sampler(kind: &FilmKind) -> WavelengthSampler {
     match kind {
         FilmKind::Rgb { range_nm } => WavelengthSampler::Rgb(VisibleDistribution::new(*range_nm)),
         FilmKind::Spectral { bands } => WavelengthSampler::Bands(bands.clone()),
-    }
-}
-
-fn build_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, WorldError> {
-    let named = |source| WorldError::Mesh {
-        name: name.to_owned(),
-        source,
-    };
-    match mesh {
-        description::Mesh::Rectangle { width, height } => {
-            let (x, y) = (0.5 * *width as f32, 0.5 * *height as f32);
-            let corners = [(-x, -y), (x, -y), (x, y), (-x, y)];
-            TriangleMesh::new(
-                corners.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec(),
-                None,
-                Some(vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y]),
-                vec![[0, 1, 2], [0, 2, 3]],
-            )
-            .map_err(named)
-        }
-        description::Mesh::Sphere { radius, segments } => sphere(*radius, *segments).map_err(named),
-        description::Mesh::File { file, scale } => {
-            let bytes = assets::read(file).map_err(|source| WorldError::Asset {
-                place: format!("meshes.{name}"),
-                source,
-            })?;
-            let extension = file
-                .extension()
-                .and_then(|ending| ending.to_str())
-                .unwrap_or("");
-            crate::geometry::import(&bytes, extension, *scale as f32).map_err(|source| {
-                WorldError::Import {
-                    name: name.to_owned(),
-                    file: file.clone(),
-                    source,
-                }
-            })
-        }
-    }
-}
-
-/// A sphere of longitude–latitude triangles whose vertices lie on it, with its exact normals.
-fn sphere(radius: f64, segments: u32) -> Result<TriangleMesh, MeshError> {
-    let rings = (segments / 2).max(2);
-    let mut normals = Vec::new();
-    let mut uvs = Vec::new();
-    for ring in 0..=rings {
-        let (sin_theta, cos_theta) =
-            libm::sincos(std::f64::consts::PI * f64::from(ring) / f64::from(rings));
-        for segment in 0..=segments {
-            let (sin_phi, cos_phi) =
-                libm::sincos(std::f64::consts::TAU * f64::from(segment) / f64::from(segments));
-            // South first, so that v grows with z.
-            let normal = DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, -cos_theta);
-            normals.push(normal.as_vec3());
-            uvs.push(Vec2::new(
-                segment as f32 / segments as f32,
-                ring as f32 / rings as f32,
-            ));
-        }
-    }
-    let mut triangles = Vec::new();
-    for ring in 0..rings {
-        for segment in 0..segments {
-            let lower = ring * (segments + 1) + segment;
-            let upper = lower + segments + 1;
-            if ring > 0 {
-                triangles.push([lower, lower + 1, upper + 1]);
-            }
-            if ring + 1 < rings {
-                triangles.push([lower, upper + 1, upper]);
-            }
-        }
-    }
-    let positions = normals
-        .iter()
-        .map(|&normal| normal * radius as f32)
-        .collect();
-    TriangleMesh::new(positions, Some(normals), Some(uvs), triangles)
-}
-
-fn build_material(
-    name: &str,
-    material: &description::Material,
-    known: &mut Known,
-) -> Result<Material, WorldError> {
-    let contents_map = |file| {
-        assets::contents_map(file).map_err(|source| WorldError::Asset {
-            place: format!("materials.{name}"),
-            source,
-        })
-    };
-    Ok(match material {
-        description::Material::Diffuse { reflectance } => {
-            Material::Diffuse(Curve::from_description(reflectance))
-        }
-        description::Material::Dielectric { eta, roughness } => Material::Dielectric(Dielectric {
-            eta: *eta as f32,
-            alpha: *roughness as f32,
-        }),
-        description::Material::Leaf {
-            tissue,
-            pigments,
-            abaxial_ratio,
-            coats,
-        } => {
-            let tissue = match tissue {
-                description::LeafTissue::Contents { contents, .. } => {
-                    LeafTissue::Uniform(*contents)
-                }
-                description::LeafTissue::Map { file, .. } => LeafTissue::Map(contents_map(file)?),
-                description::LeafTissue::Measured {
-                    reflectance,
-                    transmittance,
-                } => LeafTissue::Measured {
-                    reflectance: Curve::from_description(reflectance),
-                    transmittance: Curve::from_description(transmittance),
-                },
-            };
-            Material::Leaf(Box::new(LeafMaterial {
-                tissue,
-                palette: known.palettes.of(pigments),
-                abaxial_ratio: Curve::from_description(abaxial_ratio),
-                coats: coats.map(build_coat),
-            }))
-        }
-        description::Material::Solid {
-            tissue,
-            pigments,
-            optics,
-        } => {
-            let tissue = match tissue {
-                description::SolidTissue::Contents { contents, .. } => {
-                    SolidTissue::Uniform(*contents)
-                }
-                description::SolidTissue::Map { file, .. } => SolidTissue::Map(contents_map(file)?),
-            };
-            let palette = known.palettes.of(pigments);
-            let table = known.reflectances.of(optics.tissue.eta);
-            Material::Solid(Box::new(SolidMaterial::new(
-                tissue,
-                palette,
-                optics.tissue,
-                table,
-                build_coat(optics.coat),
-            )))
-        }
-    })
-}
-
-/// A coat with its tables.
-pub(super) fn build_coat(coat: description::Coat) -> Coat {
-    Coat::new(
-        coat.eta as f32,
-        coat.alpha_across as f32,
-        coat.alpha_along as f32,
-    )
-}
-
-fn build_light(
-    name: &str,
-    light: &description::Light,
-    meshes: &[TriangleMesh],
-    instances: &[Instance],
-) -> Result<Light, WorldError> {
-    Ok(match light {
-        description::Light::Distant {
-            towards,
-            angular_diameter,
-            irradiance,
-        } => Light::Distant(DistantLight::new(
-            towards.as_vec3(),
-            *angular_diameter,
-            Curve::from_description(irradiance),
-        )),
-        description::Light::Constant { radiance } => {
-            Light::Constant(Curve::from_description(radiance))
-        }
-        description::Light::Environment {
-            file,
-            scale,
-            rotation,
-            white,
-        } => {
-            let picture = assets::environment(file).map_err(|source| WorldError::Asset {
-                place: format!("lights.{name}"),
-                source,
-            })?;
-            Light::Environment(EnvironmentLight::new(
-                picture.texels,
-                picture.width,
-                Curve::from_description(white).scaled(*scale as f32),
-                *rotation as f32,
-            ))
-        }
-        description::Light::Area { object, radiance } => {
-            let instance = &instances[*object];
-            let mesh = &meshes[instance.mesh as usize];
-            let mirrored = instance.to_world.matrix3.determinant() < 0.0;
-            let triangles = mesh
-                .triangles()
-                .iter()
-                .map(|face| {
-                    let [a, b, c] = face.map(|vertex| {
-                        instance
-                            .to_world
-                            .transform_point3(mesh.positions()[vertex as usize])
-                    });
-                    if mirrored { [a, c, b] } else { [a, b, c] }
-                })
-                .collect();
-            Light::Area(AreaLight::new(triangles, Curve::from_description(radiance)))
-        }
-    })
-}
-
-/// A rough power in W nm⁻¹, for choosing between lights, in a scene of the given radius (m).
-fn power(light: &Light, radius: f32, range_nm: [f64; 2]) -> f32 {
-    use std::f32::consts::PI;
-    match light {
-        Light::Distant(_) | Light::Constant(_) => 0.0,
-        Light::Environment(light) => {
-            PI * PI * radius * radius * light.mean_brightness() * light.white().mean_over(range_nm)
-        }
-        Light::Area(light) => PI * light.area() * light.radiance().mean_over(range_nm),
     }
 }

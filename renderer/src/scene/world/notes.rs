@@ -1,8 +1,52 @@
-//! What is odd about a scene's materials and shows only once their files are read.
+//! What is odd about a scene's materials and shows only once files are read and leaves are grown.
 
+use super::MaterialOwner;
 use crate::material::Material;
 use crate::material::leaf::LeafTissue;
 use crate::material::solid::SolidTissue;
+use crate::scene::description::Description;
+
+/// Tells of leaves and solid tissue whose coat reflects more than the whole should, each once.
+pub(super) fn on_coats(
+    scene: &Description,
+    materials: &[Material],
+    owners: &[MaterialOwner],
+    range_nm: [f64; 2],
+) -> Vec<String> {
+    let mut notes: Vec<(String, String)> = Vec::new();
+    for (material, owner) in materials.iter().zip(owners) {
+        let (exceeds, what) = match material {
+            Material::Leaf(leaf) => {
+                let what = ["the adaxial coat", "the leaf"];
+                (leaf.coat_exceeds_reflectance(range_nm), what)
+            }
+            Material::Solid(solid) => {
+                let what = ["the coat", "the solid tissue"];
+                (solid.coat_exceeds_reflectance(range_nm), what)
+            }
+            Material::Diffuse(_) | Material::Dielectric(_) => continue,
+        };
+        let [coat, whole] = what;
+        if let Some(nm) = exceeds {
+            let name = match owner {
+                MaterialOwner::Scene(number) => {
+                    format!("materials.{}", scene.materials[*number].name)
+                }
+                MaterialOwner::Leaf { leaf, .. } => format!("leaves.{}", scene.leaves[*leaf].name),
+                MaterialOwner::Solid(solid) => format!("solids.{}", scene.solids[*solid].name),
+            };
+            if notes.last().is_some_and(|(before, _)| *before == name) {
+                continue;
+            }
+            let note = format!(
+                "{name}: at {nm} nm {coat} alone reflects more than {whole} should; \
+                 {whole} reflects the coat's share there (lower the coat's eta)"
+            );
+            notes.push((name, note));
+        }
+    }
+    notes.into_iter().map(|(_, note)| note).collect()
+}
 
 /// Tells of maps with betalains and anthocyanins. At which texels each lies does not matter: no plant holds both.
 pub(super) fn on_maps<'m>(

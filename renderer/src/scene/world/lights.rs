@@ -1,0 +1,79 @@
+//! Lights, and how bright they are to one another.
+
+use super::WorldError;
+use crate::geometry::{Instance, TriangleMesh};
+use crate::light::Light;
+use crate::light::area::AreaLight;
+use crate::light::distant::DistantLight;
+use crate::light::environment::EnvironmentLight;
+use crate::scene::assets;
+use crate::scene::description;
+use crate::spectrum::Curve;
+pub(super) fn build_light(
+    name: &str,
+    light: &description::Light,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+) -> Result<Light, WorldError> {
+    Ok(match light {
+        description::Light::Distant {
+            towards,
+            angular_diameter,
+            irradiance,
+        } => Light::Distant(DistantLight::new(
+            towards.as_vec3(),
+            *angular_diameter,
+            Curve::from_description(irradiance),
+        )),
+        description::Light::Constant { radiance } => {
+            Light::Constant(Curve::from_description(radiance))
+        }
+        description::Light::Environment {
+            file,
+            scale,
+            rotation,
+            white,
+        } => {
+            let picture = assets::environment(file).map_err(|source| WorldError::Asset {
+                place: format!("lights.{name}"),
+                source,
+            })?;
+            Light::Environment(EnvironmentLight::new(
+                picture.texels,
+                picture.width,
+                Curve::from_description(white).scaled(*scale as f32),
+                *rotation as f32,
+            ))
+        }
+        description::Light::Area { object, radiance } => {
+            let instance = &instances[*object];
+            let mesh = &meshes[instance.mesh as usize];
+            let mirrored = instance.to_world.matrix3.determinant() < 0.0;
+            let triangles = mesh
+                .triangles()
+                .iter()
+                .map(|face| {
+                    let [a, b, c] = face.map(|vertex| {
+                        instance
+                            .to_world
+                            .transform_point3(mesh.positions()[vertex as usize])
+                    });
+                    if mirrored { [a, c, b] } else { [a, b, c] }
+                })
+                .collect();
+            Light::Area(AreaLight::new(triangles, Curve::from_description(radiance)))
+        }
+    })
+}
+
+/// A rough power in W nm⁻¹, for choosing between lights, in a scene of the given radius (m).
+pub(super) fn power(light: &Light, radius: f32, range_nm: [f64; 2]) -> f32 {
+    use std::f32::consts::PI;
+    match light {
+        Light::Distant(_) | Light::Constant(_) => 0.0,
+        Light::Environment(light) => {
+            PI * PI * radius * radius * light.mean_brightness() * light.white().mean_over(range_nm)
+        }
+        Light::Area(light) => PI * light.area() * light.radiance().mean_over(range_nm),
+    }
+}

@@ -1,0 +1,119 @@
+//! Materials, and what several of them share.
+
+use std::sync::Arc;
+
+use leafmodel::optics::solid::ReflectanceTable;
+
+use super::WorldError;
+use crate::bsdf::dielectric::Dielectric;
+use crate::bsdf::leaf::Coat;
+use crate::material::Material;
+use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::{Palette, Palettes};
+use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
+use crate::scene::assets;
+use crate::scene::description::{self, Description};
+use crate::spectrum::Curve;
+
+/// What materials share, each made when it is first needed.
+#[derive(Default)]
+pub(super) struct Known {
+    /// Palettes of pigments.
+    pub(super) palettes: Palettes,
+    reflectances: ReflectanceTables,
+}
+
+impl Known {
+    /// What each leaf and each body of solid tissue needs.
+    pub(super) fn for_grown(
+        &mut self,
+        scene: &Description,
+    ) -> (Vec<Palette>, Vec<(Palette, Arc<ReflectanceTable>)>) {
+        let leaves = scene.leaves.iter();
+        let leaves = leaves.map(|leaf| self.palettes.of(&leaf.value.plan.pigments));
+        let leaves = leaves.collect();
+        let solids = scene.solids.iter().map(|solid| {
+            let palette = self.palettes.of(&solid.value.plan.pigments);
+            (palette, self.reflectances.of(solid.value.optics.tissue.eta))
+        });
+        (leaves, solids.collect())
+    }
+}
+
+pub(super) fn build_material(
+    name: &str,
+    material: &description::Material,
+    known: &mut Known,
+) -> Result<Material, WorldError> {
+    let contents_map = |file| {
+        assets::contents_map(file).map_err(|source| WorldError::Asset {
+            place: format!("materials.{name}"),
+            source,
+        })
+    };
+    Ok(match material {
+        description::Material::Diffuse { reflectance } => {
+            Material::Diffuse(Curve::from_description(reflectance))
+        }
+        description::Material::Dielectric { eta, roughness } => Material::Dielectric(Dielectric {
+            eta: *eta as f32,
+            alpha: *roughness as f32,
+        }),
+        description::Material::Leaf {
+            tissue,
+            pigments,
+            abaxial_ratio,
+            coats,
+        } => {
+            let tissue = match tissue {
+                description::LeafTissue::Contents { contents, .. } => {
+                    LeafTissue::Uniform(*contents)
+                }
+                description::LeafTissue::Map { file, .. } => LeafTissue::Map(contents_map(file)?),
+                description::LeafTissue::Measured {
+                    reflectance,
+                    transmittance,
+                } => LeafTissue::Measured {
+                    reflectance: Curve::from_description(reflectance),
+                    transmittance: Curve::from_description(transmittance),
+                },
+            };
+            Material::Leaf(Box::new(LeafMaterial {
+                tissue,
+                palette: known.palettes.of(pigments),
+                abaxial_ratio: Curve::from_description(abaxial_ratio),
+                coats: coats.map(build_coat),
+            }))
+        }
+        description::Material::Solid {
+            tissue,
+            pigments,
+            optics,
+        } => {
+            let tissue = match tissue {
+                description::SolidTissue::Contents { contents, .. } => {
+                    SolidTissue::Uniform(*contents)
+                }
+                description::SolidTissue::Map { file, .. } => SolidTissue::Map(contents_map(file)?),
+            };
+            let palette = known.palettes.of(pigments);
+            let table = known.reflectances.of(optics.tissue.eta);
+            Material::Solid(Box::new(SolidMaterial::new(
+                tissue,
+                palette,
+                optics.tissue,
+                table,
+                build_coat(optics.coat),
+            )))
+        }
+    })
+}
+
+/// A coat with its tables.
+pub(in crate::scene) fn build_coat(coat: description::Coat) -> Coat {
+    Coat::new(
+        coat.eta as f32,
+        coat.alpha_across as f32,
+        coat.alpha_along as f32,
+    )
+}
