@@ -54,6 +54,15 @@ impl Delay {
         deaths_days: 0.0,
     };
 
+    /// What no place's delay exceeds, days.
+    pub fn most(&self) -> f64 {
+        self.veins_days.abs()
+            + self.margin_days
+            + self.tip_days.abs()
+            + self.noise_days
+            + self.deaths_days
+    }
+
     fn validate(&self) -> Result<(), TissueError> {
         let days = "from 0 to 1000";
         for (field, value, least) in [

@@ -1,5 +1,6 @@
 //! The presets, in the order in which a list shows them.
 
+mod colours;
 mod compound;
 mod plants;
 mod runions;
@@ -9,14 +10,15 @@ mod transport;
 use super::young::{FORMS, Form};
 use super::{PlanOf, Preset};
 
-/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, splines, the
-/// examples of Xia 2007, what goes beyond Young 2010, compound leaves, then the figures of Young 2010.
+/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, leaves in other
+/// colours, splines, the examples of Xia 2007, what goes beyond Young 2010, compound leaves, then the figures of Young 2010.
 pub static PRESETS: &[Preset] = &joined::<{ GROWN + FORMS.len() }>();
 
 /// The presets with a function of their own.
-static GROUPS: [&[Preset]; 5] = [
+static GROUPS: [&[Preset]; 6] = [
     runions::RUNIONS,
     plants::PLANTS,
+    &colours::COLOURS,
     splines::SPLINES,
     transport::TRANSPORT,
     compound::COMPOUND,
