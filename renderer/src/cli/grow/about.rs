@@ -141,7 +141,7 @@ mod tests {
         let brown = &rows[at("turned: brown").expect("it has a row")];
         assert_eq!(brown[1], "0.33");
         assert!(brown[3].ends_with("[noda2014]"), "{}", brown[3]);
-        assert_eq!(rows[at("day").expect("it has a row")][1], "27 days");
+        assert_eq!(rows[at("day").expect("it has a row")][1], "24 days");
     }
 
     #[test]
