@@ -254,7 +254,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
             .water(litter(0.001, [0.0005, 0.002]))
             .dry_matter(litter(0.007, [0.005, 0.009])),
     ],
-    age: Some(age(40.0, 9.0, 12.0)),
+    age: Some(age(46.0, 9.0, 12.0)),
     plan: |leaf| {
         let course = Course {
             death: Delay {
