@@ -11,6 +11,7 @@
 pub mod ageing;
 pub mod ageing_courses;
 pub mod contents_map;
+mod coverage;
 mod distances;
 mod form;
 pub mod frame;

@@ -157,6 +157,38 @@ impl LeafPlan {
     }
 }
 
+impl LeafPlan {
+    /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`] around its margin.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError::Mosaic`], [`LeafError::Tissue`], [`LeafError::NoRevenue`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped)
+    /// when `is_stopped` says so.
+    pub fn paint(
+        &self,
+        lamina: &Lamina,
+        is_stopped: &dyn Fn() -> bool,
+    ) -> Result<ContentsMap, LeafError> {
+        let frame = UvFrame::around(lamina.outline.points());
+        let veins: Vec<VeinSegment> = lamina.network.segments().collect();
+        let place = lamina.place(&frame, &veins);
+        let withering = self.withering(lamina, &place)?;
+        let pattern = self.mosaic.as_ref();
+        let pattern = pattern
+            .map(|pattern| pattern.on_lamina(&lamina.outline, self.seed, is_stopped))
+            .transpose()?;
+        Ok(ContentsMap::paint_layered(
+            &place,
+            &self.tissue,
+            pattern.as_ref(),
+            &self.layers,
+            withering.as_ref(),
+            self.map_size,
+            self.seed,
+        )?)
+    }
+}
+
 impl Lamina {
     /// The lamina as ageing and masks see it; `veins` are its own.
     pub(crate) fn place<'a>(&'a self, frame: &'a UvFrame, veins: &'a [VeinSegment]) -> Place<'a> {
@@ -223,22 +255,7 @@ impl Leaf {
             .map(|petiole| petiole.build(outline, network, &plan.form))
             .transpose()?;
         let frame = UvFrame::around(outline.points());
-        let veins: Vec<VeinSegment> = network.segments().collect();
-        let place = lamina.place(&frame, &veins);
-        let withering = plan.withering(&lamina, &place)?;
-        let pattern = plan.mosaic.as_ref();
-        let pattern = pattern
-            .map(|pattern| pattern.on_lamina(outline, plan.seed, is_stopped))
-            .transpose()?;
-        let contents = ContentsMap::paint_layered(
-            &place,
-            &plan.tissue,
-            pattern.as_ref(),
-            &plan.layers,
-            withering.as_ref(),
-            plan.map_size,
-            plan.seed,
-        )?;
+        let contents = plan.paint(&lamina, is_stopped)?;
         Ok(Self {
             lamina,
             mesh,

@@ -8,6 +8,7 @@ mod arcuate;
 mod beyond;
 #[cfg(test)]
 mod claims;
+pub mod colours;
 mod compound_leaves;
 mod contours;
 mod extended;
@@ -28,6 +29,7 @@ use crate::leaf::outline_plan::OutlinePlan;
 use crate::optics::{Contents, Pigments};
 use crate::venation::plan::AuxinPlan;
 
+use self::colours::ColouredLeaf;
 pub use self::list::PRESETS;
 use self::table_1::Row;
 use self::young::Form;
@@ -54,6 +56,8 @@ enum PlanOf {
     Function(fn() -> LeafPlan),
     /// From the parameters of a figure.
     Form(&'static Form),
+    /// From the table of a leaf that is not green.
+    Coloured(&'static ColouredLeaf),
 }
 
 impl Preset {
@@ -62,6 +66,7 @@ impl Preset {
         match self.plan {
             PlanOf::Function(plan) => plan(),
             PlanOf::Form(form) => form.plan(),
+            PlanOf::Coloured(leaf) => leaf.plan(),
         }
     }
 }

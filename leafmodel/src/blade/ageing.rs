@@ -7,11 +7,8 @@ use glam::DVec2;
 
 use super::distances::Distances;
 use super::frame::UvFrame;
-use super::mottle::Mottle;
 use super::tissue::TissueError;
 use crate::optics::Contents;
-use crate::transport::DeathField;
-use crate::venation::chance::{self, Use};
 use crate::venation::network::VeinSegment;
 
 /// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine red-senescing species).
@@ -53,6 +50,15 @@ impl Delay {
         noise_scale_mm: 8.0,
         deaths_days: 0.0,
     };
+
+    /// What no place's delay exceeds, days.
+    pub fn most(&self) -> f64 {
+        self.veins_days.abs()
+            + self.margin_days
+            + self.tip_days.abs()
+            + self.noise_days
+            + self.deaths_days
+    }
 
     fn validate(&self) -> Result<(), TissueError> {
         let days = "from 0 to 1000";
@@ -181,14 +187,8 @@ impl Course {
         Ok(())
     }
 
-    /// Share of chlorophyll that is left after some multiple of `half_days`: 1 at 0, about ½ at 1, falling to 0.
-    fn left(&self, halves: f64) -> f64 {
-        let q = self.steepness;
-        (1.0 + libm::exp(-q)) / (1.0 + libm::exp(q * (halves - 1.0)))
-    }
-
     /// Days after which chlorophyll has fallen from `start` to [`ANTHOCYANIN_BELOW`]; infinite if it never does.
-    fn days_to_anthocyanin(&self, start: f64) -> f64 {
+    fn days_to_anthocyanin(&self, start: f64, decay: Decay) -> f64 {
         if start <= ANTHOCYANIN_BELOW {
             return 0.0;
         }
@@ -196,25 +196,30 @@ impl Course {
             return f64::INFINITY;
         }
         let share = (ANTHOCYANIN_BELOW - self.chlorophyll_rest) / (start - self.chlorophyll_rest);
-        let q = self.steepness;
-        let odds = (1.0 + libm::exp(-q)) / share - 1.0;
-        self.half_days * (1.0 + libm::log(odds) / q)
+        let odds = decay.scale / share - 1.0;
+        self.half_days * (1.0 + libm::log(odds) / decay.steepness)
     }
 
     /// What tissue holds, still alive, `age` days after it began to age. At 0 and before, `living` itself.
     #[must_use]
     pub fn senescent(&self, living: Contents, age: f64) -> Contents {
+        self.decayed(living, age, Decay::new(self.steepness))
+    }
+
+    /// As [`Course::senescent`], with the decay of this course.
+    fn decayed(&self, living: Contents, age: f64, decay: Decay) -> Contents {
         if age <= 0.0 {
             return living;
         }
         let halves = age / self.half_days;
-        let left = self.left(halves);
+        let left = decay.left(halves);
         let rest = self.chlorophyll_rest.min(living.chlorophyll);
-        let persistent = self.left(halves / self.persistence);
+        let chlorophyll = rest + (living.chlorophyll - rest) * left;
+        let persistent = decay.left(halves / self.persistence);
         let labile = self.labile_carotenoids;
         let mut anthocyanins = living.anthocyanins;
-        if self.anthocyanins > anthocyanins {
-            let since = age - self.days_to_anthocyanin(living.chlorophyll);
+        if self.anthocyanins > anthocyanins && chlorophyll < ANTHOCYANIN_BELOW {
+            let since = age - self.days_to_anthocyanin(living.chlorophyll, decay);
             if since > 0.0 {
                 let made = 1.0 - libm::exp(-since / self.anthocyanin_days);
                 anthocyanins += (self.anthocyanins - anthocyanins) * made;
@@ -223,7 +228,7 @@ impl Course {
         let towards = |factor: f64| 1.0 + (factor - 1.0) * (1.0 - left);
         Contents {
             structure: living.structure * towards(self.structure_factor),
-            chlorophyll: rest + (living.chlorophyll - rest) * left,
+            chlorophyll,
             carotenoids: living.carotenoids * (labile * left + (1.0 - labile) * persistent),
             anthocyanins,
             betacyanins: living.betacyanins,
@@ -232,6 +237,28 @@ impl Course {
             water: living.water * towards(self.water_factor),
             dry_matter: living.dry_matter * towards(self.dry_matter_factor),
         }
+    }
+}
+
+/// A logistic that falls from 1, made ready for many ages.
+#[derive(Clone, Copy, Debug)]
+struct Decay {
+    steepness: f64,
+    /// What makes it 1 at the start.
+    scale: f64,
+}
+
+impl Decay {
+    fn new(steepness: f64) -> Self {
+        Self {
+            steepness,
+            scale: 1.0 + libm::exp(-steepness),
+        }
+    }
+
+    /// Share that is left after some multiple of the half time: 1 at 0, about ½ at 1, falling to 0.
+    fn left(self, halves: f64) -> f64 {
+        self.scale / (1.0 + libm::exp(self.steepness * (halves - 1.0)))
     }
 }
 
@@ -294,131 +321,9 @@ impl Along {
     }
 }
 
-/// A [`Delay`] made ready for many points of one leaf.
-#[derive(Clone, Debug)]
-struct DelayField {
-    delay: Delay,
-    veins: Option<Distances>,
-    margin: Option<Distances>,
-    along: Along,
-    noise: Option<Mottle>,
-    deaths: Option<DeathField>,
-}
+mod leaf;
 
-impl DelayField {
-    fn new(
-        delay: Delay,
-        place: &Place<'_>,
-        deaths: Option<&DeathField>,
-        seed: u64,
-        number: u64,
-    ) -> Self {
-        let noise_seed = chance::bits(seed, Use::Ageing, number);
-        Self {
-            delay,
-            veins: (delay.veins_days != 0.0).then(|| place.vein_distances([1, delay.veins_order])),
-            margin: (delay.margin_days > 0.0).then(|| place.margin_distances()),
-            along: place.along(),
-            noise: (delay.noise_days > 0.0).then(|| Mottle::new(noise_seed, delay.noise_scale_mm)),
-            deaths: deaths.filter(|_| delay.deaths_days > 0.0).cloned(),
-        }
-    }
-
-    /// Days, ≥ 0.
-    fn at(&self, p: DVec2) -> f64 {
-        let delay = &self.delay;
-        let mut days = 0.0;
-        if let Some(veins) = &self.veins {
-            let near = libm::exp(-veins.at(p) / delay.veins_reach_mm);
-            days += if delay.veins_days > 0.0 {
-                delay.veins_days * near
-            } else {
-                -delay.veins_days * (1.0 - near)
-            };
-        }
-        if let Some(margin) = &self.margin {
-            days += delay.margin_days * (1.0 - libm::exp(-margin.at(p) / delay.margin_reach_mm));
-        }
-        let along = self.along.at(p);
-        days += if delay.tip_days > 0.0 {
-            delay.tip_days * (1.0 - along)
-        } else {
-            -delay.tip_days * along
-        };
-        if let Some(noise) = self.noise {
-            days += delay.noise_days * 0.5 * (1.0 + noise.at(p));
-        }
-        if let Some(deaths) = &self.deaths {
-            days += delay.deaths_days * (1.0 - deaths.at(p));
-        }
-        days
-    }
-}
-
-/// A leaf on a day of its course.
-#[derive(Clone, Debug)]
-pub(super) struct AgeingLeaf {
-    course: Course,
-    day: f64,
-    /// Days from living to dead.
-    blend: f64,
-    dead: Contents,
-    onset: DelayField,
-    death: DelayField,
-}
-
-impl AgeingLeaf {
-    pub(super) fn new(
-        course: Course,
-        day: f64,
-        (blend, dead): (f64, Contents),
-        place: &Place<'_>,
-        deaths: Option<&DeathField>,
-        seed: u64,
-    ) -> Self {
-        Self {
-            course,
-            day,
-            blend,
-            dead,
-            onset: DelayField::new(course.onset, place, deaths, seed, 0),
-            death: DelayField::new(course.death, place, deaths, seed, 1),
-        }
-    }
-
-    pub(super) fn dead_share(&self, p: DVec2) -> f64 {
-        let days = self.day - self.course.death_day;
-        if days <= 0.0 {
-            return 0.0;
-        }
-        let t = ((days - self.death.at(p)) / self.blend).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    }
-
-    pub(super) fn contents(&self, living: Contents, p: DVec2) -> Contents {
-        if self.day <= 0.0 {
-            return living;
-        }
-        let aged = self.course.senescent(living, self.day - self.onset.at(p));
-        let share = self.dead_share(p);
-        if share <= 0.0 {
-            return aged;
-        }
-        // Death brings back no pigment and takes no brown.
-        let dead = Contents {
-            chlorophyll: self.dead.chlorophyll.min(aged.chlorophyll),
-            carotenoids: self.dead.carotenoids.min(aged.carotenoids),
-            brown: self.dead.brown.max(aged.brown),
-            ..self.dead
-        }
-        .to_array();
-        let mut mixed = aged.to_array();
-        for (value, dead) in mixed.iter_mut().zip(dead) {
-            *value += (dead - *value) * share;
-        }
-        Contents::from_array(mixed)
-    }
-}
+pub(super) use self::leaf::AgeingLeaf;
 
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::ageing::Place;
+use super::coverage::{Coverage, extend};
 use super::frame::UvFrame;
 use super::layers::{Layer, LayerFields};
 use super::mottle::Mottle;
@@ -30,8 +31,7 @@ impl ContentsMap {
     /// Paints a leaf's tissue.
     ///
     /// The longer side has `map_size` (16 to 8192) texels, the shorter so many that texels are about square.
-    /// The field goes on beyond the margin, so that no seam shows where a look-up straddles it. Rows do not
-    /// depend on each other; the same input gives the same bits.
+    /// The field goes on over all of the frame. Rows do not depend on each other; the same input gives the same bits.
     ///
     /// # Errors
     ///
@@ -55,6 +55,9 @@ impl ContentsMap {
 
     /// As [`ContentsMap::paint`], of a leaf with a mosaic and layers that has aged: the mosaic stands in for the tissue's lamina, layers change the tissue between veins, what they bring ages, then
     /// come the factors of veins and the mottle.
+    ///
+    /// The field goes on two texels beyond the margin, so that no seam shows where a look-up straddles it; texels farther out, which no
+    /// blade asks for, repeat the nearest of their row.
     ///
     /// # Errors
     ///
@@ -94,15 +97,19 @@ impl ContentsMap {
             field,
             mottle: (tissue.mottle > 0.0).then(|| Mottle::new(seed, tissue.mottle_scale_mm)),
         };
+        let coverage = Coverage::new(place.margin, frame, [width as usize, height as usize]);
         let mut texels = vec![[0.0; Contents::COUNT]; width as usize * height as usize];
         let rows = texels.par_chunks_mut(width as usize).enumerate();
         rows.for_each(|(row, texels)| {
             let v = (row as f64 + 0.5) / f64::from(height);
             let mut weights = Vec::new();
-            for (column, texel) in texels.iter_mut().enumerate() {
+            let covered = coverage.row(row);
+            let those = texels.iter_mut().enumerate();
+            for (column, texel) in those.filter(|(column, _)| covered[*column]) {
                 let u = (column as f64 + 0.5) / f64::from(width);
                 *texel = painter.texel(DVec2::new(u, v), &mut weights);
             }
+            extend(texels, covered);
         });
         Ok(Self {
             width,

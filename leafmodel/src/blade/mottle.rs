@@ -11,7 +11,8 @@ use glam::DVec2;
 /// \[perlin1985\] ACM SIGGRAPH 19(3):287; \[perlin2002\] ACM TOG 21(3):681.
 #[derive(Clone, Copy, Debug)]
 pub struct Mottle {
-    seed: u64,
+    /// State of the hash of each octave.
+    octaves: [u64; 2],
     scale_mm: f64,
 }
 
@@ -28,7 +29,10 @@ impl Mottle {
     /// Noise whose patches are about `scale_mm` (> 0) wide.
     #[must_use]
     pub fn new(seed: u64, scale_mm: f64) -> Self {
-        Self { seed, scale_mm }
+        Self {
+            octaves: [0, 1].map(|octave| mixed(seed, octave)),
+            scale_mm,
+        }
     }
 
     /// The noise at a point given in millimetres, in [−1, 1].
@@ -36,41 +40,42 @@ impl Mottle {
     pub fn at(&self, point: DVec2) -> f64 {
         // One lattice cell holds about half a wave.
         let place = point / self.scale_mm;
-        let sum = (self.octave(0, place) + 0.5 * self.octave(1, 2.0 * place)) / 1.5;
+        let [whole, half] = self.octaves;
+        let sum = (octave(whole, place) + 0.5 * octave(half, 2.0 * place)) / 1.5;
         // Gradient noise seldom comes near its bounds; this spreads it, with slope 3/2 at 0 and 0 at ±1.
         let bounded = sum.clamp(-1.0, 1.0);
         bounded * (1.5 - 0.5 * bounded * bounded)
     }
+}
 
-    /// One octave on the unit lattice, in [−1, 1].
-    fn octave(&self, octave: u64, place: DVec2) -> f64 {
-        let corner = place.floor();
-        let inside = place - corner;
-        let (column, row) = (corner.x as i64, corner.y as i64);
-        let pull = |i: i64, j: i64| {
-            let gradient =
-                direction(self.hash(octave, column.wrapping_add(i), row.wrapping_add(j)));
+/// One octave on the unit lattice, in [−1, 1].
+fn octave(state: u64, place: DVec2) -> f64 {
+    let corner = place.floor();
+    let inside = place - corner;
+    let (column, row) = (corner.x as i64, corner.y as i64);
+    let pulls = |i: i64| {
+        let state = mixed(state, column.wrapping_add(i) as u64);
+        [0, 1].map(|j: i64| {
+            let gradient = direction(mixed(state, row.wrapping_add(j) as u64));
             gradient.dot(inside - DVec2::new(i as f64, j as f64))
-        };
-        let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-        let (x, y) = (fade(inside.x), fade(inside.y));
-        let low = pull(0, 0) + x * (pull(1, 0) - pull(0, 0));
-        let high = pull(0, 1) + x * (pull(1, 1) - pull(0, 1));
-        // With unit gradients the bound is √½, reached in the middle of a cell.
-        std::f64::consts::SQRT_2 * (low + y * (high - low))
-    }
+        })
+    };
+    let ([low_left, high_left], [low_right, high_right]) = (pulls(0), pulls(1));
+    let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+    let (x, y) = (fade(inside.x), fade(inside.y));
+    let low = low_left + x * (low_right - low_left);
+    let high = high_left + x * (high_right - high_left);
+    // With unit gradients the bound is √½, reached in the middle of a cell.
+    std::f64::consts::SQRT_2 * (low + y * (high - low))
+}
 
-    /// 64 well mixed bits for a corner: the finaliser of `SplitMix64` (Steele et al. 2014) over each number in turn.
-    fn hash(&self, octave: u64, column: i64, row: i64) -> u64 {
-        [octave, column as u64, row as u64]
-            .into_iter()
-            .fold(self.seed, |state, number| {
-                let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
-                z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-                z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-                z ^ (z >> 31)
-            })
-    }
+/// 64 well mixed bits for a corner come from its octave, column and row, one after the other: the finaliser of `SplitMix64`
+/// (Steele et al. 2014) over each.
+fn mixed(state: u64, number: u64) -> u64 {
+    let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 /// One of 16 unit vectors, evenly around the circle.

@@ -76,6 +76,28 @@ impl Senescence {
 }
 
 impl Senescence {
+    /// The day from which on all tissue is dead, if it ages by days.
+    pub fn last_day(&self) -> Option<f64> {
+        match self.source {
+            AgeSource::Revenue { .. } => None,
+            AgeSource::Day { course, .. } => {
+                Some(course.death_day + course.death.most() + self.blend)
+            }
+        }
+    }
+
+    /// The same on another day; `None` if it does not age by days.
+    #[must_use]
+    pub fn on_day(&self, day: f64) -> Option<Self> {
+        match self.source {
+            AgeSource::Revenue { .. } => None,
+            AgeSource::Day { course, .. } => Some(Self {
+                source: AgeSource::Day { day, course },
+                ..*self
+            }),
+        }
+    }
+
     /// Whether it can be told only from the cells of a transport leaf.
     pub fn needs_cells(&self) -> bool {
         match self.source {

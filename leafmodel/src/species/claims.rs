@@ -335,9 +335,11 @@ fn is_closed(plan: &AuxinPlan) -> bool {
 
 #[test]
 fn every_preset_settles_is_sound_and_has_loops_only_if_it_is_closed() {
+    // Veins of leaves in colour are those of green ones, or grow by the same numbers.
+    let green = |name| super::colours::coloured(name).is_none();
     for preset in super::PRESETS
         .iter()
-        .filter(|preset| preset.name != "poplar-x10")
+        .filter(|preset| preset.name != "poplar-x10" && green(preset.name))
     {
         let leaf = Grown::preset(preset.name);
         assert_eq!(leaf.network.validate(), Ok(()), "{}", preset.name);

@@ -5,8 +5,9 @@
 //! - **Always true**: every value lies within its range.
 //! - **Left out**: what the plan holds as forms (fold, curl, ruffle, relief): all of that is by eye.
 
+pub(super) mod coloured;
 mod others;
-mod sources;
+pub(super) mod sources;
 mod trees;
 
 use crate::blade::BladeForm;
@@ -202,6 +203,21 @@ impl LeafTraits {
         ]
     }
 
+    /// What the lamina holds between veins in summer.
+    pub fn contents(&self) -> Contents {
+        Contents {
+            structure: self.structure.value,
+            chlorophyll: self.chlorophyll.value,
+            carotenoids: self.carotenoids.value,
+            anthocyanins: self.anthocyanins.value,
+            betacyanins: 0.0,
+            betaxanthins: 0.0,
+            brown: 0.0,
+            water: self.water.value,
+            dry_matter: self.dry_matter.value,
+        }
+    }
+
     /// What the grown outline is held against, with name and unit.
     pub fn spans(&self) -> [(&'static str, &'static str, Span); 2] {
         [
@@ -220,17 +236,7 @@ impl LeafTraits {
             outline,
             venation: venation.into(),
             tissue: Tissue {
-                lamina: Contents {
-                    structure: self.structure.value,
-                    chlorophyll: self.chlorophyll.value,
-                    carotenoids: self.carotenoids.value,
-                    anthocyanins: self.anthocyanins.value,
-                    betacyanins: 0.0,
-                    betaxanthins: 0.0,
-                    brown: 0.0,
-                    water: self.water.value,
-                    dry_matter: self.dry_matter.value,
-                },
+                lamina: self.contents(),
                 vein_factors: Contents {
                     structure: 1.3,
                     chlorophyll: self.veins.pigments,

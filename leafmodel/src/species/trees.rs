@@ -10,7 +10,7 @@ use crate::leaf::outline_plan::OutlinePlan;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
 /// A closed net on isogonic growth; the young leaf is `initial_length` segments long, the grown one `final_length`.
-fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
+pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
     AuxinPlan {
         final_length,
         source_birth_distance: birth_distance,
@@ -26,7 +26,12 @@ fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan
 }
 
 /// A leaf whose finest veins are a fifth of a segment across.
-fn leaf(traits: &LeafTraits, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
+pub(super) fn leaf(
+    traits: &LeafTraits,
+    seed: u64,
+    outline: OutlinePlan,
+    venation: AuxinPlan,
+) -> LeafPlan {
     let venation = AuxinPlan {
         veinlet_radius_mm: 0.09 * traits.length_mm.value / venation.final_length,
         ..venation

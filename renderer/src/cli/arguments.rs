@@ -143,6 +143,10 @@ pub struct GrowArguments {
     /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
+    /// Write the flat leaf in daylight (png) and its maps of contents (--contents) on N days from green to litter, as STEM-0001.png
+    /// and so on; for leaves that age by days
+    #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub ages: Option<u32>,
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,

@@ -1,10 +1,13 @@
 //! `lamina grow`: a leaf's veins, blade, contents and measures as files.
 
 mod about;
+mod ages;
 mod blade_files;
 mod choice;
+mod colours;
 mod fields;
 mod frames;
+mod maps;
 mod outputs;
 mod warnings;
 
@@ -30,9 +33,7 @@ use crate::cli::arguments::GrowArguments;
 use crate::cli::interrupt::stop_on_interrupt;
 use crate::cli::{Failure, say, stats};
 use crate::export::drawing::{Style, draw_within};
-use crate::export::mitsuba::map_picture;
-use crate::image::{atomic, openexr, portable_network};
-use crate::material::contents_texture::ContentsTexture;
+use crate::image::{atomic, portable_network};
 use crate::scene::load::leaf_to_toml;
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
@@ -56,6 +57,9 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     }
     if arguments.frames.is_some() {
         frames::check(&chosen.value.plan)?;
+    }
+    if arguments.ages.is_some() {
+        ages::check(&chosen.value.plan)?;
     }
     let stop = stop_on_interrupt()?;
     let work = || {
@@ -118,13 +122,15 @@ fn carry_out(
         };
         finish(path, &bytes, stop)?;
     }
-    if let (Some(folder), Grown::Whole(leaf)) = (&arguments.contents, &grown) {
+    if let (Some(folder), None, Grown::Whole(leaf)) = (&arguments.contents, arguments.ages, &grown)
+    {
         for (number, blade) in leaf.blades.iter().enumerate() {
             let name = match number {
                 0 => name.to_owned(),
                 _ => format!("{name}-{}", number + 1),
             };
-            write_contents(folder, &name, blade, stop)?;
+            let (map, outline) = (&blade.contents, &blade.lamina.outline);
+            maps::write(folder, &name, map, outline, maps::day(plan), stop)?;
         }
     }
     if let Some(path) = &arguments.fields {
@@ -136,6 +142,15 @@ fn carry_out(
             pixels: arguments.size,
         };
         frames::write(plan, grown.lamina(), outputs, count, &drawn, stop)?;
+    }
+    if let Some(count) = arguments.ages {
+        let written = ages::Written {
+            count,
+            pixels: arguments.size,
+            contents: arguments.contents.as_deref(),
+            name,
+        };
+        ages::write(plan, grown.lamina(), outputs, written, stop)?;
     }
     if let Some(path) = &arguments.measure {
         if !network.map().is_flat() {
@@ -306,26 +321,6 @@ fn veins_file(
         Kind::GeoJson => export::geojson(outlines, network).into_bytes(),
         Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
     })
-}
-
-/// The map of contents as `DIR/NAME.exr`.
-fn write_contents(
-    folder: &Path,
-    name: &str,
-    leaf: &Leaf,
-    stop: &AtomicBool,
-) -> Result<(), Failure> {
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::Interrupted);
-    }
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::system(format!("{}: {error}", folder.display())))?;
-    let path = folder.join(format!("{name}.exr"));
-    let map = &leaf.contents;
-    let texture = ContentsTexture::new(map.width as usize, map.height as usize, map.texels.clone());
-    openexr::write(&map_picture(&texture), &path).map_err(Failure::system)?;
-    say(path.display());
-    Ok(())
 }
 
 /// Writes a file and tells its name, unless somebody has pressed Ctrl-C.

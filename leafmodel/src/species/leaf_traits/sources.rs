@@ -5,23 +5,23 @@ use super::{Provenance, Quantity, Source, Span};
 /// 276 leaves of 47 taxa; the extremes of its table of contents.
 const ANGERS: &str = "angers2003";
 
-const ANGERS_LEAVES: Source = Source {
+pub(in crate::species) const ANGERS_LEAVES: Source = Source {
     key: ANGERS,
     says: "range of 276 leaves of 47 taxa (ANGERS)",
 };
 
 /// Structure of the mesophyll.
-pub(super) const fn structure(value: f64) -> Quantity {
+pub(in crate::species) const fn structure(value: f64) -> Quantity {
     estimate(value, [1.05, 2.71], ANGERS_LEAVES)
 }
 
 /// Chlorophyll, chosen by eye.
-pub(super) const fn chlorophyll(value: f64) -> Quantity {
+pub(in crate::species) const fn chlorophyll(value: f64) -> Quantity {
     estimate(value, [0.8, 106.7], ANGERS_LEAVES)
 }
 
 /// Carotenoids of a green leaf from its chlorophyll: `1.13 + 0.222 C` (r 0.95 over the green leaves of ANGERS).
-pub(super) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
+pub(in crate::species) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
     let value = 1.13 + 0.222 * chlorophyll.value;
     Quantity {
         value,
@@ -33,11 +33,11 @@ pub(super) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
     }
 }
 
-pub(super) const fn water(value: f64) -> Quantity {
+pub(in crate::species) const fn water(value: f64) -> Quantity {
     estimate(value, [0.0044, 0.034], ANGERS_LEAVES)
 }
 
-pub(super) const fn dry_matter(value: f64) -> Quantity {
+pub(in crate::species) const fn dry_matter(value: f64) -> Quantity {
     estimate(value, [0.0017, 0.033], ANGERS_LEAVES)
 }
 
@@ -48,7 +48,7 @@ pub(super) const LITTLE_ANTHOCYANIN: Quantity = by_eye(
     "green summer leaves hold little; no figure for the species",
 );
 
-pub(super) const fn estimate(value: f64, range: [f64; 2], source: Source) -> Quantity {
+pub(in crate::species) const fn estimate(value: f64, range: [f64; 2], source: Source) -> Quantity {
     Quantity {
         value,
         range,
@@ -56,7 +56,7 @@ pub(super) const fn estimate(value: f64, range: [f64; 2], source: Source) -> Qua
     }
 }
 
-pub(super) const fn by_eye(value: f64, range: [f64; 2], why: &'static str) -> Quantity {
+pub(in crate::species) const fn by_eye(value: f64, range: [f64; 2], why: &'static str) -> Quantity {
     Quantity {
         value,
         range,
@@ -64,7 +64,7 @@ pub(super) const fn by_eye(value: f64, range: [f64; 2], why: &'static str) -> Qu
     }
 }
 
-pub(super) const fn measured(
+pub(in crate::species) const fn measured(
     value: f64,
     range: [f64; 2],
     key: &'static str,
@@ -77,7 +77,7 @@ pub(super) const fn measured(
     }
 }
 
-pub(super) const fn related(
+pub(in crate::species) const fn related(
     value: f64,
     range: [f64; 2],
     key: &'static str,
@@ -90,7 +90,7 @@ pub(super) const fn related(
     }
 }
 
-pub(super) const fn flora(value: f64, range: [f64; 2], source: Source) -> Quantity {
+pub(in crate::species) const fn flora(value: f64, range: [f64; 2], source: Source) -> Quantity {
     Quantity {
         value,
         range,
@@ -98,14 +98,14 @@ pub(super) const fn flora(value: f64, range: [f64; 2], source: Source) -> Quanti
     }
 }
 
-pub(super) const fn flora_span(range: [f64; 2], source: Source) -> Span {
+pub(in crate::species) const fn flora_span(range: [f64; 2], source: Source) -> Span {
     Span {
         range,
         from: Provenance::Flora(source),
     }
 }
 
-pub(super) const fn width_by_eye(range: [f64; 2], why: &'static str) -> Span {
+pub(in crate::species) const fn width_by_eye(range: [f64; 2], why: &'static str) -> Span {
     Span {
         range,
         from: Provenance::ByEye(why),
@@ -113,7 +113,7 @@ pub(super) const fn width_by_eye(range: [f64; 2], why: &'static str) -> Span {
 }
 
 /// The thickness of leaves of 64 forest species of the southern Appalachians.
-pub(super) const fn thickness(value: f64) -> Quantity {
+pub(in crate::species) const fn thickness(value: f64) -> Quantity {
     estimate(
         value,
         [0.117, 0.474],
@@ -183,4 +183,24 @@ pub(super) const TRILLIUM_FLORA: Source = Source {
 pub(super) const CODIAEUM: Source = Source {
     key: "foc11",
     says: "very variable, linear to elliptic and obovate, 5–30 × 0.5–8 cm",
+};
+pub(super) const ACER_SACCHARUM: Source = Source {
+    key: "vtdendro",
+    says: "Acer saccharum: 3 to 6 inches long, 5 lobes, margin entire",
+};
+pub(super) const ACER_RUBRUM: Source = Source {
+    key: "vtdendro",
+    says: "Acer rubrum: 2 to 4 inches long, 3 to 5 lobes, margin serrate, sinuses shallow",
+};
+pub(super) const COTINUS: Source = Source {
+    key: "cotinusfoc",
+    says: "broadly elliptic to obovate, 3–8 × 2.5–6 cm, entire, 6–11 pairs of lateral veins",
+};
+pub(super) const ACER_NEGUNDO: Source = Source {
+    key: "hortflora",
+    says: "3–5 (7–9) oval, saw-toothed leaflets, each 5–10 cm long",
+};
+pub(super) const AMARANTHUS: Source = Source {
+    key: "amaranthfoc",
+    says: "ovate, ovate-rhombic or lanceolate, 4–10 × 2–7 cm, entire or undulate",
 };

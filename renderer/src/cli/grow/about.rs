@@ -1,7 +1,8 @@
 //! What a preset is, and where its numbers are from.
 
 use leafmodel::species;
-use leafmodel::species::leaf_traits::{LeafTraits, Provenance, traits};
+use leafmodel::species::colours::{ColouredLeaf, coloured};
+use leafmodel::species::leaf_traits::{LeafTraits, Provenance, Quantity, traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
@@ -24,17 +25,27 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
     say(format!("  {}", preset.about));
     say(format!("  source: {}", preset.source));
     if let Some(traits) = traits(preset.name) {
-        say(table(traits));
+        say(table(traits.species, &green(traits)));
+    }
+    if let Some(leaf) = coloured(preset.name) {
+        say(table(leaf.species, &in_colour(leaf)));
     }
     Ok(())
 }
 
-/// The traits in columns that are two spaces or more apart.
-fn table(traits: &LeafTraits) -> String {
-    let values = traits.quantities().map(|(name, unit, q)| {
-        let value = with_unit(&number(q.value), unit);
-        [name.to_owned(), value, range(q.range), told(q.from)]
-    });
+/// Trait, value, range, and where that is from.
+type Row = [String; 4];
+
+fn row(name: &str, unit: &str, q: Quantity) -> Row {
+    let value = with_unit(&number(q.value), unit);
+    [name.to_owned(), value, range(q.range), told(q.from)]
+}
+
+/// The traits of a leaf in summer.
+fn green(traits: &LeafTraits) -> Vec<Row> {
+    let values = traits
+        .quantities()
+        .map(|(name, unit, q)| row(name, unit, q));
     let spans = traits.spans().map(|(name, unit, span)| {
         let value = if unit.is_empty() {
             "as drawn".to_owned()
@@ -43,8 +54,21 @@ fn table(traits: &LeafTraits) -> String {
         };
         [name.to_owned(), value, range(span.range), told(span.from)]
     });
+    values.into_iter().chain(spans).collect()
+}
+
+/// The traits of the green leaf, then what differs.
+fn in_colour(leaf: &ColouredLeaf) -> Vec<Row> {
+    let mut rows = green(leaf.green);
+    let quantities = leaf.quantities().into_iter();
+    rows.extend(quantities.map(|(name, unit, q)| row(&name, unit, q)));
+    rows
+}
+
+/// Rows in columns that are two spaces or more apart.
+fn table(species: &str, rows: &[Row]) -> String {
     let head = ["trait", "value", "range", "from"].map(str::to_owned);
-    let rows: Vec<[String; 4]> = std::iter::once(head).chain(values).chain(spans).collect();
+    let rows: Vec<&Row> = std::iter::once(&head).chain(rows).collect();
     let width = |column: usize| {
         rows.iter()
             .map(|row| row[column].chars().count())
@@ -52,8 +76,8 @@ fn table(traits: &LeafTraits) -> String {
             .unwrap_or(0)
     };
     let widths = [width(0), width(1), width(2)];
-    let mut text = format!("  {}", traits.species);
-    for [name, value, range, from] in &rows {
+    let mut text = format!("  {species}");
+    for [name, value, range, from] in rows {
         let [a, b, c] = widths;
         text += &format!("\n  {name:<a$}  {value:<b$}  {range:<c$}  {from}");
     }
@@ -93,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_table_tells_value_range_and_source_of_each_trait() {
-        let text = table(traits("ginkgo").expect("a species"));
+        let text = table("", &green(traits("ginkgo").expect("a species")));
         let chlorophyll = text
             .lines()
             .find(|line| line.trim_start().starts_with("chlorophyll"));
@@ -106,6 +130,18 @@ mod tests {
         ] {
             assert!(row.contains(part), "{part} is not in {row}");
         }
+    }
+
+    #[test]
+    fn a_leaf_in_colour_tells_of_its_green_before_what_differs() {
+        let rows = in_colour(coloured("birch-autumn").expect("a leaf"));
+        let at = |name: &str| rows.iter().position(|row| row[0] == name);
+        let (green, turned) = (at("chlorophyll"), at("turned: chlorophyll"));
+        assert!(green.expect("it has a row") < turned.expect("it has a row"));
+        let brown = &rows[at("turned: brown").expect("it has a row")];
+        assert_eq!(brown[1], "0.33");
+        assert!(brown[3].ends_with("[noda2014]"), "{}", brown[3]);
+        assert_eq!(rows[at("day").expect("it has a row")][1], "24 days");
     }
 
     #[test]

@@ -69,8 +69,15 @@ impl Outputs {
         let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
         let files = arguments.out.iter().cloned().zip(kinds);
         let in_stages = arguments.frames.is_some();
-        let (staged, whole): (Vec<_>, Vec<_>) =
-            files.partition(|(_, kind)| in_stages && kind.is_of_veins());
+        let in_ages = arguments.ages.is_some();
+        let (staged, whole): (Vec<_>, Vec<_>) = files.partition(|(_, kind)| {
+            (in_stages && kind.is_of_veins()) || (in_ages && *kind == Kind::Png)
+        });
+        if in_ages && staged.is_empty() && arguments.contents.is_none() {
+            return Err(Failure::bad(
+                "--ages needs an --out that shows colours, a png, or --contents",
+            ));
+        }
         if in_stages && staged.is_empty() {
             return Err(Failure::bad(
                 "--frames needs an --out that shows veins: svg, png, json, graphml or geojson",
@@ -100,13 +107,13 @@ impl Outputs {
         if let Some(folder) = &arguments.contents {
             check_folder(folder)?;
         }
-        let blade =
-            arguments.contents.is_some() || whole.iter().any(|(_, kind)| kind.needs_blade());
+        let blade = (arguments.contents.is_some() && !in_ages)
+            || whole.iter().any(|(_, kind)| kind.needs_blade());
         let only_plan = !whole.is_empty() && whole.iter().all(|(_, kind)| *kind == Kind::Toml);
         let counts =
             arguments.measure.is_some() || arguments.stats.is_some() || arguments.fields.is_some();
         Ok(Self {
-            veins: blade || counts || in_stages || !only_plan,
+            veins: blade || counts || in_stages || in_ages || !only_plan,
             whole,
             staged,
             blade,

@@ -197,7 +197,7 @@ mod tests {
             optics in (0.1..5.0, prop_oneof![Just(SCATTERING_PER_MM), 0.1..5.0], 1.0..2.0),
             coat in prop_oneof![Just(None), (1.0..2.0, 0.02..1.0).prop_map(Some)],
             held in prop::array::uniform8(prop_oneof![Just(0.0), 0.0..1.0]),
-            pigments in super::super::write_leaf::tests::pigments(),
+            pigments in super::super::write_leaf::tests::palettes::pigments(),
             (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
         ) {
             let [b, c, d, e, f, g, h, i] = held;

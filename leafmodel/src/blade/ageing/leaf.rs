@@ -1,0 +1,217 @@
+//! Ageing made ready for the millions of points of a map: each distance is looked up once, and no more of a delay is added up than
+//! decides.
+
+use glam::DVec2;
+
+use super::super::distances::Distances;
+use super::super::mottle::Mottle;
+use super::{Along, Course, Decay, Delay, Place};
+use crate::optics::Contents;
+use crate::transport::DeathField;
+use crate::venation::chance::{self, Use};
+
+/// The distances that two delays ask for, each field there once.
+#[derive(Clone, Debug)]
+struct Surroundings {
+    margin: Option<Distances>,
+    /// To veins up to the order that each of the two names; nothing for the second if it is that of the first.
+    veins: [Option<Distances>; 2],
+}
+
+impl Surroundings {
+    fn new(delays: [&Delay; 2], place: &Place<'_>) -> Self {
+        let veins = |delay: &Delay| {
+            (delay.veins_days != 0.0).then(|| place.vein_distances([1, delay.veins_order]))
+        };
+        let [first, second] = delays;
+        let shared = first.veins_days != 0.0 && first.veins_order == second.veins_order;
+        Self {
+            margin: delays
+                .iter()
+                .any(|delay| delay.margin_days > 0.0)
+                .then(|| place.margin_distances()),
+            veins: [veins(first), if shared { None } else { veins(second) }],
+        }
+    }
+}
+
+/// The distances of one point, each looked up when it is asked for first.
+struct Near<'a> {
+    of: &'a Surroundings,
+    p: DVec2,
+    margin: Option<f64>,
+    veins: [Option<f64>; 2],
+}
+
+impl Near<'_> {
+    fn margin(&mut self) -> f64 {
+        let field = self.of.margin.as_ref();
+        let at = || field.map_or(f64::INFINITY, |field| field.at(self.p));
+        *self.margin.get_or_insert_with(at)
+    }
+
+    /// To the veins of the first delay or the second.
+    fn veins(&mut self, which: usize) -> f64 {
+        let which = if self.of.veins[which].is_some() {
+            which
+        } else {
+            0
+        };
+        let field = self.of.veins[which].as_ref();
+        let at = || field.map_or(f64::INFINITY, |field| field.at(self.p));
+        *self.veins[which].get_or_insert_with(at)
+    }
+}
+
+/// A [`Delay`] made ready for many points of one leaf.
+#[derive(Clone, Debug)]
+struct DelayField {
+    delay: Delay,
+    /// 0 for the onset, 1 for death.
+    number: usize,
+    along: Along,
+    noise: Option<Mottle>,
+    deaths: Option<DeathField>,
+}
+
+impl DelayField {
+    fn new(
+        delay: Delay,
+        place: &Place<'_>,
+        deaths: Option<&DeathField>,
+        seed: u64,
+        number: usize,
+    ) -> Self {
+        let noise_seed = chance::bits(seed, Use::Ageing, number as u64);
+        Self {
+            delay,
+            number,
+            along: place.along(),
+            noise: (delay.noise_days > 0.0).then(|| Mottle::new(noise_seed, delay.noise_scale_mm)),
+            deaths: deaths.filter(|_| delay.deaths_days > 0.0).cloned(),
+        }
+    }
+
+    /// Days, ≥ 0; if they are `enough` or more, some number that is so too, for all terms are ≥ 0.
+    fn at(&self, near: &mut Near<'_>, enough: f64) -> f64 {
+        let delay = &self.delay;
+        let mut days = 0.0;
+        if delay.tip_days != 0.0 {
+            let along = self.along.at(near.p);
+            days += if delay.tip_days > 0.0 {
+                delay.tip_days * (1.0 - along)
+            } else {
+                -delay.tip_days * along
+            };
+        }
+        if delay.margin_days > 0.0 {
+            let inside = 1.0 - libm::exp(-near.margin() / delay.margin_reach_mm);
+            days += delay.margin_days * inside;
+        }
+        if days >= enough {
+            return days;
+        }
+        if delay.veins_days != 0.0 {
+            let close = libm::exp(-near.veins(self.number) / delay.veins_reach_mm);
+            days += if delay.veins_days > 0.0 {
+                delay.veins_days * close
+            } else {
+                -delay.veins_days * (1.0 - close)
+            };
+        }
+        if days >= enough {
+            return days;
+        }
+        if let Some(noise) = self.noise {
+            days += delay.noise_days * 0.5 * (1.0 + noise.at(near.p));
+        }
+        if let Some(deaths) = &self.deaths {
+            days += delay.deaths_days * (1.0 - deaths.at(near.p));
+        }
+        days
+    }
+}
+
+/// A leaf on a day of its course.
+#[derive(Clone, Debug)]
+pub(in super::super) struct AgeingLeaf {
+    course: Course,
+    decay: Decay,
+    day: f64,
+    /// Days from living to dead.
+    blend: f64,
+    dead: Contents,
+    surroundings: Surroundings,
+    onset: DelayField,
+    death: DelayField,
+}
+
+impl AgeingLeaf {
+    pub(in super::super) fn new(
+        course: Course,
+        day: f64,
+        (blend, dead): (f64, Contents),
+        place: &Place<'_>,
+        deaths: Option<&DeathField>,
+        seed: u64,
+    ) -> Self {
+        Self {
+            course,
+            decay: Decay::new(course.steepness),
+            day,
+            blend,
+            dead,
+            surroundings: Surroundings::new([&course.onset, &course.death], place),
+            onset: DelayField::new(course.onset, place, deaths, seed, 0),
+            death: DelayField::new(course.death, place, deaths, seed, 1),
+        }
+    }
+
+    fn near(&self, p: DVec2) -> Near<'_> {
+        Near {
+            of: &self.surroundings,
+            p,
+            margin: None,
+            veins: [None; 2],
+        }
+    }
+
+    pub(in super::super) fn dead_share(&self, p: DVec2) -> f64 {
+        self.dead_share_at(&mut self.near(p))
+    }
+
+    fn dead_share_at(&self, near: &mut Near<'_>) -> f64 {
+        let days = self.day - self.course.death_day;
+        if days <= 0.0 {
+            return 0.0;
+        }
+        let t = ((days - self.death.at(near, days)) / self.blend).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    pub(in super::super) fn contents(&self, living: Contents, p: DVec2) -> Contents {
+        if self.day <= 0.0 {
+            return living;
+        }
+        let near = &mut self.near(p);
+        let age = self.day - self.onset.at(near, self.day);
+        let aged = self.course.decayed(living, age, self.decay);
+        let share = self.dead_share_at(near);
+        if share <= 0.0 {
+            return aged;
+        }
+        // Death brings back no pigment and takes no brown.
+        let dead = Contents {
+            chlorophyll: self.dead.chlorophyll.min(aged.chlorophyll),
+            carotenoids: self.dead.carotenoids.min(aged.carotenoids),
+            brown: self.dead.brown.max(aged.brown),
+            ..self.dead
+        }
+        .to_array();
+        let mut mixed = aged.to_array();
+        for (value, dead) in mixed.iter_mut().zip(dead) {
+            *value += (dead - *value) * share;
+        }
+        Contents::from_array(mixed)
+    }
+}

@@ -1,0 +1,190 @@
+//! Leaves in other colours than summer's green: what their tissues hold, each number with where it is from.
+//!
+//! - **In**: the name of a preset.
+//! - **Out**: its [`ColouredLeaf`], from which the preset's plan is made, so that what is told is what is grown.
+//! - **Always true**: every value lies within its range.
+//! - **Left out**: where the colours lie (widths of margins, delays, the parameters of mosaics), which is by eye unless the preset says otherwise.
+
+mod autumn;
+#[cfg(test)]
+mod claims;
+mod contours;
+mod evergreen;
+mod numbers;
+
+use self::autumn::{BIRCH, GINKGO, OAK_LITTER, POPLAR, RED_MAPLE, SUGAR_MAPLE, SWEETGUM};
+use self::evergreen::{ACER_VARIEGATED, AMARANTH, COTINUS, CROTON, IRON_CHLOROSIS, IVY};
+use super::leaf_traits::{LeafTraits, Quantity};
+use crate::leaf::LeafPlan;
+use crate::optics::Contents;
+
+/// All of them, in the order of the book.
+pub(super) static COLOURED: [ColouredLeaf; 13] = [
+    GINKGO,
+    BIRCH,
+    POPLAR,
+    SUGAR_MAPLE,
+    RED_MAPLE,
+    SWEETGUM,
+    OAK_LITTER,
+    COTINUS,
+    ACER_VARIEGATED,
+    IVY,
+    IRON_CHLOROSIS,
+    CROTON,
+    AMARANTH,
+];
+
+/// A leaf whose colour is not summer's green, in numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct ColouredLeaf {
+    /// Name of the preset.
+    pub preset: &'static str,
+    /// The species, in Latin, and which leaf of it.
+    pub species: &'static str,
+    /// The green leaf of the species; what is not told of a tissue is as there.
+    pub green: &'static LeafTraits,
+    /// Tissues that hold something else.
+    pub tissues: &'static [Holding],
+    /// How far it has aged, if its colour is one of age.
+    pub age: Option<Age>,
+    /// Makes the plan.
+    plan: fn(&Self) -> LeafPlan,
+}
+
+/// What a tissue holds, as far as it is not what the green leaf does.
+#[derive(Clone, Copy, Debug)]
+pub struct Holding {
+    /// Which tissue: `turned` has aged and still lives, `dead` is litter, others are places or types of cells.
+    pub tissue: &'static str,
+    /// In the order of [`Contents::NAMES`].
+    pub contents: [Option<Quantity>; Contents::COUNT],
+}
+
+/// The days of an ageing leaf.
+#[derive(Clone, Copy, Debug)]
+pub struct Age {
+    /// Since it began to age where it does first.
+    pub day: Quantity,
+    /// After which half of the chlorophyll is gone.
+    pub half_days: Quantity,
+    /// When the first tissue dies.
+    pub death_day: Quantity,
+}
+
+/// Units of contents, in the order of [`Contents::NAMES`].
+const UNITS: [&str; Contents::COUNT] = [
+    "", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "", "cm", "g/cm²",
+];
+
+/// The leaf that a preset stands for.
+pub fn coloured(preset: &str) -> Option<&'static ColouredLeaf> {
+    COLOURED.iter().find(|leaf| leaf.preset == preset)
+}
+
+/// All of them, in the order of the book.
+pub fn all_coloured() -> impl Iterator<Item = &'static ColouredLeaf> {
+    COLOURED.iter()
+}
+
+impl ColouredLeaf {
+    /// The plan of the leaf.
+    pub(super) fn plan(&self) -> LeafPlan {
+        (self.plan)(self)
+    }
+
+    /// What differs from the green leaf, with name and unit.
+    pub fn quantities(&self) -> Vec<(String, &'static str, Quantity)> {
+        let mut all = Vec::new();
+        for Holding { tissue, contents } in self.tissues {
+            for ((name, unit), quantity) in Contents::NAMES.into_iter().zip(UNITS).zip(contents) {
+                let Some(quantity) = *quantity else { continue };
+                all.push((
+                    format!("{tissue}: {}", name.replace('_', " ")),
+                    unit,
+                    quantity,
+                ));
+            }
+        }
+        if let Some(age) = &self.age {
+            for (name, quantity) in [
+                ("day", age.day),
+                ("half of chlorophyll gone", age.half_days),
+                ("first tissue dies", age.death_day),
+            ] {
+                all.push((name.to_owned(), "days", quantity));
+            }
+        }
+        all
+    }
+
+    /// What a tissue holds.
+    pub fn held(&self, tissue: &str) -> Option<Contents> {
+        let holding = self
+            .tissues
+            .iter()
+            .find(|holding| holding.tissue == tissue)?;
+        let mut held = self.green.contents().to_array();
+        for (value, told) in held.iter_mut().zip(holding.contents) {
+            *value = told.map_or(*value, |quantity| quantity.value);
+        }
+        Some(Contents::from_array(held))
+    }
+
+    /// What a tissue that the table has holds.
+    fn of(&self, tissue: &str) -> Contents {
+        self.held(tissue)
+            .expect("the table tells of all tissues that its plan asks for")
+    }
+}
+
+impl Holding {
+    /// As the green leaf.
+    const fn new(tissue: &'static str) -> Self {
+        Self {
+            tissue,
+            contents: [None; Contents::COUNT],
+        }
+    }
+
+    const fn with(mut self, index: usize, quantity: Quantity) -> Self {
+        self.contents[index] = Some(quantity);
+        self
+    }
+
+    const fn structure(self, quantity: Quantity) -> Self {
+        self.with(0, quantity)
+    }
+
+    const fn chlorophyll(self, quantity: Quantity) -> Self {
+        self.with(1, quantity)
+    }
+
+    const fn carotenoids(self, quantity: Quantity) -> Self {
+        self.with(2, quantity)
+    }
+
+    const fn anthocyanins(self, quantity: Quantity) -> Self {
+        self.with(3, quantity)
+    }
+
+    const fn betacyanins(self, quantity: Quantity) -> Self {
+        self.with(4, quantity)
+    }
+
+    const fn betaxanthins(self, quantity: Quantity) -> Self {
+        self.with(5, quantity)
+    }
+
+    const fn brown(self, quantity: Quantity) -> Self {
+        self.with(6, quantity)
+    }
+
+    const fn water(self, quantity: Quantity) -> Self {
+        self.with(7, quantity)
+    }
+
+    const fn dry_matter(self, quantity: Quantity) -> Self {
+        self.with(8, quantity)
+    }
+}

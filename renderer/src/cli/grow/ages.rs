@@ -1,0 +1,136 @@
+//! A leaf on several days of its ageing.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use leafmodel::blade::contents_map::ContentsMap;
+use leafmodel::leaf::{Lamina, LeafPlan};
+
+use super::colours::in_daylight;
+use super::maps;
+use super::outputs::{Outputs, numbered};
+use crate::cli::{Failure, say};
+use crate::image::portable_network;
+
+/// Refuses plans of leaves that do not age by days.
+pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
+    if plan.compound.is_some() {
+        return Err(Failure::bad(
+            "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan",
+        ));
+    }
+    last_day(plan).map(|_| ())
+}
+
+/// From this day on all of the leaf is dead.
+fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
+    let senescence = plan.senescence.as_ref();
+    let last = senescence.and_then(leafmodel::blade::senescence::Senescence::last_day);
+    last.ok_or_else(|| {
+        Failure::bad(
+            "--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`",
+        )
+    })
+}
+
+/// `count` days from 0 to `last`; one alone is the last.
+fn days(last: f64, count: u32) -> impl Iterator<Item = f64> {
+    let gaps = f64::from(count.saturating_sub(1));
+    (0..count).map(move |i| {
+        if gaps > 0.0 {
+            last * f64::from(i) / gaps
+        } else {
+            last
+        }
+    })
+}
+
+/// What is written of each day.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Written<'a> {
+    /// How many days.
+    pub(super) count: u32,
+    /// Pixels along the longer side of a picture.
+    pub(super) pixels: u32,
+    /// Where maps of contents go, if they are asked for, and their name.
+    pub(super) contents: Option<&'a Path>,
+    /// What the leaf is called.
+    pub(super) name: &'a str,
+}
+
+/// Writes the leaf on evenly spaced days, as pictures and as maps of contents.
+pub(super) fn write(
+    plan: &LeafPlan,
+    lamina: &Lamina,
+    outputs: &Outputs,
+    written: Written<'_>,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let Some(senescence) = plan.senescence else {
+        return check(plan);
+    };
+    let is_stopped = || stop.load(Ordering::Relaxed);
+    let painted = |day: f64, map_size: u32| -> Result<ContentsMap, Failure> {
+        let plan = LeafPlan {
+            senescence: senescence.on_day(day),
+            map_size,
+            ..plan.clone()
+        };
+        if is_stopped() {
+            return Err(Failure::Interrupted);
+        }
+        let map = plan.paint(lamina, &is_stopped);
+        map.map_err(|error| {
+            if is_stopped() {
+                Failure::Interrupted
+            } else {
+                Failure::bad(error)
+            }
+        })
+    };
+    for (number, day) in days(last_day(plan)?, written.count).enumerate() {
+        if !outputs.staged.is_empty() {
+            let map = painted(day, written.pixels.clamp(16, 8192))?;
+            let picture = in_daylight(&map, &lamina.outline);
+            let png = portable_network::encoded(map.width, map.height, &picture);
+            let png = png.map_err(Failure::bad)?;
+            for (path, _) in &outputs.staged {
+                super::finish(&numbered(path, number + 1), &png, stop)?;
+            }
+        }
+        if let Some(folder) = written.contents {
+            let map = painted(day, plan.map_size)?;
+            let file = format!("{}-{:04}", written.name, number + 1);
+            maps::write(folder, &file, &map, &lamina.outline, Some(day), stop)?;
+        }
+        say(format!("day {day:.1}"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use leafmodel::species::find;
+
+    use super::*;
+
+    #[test]
+    fn days_are_even_from_summer_to_litter() {
+        let found: Vec<f64> = days(60.0, 4).collect();
+        assert_eq!(found, [0.0, 20.0, 40.0, 60.0]);
+        assert_eq!(days(60.0, 1).collect::<Vec<f64>>(), [60.0]);
+    }
+
+    #[test]
+    fn leaves_without_days_are_refused() {
+        for (name, ages) in [
+            ("birch-autumn", true),
+            ("birch", false),
+            ("xia-autumn", false),
+            ("acer-variegated", false),
+        ] {
+            let plan = find(name).expect("a preset").plan();
+            assert_eq!(check(&plan).is_ok(), ages, "{name}");
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The colour of a flat leaf in daylight.
+
+use glam::DVec2;
+use leafmodel::blade::UvFrame;
+use leafmodel::blade::contents_map::ContentsMap;
+use leafmodel::optics::fast::PileLane;
+use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::shape::outline::Outline;
+use rayon::prelude::*;
+
+use crate::spectrum::cie::{d65, observer, srgb_from_xyz};
+
+/// Between wavelengths, nm: reflectance of leaves is smooth.
+const STEP_NM: usize = 10;
+/// What surrounds the leaf, as in other drawings.
+const PAPER: u8 = 255;
+
+/// Reflectance to linear sRGB.
+struct Daylight(Vec<(PileLane, [f64; 3])>);
+
+impl Daylight {
+    fn new() -> Self {
+        let wavelengths = || (400..=720).step_by(STEP_NM).map(f64::from);
+        let white: f64 = wavelengths().map(|nm| d65(nm) * observer(nm)[1]).sum();
+        let lane = |nm: f64| {
+            let at = ProspectD::coefficients(nm).expect("the table has visible light");
+            let xyz = observer(nm).map(|matching| matching * d65(nm) / white);
+            (PileLane::new(&at), srgb_from_xyz(xyz))
+        };
+        Self(wavelengths().map(lane).collect())
+    }
+
+    /// sRGB of the light that comes back from a leaf with these contents; white paper is 255.
+    fn colour(&self, contents: &Contents) -> [u8; 3] {
+        let mut rgb = [0.0; 3];
+        for (lane, weights) in &self.0 {
+            let k = lane.absorption_per_plate(contents);
+            let (reflectance, _) = lane.evaluate(k, contents.structure);
+            for (sum, weight) in rgb.iter_mut().zip(weights) {
+                *sum += weight * f64::from(reflectance);
+            }
+        }
+        rgb.map(encoded)
+    }
+}
+
+/// A linear value as sRGB byte.
+fn encoded(linear: f64) -> u8 {
+    let value = if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    };
+    libm::round(255.0 * value.clamp(0.0, 1.0)) as u8
+}
+
+/// The reflectance of each texel under D65 as sRGB, apex up, on white paper.
+pub(super) fn in_daylight(map: &ContentsMap, outline: &Outline) -> Vec<u8> {
+    let daylight = Daylight::new();
+    let frame = UvFrame::around(outline.points());
+    let (width, height) = (map.width as usize, map.height as usize);
+    let mut picture = vec![PAPER; 3 * width * height];
+    let rows = picture.par_chunks_mut(3 * width).enumerate();
+    rows.for_each(|(from_top, pixels)| {
+        let row = height - 1 - from_top;
+        let v = (row as f64 + 0.5) / height as f64;
+        for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
+            let u = (column as f64 + 0.5) / width as f64;
+            if outline.contains(frame.point(DVec2::new(u, v))) {
+                let texel = map.texels[row * width + column];
+                let contents = Contents::from_array(texel.map(f64::from));
+                pixel.copy_from_slice(&daylight.colour(&contents));
+            }
+        }
+    });
+    picture
+}
+
+#[cfg(test)]
+mod tests {
+    use leafmodel::optics::presets::by_name;
+
+    use super::*;
+
+    /// Hue in degrees: 0 red, 60 yellow, 120 green.
+    fn hue([r, g, b]: [u8; 3]) -> f64 {
+        let [r, g, b] = [r, g, b].map(f64::from);
+        let x = r - 0.5 * (g + b);
+        let y = 0.75_f64.sqrt() * (g - b);
+        libm::atan2(y, x).to_degrees()
+    }
+
+    #[test]
+    fn contents_have_the_colours_that_were_computed_from_the_whole_spectrum() {
+        // Of the table in which these contents were chosen; two steps for its wavelengths of 1 nm.
+        let daylight = Daylight::new();
+        for (name, expected) in [
+            ("sun-green", [0x48, 0x5f, 0x33]),
+            ("ginkgo-yellow", [0xc5, 0x95, 0x28]),
+            ("sugar-maple-orange", [0xa5, 0x6e, 0x38]),
+            ("red-maple-scarlet", [0x8b, 0x4a, 0x3d]),
+        ] {
+            let contents = by_name(name).expect("a preset").contents;
+            let found = daylight.colour(&contents);
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!(
+                    found.abs_diff(expected) <= 2,
+                    "{name}: {found:02x} {expected:02x}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn hues_run_from_green_over_yellow_and_orange_to_red() {
+        let daylight = Daylight::new();
+        let hues = [
+            "sun-green",
+            "poplar-yellow",
+            "sugar-maple-orange",
+            "red-maple-scarlet",
+        ]
+        .map(|name| hue(daylight.colour(&by_name(name).expect("a preset").contents)));
+        assert!(
+            hues.windows(2).all(|pair| pair[0] > pair[1] + 5.0),
+            "{hues:?}"
+        );
+    }
+}
