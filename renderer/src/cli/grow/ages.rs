@@ -91,7 +91,7 @@ pub(super) fn write(
     for (number, day) in days(last_day(plan)?, written.count).enumerate() {
         if !outputs.staged.is_empty() {
             let map = painted(day, written.pixels.clamp(16, 8192))?;
-            let picture = in_daylight(&map, &lamina.outline);
+            let picture = in_daylight(&map, &plan.pigments, &lamina.outline);
             let png = portable_network::encoded(map.width, map.height, &picture);
             let png = png.map_err(Failure::bad)?;
             for (path, _) in &outputs.staged {

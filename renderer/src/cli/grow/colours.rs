@@ -4,7 +4,7 @@ use glam::DVec2;
 use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::optics::fast::PileLane;
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::{Contents, Pigments, ProspectD};
 use leafmodel::shape::outline::Outline;
 use rayon::prelude::*;
 
@@ -15,15 +15,15 @@ const STEP_NM: usize = 10;
 /// What surrounds the leaf, as in other drawings.
 const PAPER: u8 = 255;
 
-/// Reflectance to linear sRGB.
+/// Reflectance of leaves with one palette of pigments to linear sRGB.
 struct Daylight(Vec<(PileLane, [f64; 3])>);
 
 impl Daylight {
-    fn new() -> Self {
+    fn new(pigments: &Pigments) -> Self {
         let wavelengths = || (400..=720).step_by(STEP_NM).map(f64::from);
         let white: f64 = wavelengths().map(|nm| d65(nm) * observer(nm)[1]).sum();
         let lane = |nm: f64| {
-            let at = ProspectD::coefficients(nm).expect("the table has visible light");
+            let at = ProspectD::coefficients_of(pigments, nm);
             let xyz = observer(nm).map(|matching| matching * d65(nm) / white);
             (PileLane::new(&at), srgb_from_xyz(xyz))
         };
@@ -55,8 +55,8 @@ fn encoded(linear: f64) -> u8 {
 }
 
 /// The reflectance of each texel under D65 as sRGB, apex up, on white paper.
-pub(super) fn in_daylight(map: &ContentsMap, outline: &Outline) -> Vec<u8> {
-    let daylight = Daylight::new();
+pub(super) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outline) -> Vec<u8> {
+    let daylight = Daylight::new(pigments);
     let frame = UvFrame::around(outline.points());
     let (width, height) = (map.width as usize, map.height as usize);
     let mut picture = vec![PAPER; 3 * width * height];
@@ -78,6 +78,7 @@ pub(super) fn in_daylight(map: &ContentsMap, outline: &Outline) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::optics::pigments::AnthocyaninMix;
     use leafmodel::optics::presets::by_name;
 
     use super::*;
@@ -93,7 +94,7 @@ mod tests {
     #[test]
     fn contents_have_the_colours_that_were_computed_from_the_whole_spectrum() {
         // Of the table in which these contents were chosen; two steps for its wavelengths of 1 nm.
-        let daylight = Daylight::new();
+        let daylight = Daylight::new(&Pigments::default());
         for (name, expected) in [
             ("sun-green", [0x48, 0x5f, 0x33]),
             ("ginkgo-yellow", [0xc5, 0x95, 0x28]),
@@ -112,8 +113,27 @@ mod tests {
     }
 
     #[test]
+    fn anthocyanins_in_their_blue_form_turn_a_red_leaf_purple() {
+        let blue = Pigments {
+            anthocyanins: AnthocyaninMix::Aglycones {
+                shares: [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+                shift_nm: 0.0,
+                blue_fraction: 1.0,
+            },
+            ..Pigments::default()
+        };
+        let contents = by_name("red-maple-scarlet").expect("a preset").contents;
+        let [red, purple] =
+            [Pigments::default(), blue].map(|pigments| Daylight::new(&pigments).colour(&contents));
+        assert!(
+            purple[0] < red[0] && purple[2] > red[2],
+            "{red:?} {purple:?}"
+        );
+    }
+
+    #[test]
     fn hues_run_from_green_over_yellow_and_orange_to_red() {
-        let daylight = Daylight::new();
+        let daylight = Daylight::new(&Pigments::default());
         let hues = [
             "sun-green",
             "poplar-yellow",
