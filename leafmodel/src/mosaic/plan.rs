@@ -38,7 +38,7 @@ pub enum RadiusRule {
 ///
 /// # Source
 ///
-/// The paper on clonal mosaics of plants gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
+/// \[binsfeld2011\] gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
 /// relaxations a day, adhesion 0 between types) has the values that the authors' program starts with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MosaicPlan {
