@@ -42,6 +42,13 @@ fn folder() -> TempDir {
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\
          <path id=\"bow\" d=\"M50 90L90 90L10 20L70 10Z\"/><path id=\"ring\" d=\"M0 0H9V9ZM1 1H2V2Z\"/></svg>",
     );
+    // A tetrahedron, and three faces at one edge.
+    let corners = "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n";
+    let body = format!("{corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    write("body.obj", &body);
+    let branched = format!("{corners}v 5 5 1\nf 1 2 4\nf 4 3 1\nf 1 5 4\n");
+    write("branched.obj", &branched);
+    write("no_faces.obj", corners);
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
 }

@@ -21,6 +21,8 @@ use crate::optics::Contents;
 
 /// Texels around each chart of the map.
 const GUTTER: u32 = 3;
+/// Rows of the map that are painted at once.
+const BAND: usize = 128;
 /// Edges where there is no mosaic, over the root of the area.
 const PLAIN_EDGE: f64 = 0.02;
 
@@ -62,6 +64,14 @@ pub enum SolidError {
     /// Its shape.
     #[error("shape: {0}")]
     Shape(#[from] ShapeError),
+    /// A body too slender, or with too many cells, for its triangles.
+    #[error(
+        "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, or give its mosaic fewer cells"
+    )]
+    TooFine {
+        /// How many it would take.
+        triangles: f64,
+    },
     /// Its surface.
     #[error("shape: {0}")]
     Surface(#[from] SurfaceError),
@@ -99,7 +109,12 @@ impl Solid {
             .as_ref()
             .map_or(f64::INFINITY, |pattern| pattern.edge_mm(area))
             .min(PLAIN_EDGE * area.sqrt());
-        let shape = plan.shape.triangles(edge_mm)?;
+        let shape = plan.shape.triangles(edge_mm);
+        if let Err(ShapeError::TooFine { triangles }) = shape {
+            // Of edges a plan says nothing.
+            return Err(SolidError::TooFine { triangles });
+        }
+        let shape = shape?;
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };
@@ -107,21 +122,24 @@ impl Solid {
         let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
         let texels = atlas.texels();
-        let painted = field.paint(
-            (0..texels * texels)
-                .into_par_iter()
-                .map(|texel| atlas.shown(texel % texels, texel / texels)),
-            &pattern.contents,
-        );
         let texel = |contents: Option<Contents>| {
             let contents = contents.unwrap_or(plan.contents);
             contents.to_array().map(|value| value as f32)
         };
-        let contents = ContentsMap {
+        let mut contents = ContentsMap {
             width: texels,
             height: texels,
-            texels: painted.into_iter().map(texel).collect(),
+            texels: Vec::with_capacity(texels as usize * texels as usize),
         };
+        // Band by band: in double precision all of it would take twice the memory of the map.
+        for band in (0..texels).step_by(BAND) {
+            let rows = band * texels..(band + BAND as u32).min(texels) * texels;
+            let shown = rows
+                .into_par_iter()
+                .map(|texel| atlas.shown(texel % texels, texel / texels));
+            let painted = field.paint(shown, &pattern.contents);
+            contents.texels.extend(painted.into_iter().map(texel));
+        }
         let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangles = Vec::with_capacity(shape.faces.len());
         // A point has as many vertices as charts meet in it.

@@ -2,13 +2,16 @@
 
 pub mod contents_texture;
 pub mod leaf;
+pub mod solid;
 
 use glam::Vec2;
+use leafmodel::optics::Contents;
 
 use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
 use crate::spectrum::{Curve, Wavelengths};
 use leaf::{LeafMaterial, LeafOptics};
+use solid::SolidMaterial;
 
 /// The materials, a closed set.
 #[derive(Clone, Debug)]
@@ -19,6 +22,8 @@ pub enum Material {
     Dielectric(Dielectric),
     /// A leaf.
     Leaf(Box<LeafMaterial>),
+    /// Solid tissue: fruit rind, a mushroom's cap.
+    Solid(Box<SolidMaterial>),
 }
 
 /// What a path works out once for its wavelengths and uses at every hit.
@@ -43,6 +48,11 @@ impl<const N: usize> PathSpectra<N> {
         self.optics
             .get_or_insert_with(|| LeafOptics::new(&self.wavelengths))
     }
+
+    /// What contents absorb in all at each of the wavelengths, `Σ C K`, ≥ 0.
+    fn absorption(&mut self, contents: &Contents) -> [f64; N] {
+        self.optics().absorption(contents)
+    }
 }
 
 impl Material {
@@ -52,6 +62,7 @@ impl Material {
             Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.lanes(&spectra.wavelengths)),
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
             Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf(uv, spectra)),
+            Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(uv, spectra)),
         }
     }
 }

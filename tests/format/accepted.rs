@@ -4,11 +4,12 @@ use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
 use leafmodel::shape::growth::RateCurve;
+use leafmodel::solid::SolidShape;
 use leafmodel::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
 };
 use renderer::scene::description::{
-    Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
+    Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, SolidTissue, Spectrum, Tone,
 };
 
 use leafmodel::compound::{Arrangement, Feather};
@@ -112,7 +113,10 @@ fn names_become_indices_in_the_order_of_the_file() {
         .iter()
         .map(|material| material.name.as_str())
         .collect();
-    assert_eq!(names, ["paper", "glass", "green", "mapped", "measured"]);
+    let expected = [
+        "paper", "glass", "green", "mapped", "measured", "rind", "flesh",
+    ];
+    assert_eq!(names, expected);
     let shapes: Vec<ObjectShape> = scene
         .objects
         .iter()
@@ -129,7 +133,9 @@ fn names_become_indices_in_the_order_of_the_file() {
             leaf(1),
             mesh(2, 2),
             mesh(0, 3),
-            mesh(0, 4)
+            mesh(0, 4),
+            ObjectShape::Solid { solid: 0 },
+            ObjectShape::Solid { solid: 4 },
         ]
     );
     assert!(matches!(
@@ -213,6 +219,73 @@ fn spectra_are_read_in_every_form() {
             ..
         }
     ));
+}
+
+#[test]
+fn bodies_of_solid_tissue_are_planned_as_written() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let solid = |number: usize| &scene.solids[number].value;
+    let melon = solid(0);
+    assert_eq!((melon.plan.seed, melon.plan.map_size), (3, 256));
+    let optics = melon.optics;
+    assert_eq!(
+        (
+            optics.tissue.depth_mm,
+            optics.tissue.scattering_per_mm,
+            optics.tissue.eta
+        ),
+        (2.0, 1.0, 1.36)
+    );
+    // The coat's index is the tissue's where it says nothing.
+    assert_eq!((optics.coat.eta, optics.coat.alpha_along), (1.36, 0.2));
+    let held = melon.plan.contents;
+    assert_eq!(
+        (
+            held.structure,
+            held.chlorophyll,
+            held.carotenoids,
+            held.water
+        ),
+        (1.0, 7.0, 0.0, 0.09)
+    );
+    let mosaic = melon.plan.mosaic.as_ref().expect("it has a mosaic");
+    assert_eq!(
+        (mosaic.contents[0].chlorophyll, mosaic.contents[0].water),
+        (60.0, 0.09)
+    );
+    let axes = |x, y, z| SolidShape::Ellipsoid {
+        semi_axes_mm: DVec3::new(x, y, z),
+    };
+    assert_eq!(melon.plan.shape, axes(115.0, 110.0, 100.0));
+    assert_eq!(solid(1).plan.shape, axes(20.0, 20.0, 20.0));
+    assert_eq!(solid(1).optics.tissue.eta, solid(1).optics.coat.eta);
+    let dice = SolidShape::RoundedCube {
+        side_mm: 20.0,
+        corner_radius_mm: 5.0,
+    };
+    assert_eq!(solid(2).plan.shape, dice);
+    assert!(
+        matches!(&solid(3).plan.shape, SolidShape::Lathe { profile_mm } if profile_mm.len() == 4)
+    );
+    let SolidShape::Mesh(stone) = &solid(4).plan.shape else {
+        panic!("the shape is {:?}", solid(4).plan.shape);
+    };
+    assert_eq!((stone.file.as_str(), stone.scale_mm), ("body.obj", 2.0));
+    assert!(stone.shape.positions.contains(&DVec3::new(20.0, 0.0, 0.0)));
+    assert!(
+        stone
+            .shape
+            .normals
+            .iter()
+            .all(|n| (n.length() - 1.0).abs() < 1e-12)
+    );
+    let Material::Solid { tissue, optics } = &scene.materials[5].value else {
+        panic!("rind is {:?}", scene.materials[5].value);
+    };
+    assert!(
+        matches!(tissue, SolidTissue::Contents { contents, extrapolate: true } if contents.betaxanthins == 1.0)
+    );
+    assert_eq!((optics.tissue.depth_mm, optics.coat.eta), (0.5, 1.33));
 }
 
 #[test]

@@ -99,8 +99,12 @@ impl Solid {
 
     /// `a = µs' / (µs' + µa)`, in (0, 1].
     pub fn albedo(&self, absorption: &SpecificAbsorption, contents: &Contents) -> f64 {
-        let absorbed = self.absorption_per_mm(absorption, contents);
-        self.scattering_per_mm / (self.scattering_per_mm + absorbed)
+        self.albedo_of(absorption.of_leaf(contents))
+    }
+
+    /// `a` of contents that absorb `whole = Σᵢ Cᵢ Kᵢ(λ)` in all.
+    pub fn albedo_of(&self, whole: f64) -> f64 {
+        self.scattering_per_mm / (self.scattering_per_mm + whole / self.depth_mm)
     }
 }
 

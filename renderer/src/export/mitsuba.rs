@@ -1,6 +1,6 @@
 //! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and what the comparison wants to know.
 //!
-//! Leaves become the plugin `lamina_leaf`, which `reference/` registers; everything else is Mitsuba's own. The sun's
+//! Leaves become the plugin `lamina_leaf`, solid tissue `lamina_solid`; `reference/` registers both. Everything else is Mitsuba's own. The sun's
 //! disc becomes a disk emitter so far away that irradiance differs by 2e-5 over the scene.
 //! Environment pictures are upsampled to spectra by Mitsuba's own method, so scenes with one cannot be
 //! compared band by band.
@@ -22,6 +22,7 @@ use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::Material;
 use crate::material::contents_texture::{CHANNELS, ContentsTexture};
 use crate::material::leaf::LeafTissue;
+use crate::material::solid::SolidTissue;
 use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
 
@@ -131,9 +132,18 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         }
     }
     for (number, material) in world.materials.iter().enumerate() {
-        if let Material::Leaf(leaf) = material
-            && let LeafTissue::Map(map) = &leaf.tissue
-        {
+        let map = match material {
+            Material::Leaf(leaf) => match &leaf.tissue {
+                LeafTissue::Map(map) => Some(map),
+                LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => None,
+            },
+            Material::Solid(solid) => match solid.tissue() {
+                SolidTissue::Map(map) => Some(map),
+                SolidTissue::Uniform(_) => None,
+            },
+            Material::Diffuse(_) | Material::Dielectric(_) => None,
+        };
+        if let Some(map) = map {
             let path = folder.join(format!(
                 "maps/{}.exr",
                 xml::material_id(scene, world, number)

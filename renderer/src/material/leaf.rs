@@ -59,6 +59,17 @@ impl<const N: usize> LeafOptics<N> {
         let (reflectance, transmittance) = PileLane::evaluate_lanes(&self.lanes, contents);
         (Lanes(reflectance), Lanes(transmittance))
     }
+
+    /// What contents absorb in all, `Σ C K`.
+    pub fn absorption(&self, contents: &Contents) -> [f64; N] {
+        let whole = Contents {
+            structure: 1.0,
+            ..*contents
+        };
+        self.lanes
+            .each_ref()
+            .map(|lane| lane.absorption_per_plate(&whole))
+    }
 }
 
 /// First and last whole nanometre of PROSPECT's table.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use glam::{DMat4, DVec3};
 use leafmodel::leaf::LeafPlan;
+use leafmodel::solid::SolidPlan;
 
 /// A whole scene.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ pub struct Description {
     pub meshes: Vec<Named<Mesh>>,
     /// Leaves that are grown, in the file's order.
     pub leaves: Vec<Named<Leaf>>,
+    /// Bodies of solid tissue that are grown, in the file's order.
+    pub solids: Vec<Named<Solid>>,
     /// Lights, in the file's order.
     pub lights: Vec<Named<Light>>,
     /// What stands in the scene.
@@ -178,6 +181,41 @@ pub enum Material {
         /// Adaxial and abaxial coat.
         coats: [Coat; 2],
     },
+    /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
+    Solid {
+        /// What it holds.
+        tissue: SolidTissue,
+        /// What becomes of light in it.
+        optics: SolidOptics,
+    },
+}
+
+/// What solid tissue holds per area of its surface.
+#[derive(Clone, Debug)]
+pub enum SolidTissue {
+    /// The same everywhere.
+    Contents {
+        /// The contents.
+        contents: leafmodel::optics::Contents,
+        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+        extrapolate: bool,
+    },
+    /// Contents read from a map, as those of a leaf.
+    Map {
+        /// The map's file, resolved and inside the scene's folder.
+        file: PathBuf,
+        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+        extrapolate: bool,
+    },
+}
+
+/// What becomes of light in solid tissue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidOptics {
+    /// Depth, scattering and refractive index, in range.
+    pub tissue: leafmodel::optics::solid::Solid,
+    /// The skin's surface, the same in all directions.
+    pub coat: Coat,
 }
 
 /// What decides a leaf's R and T.
@@ -257,6 +295,17 @@ pub struct Leaf {
     pub extrapolate: bool,
 }
 
+/// A grown body of solid tissue: mesh and map of contents.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// What leafmodel grows.
+    pub plan: SolidPlan,
+    /// What becomes of light in it.
+    pub optics: SolidOptics,
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub extrapolate: bool,
+}
+
 /// A light.
 #[derive(Clone, Debug)]
 pub enum Light {
@@ -294,7 +343,7 @@ pub enum Light {
     },
 }
 
-/// A mesh or leaf put into the scene.
+/// A mesh, leaf or body put into the scene.
 #[derive(Clone, Debug)]
 pub struct Object {
     /// What it is.
@@ -317,5 +366,10 @@ pub enum ObjectShape {
     Leaf {
         /// Index into [`Description::leaves`].
         leaf: usize,
+    },
+    /// A grown body of solid tissue, in the frame of its shape.
+    Solid {
+        /// Index into [`Description::solids`].
+        solid: usize,
     },
 }

@@ -29,6 +29,7 @@ mod path;
 mod petiole;
 mod reader;
 mod senescence;
+mod solid;
 mod spectrum;
 mod table_file;
 pub(crate) mod tree;
@@ -37,6 +38,7 @@ mod venation;
 pub(crate) mod write;
 mod write_compound;
 pub(crate) mod write_leaf;
+pub(crate) mod write_solid;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -81,11 +83,13 @@ pub(crate) fn read(
         meshes: Names::of(&root, "meshes", "mesh"),
         materials: Names::of(&root, "materials", "material"),
         leaves: Names::of(&root, "leaves", "leaf"),
+        solids: Names::of(&root, "solids", "solid"),
     };
     let object_names = Names::of(&root, "objects", "object");
     let materials = read_section(&root, "materials", material::read_material);
     let meshes = read_section(&root, "meshes", mesh::read_mesh);
     let leaves = read_section(&root, "leaves", leaf::read_leaf);
+    let solids = read_section(&root, "solids", solid::read_solid);
     let lights = read_section(&root, "lights", |block| {
         light::read_light(block, &object_names)
     });
@@ -113,6 +117,7 @@ pub(crate) fn read(
         materials: all(materials)?,
         meshes: all(meshes)?,
         leaves: all(leaves)?,
+        solids: all(solids)?,
         lights: all(lights)?,
         objects: all(objects)?,
     };
@@ -215,12 +220,14 @@ fn check_shining(
         let Some(Light::Area { object, .. }) = light.value else {
             continue;
         };
-        let is_leaf = objects
+        let shape = objects
             .get(object)
             .and_then(|object| object.value.as_ref())
-            .is_some_and(|object| matches!(object.shape, ObjectShape::Leaf { .. }));
-        let problem = if is_leaf {
+            .map(|object| object.shape);
+        let problem = if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
+        } else if matches!(shape, Some(ObjectShape::Solid { .. })) {
+            "is a body of solid tissue, and those do not shine"
         } else if shining.insert(object) {
             continue;
         } else {
@@ -249,20 +256,25 @@ fn warn_of_the_unused(root: &Block<'_>, description: &Description) {
     };
     let meshes = used(|shape| match shape {
         ObjectShape::Mesh { mesh, .. } => Some(*mesh),
-        ObjectShape::Leaf { .. } => None,
+        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
     });
     let materials = used(|shape| match shape {
         ObjectShape::Mesh { material, .. } => Some(*material),
-        ObjectShape::Leaf { .. } => None,
+        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
     });
     let leaves = used(|shape| match shape {
         ObjectShape::Leaf { leaf } => Some(*leaf),
-        ObjectShape::Mesh { .. } => None,
+        ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
+    });
+    let solids = used(|shape| match shape {
+        ObjectShape::Solid { solid } => Some(*solid),
+        ObjectShape::Mesh { .. } | ObjectShape::Leaf { .. } => None,
     });
     for (section, kind, used) in [
         ("meshes", "mesh", meshes),
         ("materials", "material", materials),
         ("leaves", "leaf", leaves),
+        ("solids", "solid", solids),
     ] {
         let entries = root.table.get(section).and_then(|entry| entry.node.table());
         for (index, entry) in entries

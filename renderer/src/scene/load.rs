@@ -11,11 +11,11 @@ use std::sync::Arc;
 use leafmodel::leaf::LeafPlan;
 use toml::de::DeTable;
 
-use super::description::{Description, Leaf, Named};
+use super::description::{Description, Leaf, Named, Solid};
 use super::document::context::{Context, QUOTED};
 use super::document::names::is_name;
 use super::document::tree::Table;
-use super::document::{overrides, read, read_leaves, write, write_leaf};
+use super::document::{overrides, read, read_leaves, write, write_leaf, write_solid};
 use super::error::{LocatedError, SceneError};
 use super::report::{SceneErrors, Warning};
 use super::source::{Place, Sources, escaped, line_of_byte};
@@ -82,6 +82,12 @@ pub fn parse_leaves(
 /// A plan with numbers that no scene may have gives a file that is refused when it is read.
 pub fn leaf_to_toml(name: &str, plan: &LeafPlan) -> String {
     write_leaf::to_toml(name, plan)
+}
+
+/// A block `[solids.NAME]` after `format = 1`, which reads back to the same body where the mesh and the pictures that it names
+/// are. Keys are left out where they have their default, and always come in the same order.
+pub fn solid_to_toml(name: &str, solid: &Solid) -> String {
+    write_solid::to_toml(name, solid)
 }
 
 /// Reads a scene from its text.

@@ -1,14 +1,19 @@
-//! The seam to leafmodel: grown leaves become meshes and materials, millimetres become metres.
+//! The seam to leafmodel: grown leaves and bodies become meshes and materials, millimetres become metres.
+
+use std::sync::Arc;
 
 use glam::{DAffine3, Vec2};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::{CompoundError, WholeLeaf};
 use leafmodel::leaf::{Leaf, LeafError};
+use leafmodel::optics::solid::ReflectanceTable;
+use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
 
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::solid::{SolidMaterial, SolidTissue};
 use crate::scene::description;
 use crate::scene::world::build_coat;
 use crate::spectrum::Curve;
@@ -47,6 +52,44 @@ pub enum PlantError {
     /// The blade's mesh is refused.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+}
+
+/// Why a body of solid tissue cannot be grown.
+#[derive(Debug, Error)]
+pub enum SolidError {
+    /// The plan cannot be carried out.
+    #[error(transparent)]
+    Growth(#[from] GrowthError),
+    /// Its mesh is refused.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// Grows a body of solid tissue, in the frame of its shape; `table` is that of its refractive index.
+///
+/// # Errors
+///
+/// [`SolidError`] if the plan cannot be carried out.
+pub fn grow_solid(
+    solid: &description::Solid,
+    table: Arc<ReflectanceTable>,
+) -> Result<(TriangleMesh, SolidMaterial), SolidError> {
+    let grown = Solid::grow(&solid.plan, &|| false)?;
+    let mesh = TriangleMesh::new(
+        metres(&grown.positions),
+        Some(directions(&grown.normals)),
+        Some(grown.uvs.iter().map(|uv| uv.as_vec2()).collect()),
+        grown.triangles,
+    )?;
+    let map = grown.contents;
+    let tissue = SolidTissue::Map(ContentsTexture::new(
+        map.width as usize,
+        map.height as usize,
+        map.texels,
+    ));
+    let optics = solid.optics;
+    let material = SolidMaterial::new(tissue, optics.tissue, table, build_coat(optics.coat));
+    Ok((mesh, material))
 }
 
 /// Grows a leaf.

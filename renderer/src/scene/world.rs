@@ -1,8 +1,11 @@
 //! The finished scene: immutable, shared by every thread.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use glam::{DMat4, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat4, DVec3, Vec2, Vec3};
+use leafmodel::optics::solid::ReflectanceTable;
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::bsdf::dielectric::Dielectric;
@@ -17,9 +20,10 @@ use crate::light::environment::EnvironmentLight;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
 use crate::scene::assets::{self, AssetError};
 use crate::scene::description::{self, Description, FilmKind, ObjectShape};
-use crate::scene::plants::{self, Piece, PlantError};
+use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::wavelengths::VisibleDistribution;
 use crate::spectrum::{Curve, WavelengthSampler};
 
@@ -30,7 +34,7 @@ pub struct World {
     pub geometry: Geometry,
     /// What each instance is made of and whether it shines.
     pub objects: Vec<WorldObject>,
-    /// Materials: the scene's, then those of each grown leaf.
+    /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
     /// Whose each material is.
     pub owners: Vec<MaterialOwner>,
@@ -62,6 +66,8 @@ pub enum MaterialOwner {
         /// Which of its materials.
         part: usize,
     },
+    /// That of the body of solid tissue with this number.
+    Solid(usize),
 }
 
 /// An instance as paths see it.
@@ -112,6 +118,14 @@ pub enum WorldError {
         /// Why.
         source: Box<PlantError>,
     },
+    /// A body of solid tissue cannot be grown.
+    #[error("solids.{name}: {source}")]
+    Solid {
+        /// Name in the scene.
+        name: String,
+        /// Why.
+        source: Box<SolidError>,
+    },
     /// The geometry as a whole cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
@@ -143,19 +157,26 @@ impl World {
         }
         let wavelengths = wavelength_sampler(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
-        let mut materials = Vec::new();
+        let (mut materials, mut tables) = (Vec::new(), ReflectanceTables::default());
         for material in &scene.materials {
-            materials.push(build_material(&material.name, &material.value)?);
+            materials.push(build_material(
+                &material.name,
+                &material.value,
+                &mut tables,
+            )?);
         }
+        let tables: Vec<_> = scene
+            .solids
+            .iter()
+            .map(|solid| tables.of(solid.value.optics.tissue.eta))
+            .collect();
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
+        let (grown_leaves, grown_solids) =
+            rayon::join(|| grow_leaves(scene), || grow_solids(scene, tables));
         // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
-        for (number, leaf) in scene.leaves.iter().enumerate() {
-            let grown = plants::grow(&leaf.value).map_err(|source| WorldError::Plant {
-                name: leaf.name.clone(),
-                source: Box::new(source),
-            })?;
+        for (number, grown) in grown_leaves?.into_iter().enumerate() {
             let pieces = grown.pieces.into_iter().map(|piece| Piece {
                 mesh: meshes.len() + piece.mesh,
                 material: materials.len() + piece.material,
@@ -169,8 +190,19 @@ impl World {
                 materials.push(Material::Leaf(Box::new(material)));
             }
         }
+        let mut solids = Vec::new();
+        for (number, (mesh, material)) in grown_solids?.into_iter().enumerate() {
+            solids.push(Piece {
+                mesh: meshes.len(),
+                material: materials.len(),
+                to_leaf: DAffine3::IDENTITY,
+            });
+            meshes.push(mesh);
+            owners.push(MaterialOwner::Solid(number));
+            materials.push(Material::Solid(Box::new(material)));
+        }
         notes.extend(notes_on_coats(scene, &materials, &owners, range_nm));
-        let (instances, mut objects) = place(scene, &leaves);
+        let (instances, mut objects) = place(scene, &leaves, &solids);
         let mut lights = Vec::new();
         for (number, light) in scene.lights.iter().enumerate() {
             if let description::Light::Area { object, .. } = light.value {
@@ -206,7 +238,32 @@ impl World {
     }
 }
 
-/// Tells of leaves whose coat reflects more than the whole leaf should, each leaf once.
+/// Grows the scene's leaves.
+fn grow_leaves(scene: &Description) -> Result<Vec<plants::GrownLeaf>, WorldError> {
+    let grown = scene.leaves.iter().map(|leaf| {
+        plants::grow(&leaf.value).map_err(|source| WorldError::Plant {
+            name: leaf.name.clone(),
+            source: Box::new(source),
+        })
+    });
+    grown.collect()
+}
+
+/// Grows the scene's bodies of solid tissue, each with the table of its refractive index.
+fn grow_solids(
+    scene: &Description,
+    tables: Vec<Arc<ReflectanceTable>>,
+) -> Result<Vec<(TriangleMesh, SolidMaterial)>, WorldError> {
+    let grown = scene.solids.par_iter().zip(tables).map(|(solid, table)| {
+        plants::grow_solid(&solid.value, table).map_err(|source| WorldError::Solid {
+            name: solid.name.clone(),
+            source: Box::new(source),
+        })
+    });
+    grown.collect()
+}
+
+/// Tells of leaves and solid tissue whose coat reflects more than the whole should, each once.
 fn notes_on_coats(
     scene: &Description,
     materials: &[Material],
@@ -215,21 +272,32 @@ fn notes_on_coats(
 ) -> Vec<String> {
     let mut notes: Vec<(String, String)> = Vec::new();
     for (material, owner) in materials.iter().zip(owners) {
-        if let Material::Leaf(leaf) = material
-            && let Some(nm) = leaf.coat_exceeds_reflectance(range_nm)
-        {
+        let (exceeds, what) = match material {
+            Material::Leaf(leaf) => {
+                let what = ["the adaxial coat", "the leaf"];
+                (leaf.coat_exceeds_reflectance(range_nm), what)
+            }
+            Material::Solid(solid) => {
+                let what = ["the coat", "the solid tissue"];
+                (solid.coat_exceeds_reflectance(range_nm), what)
+            }
+            Material::Diffuse(_) | Material::Dielectric(_) => continue,
+        };
+        let [coat, whole] = what;
+        if let Some(nm) = exceeds {
             let name = match owner {
                 MaterialOwner::Scene(number) => {
                     format!("materials.{}", scene.materials[*number].name)
                 }
                 MaterialOwner::Leaf { leaf, .. } => format!("leaves.{}", scene.leaves[*leaf].name),
+                MaterialOwner::Solid(solid) => format!("solids.{}", scene.solids[*solid].name),
             };
             if notes.last().is_some_and(|(before, _)| *before == name) {
                 continue;
             }
             let note = format!(
-                "{name}: at {nm} nm the adaxial coat alone reflects more than the leaf should; \
-                 the leaf reflects the coat's share there (lower the coat's eta)"
+                "{name}: at {nm} nm {coat} alone reflects more than {whole} should; \
+                 {whole} reflects the coat's share there (lower the coat's eta)"
             );
             notes.push((name, note));
         }
@@ -238,7 +306,11 @@ fn notes_on_coats(
 }
 
 /// Instances, and what they are: one of each object, in their order, then the other parts of leaves.
-fn place(scene: &Description, leaves: &[Vec<Piece>]) -> (Vec<Instance>, Vec<WorldObject>) {
+fn place(
+    scene: &Description,
+    leaves: &[Vec<Piece>],
+    solids: &[Piece],
+) -> (Vec<Instance>, Vec<WorldObject>) {
     let (mut instances, mut objects) = (Vec::new(), Vec::new());
     let mut put = |object: usize, mesh: usize, material: usize, to_world: DMat4| {
         instances.push(Instance {
@@ -267,6 +339,7 @@ fn place(scene: &Description, leaves: &[Vec<Piece>]) -> (Vec<Instance>, Vec<Worl
                 put_piece(&mut put, number, first);
                 rest.extend(others.iter().map(|piece| (number, piece)));
             }
+            ObjectShape::Solid { solid } => put_piece(&mut put, number, &solids[solid]),
         }
     }
     for (number, piece) in rest {
@@ -361,7 +434,17 @@ fn sphere(radius: f64, segments: u32) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(positions, Some(normals), Some(uvs), triangles)
 }
 
-fn build_material(name: &str, material: &description::Material) -> Result<Material, WorldError> {
+fn build_material(
+    name: &str,
+    material: &description::Material,
+    tables: &mut ReflectanceTables,
+) -> Result<Material, WorldError> {
+    let contents_map = |file| {
+        assets::contents_map(file).map_err(|source| WorldError::Asset {
+            place: format!("materials.{name}"),
+            source,
+        })
+    };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
             Material::Diffuse(Curve::from_description(reflectance))
@@ -379,14 +462,7 @@ fn build_material(name: &str, material: &description::Material) -> Result<Materi
                 description::LeafTissue::Contents { contents, .. } => {
                     LeafTissue::Uniform(*contents)
                 }
-                description::LeafTissue::Map { file, .. } => {
-                    LeafTissue::Map(assets::contents_map(file).map_err(|source| {
-                        WorldError::Asset {
-                            place: format!("materials.{name}"),
-                            source,
-                        }
-                    })?)
-                }
+                description::LeafTissue::Map { file, .. } => LeafTissue::Map(contents_map(file)?),
                 description::LeafTissue::Measured {
                     reflectance,
                     transmittance,
@@ -400,6 +476,21 @@ fn build_material(name: &str, material: &description::Material) -> Result<Materi
                 abaxial_ratio: Curve::from_description(abaxial_ratio),
                 coats: coats.map(build_coat),
             }))
+        }
+        description::Material::Solid { tissue, optics } => {
+            let tissue = match tissue {
+                description::SolidTissue::Contents { contents, .. } => {
+                    SolidTissue::Uniform(*contents)
+                }
+                description::SolidTissue::Map { file, .. } => SolidTissue::Map(contents_map(file)?),
+            };
+            let table = tables.of(optics.tissue.eta);
+            Material::Solid(Box::new(SolidMaterial::new(
+                tissue,
+                optics.tissue,
+                table,
+                build_coat(optics.coat),
+            )))
         }
     })
 }

@@ -10,7 +10,9 @@ use leafmodel::optics::Contents;
 
 use crate::camera;
 use crate::material;
-use crate::scene::description::{Coat, Description, LeafTissue, Light, Material, Named, Spectrum};
+use crate::scene::description::{
+    Coat, Description, LeafTissue, Light, Material, Named, SolidOptics, SolidTissue, Spectrum,
+};
 use crate::scene::world::{MaterialOwner, World};
 
 use super::spectra::{self, Spectra};
@@ -35,6 +37,7 @@ pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> 
             // A point is in no name of a scene.
             format!("leaf-{}.{}", scene.leaves[leaf].name, part + 1)
         }
+        MaterialOwner::Solid(solid) => format!("solid-{}", scene.solids[solid].name),
     }
 }
 
@@ -162,11 +165,15 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
                 material::leaf::LeafTissue::Map(_)
                 | material::leaf::LeafTissue::Measured { .. } => map_tissue(&id, leaf.extrapolate),
             },
-            crate::material::Material::Diffuse(_) | crate::material::Material::Dielectric(_) => {
-                String::new()
-            }
+            crate::material::Material::Diffuse(_)
+            | crate::material::Material::Dielectric(_)
+            | crate::material::Material::Solid(_) => String::new(),
         };
         return leaf_bsdf(&id, &tissue, &leaf.abaxial_ratio, &leaf.coats, spectra);
+    }
+    if let MaterialOwner::Solid(solid) = world.owners[material] {
+        let solid = &scene.solids[solid].value;
+        return solid_bsdf(&id, &map_tissue(&id, solid.extrapolate), &solid.optics);
     }
     match &scene.materials[material].value {
         Material::Diffuse { reflectance } => format!(
@@ -211,6 +218,16 @@ fn bsdf(scene: &Description, world: &World, material: usize, spectra: &mut Spect
             };
             leaf_bsdf(&id, &tissue, abaxial_ratio, coats, spectra)
         }
+        Material::Solid { tissue, optics } => {
+            let tissue = match tissue {
+                SolidTissue::Contents {
+                    contents,
+                    extrapolate,
+                } => uniform_tissue(contents, *extrapolate),
+                SolidTissue::Map { extrapolate, .. } => map_tissue(&id, *extrapolate),
+            };
+            solid_bsdf(&id, &tissue, optics)
+        }
     }
 }
 
@@ -251,6 +268,20 @@ fn leaf_bsdf(
         xml += &number(&format!("{face}_alpha_along"), coat.alpha_along);
     }
     xml + "  " + &spectra.element("abaxial_ratio", abaxial_ratio, 1.0) + "</bsdf>\n"
+}
+
+fn solid_bsdf(id: &str, tissue: &str, optics: &SolidOptics) -> String {
+    let mut xml = format!("<bsdf type=\"lamina_solid\" id=\"{id}\">\n{tissue}");
+    for (name, value) in [
+        ("depth_mm", optics.tissue.depth_mm),
+        ("scattering_per_mm", optics.tissue.scattering_per_mm),
+        ("eta", optics.tissue.eta),
+        ("coat_eta", optics.coat.eta),
+        ("coat_alpha", optics.coat.alpha_across),
+    ] {
+        xml += &number(name, value);
+    }
+    xml + "</bsdf>\n"
 }
 
 fn shape(scene: &Description, world: &World, number: usize, spectra: &mut Spectra) -> String {

@@ -1,10 +1,11 @@
-//! `[materials.NAME.…]`: diffuse, dielectric, leaf; and the surface that grown leaves share with
-//! the last.
+//! `[materials.NAME.…]`: diffuse, dielectric, leaf, solid; and the surface that grown leaves share with
+//! those.
 
 use super::contents::read_contents;
 use super::limits::Limits;
 use super::path::{Wanted, resolve};
 use super::reader::Block;
+use super::solid::read_solid_material;
 use super::spectrum::{Role, read_spectrum, read_spectrum_or, require_prospect};
 use crate::scene::description::{Coat, LeafTissue, Material, Spectrum};
 use crate::scene::error::SceneError;
@@ -21,7 +22,7 @@ const ABAXIAL_RATIO: [(f64, f64); 4] = [(450.0, 1.74), (550.0, 1.55), (680.0, 1.
 
 /// Reads one block of `[materials]`.
 pub(crate) fn read_material(section: &Block<'_>) -> Option<Material> {
-    let (variant, block) = section.variant(&["diffuse", "dielectric", "leaf"])?;
+    let (variant, block) = section.variant(&["diffuse", "dielectric", "leaf", "solid"])?;
     let material = match variant {
         "diffuse" => read_spectrum(&block, "reflectance", Role::Share)
             .map(|reflectance| Material::Diffuse { reflectance }),
@@ -30,7 +31,8 @@ pub(crate) fn read_material(section: &Block<'_>) -> Option<Material> {
             let roughness = block.number_or("roughness", Limits::closed(0.0, 1.0), 0.0);
             Some(Material::Dielectric { eta, roughness })
         }
-        _ => read_leaf(&block),
+        "leaf" => read_leaf(&block),
+        _ => read_solid_material(&block),
     };
     block.finish();
     material
@@ -64,7 +66,7 @@ fn read_leaf(block: &Block<'_>) -> Option<Material> {
     })
 }
 
-fn read_map(block: &Block<'_>) -> Option<std::path::PathBuf> {
+pub(super) fn read_map(block: &Block<'_>) -> Option<std::path::PathBuf> {
     let wanted = Wanted {
         endings: &["exr"],
         most_bytes: MOST_MAP_BYTES,

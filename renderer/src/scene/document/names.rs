@@ -72,7 +72,7 @@ impl<'a> Names<'a> {
 }
 
 /// All keys at the top of a scene file.
-pub(crate) const SECTIONS: [&str; 12] = [
+pub(crate) const SECTIONS: [&str; 13] = [
     "format",
     "name",
     "extrapolate",
@@ -83,6 +83,7 @@ pub(crate) const SECTIONS: [&str; 12] = [
     "materials",
     "meshes",
     "leaves",
+    "solids",
     "lights",
     "objects",
 ];

@@ -1,4 +1,4 @@
-//! `[objects.NAME]`: a mesh with a material, or a leaf, and where it stands.
+//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, and where it stands.
 
 use glam::{DMat3, DMat4, DVec3};
 
@@ -16,12 +16,13 @@ pub(crate) struct Shapes<'a> {
     pub(crate) meshes: Names<'a>,
     pub(crate) materials: Names<'a>,
     pub(crate) leaves: Names<'a>,
+    pub(crate) solids: Names<'a>,
 }
 
 /// Reads one block of `[objects]`.
 pub(crate) fn read_object(block: &Block<'_>, shapes: &Shapes<'_>) -> Option<Object> {
     let cx = block.cx;
-    let shape = match block.exactly_one(&["mesh", "leaf"]) {
+    let shape = match block.exactly_one(&["mesh", "leaf", "solid"]) {
         Some("mesh") => {
             let mesh = block.text("mesh", "the name of a mesh");
             let mesh = mesh.and_then(|name| shapes.meshes.find(cx, name));
@@ -29,6 +30,12 @@ pub(crate) fn read_object(block: &Block<'_>, shapes: &Shapes<'_>) -> Option<Obje
             let material = material.and_then(|name| shapes.materials.find(cx, name));
             mesh.zip(material)
                 .map(|(mesh, material)| ObjectShape::Mesh { mesh, material })
+        }
+        Some("solid") => {
+            block.exclude("solid", "material");
+            let solid = block.text("solid", "the name of a body of solid tissue");
+            let solid = solid.and_then(|name| shapes.solids.find(cx, name));
+            solid.map(|solid| ObjectShape::Solid { solid })
         }
         Some(_) => {
             block.exclude("leaf", "material");

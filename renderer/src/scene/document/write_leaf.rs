@@ -17,7 +17,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
 use self::layers::layers;
-use self::mosaic::mosaic;
+pub(super) use self::mosaic::mosaic;
 use self::outline::outline;
 use self::venation::{arcuate, auxin, filled, vein_style};
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
@@ -36,7 +36,7 @@ pub(crate) fn to_toml(name: &str, plan: &LeafPlan) -> String {
 
 /// A table in the making.
 #[derive(Default)]
-pub(super) struct Keys(Table);
+pub(super) struct Keys(pub(super) Table);
 
 impl Keys {
     pub(super) fn value(&mut self, key: &str, value: Value) {
@@ -58,7 +58,7 @@ impl Keys {
     }
 
     /// A block only if there is something in it.
-    fn block_if_any(&mut self, key: &str, block: Self) {
+    pub(super) fn block_if_any(&mut self, key: &str, block: Self) {
         if !block.0.0.is_empty() {
             self.block(key, block);
         }

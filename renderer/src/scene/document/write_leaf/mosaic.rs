@@ -10,7 +10,7 @@ use super::{Keys, contents, list, number};
 use crate::scene::document::mosaic::BLEND_MM;
 use crate::scene::document::tree::Value;
 
-pub(super) fn mosaic(pattern: &MosaicPattern) -> Keys {
+pub(in crate::scene::document) fn mosaic(pattern: &MosaicPattern) -> Keys {
     let (plan, default) = (&pattern.plan, MosaicPlan::default());
     let mut keys = Keys::default();
     keys.integer("cells", plan.initial_cells as u64);

@@ -1,0 +1,201 @@
+//! Solid tissue as a material: the half-space is given back, whatever the coat.
+
+use glam::{Vec2, Vec3};
+use leafmodel::optics::solid::{ETA, ReflectanceTable, SCATTERING_PER_MM, Solid};
+use leafmodel::optics::{Contents, ProspectD};
+use renderer::bsdf::Bsdf;
+use renderer::bsdf::leaf::Coat;
+use renderer::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
+use renderer::material::{Material, PathSpectra};
+use renderer::sampling::stream::Stream;
+use renderer::spectrum::Wavelengths;
+use support::chi_square::{ChiSquare, sidak};
+use support::directional::{Scattered, directions, integrate};
+
+const POINTS: u32 = 1 << 15;
+/// Lanes differ, so that one that leaks into another is seen.
+const WAVELENGTHS_NM: [f32; 4] = [550.0, 680.0, 850.0, 1450.0];
+
+fn rind() -> Contents {
+    Contents::new(1.0, 7.0, 3.0, 0.0, 0.0, 0.09, 0.008).expect("contents in range")
+}
+
+fn material(contents: Contents, optics: Solid, coat: Coat) -> Material {
+    let table = ReflectanceTables::default().of(optics.eta);
+    let tissue = SolidTissue::Uniform(contents);
+    Material::Solid(Box::new(SolidMaterial::new(tissue, optics, table, coat)))
+}
+
+fn spectra() -> PathSpectra<4> {
+    PathSpectra::new(Wavelengths {
+        nm: WAVELENGTHS_NM,
+        pdf: [1.0; 4],
+    })
+}
+
+fn fruit() -> Solid {
+    Solid {
+        depth_mm: 1.0,
+        scattering_per_mm: SCATTERING_PER_MM,
+        eta: ETA,
+    }
+}
+
+fn smooth(eta: f64) -> Coat {
+    Coat::new(eta as f32, 0.02, 0.02)
+}
+
+fn scattered(bsdf: &Bsdf<'_, 4>, wo: Vec3, lane: usize) -> Scattered {
+    integrate(wo, POINTS, |lobe, u| {
+        let sample = bsdf.sample(wo, lobe, u)?;
+        Some((sample.wi, f64::from(sample.weight.0[lane])))
+    })
+}
+
+/// Share of Lambertian light that comes back.
+fn diffuse(bsdf: &Bsdf<'_, 4>, lane: usize) -> f64 {
+    let steps = 32;
+    let share = |step: u32| {
+        // Cosines at equal flux.
+        let mu = ((f64::from(step) + 0.5) / f64::from(steps)).sqrt() as f32;
+        let wo = Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu);
+        scattered(bsdf, wo, lane).reflected
+    };
+    (0..steps).map(share).sum::<f64>() / f64::from(steps)
+}
+
+/// Rows of half-spaces in the table of anchors: index, albedo, reflectance at normal and at diffuse incidence.
+fn anchors() -> Vec<[f64; 4]> {
+    let table = include_str!("data/transport_anchors.csv");
+    let rows = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let half_spaces = rows.filter(|row| row.len() == 15 && row[3] == "inf");
+    let number = |text: &str| text.parse().expect("a number");
+    half_spaces
+        .map(|row| [row[1], row[2], row[10], row[12]].map(number))
+        .collect()
+}
+
+#[test]
+fn the_material_gives_back_the_half_spaces_of_the_anchors() {
+    let anchors = anchors();
+    assert_eq!(anchors.len(), 5);
+    let water = ProspectD::coefficients(1450.0)
+        .expect("in range")
+        .absorption
+        .water;
+    for [eta, albedo, normal, _] in anchors {
+        let optics = Solid { eta, ..fruit() };
+        // As much water as gives this albedo at 1450 nm.
+        let absorbed = optics.scattering_per_mm * (1.0 - albedo) / albedo;
+        let water_cm = absorbed * optics.depth_mm / water;
+        let contents = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, water_cm, 0.0).expect("in range");
+        let material = material(contents, optics, smooth(eta));
+        let mut spectra = spectra();
+        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        let found = scattered(&bsdf, Vec3::Z, 3);
+        eprintln!(
+            "n = {eta}, a = {albedo}: R = {:.4} ({normal}), diffuse {:.4}",
+            found.reflected,
+            diffuse(&bsdf, 3)
+        );
+        assert!(
+            (found.reflected - normal).abs() < 3e-4,
+            "{eta} {albedo}: {found:?}"
+        );
+        assert_eq!(found.transmitted, 0.0);
+    }
+}
+
+#[test]
+fn an_integrating_sphere_finds_the_tables_reflectance_below_any_coat() {
+    let table = ReflectanceTable::new(ETA, 0.0);
+    for coat in [
+        smooth(1.33),
+        Coat::new(ETA as f32, 0.3, 0.3),
+        Coat::new(1.45, 0.6, 0.6),
+    ] {
+        let material = material(rind(), fruit(), coat);
+        for (lane, nm) in WAVELENGTHS_NM.map(f64::from).into_iter().enumerate() {
+            let mut spectra = spectra();
+            let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+            let at = ProspectD::coefficients(nm).expect("in range").absorption;
+            let expected = table.at(fruit().albedo(&at, &rind()));
+            for wo in [Vec3::Z, Vec3::NEG_Z] {
+                let found = scattered(&bsdf, wo, lane);
+                assert!(
+                    (found.reflected - expected).abs() < 1e-3 && found.transmitted == 0.0,
+                    "{nm} nm: {found:?}, not {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn tissue_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
+    let nothing = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0).expect("in range");
+    for alpha in [0.1, 0.3, 0.8] {
+        let material = material(nothing, fruit(), Coat::new(1.45, alpha, alpha));
+        let mut spectra = spectra();
+        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        for wo in directions() {
+            let found = scattered(&bsdf, wo, 1);
+            assert!(
+                (found.total() - 1.0).abs() < 1e-3,
+                "{alpha} {wo}: {found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn solid_tissue_is_reciprocal_and_sends_nothing_through() {
+    let material = material(rind(), fruit(), Coat::new(1.4, 0.2, 0.2));
+    let mut spectra = spectra();
+    let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+    for i in 0..5000 {
+        let [a, b, c, d] = Stream::new(3, 0, 0, i).next4();
+        let direction = |u: f32, v: f32| {
+            let z = 1.0 - 2.0 * u;
+            let phi = 2.0 * std::f32::consts::PI * v;
+            let radius = (1.0 - z * z).sqrt();
+            Vec3::new(radius * phi.cos(), radius * phi.sin(), z)
+        };
+        let (wo, wi) = (direction(a, b), direction(c, d));
+        let (there, back) = (bsdf.eval(wo, wi).0[2], bsdf.eval(wi, wo).0[2]);
+        assert!((there - back).abs() <= 1e-4 * there.max(back), "{wo} {wi}");
+        assert!(wo.z * wi.z > 0.0 || there == 0.0, "{wo} {wi}: {there}");
+    }
+}
+
+#[test]
+fn solid_tissue_is_sampled_as_its_density_says() {
+    const CHI_SQUARE: ChiSquare = ChiSquare {
+        rings: 20,
+        spokes: 40,
+        draws: 200_000,
+        midpoints: 24,
+    };
+    let directions = [
+        Vec3::Z,
+        Vec3::new(-0.8, 0.36, 0.48),
+        Vec3::new(0.48, -0.6, -0.64),
+    ];
+    let level = sidak(0.01, directions.len());
+    let material = material(rind(), fruit(), Coat::new(1.38, 0.25, 0.25));
+    let mut spectra = spectra();
+    let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+    for (number, wo) in directions.into_iter().enumerate() {
+        let outcome = CHI_SQUARE.run(
+            |draw| {
+                let [lobe, x, y, _] = Stream::new(number as u64, draw as u32, 0, 0).next4();
+                let sample = bsdf.sample(wo, lobe, Vec2::new(x, y));
+                sample.map(|sample| sample.wi)
+            },
+            |wi| bsdf.pdf(wo, wi),
+        );
+        assert!(outcome.p_value > level, "wo = {wo}: {outcome}");
+    }
+}
