@@ -1,5 +1,7 @@
 //! A mosaic as tissue: what cells of each type hold.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use thiserror::Error;
 
@@ -107,6 +109,7 @@ impl MosaicPattern {
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
         let types = self.plan.types.len();
         let field = TypeField::new(&mosaic.surface, &sites, &kinds, types, self.blend_mm);
+        let field = field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls);
         Ok((mosaic, field))
     }
 
@@ -147,10 +150,14 @@ pub struct LaminaPattern {
 }
 
 impl LaminaPattern {
-    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it. `weights` is room
-    /// to work in.
-    pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Contents {
+    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it; none where controls
+    /// let no cell be. `weights` is room to work in.
+    pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Option<Contents> {
+        let field = self.sheet.field();
+        if field.has_bare_places() && field.is_bare(&self.sheet.locate(point)) {
+            return None;
+        }
         weights.resize(self.contents.len(), 0.0);
-        self.sheet.at(point, &self.contents, weights)
+        Some(self.sheet.at(point, &self.contents, weights))
     }
 }
