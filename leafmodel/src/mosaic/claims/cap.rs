@@ -1,0 +1,69 @@
+//! Fig. 13: the cap of a fly agaric.
+
+use glam::{DVec2, DVec3};
+
+use super::{FOREGROUND, Row, Seen, surface};
+use crate::mosaic::shapes::lathe;
+use crate::mosaic::statistics::neighbourhood;
+use crate::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered};
+
+/// With days between divisions of the warts' cells of 6, 8 and 20.
+const CAP: Row = Row {
+    cells: 6000,
+    days: 20.0,
+    radius_weight: 3.0,
+    adhesion: [0.7, 0.9],
+    division: [8.0, 8.0],
+    foreground: 0.025,
+    switching: 0.0,
+};
+
+/// Below the rim the cap is masked, mm.
+const RIM: f64 = -1.0;
+
+#[test]
+#[ignore = "slow: 5 s"]
+fn a_cap_has_warts_above_its_rim_only_and_more_of_them_the_oftener_they_divide() {
+    let profile = [
+        (0.0, 1.0),
+        (18.0, 1.5),
+        (46.0, -1.5),
+        (55.0, -3.0),
+        (57.5, -1.0),
+        (56.0, 7.0),
+        (48.0, 19.0),
+        (32.0, 29.0),
+        (0.0, 36.0),
+    ];
+    let cap = surface(lathe(&profile.map(DVec2::from), 1.5).expect("a good profile"));
+    let mut shares = Vec::new();
+    for days in [6.0, 8.0, 20.0] {
+        let row = Row {
+            division: [days, 8.0],
+            ..CAP
+        };
+        let masked = MosaicPlan {
+            controls: vec![CylinderControl {
+                from: DVec3::Z * -10.0,
+                to: DVec3::Z * RIM,
+                radius_mm: None,
+                image: ControlImage::Constant(1.0),
+                steers: Steered::Blocked,
+            }],
+            ..row.plan()
+        };
+        let mosaic = Mosaic::grow(&cap, &masked, 1).expect("a good plan");
+        let heights = mosaic.positions().into_iter().map(|at| at.z);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        assert!(lowest >= RIM - 1e-9, "a cell at height {lowest} mm");
+        let seen = Seen::of(&mosaic);
+        let alike = neighbourhood(&seen.voronoi, &seen.kinds, 5, 1);
+        assert!(
+            alike.alike > alike.by_chance + 5.0 * alike.deviation,
+            "{alike:?}"
+        );
+        let warts = seen.kinds.iter().filter(|kind| **kind == FOREGROUND);
+        shares.push(warts.count() as f64 / seen.kinds.len() as f64);
+    }
+    assert!(shares[0] > shares[1] && shares[1] > shares[2], "{shares:?}");
+}
