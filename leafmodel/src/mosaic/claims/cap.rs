@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{FOREGROUND, Row, Seen, surface};
+use super::{Row, Seen, surface};
 use crate::mosaic::shapes::lathe;
 use crate::mosaic::statistics::neighbourhood;
 use crate::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered};
@@ -18,12 +18,14 @@ const CAP: Row = Row {
     switching: 0.0,
 };
 
-/// Below the rim the cap is masked, mm.
-const RIM: f64 = -1.0;
+/// Up to this height the lip of the rim is masked, mm.
+const LIP: f64 = -1.5;
+/// Within this distance of the axis, and up to this height, the underside is, mm.
+const UNDERSIDE: [f64; 2] = [54.0, 3.0];
 
 #[test]
 #[ignore = "slow: 5 s"]
-fn a_cap_has_warts_above_its_rim_only_and_more_of_them_the_oftener_they_divide() {
+fn a_cap_has_warts_on_its_upper_side_only_and_more_of_them_the_oftener_they_divide() {
     let profile = [
         (0.0, 1.0),
         (18.0, 1.5),
@@ -42,28 +44,33 @@ fn a_cap_has_warts_above_its_rim_only_and_more_of_them_the_oftener_they_divide()
             division: [days, 8.0],
             ..CAP
         };
+        let mask = |radius_mm, height| CylinderControl {
+            from: DVec3::Z * -10.0,
+            to: DVec3::Z * height,
+            radius_mm,
+            image: ControlImage::Constant(1.0),
+            steers: Steered::Blocked,
+        };
         let masked = MosaicPlan {
-            controls: vec![CylinderControl {
-                from: DVec3::Z * -10.0,
-                to: DVec3::Z * RIM,
-                radius_mm: None,
-                image: ControlImage::Constant(1.0),
-                steers: Steered::Blocked,
-            }],
+            controls: vec![mask(None, LIP), mask(Some(UNDERSIDE[0]), UNDERSIDE[1])],
             ..row.plan()
         };
         let mosaic = Mosaic::grow(&cap, &masked, 1).expect("a good plan");
-        let heights = mosaic.positions().into_iter().map(|at| at.z);
-        let lowest = heights.fold(f64::INFINITY, f64::min);
-        assert!(lowest >= RIM - 1e-9, "a cell at height {lowest} mm");
+        for at in mosaic.positions() {
+            let below = at.z < UNDERSIDE[1] && at.truncate().length() < UNDERSIDE[0];
+            assert!(at.z > LIP && !below, "a cell at {at} mm");
+        }
         let seen = Seen::of(&mosaic);
+        shares.push(seen.share());
+        if days > CAP.division[1] {
+            // Warts whose cells hardly divide are single cells: they have no neighbours of their own.
+            continue;
+        }
         let alike = neighbourhood(&seen.voronoi, &seen.kinds, 5, 1);
         assert!(
             alike.alike > alike.by_chance + 5.0 * alike.deviation,
             "{alike:?}"
         );
-        let warts = seen.kinds.iter().filter(|kind| **kind == FOREGROUND);
-        shares.push(warts.count() as f64 / seen.kinds.len() as f64);
     }
     assert!(shares[0] > shares[1] && shares[1] > shares[2], "{shares:?}");
 }

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::{BACKGROUND, FOREGROUND, Row, Seen, grown, surface};
-use crate::mosaic::noise_pattern::NoisePattern;
 use crate::mosaic::paint::{SheetField, TypeField};
 use crate::mosaic::shapes::sheet;
 use crate::mosaic::statistics::{
     PatternClass, contained, contiguity, element_count, kappa, mean_width_mm, neighbourhood,
     patches, probes,
 };
+use crate::mosaic::testing::noise_labels;
 use crate::mosaic::{Mosaic, Surface, SurfacePoint};
 use crate::species;
 
@@ -83,20 +83,10 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     }
     // Noise with the same shares, at rising scale, as in Fig. 6.
     for seed in 1..4 {
-        let pattern = |(&share, scale_mm): (&f64, f64)| {
-            let noise = NoisePattern {
-                scale_mm,
-                octaves: 2,
-                gain: 0.5,
-                share,
-            };
-            let kinds = noise.kinds(&places, seed);
-            kinds.into_iter().map(u32::from).collect()
-        };
         let noise: Vec<Vec<u32>> = shares
             .iter()
             .zip([2.0, 4.0, 6.0, 8.0])
-            .map(pattern)
+            .map(|(&share, scale_mm)| noise_labels(scale_mm, share, &places, seed))
             .collect();
         for (two, share) in noise.windows(2).zip(&shares[1..]) {
             // Noise keeps what chance keeps: the newer share.
