@@ -280,7 +280,7 @@ impl CellType {
             &format!("division_days of type \"{name}\""),
             self.division_days,
             divides,
-            "what is positive",
+            "the positive numbers",
         )?;
         let share = self.initial_probability;
         let good = (0.0..=1.0).contains(&share);

@@ -324,7 +324,7 @@ fn what_a_plan_has_wrong_is_named() {
     );
     assert_eq!(
         refused(&|types| types[0].division_days = -1.0),
-        "division_days of type \"foreground\" is -1, outside what is positive"
+        "division_days of type \"foreground\" is -1, outside the positive numbers"
     );
     assert_eq!(
         refused(&|types| types[0].adhesion[1] = 0.5),
