@@ -133,9 +133,9 @@ impl Painter<'_> {
     fn texel(&self, uv: DVec2, weights: &mut Vec<f64>) -> [f32; Contents::COUNT] {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
-        let cells = self.pattern.map_or(self.tissue.lamina, |pattern| {
-            pattern.contents(point, weights)
-        });
+        let pattern = self.pattern;
+        let cells = pattern.and_then(|pattern| pattern.contents(point, weights));
+        let cells = cells.unwrap_or(self.tissue.lamina);
         let living = self.layers.contents(cells, point);
         let lamina = self
             .withering

@@ -115,7 +115,7 @@ impl CylinderControl {
         }
         if let Some(radius) = self.radius_mm {
             let good = radius > 0.0 && radius.is_finite();
-            check("radius_mm", radius, good, "what is positive")?;
+            check("radius_mm", radius, good, "the positive numbers")?;
         }
         let known = |kind: u16| {
             let missing = ControlError::NoSuchType { kind, types };

@@ -12,10 +12,13 @@ mod sheet;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
 pub use self::sheet::SheetField;
+use super::control::{Controls, CylinderControl};
 use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
@@ -43,6 +46,15 @@ pub struct TypeField {
     half_blend: f64,
     /// For each face the borders that can be felt in it.
     borders: Vec<Vec<Border>>,
+    /// Where no cell may be.
+    bare: Option<Bare>,
+}
+
+/// Controls that let no cell be in places, and the surface that those are on.
+#[derive(Clone, Debug)]
+struct Bare {
+    surface: Arc<Surface>,
+    controls: Vec<CylinderControl>,
 }
 
 impl TypeField {
@@ -116,7 +128,32 @@ impl TypeField {
             types,
             half_blend,
             borders,
+            bare: None,
         }
+    }
+
+    /// The same with these controls heeded: where they let no cell be, the place is bare.
+    #[must_use]
+    pub fn heeding(mut self, surface: Arc<Surface>, controls: &[CylinderControl]) -> Self {
+        self.bare = Controls(controls).block().then(|| Bare {
+            surface,
+            controls: controls.to_vec(),
+        });
+        self
+    }
+
+    /// Whether there are controls that let no cell be somewhere.
+    pub(super) fn has_bare_places(&self) -> bool {
+        self.bare.is_some()
+    }
+
+    /// Whether controls let no cell be at a point: tissue there is not of the mosaic, and what is said of its types is only what the
+    /// nearest cells are.
+    pub fn is_bare(&self, point: &SurfacePoint) -> bool {
+        self.bare.as_ref().is_some_and(|bare| {
+            let at = bare.surface.position(point);
+            Controls(&bare.controls).is_blocked(at)
+        })
     }
 
     /// The tessellation.
@@ -213,7 +250,7 @@ impl TypeField {
         Contents::from_array(sum)
     }
 
-    /// Contents at many points at once, on all threads; `None` stays `None`.
+    /// Contents at many points at once, on all threads; `None` for `None` and for bare places.
     ///
     /// # Panics
     ///
@@ -226,7 +263,10 @@ impl TypeField {
         points
             .map_init(
                 || vec![0.0; self.types],
-                |weights, point| point.map(|point| self.contents(&point, of_types, weights)),
+                |weights, point| {
+                    let point = point.filter(|point| !self.is_bare(point));
+                    point.map(|point| self.contents(&point, of_types, weights))
+                },
             )
             .collect()
     }

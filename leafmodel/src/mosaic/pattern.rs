@@ -1,5 +1,7 @@
 //! A mosaic as tissue: what cells of each type hold.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use thiserror::Error;
 
@@ -107,6 +109,7 @@ impl MosaicPattern {
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
         let types = self.plan.types.len();
         let field = TypeField::new(&mosaic.surface, &sites, &kinds, types, self.blend_mm);
+        let field = field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls);
         Ok((mosaic, field))
     }
 
@@ -147,10 +150,62 @@ pub struct LaminaPattern {
 }
 
 impl LaminaPattern {
-    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it. `weights` is room
-    /// to work in.
-    pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Contents {
+    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it; none where controls
+    /// let no cell be. `weights` is room to work in.
+    pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Option<Contents> {
+        let field = self.sheet.field();
+        if field.has_bare_places() && field.is_bare(&self.sheet.locate(point)) {
+            return None;
+        }
         weights.resize(self.contents.len(), 0.0);
-        self.sheet.at(point, &self.contents, weights)
+        Some(self.sheet.at(point, &self.contents, weights))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::species;
+
+    #[test]
+    fn the_two_faces_of_a_leaf_have_patterns_of_their_own_and_it_holds_their_mean() {
+        let croton = species::find("croton").expect("a preset").plan();
+        let outline = croton.outline.grow(60.0, 1).expect("a good outline");
+        let tissue = |chlorophyll| {
+            let contents = Contents::new(1.5, chlorophyll, 8.0, 0.0, 0.0, 0.01, 0.005);
+            contents.expect("in range")
+        };
+        let pattern = MosaicPattern {
+            plan: MosaicPlan {
+                initial_cells: 800,
+                days: 20.0,
+                types: MosaicPlan::two_types([8.0, 10.0], [0.5, 0.8], 0.25, 0.0),
+                ..MosaicPlan::default()
+            },
+            contents: vec![tissue(0.0), tissue(50.0)],
+            blend_mm: 0.0,
+            faces: LeafFaces::Both,
+        };
+        let grown = pattern.on_lamina(&outline, 3, &|| false);
+        let lamina = grown.expect("a good plan");
+        let mut weights = Vec::new();
+        let mut seen = [0.0_f64; 3];
+        for row in 0..60 {
+            for column in 0..30 {
+                let at = DVec2::new(0.3 * f64::from(column) - 4.5, 15.0 + 0.5 * f64::from(row));
+                let contents = lamina
+                    .contents(at, &mut weights)
+                    .expect("nothing is blocked");
+                // Foreground on both faces, on one, on none.
+                let class = contents.chlorophyll / 25.0;
+                assert!((class - class.round()).abs() < 1e-9, "{class}");
+                seen[class.round() as usize] += 1.0 / 1800.0;
+            }
+        }
+        // Faces that know nothing of one another show the foreground on just one of them for 2 p (1 − p) of the leaf.
+        let share = seen[0] + 0.5 * seen[1];
+        assert!(share > 0.2 && share < 0.6, "{share}");
+        let by_chance = 2.0 * share * (1.0 - share);
+        assert!((seen[1] / by_chance - 1.0).abs() < 0.15, "{seen:?}");
     }
 }

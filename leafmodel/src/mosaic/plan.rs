@@ -38,7 +38,7 @@ pub enum RadiusRule {
 ///
 /// # Source
 ///
-/// The paper on clonal mosaics of plants gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
+/// \[binsfeld2011\] gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
 /// relaxations a day, adhesion 0 between types) has the values that the authors' program starts with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MosaicPlan {
@@ -280,7 +280,7 @@ impl CellType {
             &format!("division_days of type \"{name}\""),
             self.division_days,
             divides,
-            "what is positive",
+            "the positive numbers",
         )?;
         let share = self.initial_probability;
         let good = (0.0..=1.0).contains(&share);

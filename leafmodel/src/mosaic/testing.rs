@@ -1,7 +1,8 @@
-//! Surfaces for tests.
+//! Surfaces and patterns for tests.
 
 use glam::DVec3;
 
+use super::noise_pattern::NoisePattern;
 use super::surface::Surface;
 
 /// A square sheet with edges no longer than `max_edge`.
@@ -39,4 +40,16 @@ pub(super) fn sphere(radius: f64, max_edge: f64) -> Surface {
         .map(|at| at.normalize() * radius)
         .collect();
     fine.moved(round).expect("a good sphere")
+}
+
+/// Noise of two octaves as labels of places: 1 for the share with the highest values.
+pub(super) fn noise_labels(scale_mm: f64, share: f64, places: &[DVec3], seed: u64) -> Vec<u32> {
+    let pattern = NoisePattern {
+        scale_mm,
+        octaves: 2,
+        gain: 0.5,
+        share,
+    };
+    let kinds = pattern.kinds(places, seed);
+    kinds.into_iter().map(u32::from).collect()
 }

@@ -2,7 +2,8 @@
 //!
 //! Distances are those of the plane into which a face's surroundings unfold ([`super::patch`]), so never through space. Within a
 //! face the tessellation is exact; on curved surfaces two faces may unfold a far cell a little differently, and a border may
-//! then jump by as much at their edge.
+//! then jump by as much at their edge. Far from all cells (in areas where controls let none be) a face does not search for itself: it
+//! takes over the cells that its neighbours nearer to cells have found.
 //!
 //! - **In**: a [`Surface`] and the places of the cells.
 //! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas, neighbours.
@@ -22,8 +23,8 @@ use super::surface::{Surface, SurfacePoint};
 pub const FACE_EDGE: u32 = u32::MAX;
 /// First radius searched, in mean distances between cells.
 const FIRST_RADIUS: f64 = 2.0;
-/// Most doublings of that radius.
-const MOST_DOUBLINGS: u32 = 40;
+/// Faces without any cell within this radius, in the same unit, ask their neighbours.
+const FAR_RADIUS: f64 = 4.0;
 /// Faces worked on together.
 const CHUNK: usize = 256;
 
@@ -93,22 +94,23 @@ impl Voronoi {
     pub fn new(surface: &Surface, sites: &[SurfacePoint]) -> Self {
         let in_face = by_face(surface, sites);
         let spacing = (surface.total_area() / sites.len().max(1) as f64).sqrt();
-        let faces: Vec<u32> = (0..surface.faces().len() as u32).collect();
-        let cuts: Vec<Cut> = if sites.is_empty() {
-            vec![Cut::default(); faces.len()]
+        let mut found: Vec<Vec<(u32, DVec2)>> = if sites.is_empty() {
+            vec![Vec::new(); in_face.len()]
         } else {
-            faces
-                .par_chunks(CHUNK)
-                .flat_map_iter(|chunk| {
-                    let mut finder = PatchFinder::new(surface);
-                    let cut = |&face: &u32| {
-                        let near = near(surface, &mut finder, &in_face, face, spacing);
-                        cut_face(surface, face, near)
-                    };
-                    chunk.iter().map(cut).collect::<Vec<_>>()
-                })
-                .collect()
+            let faces: Vec<u32> = (0..in_face.len() as u32).collect();
+            let search = |chunk: &[u32]| {
+                let mut finder = PatchFinder::new(surface);
+                let near = |&face: &u32| near(surface, &mut finder, &in_face, face, spacing);
+                chunk.iter().map(near).collect::<Vec<_>>()
+            };
+            faces.par_chunks(CHUNK).flat_map_iter(search).collect()
         };
+        far(surface, &mut found);
+        let cuts: Vec<Cut> = found
+            .into_par_iter()
+            .enumerate()
+            .map(|(face, near)| cut_face(surface, face as u32, near))
+            .collect();
         let mut areas = vec![0.0; sites.len()];
         let mut borders = Vec::new();
         for piece in cuts.iter().flat_map(|cut| &cut.pieces) {
@@ -190,7 +192,7 @@ fn by_face(surface: &Surface, sites: &[SurfacePoint]) -> Vec<Vec<(u32, DVec2)>> 
     in_face
 }
 
-/// The cells that can be nearest to a point of a face.
+/// The cells that can be nearest to a point of a face; none if all cells are far away.
 fn near(
     surface: &Surface,
     finder: &mut PatchFinder,
@@ -199,35 +201,86 @@ fn near(
     spacing: f64,
 ) -> Vec<(u32, DVec2)> {
     let triangle = surface.corners(face);
-    let mut radius = FIRST_RADIUS * spacing;
-    let mut faces_before = 0;
-    for _ in 0..MOST_DOUBLINGS {
-        let patch = finder.patch(face, radius);
+    let mut within = |radius: f64| {
         let mut found: Vec<(u32, DVec2)> = Vec::new();
-        for (other, unfold) in patch.faces() {
+        for (other, unfold) in finder.patch(face, radius).faces() {
             let cells = in_face[*other as usize].iter();
             found.extend(cells.map(|&(cell, at)| (cell, unfold.apply(at))));
         }
-        // No point of the face is further than this from some cell.
-        let bound = found
-            .iter()
-            .map(|(_, at)| {
-                let far = triangle.map(|corner| corner.distance_squared(*at));
-                far[0].max(far[1]).max(far[2])
-            })
-            .fold(f64::INFINITY, f64::min)
-            .sqrt();
-        let whole = patch.faces().len() == faces_before;
-        if bound <= radius || (whole && patch.faces().len() == surface.faces().len()) {
-            let slack = bound * (1.0 + 1e-9);
-            found.retain(|(_, at)| distance_to_triangle(&triangle, *at) <= slack);
-            found.sort_by_key(|(cell, _)| *cell);
-            return found;
-        }
-        faces_before = patch.faces().len();
-        radius *= 2.0;
+        let bound = bound(&triangle, &found);
+        (found, bound)
+    };
+    let mut radius = FIRST_RADIUS * spacing;
+    let (mut found, mut bound) = within(radius);
+    if found.is_empty() {
+        radius = FAR_RADIUS * spacing;
+        (found, bound) = within(radius);
     }
-    Vec::new()
+    if bound > radius && bound.is_finite() {
+        (found, bound) = within(bound);
+    }
+    keep_within(&triangle, bound, &mut found);
+    found
+}
+
+/// No point of the face is further than this from some cell.
+fn bound(triangle: &[DVec2; 3], found: &[(u32, DVec2)]) -> f64 {
+    let farthest = found.iter().map(|(_, at)| {
+        let far = triangle.map(|corner| corner.distance_squared(*at));
+        far[0].max(far[1]).max(far[2])
+    });
+    farthest.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// Drops the cells that are nearest to no point of the face.
+fn keep_within(triangle: &[DVec2; 3], bound: f64, found: &mut Vec<(u32, DVec2)>) {
+    let slack = bound * (1.0 + 1e-9);
+    found.retain(|(_, at)| distance_to_triangle(triangle, *at) <= slack);
+    found.sort_by_key(|(cell, _)| *cell);
+}
+
+/// Faces that found no cell get those of their neighbours that have some, the nearer to cells first.
+fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
+    let empty = |found: &[Vec<(u32, DVec2)>], face: u32| found[face as usize].is_empty();
+    let mut waiting: Vec<u32> = (0..found.len() as u32)
+        .filter(|&face| empty(found, face))
+        .collect();
+    while !waiting.is_empty() {
+        let mut ring = Vec::new();
+        for &face in &waiting {
+            let triangle = surface.corners(face);
+            let centre = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+            let mut taken: Vec<(u32, DVec2)> = Vec::new();
+            for edge in 0..3 {
+                let beyond = surface
+                    .neighbour(face, edge)
+                    .zip(surface.unfold(face, edge));
+                let Some((neighbour, unfold)) = beyond else {
+                    continue;
+                };
+                let cells = found[neighbour as usize].iter();
+                taken.extend(cells.map(|&(cell, at)| (cell, unfold.apply(at))));
+            }
+            if taken.is_empty() {
+                continue;
+            }
+            // Of the places that one cell has over different neighbours, the nearest.
+            taken.sort_by(|a, b| {
+                let to = |at: DVec2| at.distance_squared(centre);
+                a.0.cmp(&b.0).then(to(a.1).total_cmp(&to(b.1)))
+            });
+            taken.dedup_by_key(|(cell, _)| *cell);
+            keep_within(&triangle, bound(&triangle, &taken), &mut taken);
+            ring.push((face, taken));
+        }
+        if ring.is_empty() {
+            return;
+        }
+        for (face, taken) in ring {
+            found[face as usize] = taken;
+        }
+        waiting.retain(|&face| empty(found, face));
+    }
 }
 
 /// Distance of a point to a triangle, 0 inside.
@@ -253,16 +306,20 @@ pub(super) fn distance_to_segment(from: DVec2, to: DVec2, p: DVec2) -> f64 {
 fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
     let triangle = surface.corners(face);
     let mut pieces = Vec::new();
-    let mut others = near.clone();
+    let mut others = Vec::with_capacity(near.len());
+    let mut polygon: Vec<(DVec2, u32)> = Vec::with_capacity(12);
+    let mut spare = Vec::with_capacity(12);
     for &(cell, at) in &near {
         // The nearest cut away most.
-        others.sort_by(|a, b| {
-            let to = |other: &(u32, DVec2)| other.1.distance_squared(at);
-            to(a).total_cmp(&to(b)).then(a.0.cmp(&b.0))
-        });
-        let mut polygon: Vec<(DVec2, u32)> = triangle.map(|p| (p, FACE_EDGE)).to_vec();
-        let mut spare = Vec::with_capacity(12);
-        for &(other, place) in &others {
+        others.clear();
+        others.extend(
+            near.iter()
+                .map(|&(other, place)| (place.distance_squared(at), other, place)),
+        );
+        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        polygon.clear();
+        polygon.extend(triangle.map(|p| (p, FACE_EDGE)));
+        for &(distance, other, place) in &others {
             if other == cell {
                 continue;
             }
@@ -278,7 +335,7 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
                 .iter()
                 .map(|(p, _)| p.distance_squared(at))
                 .fold(0.0, f64::max);
-            if place.distance_squared(at) > 4.0 * furthest * (1.0 + 1e-9) {
+            if distance > 4.0 * furthest * (1.0 + 1e-9) {
                 break;
             }
             clip(&polygon, at, place, other, &mut spare);
@@ -288,7 +345,7 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
             }
         }
         if polygon.len() >= 3 {
-            let (corners, beside) = polygon.into_iter().unzip();
+            let (corners, beside) = polygon.iter().copied().unzip();
             let piece = Piece {
                 cell,
                 corners,

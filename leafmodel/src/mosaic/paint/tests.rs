@@ -1,6 +1,7 @@
 use glam::DVec3;
 
 use super::*;
+use crate::mosaic::control::{ControlImage, Steered};
 use crate::mosaic::shapes::sphere;
 use crate::mosaic::voronoi::tests::{scattered, surface};
 
@@ -92,9 +93,9 @@ fn weights_are_continuous_over_faces_of_a_flat_sheet() {
     let field = TypeField::new(&sheet, &sites, &kinds, 3, 0.5);
     let field = SheetField::new(&sheet, field, false);
     let (mut last, mut now) = ([0.0; 3], [0.0; 3]);
-    for line in 0..20 {
+    for line in 0..5 {
         for step in 0..20_000 {
-            let p = DVec2::new(5e-4 * f64::from(step), 0.17 + 0.5 * f64::from(line));
+            let p = DVec2::new(5e-4 * f64::from(step), 0.17 + 2.0 * f64::from(line));
             field.field().type_weights(&field.locate(p), &mut now);
             if step > 0 {
                 for (a, b) in last.iter().zip(&now) {
@@ -143,4 +144,22 @@ fn the_two_faces_of_a_blade_hold_half_of_its_contents_each() {
     );
     assert!((found.chlorophyll - 35.0).abs() < 1e-9);
     assert!((found.water - 0.01).abs() < 1e-12 && (found.structure - 1.5).abs() < 1e-12);
+}
+
+#[test]
+fn where_no_cell_may_be_the_tissue_is_not_of_the_mosaic() {
+    let sheet = square();
+    let left = CylinderControl {
+        from: DVec3::X * -1.0,
+        to: DVec3::X * 4.0,
+        radius_mm: None,
+        image: ControlImage::Constant(1.0),
+        steers: Steered::Blocked,
+    };
+    let cells = [at(&sheet, DVec2::new(8.0, 5.0))];
+    let field = TypeField::new(&sheet, &cells, &[0], 1, 0.1);
+    let field = field.heeding(Arc::new(sheet.clone()), &[left]);
+    let points = [(3.9, 5.0), (4.1, 5.0), (0.1, 9.9)].map(|p| Some(at(&sheet, DVec2::from(p))));
+    let painted = field.paint(points.into_par_iter(), &[contents(40.0)]);
+    assert_eq!(painted, [None, Some(contents(40.0)), None]);
 }

@@ -11,7 +11,7 @@ use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::{Surface, Unfold};
 
 /// How far a block reaches from the middle of its base, as a share of the radius.
-const HUB: f64 = 0.4;
+const HUB: f64 = 0.75;
 
 /// The same where faces are many: then looking through the faces of a patch takes longer than looking through its cells, and
 /// fewer blocks take less memory.

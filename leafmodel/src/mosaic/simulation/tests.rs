@@ -1,7 +1,8 @@
+mod steered;
+
 use glam::DVec3;
 
 use super::*;
-use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
 use crate::mosaic::growth::{GrowthCourse, SurfaceGrowth};
 use crate::mosaic::plan::CellType;
 use crate::mosaic::testing::{sphere, square};
@@ -163,80 +164,6 @@ fn two_sheets_close_in_space_do_not_act_on_one_another() {
 }
 
 #[test]
-fn no_cell_is_created_in_or_enters_a_blocked_area() {
-    let surface = sphere(10.0, 2.0);
-    let plan = MosaicPlan {
-        controls: vec![CylinderControl {
-            from: DVec3::Z * -11.0,
-            to: DVec3::ZERO,
-            radius_mm: None,
-            image: ControlImage::Constant(1.0),
-            steers: Steered::Blocked,
-        }],
-        ..small(400, 24.0)
-    };
-    let mosaic = Mosaic::grow(&surface, &plan, 5).expect("good");
-    assert!(mosaic.cells.len() > 1500);
-    assert!(mosaic.positions().iter().all(|at| at.z > -1e-9));
-    let nowhere = CylinderControl {
-        to: DVec3::Z * 11.0,
-        ..plan.controls[0].clone()
-    };
-    let plan = MosaicPlan {
-        controls: vec![nowhere],
-        ..plan
-    };
-    assert_eq!(
-        Mosaic::grow(&surface, &plan, 5).expect_err("no room"),
-        MosaicError::AllBlocked { tries: 1000 }
-    );
-}
-
-#[test]
-fn an_image_decides_initial_types_and_rates() {
-    let surface = sphere(10.0, 2.0);
-    let stripes = |steers| CylinderControl {
-        from: DVec3::Z * -11.0,
-        to: DVec3::Z * 11.0,
-        radius_mm: None,
-        image: ControlImage::Stripes {
-            count: 4,
-            share: 0.5,
-            waviness: 0.0,
-            bends: 0.0,
-            seed: 0,
-        },
-        steers,
-    };
-    let white = |at: DVec3| stripes(Steered::Blocked).value(at) == Some(1.0);
-    let plan = MosaicPlan {
-        controls: vec![
-            stripes(Steered::InitialType(0)),
-            stripes(Steered::DivisionRate {
-                kind: None,
-                low: 0.0,
-                high: 1.0,
-            }),
-        ],
-        initial_relaxations: 0,
-        step: 0.0,
-        ..small(500, 15.0)
-    };
-    let mosaic = Mosaic::grow(&surface, &plan, 2).expect("good");
-    let places = mosaic.positions();
-    let same = mosaic
-        .cells
-        .iter()
-        .zip(&places)
-        .filter(|(cell, at)| (cell.kind == 0) == white(**at));
-    assert!(same.count() as f64 > 0.99 * mosaic.cells.len() as f64);
-    // In black nothing divides; half of the sphere is white.
-    let black = mosaic.cells.iter().filter(|cell| cell.kind == 1);
-    assert!(black.clone().all(|cell| cell.parent.is_none()));
-    assert!((200..300).contains(&black.count()));
-}
-
-#[test]
 fn clones_stay_together() {
     let surface = square(30.0, 3.0);
     let plan = MosaicPlan {
@@ -357,7 +284,8 @@ fn on_a_growing_surface_cells_keep_their_spacing() {
         };
         let mean = (0..places.len()).map(nearest).sum::<f64>() / places.len() as f64;
         // Of cells at random it would be 0.25 mm; in the densest packing, 0.54 mm.
-        assert!(mean > 0.3, "day {}: {mean} mm", stage.day);
+        let first = if stage.day == 0.0 { 0.3 } else { 0.36 };
+        assert!(mean > first, "day {}: {mean} mm", stage.day);
     }
     assert!((stages[2].surface.total_area() - 400.0).abs() < 1e-9);
     assert!(stages[2].cells.len() > 7 * stages[0].cells.len());
@@ -396,7 +324,7 @@ fn what_a_plan_has_wrong_is_named() {
     );
     assert_eq!(
         refused(&|types| types[0].division_days = -1.0),
-        "division_days of type \"foreground\" is -1, outside what is positive"
+        "division_days of type \"foreground\" is -1, outside the positive numbers"
     );
     assert_eq!(
         refused(&|types| types[0].adhesion[1] = 0.5),
@@ -415,7 +343,7 @@ fn what_a_plan_has_wrong_is_named() {
         initial_relaxations: 0,
         step: 0.0,
         radius_weight: 10.0,
-        ..small(100_000, 1000.0)
+        ..small(20_000, 1000.0)
     };
     let error = Mosaic::grow(&square(10.0, 5.0), &explosive, 1).expect_err("too many");
     assert!(matches!(error, MosaicError::TooManyCells { .. }), "{error}");

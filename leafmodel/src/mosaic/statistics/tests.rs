@@ -1,8 +1,8 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::mosaic::noise_pattern::NoisePattern;
 use crate::mosaic::shapes::sphere;
+use crate::mosaic::testing::noise_labels;
 use crate::mosaic::voronoi::tests::{scattered, surface};
 
 const STRIPES: u32 = 6;
@@ -64,19 +64,9 @@ fn stripes_are_measured_as_they_were_made() {
 fn noise_is_unstructured() {
     let (ball, sites, voronoi, _) = striped();
     let places: Vec<_> = sites.iter().map(|site| ball.position(site)).collect();
-    let pattern = NoisePattern {
-        scale_mm: 10.0,
-        octaves: 2,
-        gain: 0.5,
-        share: 0.5,
-    };
     let counts: Vec<u32> = (0..4)
         .flat_map(|seed| {
-            let labels: Vec<u32> = pattern
-                .kinds(&places, seed)
-                .iter()
-                .map(|&kind| kind.into())
-                .collect();
+            let labels = noise_labels(10.0, 0.5, &places, seed);
             [-8.0, 0.0, 8.0].map(|height| {
                 let points = ring(&ball, height, 360);
                 element_count(&labels_at(&ball, &voronoi, &labels, &points), 1, 12)
@@ -97,19 +87,7 @@ fn patches_that_a_noise_of_greater_scale_shows_do_not_hold_the_old_ones() {
         .iter()
         .map(|point| ball.position(point))
         .collect();
-    let marked = |scale_mm: f64, share: f64| -> Vec<u32> {
-        let pattern = NoisePattern {
-            scale_mm,
-            octaves: 2,
-            gain: 0.5,
-            share,
-        };
-        pattern
-            .kinds(&places, 3)
-            .into_iter()
-            .map(u32::from)
-            .collect()
-    };
+    let marked = |scale_mm, share| noise_labels(scale_mm, share, &places, 3);
     let (young, old) = (marked(4.0, 0.3), marked(8.0, 0.6));
     // By chance 0.6 of the old area would be kept.
     assert!(

@@ -125,3 +125,31 @@ fn cells_at_one_place_go_to_the_first_and_no_cells_leave_all_empty() {
     let empty = Voronoi::new(&ball, &[]);
     assert!(empty.pieces(0).is_empty() && empty.nearest(0, DVec2::ZERO).is_none());
 }
+
+#[test]
+fn far_from_all_cells_the_nearest_is_still_found() {
+    // Cells along one side of a long strip: its other end is forty mean distances away.
+    let corners =
+        (0..=12).flat_map(|row| [0.0, 4.0].map(|x| DVec3::new(x, 4.0 * f64::from(row), 0.0)));
+    let faces =
+        (0..12).flat_map(|row| [[0, 1, 3], [0, 3, 2]].map(|face| face.map(|id| id + 2 * row)));
+    let strip = Surface::new(corners.collect(), faces.collect()).expect("a strip");
+    let strip = strip.subdivided(0.8).expect("a good length").0;
+    let low: Vec<SurfacePoint> = scattered(&strip, 4000, 3)
+        .into_iter()
+        .filter(|point| strip.position(point).y < 2.0)
+        .collect();
+    assert!(low.len() > 60);
+    let voronoi = Voronoi::new(&strip, &low);
+    let total: f64 = voronoi.areas().iter().sum();
+    assert!((total / strip.total_area() - 1.0).abs() < 1e-9, "{total}");
+    for probe in scattered(&strip, 500, 4) {
+        let at = strip.position(&probe);
+        let found = voronoi.nearest(probe.face, strip.flat(&probe));
+        let found = found.expect("a cell for every place");
+        let to = |cell: &SurfacePoint| strip.position(cell).distance(at);
+        let least = low.iter().map(to).fold(f64::INFINITY, f64::min);
+        let off = to(&low[found as usize]) - least;
+        assert!(off < 1e-9, "{at}: {off} mm too far");
+    }
+}
