@@ -185,10 +185,13 @@ fn read_mask(block: &Block<'_>) -> Option<Mask> {
             let scale_mm = inner.number_or("scale_mm", PATCH_MM, SCALE_MM);
             let threshold = inner.number_or("threshold", Limits::closed(-1.0, 1.0), 0.0);
             let softness = inner.number_or("softness", Limits::closed(0.001, 2.0), NOISE_SOFTNESS);
+            let repeat_cells = inner.entry("repeat_cells").is_some();
+            let cells = inner.integer_or("repeat_cells", 1, 65536, 1) as u32;
             Some(Mask::Noise {
                 scale_mm,
                 threshold,
                 softness,
+                repeat_cells: repeat_cells.then_some(cells),
             })
         }
         _ => {

@@ -95,10 +95,14 @@ fn mask(mask: &Mask) -> Option<(&'static str, Keys)> {
             scale_mm,
             threshold,
             softness,
+            repeat_cells,
         } => {
             keys.number_unless("scale_mm", *scale_mm, SCALE_MM);
             keys.number_unless("threshold", *threshold, 0.0);
             keys.number_unless("softness", *softness, NOISE_SOFTNESS);
+            if let Some(cells) = repeat_cells {
+                keys.integer("repeat_cells", u64::from(*cells));
+            }
             "noise"
         }
         Mask::Picture(picture) => {
