@@ -241,7 +241,12 @@ impl Leaf {
         Self::from_lamina_unless(plan, lamina, &|| false)
     }
 
-    fn from_lamina_unless(
+    /// As [`Leaf::from_lamina`], but gives up when `is_stopped` says so while a mosaic grows.
+    ///
+    /// # Errors
+    ///
+    /// Also [`LeafError::Mosaic`] of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped).
+    pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,
         is_stopped: &dyn Fn() -> bool,

@@ -11,13 +11,13 @@ use glam::{DVec2, DVec3};
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, events_to_division, kind_of_child, place_of_child};
-use super::plan::{MosaicError, MosaicPlan, RadiusRule};
+use super::plan::{MOST_CELLS as MOST, MosaicError, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::venation::chance::{Use, bits, uniform};
 
 /// More cells than this are refused (fewer in tests, where to get there takes seconds).
-const MOST_CELLS: usize = if cfg!(test) { 500_000 } else { 4_000_000 };
+const MOST_CELLS: usize = if cfg!(test) { 500_000 } else { MOST };
 
 /// Throws for one initial cell before its surface counts as blocked.
 const THROWS: u32 = 1000;

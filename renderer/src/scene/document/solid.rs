@@ -267,7 +267,7 @@ fn read_mesh(block: &Block<'_>) -> Option<SolidMesh> {
     let scale_mm = block.number_or("scale_mm", Limits::above(0.0, 1e6), 1.0);
     let (written, at) = path?;
     let file = resolve(block.cx, written, at, wanted)?;
-    let mend = "mend the mesh: each edge has at most two faces, both turned the same way";
+    let mend = "mend the mesh: each edge has at most two faces, both turned the same way, and the faces around a point hang together";
     let shape = assets::read(&file)
         .map_err(|error| (error.without_path(&file), "make the file readable"))
         .and_then(|bytes| {
@@ -278,16 +278,16 @@ fn read_mesh(block: &Block<'_>) -> Option<SolidMesh> {
         .and_then(|mesh| {
             let positions: Vec<DVec3> = mesh.positions().iter().map(|p| p.as_dvec3()).collect();
             let faces = mesh.triangles().to_vec();
-            let normals = mesh.normals().map_or_else(
-                || leafmodel::solid::smooth_normals(&positions, &faces),
-                |normals| unit(normals, &positions, &faces),
-            );
             leafmodel::mosaic::Surface::new(positions.clone(), faces.clone())
+                .and_then(|surface| surface.check_vertices())
                 .map_err(|error| (error.to_string(), mend))?;
-            Ok(Shape {
-                positions,
-                normals,
-                faces,
+            Ok(match mesh.normals() {
+                Some(normals) => Shape {
+                    normals: unit(normals, &positions, &faces),
+                    positions,
+                    faces,
+                },
+                None => leafmodel::solid::creased(&positions, &faces),
             })
         });
     match shape {
