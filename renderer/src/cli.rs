@@ -41,6 +41,11 @@ impl Failure {
         Self::BadInput(format!("error: {error}\n"))
     }
 
+    fn written_twice(path: &Path) -> Self {
+        let path = path.display();
+        Self::bad(format!("{path} is to be written twice: name another file"))
+    }
+
     fn system(error: impl std::fmt::Display) -> Self {
         Self::System(format!("error: {error}\n"))
     }

@@ -201,7 +201,7 @@ mod tests {
             (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
         ) {
             let [b, c, d, e, f, g, h, i] = held;
-            let contents = Contents::from_array([1.0, b, c, d, 0.0 * e, 0.0 * f, g, h, i]);
+            let contents = Contents::from_array([1.0, b, c, d, e, f, g, h, i]);
             let (depth_mm, scattering_per_mm, eta) = optics;
             let (coat_eta, alpha) = coat.unwrap_or((eta, COAT_ALPHA));
             let solid = Solid {
