@@ -5,6 +5,7 @@
 
 pub mod arguments;
 mod check;
+mod columns;
 mod export;
 mod grow;
 mod interrupt;
