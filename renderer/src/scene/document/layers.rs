@@ -6,6 +6,7 @@ use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, Picture, RimWidth};
 use leafmodel::optics::Contents;
 
+use super::contents::KEYS;
 use super::contents::STRUCTURE;
 use super::limits::Limits;
 use super::names::require_name;
@@ -15,20 +16,7 @@ use crate::scene::assets;
 use crate::scene::error::SceneError;
 use crate::scene::source::Place;
 
-/// Keys of contents, in the order of [`Contents::to_array`].
-pub(super) const KEYS: [&str; Contents::COUNT] = [
-    "structure",
-    "chlorophyll_ug_per_cm2",
-    "carotenoids_ug_per_cm2",
-    "anthocyanins_ug_per_cm2",
-    "betacyanins_ug_per_cm2",
-    "betaxanthins_ug_per_cm2",
-    "brown",
-    "water_cm",
-    "dry_matter_g_per_cm2",
-];
-
-/// Most of each of them, as in a block of contents.
+/// Most of each content, as in a block of contents.
 const MOST: [f64; Contents::COUNT] = [10.0, 1e3, 1e3, 1e3, 1e3, 1e3, 100.0, 1.0, 1.0];
 
 /// Largest picture that is read, bytes.

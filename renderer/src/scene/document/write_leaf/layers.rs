@@ -4,7 +4,8 @@ use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, RimWidth};
 
 use super::Keys;
-use crate::scene::document::layers::{KEYS, NOISE_SOFTNESS, SCALE_MM, SOFTNESS_MM};
+use crate::scene::document::contents::KEYS;
+use crate::scene::document::layers::{NOISE_SOFTNESS, SCALE_MM, SOFTNESS_MM};
 use crate::scene::document::tree::Value;
 
 pub(super) fn layers(layers: &[Layer]) -> Keys {
