@@ -18,7 +18,8 @@ use crate::spectrum::Lanes;
 
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let started = Instant::now();
-    let scene = load_scene(&arguments.scene)?.description;
+    let loaded = load_scene(&arguments.scene)?;
+    let scene = loaded.description;
     let stem = arguments
         .out
         .clone()
@@ -26,6 +27,16 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let exr = with_ending(&stem, "exr");
     let png = with_ending(&stem, "png");
     check_writable(&exr)?;
+    for output in [&exr, &png] {
+        let is_input =
+            std::fs::canonicalize(output).is_ok_and(|file| loaded.inputs.contains(&file));
+        if is_input {
+            return Err(Failure::bad(format!(
+                "{} is a file that the scene reads: let --out name another",
+                output.display()
+            )));
+        }
+    }
     if let Some(path) = &arguments.stats {
         check_writable(path)?;
     }

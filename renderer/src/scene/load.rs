@@ -5,7 +5,7 @@ mod one_leaf;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use leafmodel::leaf::LeafPlan;
@@ -32,6 +32,8 @@ pub struct Loaded {
     pub description: Description,
     /// What is allowed and hardly meant.
     pub warnings: Vec<Warning>,
+    /// The files that it names, without links and `..`; nothing should be written over them.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// Reads the scene file at `path`, with overrides `key=value` written as in the file.
@@ -168,10 +170,12 @@ impl Opened {
     fn into_scene(mut self, default_name: &str) -> Result<Loaded, SceneErrors> {
         let recorded = std::mem::take(&mut self.recorded);
         let description = read(&self.cx, &self.tree, default_name, recorded);
+        let inputs = self.cx.inputs.take();
         let (description, warnings) = self.finish(description)?;
         Ok(Loaded {
             description,
             warnings,
+            inputs,
         })
     }
 

@@ -42,6 +42,8 @@ pub(crate) struct Context {
     /// First and last wavelength of the film, nm, once it is known.
     pub(crate) range_nm: Cell<Option<[f64; 2]>>,
     pub(crate) sources: RefCell<Sources>,
+    /// The files that it names, as they are found.
+    pub(crate) inputs: RefCell<Vec<PathBuf>>,
     /// If what the keys are is asked for: every key of every block, see [`KnownKey`].
     pub(crate) survey: RefCell<Option<Vec<KnownKey>>>,
     errors: RefCell<Vec<LocatedError>>,
@@ -56,6 +58,7 @@ impl Context {
             extrapolate: Cell::new(false),
             range_nm: Cell::new(None),
             sources: RefCell::new(sources),
+            inputs: RefCell::default(),
             survey: RefCell::default(),
             errors: RefCell::default(),
             error_count: Cell::new(0),

@@ -21,7 +21,10 @@ pub(crate) struct Wanted {
 /// The file behind a path of the scene, with links followed; checked, not opened.
 pub(crate) fn resolve(cx: &Context, written: &str, at: &Place, wanted: Wanted) -> Option<PathBuf> {
     match confined(&cx.folder, written).and_then(|file| check(file, written, wanted)) {
-        Ok(file) => Some(file),
+        Ok(file) => {
+            cx.inputs.borrow_mut().push(file.clone());
+            Some(file)
+        }
         Err(error) => {
             cx.error(at, error);
             None
