@@ -163,7 +163,7 @@ pub(super) const CROTON: ColouredLeaf = ColouredLeaf {
         .carotenoids(angers(10.0, [0.0, 25.3]))],
     age: None,
     plan: |leaf| {
-        // Fig. 1 of the paper on clonal mosaics: Table I.
+        // Fig. 1 of the paper on clonal mosaics, Table I [binsfeld2011].
         let mut mosaic = MosaicPlan::default();
         for (kind, name) in mosaic.types.iter_mut().zip(["yellow", "green"]) {
             name.clone_into(&mut kind.name);
