@@ -52,6 +52,10 @@ fn folder() -> TempDir {
     write("body.obj", &body);
     let branched = format!("{corners}v 5 5 1\nf 1 2 4\nf 4 3 1\nf 1 5 4\n");
     write("branched.obj", &branched);
+    // Two tetrahedra that share a point.
+    let pinched =
+        format!("{body}v -10 0 0\nv 0 -10 0\nv 0 0 -10\nf 1 5 6\nf 1 7 5\nf 5 7 6\nf 6 7 1\n");
+    write("pinched.obj", &pinched);
     write("no_faces.obj", corners);
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder

@@ -44,8 +44,41 @@ fn the_leaves_of_the_comparison_have_their_light() {
 }
 
 #[test]
+fn a_body_of_solid_tissue_with_a_mosaic_has_its_light() {
+    check("solid-fruit", &[]);
+}
+
+#[test]
+fn leaves_with_palettes_of_their_own_have_their_light() {
+    let names = [
+        "prospect",
+        "pelargonidin",
+        "delphinidin",
+        "blue",
+        "betanin",
+        "betaxanthin",
+        "lutein",
+        "lycopene",
+    ];
+    // One leaf to a region.
+    let small = names.map(|name| format!("leaves.{name}.map_size=128"));
+    let overrides: Vec<&str> = ["film.rgb.size=[64, 40]", SPP]
+        .into_iter()
+        .chain(small.iter().map(String::as_str))
+        .collect();
+    check("pigments", &overrides);
+}
+
+#[test]
 fn one_percent_more_light_does_not_pass() {
-    for name in ["first-leaf", "autumn-leaf", "two-leaves", "textured-veins"] {
+    for name in [
+        "first-leaf",
+        "autumn-leaf",
+        "two-leaves",
+        "textured-veins",
+        "solid-fruit",
+        "pigments",
+    ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("goldens/{name}.exr"));
         let golden = openexr::read(&path).expect("the golden is there");
         let mut picture = golden.clone();

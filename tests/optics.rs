@@ -1,6 +1,9 @@
 //! PROSPECT-D against figures computed independently (33 sets of contents × 211 wavelengths).
 
+use leafmodel::optics::presets::{Preset, PresetBasis};
 use leafmodel::optics::{Contents, Pigments, ProspectD, presets};
+use renderer::image::tone::to_srgb;
+use renderer::spectrum::cie;
 
 const REFERENCE: &str = include_str!("data/prospect_d_reference.csv");
 const CASES: usize = 33;
@@ -89,12 +92,56 @@ fn the_book_lists_every_figure_behind_the_pigments() {
     );
 }
 
+/// sRGB under D65 of a share of the light, as web pages write it.
+fn hex(share: impl Fn(f64) -> f64) -> String {
+    let rgb = cie::srgb_from_xyz(cie::xyz_under_d65(share));
+    let [r, g, b] = rgb.map(|light| (255.0 * to_srgb(light.clamp(0.0, 1.0))).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// What the numbers of a preset that are not 0 rest on, in words. That N is fitted where contents are measured is said below the table.
+fn rests_on(preset: &Preset) -> String {
+    const NAMES: [&str; Contents::COUNT] = [
+        "N",
+        "Cab",
+        "Car",
+        "Ant",
+        "betacyanins",
+        "betaxanthins",
+        "brown",
+        "Cw",
+        "Cm",
+    ];
+    let usual = |index: usize, basis: PresetBasis| {
+        basis == preset.basis
+            || basis == PresetBasis::Absent
+            || (index == 0 && preset.basis == PresetBasis::Measured && basis == PresetBasis::Fitted)
+    };
+    let all = (0..Contents::COUNT).map(|index| (index, preset.basis_of(index)));
+    let others: Vec<(usize, PresetBasis)> =
+        all.filter(|&(index, basis)| !usual(index, basis)).collect();
+    let Some(&(_, basis)) = others.first() else {
+        return preset.basis.word().to_owned();
+    };
+    assert!(others.iter().all(|other| other.1 == basis), "{others:?}");
+    let names: Vec<&str> = others.iter().map(|&(index, _)| NAMES[index]).collect();
+    let names = names.join(", ");
+    format!("{names} {}; the rest {}", basis.word(), preset.basis.word())
+}
+
 #[test]
 fn the_book_lists_the_presets_as_they_are() {
-    for preset in presets::ALL {
+    let listed: Vec<&str> = PAGE
+        .lines()
+        .skip_while(|line| !line.starts_with("| preset |"))
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .collect();
+    let rows = presets::ALL.map(|preset| {
         let c = preset.contents;
-        let row = format!(
-            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+        let optics = |nm| ProspectD::coefficients_extrapolated(nm).reflectance_transmittance(&c);
+        format!(
+            "| {} | {} | {} | {} | {} | {} | {} | {} | `{}` | `{}` | {} |",
             preset.name,
             c.structure,
             c.chlorophyll,
@@ -102,8 +149,11 @@ fn the_book_lists_the_presets_as_they_are() {
             c.anthocyanins,
             c.brown,
             c.water,
-            c.dry_matter
-        );
-        assert!(PAGE.contains(&row), "not in the book: {row}");
-    }
+            c.dry_matter,
+            hex(|nm| optics(nm).reflectance),
+            hex(|nm| optics(nm).transmittance),
+            rests_on(&preset)
+        )
+    });
+    assert_eq!(listed, rows);
 }

@@ -101,6 +101,7 @@ fn layers() -> [Layer; 3] {
         scale_mm: 5.0,
         threshold: 0.2,
         softness: 0.3,
+        repeat_cells: None,
     };
     [
         layer("rim", rim, 5.0),

@@ -6,6 +6,7 @@ mod fields;
 mod holders;
 mod lamina;
 pub mod outline_plan;
+mod painting;
 mod stages;
 pub mod venation_plan;
 
@@ -17,13 +18,12 @@ use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
 pub use self::stages::LeafStage;
 use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
-use crate::blade::ageing::Place;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::layers::Layer;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
-use crate::blade::senescence::{Senescence, Withering};
+use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::CompoundForm;
@@ -32,7 +32,6 @@ use crate::optics::Pigments;
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
-use crate::venation::network::VeinSegment;
 
 /// Everything that decides a leaf.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,70 +135,6 @@ impl LeafPlan {
             || matches!(self.outline.contour, Contour::Transport(_));
         earns.then_some(()).ok_or(LeafError::NoRevenue)
     }
-
-    /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of its margin.
-    pub(crate) fn withering(
-        &self,
-        lamina: &Lamina,
-        place: &Place<'_>,
-    ) -> Result<Option<Withering>, LeafError> {
-        self.check_senescence()?;
-        let Some(senescence) = &self.senescence else {
-            return Ok(None);
-        };
-        let deaths = if senescence.needs_cells() {
-            self.death_field(lamina)?
-        } else {
-            None
-        };
-        let withering = Withering::new(senescence, place, deaths, self.seed);
-        withering.ok_or(LeafError::NoRevenue).map(Some)
-    }
-}
-
-impl LeafPlan {
-    /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`] around its margin.
-    ///
-    /// # Errors
-    ///
-    /// [`LeafError::Mosaic`], [`LeafError::Tissue`], [`LeafError::NoRevenue`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped)
-    /// when `is_stopped` says so.
-    pub fn paint(
-        &self,
-        lamina: &Lamina,
-        is_stopped: &dyn Fn() -> bool,
-    ) -> Result<ContentsMap, LeafError> {
-        let frame = UvFrame::around(lamina.outline.points());
-        let veins: Vec<VeinSegment> = lamina.network.segments().collect();
-        let place = lamina.place(&frame, &veins);
-        let withering = self.withering(lamina, &place)?;
-        let pattern = self.mosaic.as_ref();
-        let pattern = pattern
-            .map(|pattern| pattern.on_lamina(&lamina.outline, self.seed, is_stopped))
-            .transpose()?;
-        Ok(ContentsMap::paint_layered(
-            &place,
-            &self.tissue,
-            pattern.as_ref(),
-            &self.layers,
-            withering.as_ref(),
-            self.map_size,
-            self.seed,
-        )?)
-    }
-}
-
-impl Lamina {
-    /// The lamina as ageing and masks see it; `veins` are its own.
-    pub(crate) fn place<'a>(&'a self, frame: &'a UvFrame, veins: &'a [VeinSegment]) -> Place<'a> {
-        Place {
-            frame,
-            margin: self.outline.points(),
-            veins,
-            base: self.outline.base(),
-            apex: self.outline.apex(),
-        }
-    }
 }
 
 impl Leaf {
@@ -241,7 +176,12 @@ impl Leaf {
         Self::from_lamina_unless(plan, lamina, &|| false)
     }
 
-    fn from_lamina_unless(
+    /// As [`Leaf::from_lamina`], but gives up when `is_stopped` says so while a mosaic grows.
+    ///
+    /// # Errors
+    ///
+    /// Also [`LeafError::Mosaic`] of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped).
+    pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,
         is_stopped: &dyn Fn() -> bool,

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
-pub use self::shape::{SolidMesh, SolidShape, smooth_normals};
+pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
 use crate::blade::contents_map::ContentsMap;
 use crate::mosaic::atlas::{Atlas, AtlasError};
 use crate::mosaic::pattern::{MosaicPattern, PatternError};

@@ -5,6 +5,7 @@
 
 pub mod arguments;
 mod check;
+mod columns;
 mod export;
 mod grow;
 mod interrupt;
@@ -39,6 +40,11 @@ enum Failure {
 impl Failure {
     fn bad(error: impl std::fmt::Display) -> Self {
         Self::BadInput(format!("error: {error}\n"))
+    }
+
+    fn written_twice(path: &Path) -> Self {
+        let path = path.display();
+        Self::bad(format!("{path} is to be written twice: name another file"))
     }
 
     fn system(error: impl std::fmt::Display) -> Self {

@@ -29,6 +29,8 @@ const FAR_MARGIN: f64 = 1.5;
 const FAR_ATTRIBUTE: &str = "farShare";
 /// Probability that a right picture fails by its regions.
 const LEVEL: f64 = 0.01;
+/// Largest change of a region that may go unseen, over its mean: a golden with more noise says too little.
+const UNSEEN: f64 = 0.01;
 /// Rounding of single precision, as a share of the value.
 const ROUNDING: f64 = 1e-5;
 
@@ -55,9 +57,9 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Whether the light is the same.
+    /// Whether the light is the same, as far as a golden that is good enough to tell can say.
     pub fn passes(&self) -> bool {
-        self.far[0] <= self.far[1] && self.region[0] <= self.region[1]
+        self.far[0] <= self.far[1] && self.region[0] <= self.region[1] && self.unseen < UNSEEN
     }
 }
 
@@ -220,7 +222,7 @@ pub fn compare(golden: &Picture, picture: &Picture) -> Verdict {
         for [difference, variance, mean] in sums {
             let off = difference.abs() / variance.sqrt();
             verdict.region[0] = verdict.region[0].max(off);
-            unseen.push(allowed * variance.sqrt() / mean);
+            unseen.push(allowed * variance.sqrt() / mean.abs());
         }
     }
     unseen.sort_by(f64::total_cmp);
@@ -228,7 +230,7 @@ pub fn compare(golden: &Picture, picture: &Picture) -> Verdict {
     verdict
 }
 
-/// Difference, its deviation and the golden's mean for each pixel.
+/// Difference, its deviation and the golden's mean for each pixel; what is not finite is infinitely far off.
 fn differences(golden: &Picture, picture: &Picture, channel: usize) -> Vec<(f64, f64, f64)> {
     let layer = |picture: &Picture, name: &str| {
         let name = format!("{name}.{channel}");
@@ -242,14 +244,21 @@ fn differences(golden: &Picture, picture: &Picture, channel: usize) -> Vec<(f64,
         .map(|((&new, &mean), &deviation)| {
             let [new, mean, deviation] = [new, mean, deviation].map(f64::from);
             let scatter = expected(mean, deviation, PICTURES as usize);
-            (new - mean, scatter, mean)
+            let difference = new - mean;
+            if difference.is_finite() && scatter.is_finite() {
+                (difference, scatter, mean)
+            } else {
+                (f64::INFINITY, f64::from(f32::MIN_POSITIVE), 0.0)
+            }
         })
         .collect()
 }
 
 /// Deviation of one more picture from the mean of `count`, which has an error too, and rounding.
 fn expected(mean: f64, deviation: f64, count: usize) -> f64 {
-    deviation * (1.0 + 1.0 / count as f64).sqrt() + ROUNDING * mean + f64::from(f32::MIN_POSITIVE)
+    deviation * (1.0 + 1.0 / count as f64).sqrt()
+        + ROUNDING * mean.abs()
+        + f64::from(f32::MIN_POSITIVE)
 }
 
 fn mean_and_deviation<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> (f64, f64) {
@@ -299,5 +308,59 @@ mod tests {
     #[test]
     fn a_normal_variate_lies_beyond_1_96_deviations_in_one_case_of_twenty() {
         assert!((two_sided(0.05) - 1.959_964).abs() < 1e-5);
+    }
+
+    const PIXELS: usize = 8 * 6;
+
+    fn picture(layers: &[(&str, f32)]) -> Picture {
+        let layers = layers.iter().map(|&(name, value)| Layer {
+            name: name.to_owned(),
+            data: vec![value; PIXELS],
+        });
+        Picture {
+            width: 8,
+            height: 6,
+            layers: layers.collect(),
+            attributes: vec![(FAR_ATTRIBUTE.to_owned(), Attribute::Double(0.1))],
+        }
+    }
+
+    #[test]
+    fn the_same_light_passes_whatever_its_sign() {
+        for mean in [0.5, -0.5] {
+            let golden = picture(&[("mean.0", mean), ("deviation.0", 0.0)]);
+            // Off by half of what rounding may do.
+            let off = picture(&[("mean.0", mean * (1.0 + 0.5e-5))]);
+            let verdict = compare(&golden, &off);
+            assert!(verdict.passes(), "{verdict:?}");
+            assert!(verdict.unseen > 0.0, "{verdict:?}");
+        }
+    }
+
+    #[test]
+    fn one_pixel_that_is_not_finite_does_not_pass() {
+        let golden = picture(&[("mean.0", 0.5), ("deviation.0", 0.001)]);
+        let same = picture(&[("mean.0", 0.5)]);
+        assert!(compare(&golden, &same).passes());
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let mut spoilt = same.clone();
+            spoilt.layers[0].data[20] = bad;
+            assert!(!compare(&golden, &spoilt).passes(), "{bad} in the picture");
+            for layer in 0..2 {
+                let mut spoilt = golden.clone();
+                spoilt.layers[layer].data[20] = bad;
+                assert!(!compare(&spoilt, &same).passes(), "{bad} in layer {layer}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_golden_too_noisy_to_tell_one_percent_does_not_pass() {
+        let same = picture(&[("mean.0", 0.5)]);
+        for (deviation, passes) in [(0.002, true), (0.2, false)] {
+            let golden = picture(&[("mean.0", 0.5), ("deviation.0", deviation)]);
+            let verdict = compare(&golden, &same);
+            assert_eq!(verdict.passes(), passes, "{verdict:?}");
+        }
     }
 }

@@ -14,6 +14,8 @@ pub struct Mottle {
     /// State of the hash of each octave.
     octaves: [u64; 2],
     scale_mm: f64,
+    /// Cells of the first octave after which the lattice repeats, both ways.
+    repeat: Option<u32>,
 }
 
 /// Cosines of 0, 22.5, 45, 67.5 and 90°.
@@ -32,6 +34,16 @@ impl Mottle {
         Self {
             octaves: [0, 1].map(|octave| mixed(seed, octave)),
             scale_mm,
+            repeat: None,
+        }
+    }
+
+    /// The noise whose lattice repeats after so many cells (≥ 1) of `scale_mm`, as that of Perlin 1985 does after the 256 of its table.
+    #[must_use]
+    pub fn repeating(self, cells: u32) -> Self {
+        Self {
+            repeat: Some(cells),
+            ..self
         }
     }
 
@@ -41,22 +53,25 @@ impl Mottle {
         // One lattice cell holds about half a wave.
         let place = point / self.scale_mm;
         let [whole, half] = self.octaves;
-        let sum = (octave(whole, place) + 0.5 * octave(half, 2.0 * place)) / 1.5;
+        let repeat = |octaves_down: u32| self.repeat.map(|cells| i64::from(cells) << octaves_down);
+        let sum =
+            (octave(whole, place, repeat(0)) + 0.5 * octave(half, 2.0 * place, repeat(1))) / 1.5;
         // Gradient noise seldom comes near its bounds; this spreads it, with slope 3/2 at 0 and 0 at ±1.
         let bounded = sum.clamp(-1.0, 1.0);
         bounded * (1.5 - 0.5 * bounded * bounded)
     }
 }
 
-/// One octave on the unit lattice, in [−1, 1].
-fn octave(state: u64, place: DVec2) -> f64 {
+/// One octave on the unit lattice, which repeats after so many cells if it does, in [−1, 1].
+fn octave(state: u64, place: DVec2, repeat: Option<i64>) -> f64 {
     let corner = place.floor();
     let inside = place - corner;
     let (column, row) = (corner.x as i64, corner.y as i64);
+    let lattice = |number: i64| repeat.map_or(number, |cells| number.rem_euclid(cells)) as u64;
     let pulls = |i: i64| {
-        let state = mixed(state, column.wrapping_add(i) as u64);
+        let state = mixed(state, lattice(column.wrapping_add(i)));
         [0, 1].map(|j: i64| {
-            let gradient = direction(mixed(state, row.wrapping_add(j) as u64));
+            let gradient = direction(mixed(state, lattice(row.wrapping_add(j))));
             gradient.dot(inside - DVec2::new(i as f64, j as f64))
         })
     };
@@ -159,5 +174,21 @@ mod tests {
             assert!((one.length() - 1.0).abs() < 1e-15);
             assert!(all[..i].iter().all(|other| (*other - *one).length() > 0.3));
         }
+    }
+
+    #[test]
+    fn a_lattice_repeats_after_its_cells_and_not_before() {
+        let noise = Mottle::new(4, 2.0);
+        let repeating = noise.repeating(5);
+        let shift = |cells: f64| DVec2::new(2.0 * cells, -2.0 * cells);
+        let mut other = 0;
+        for i in 0..500 {
+            let p = DVec2::new(0.173 * f64::from(i), 31.0 - 0.211 * f64::from(i));
+            let value = repeating.at(p);
+            assert!((value - repeating.at(p + shift(5.0))).abs() < 1e-9);
+            other += i32::from((value - repeating.at(p + shift(4.0))).abs() > 0.05);
+            other += i32::from((noise.at(p) - noise.at(p + shift(5.0))).abs() > 0.05);
+        }
+        assert!(other > 800, "{other}");
     }
 }

@@ -40,6 +40,9 @@ pub enum AgeSource {
 }
 
 impl Senescence {
+    /// Latest day that a leaf can be told of.
+    pub const LATEST_DAY: f64 = 1e4;
+
     /// Checks every number.
     ///
     /// # Errors
@@ -53,7 +56,7 @@ impl Senescence {
                 (1.0, "from 0.001 to 1")
             }
             AgeSource::Day { day, course } => {
-                let valid = (0.0..=1e4).contains(&day);
+                let valid = (0.0..=Self::LATEST_DAY).contains(&day);
                 TissueError::unless(valid, "senescence.day", day, "from 0 to 10000")?;
                 course.validate()?;
                 (1000.0, "from 0.001 to 1000")
@@ -76,7 +79,7 @@ impl Senescence {
 }
 
 impl Senescence {
-    /// The day from which on all tissue is dead, if it ages by days.
+    /// The day from which on all tissue is dead, if it ages by days; may come after [`Senescence::LATEST_DAY`].
     pub fn last_day(&self) -> Option<f64> {
         match self.source {
             AgeSource::Revenue { .. } => None,

@@ -2,12 +2,16 @@
 
 use thiserror::Error;
 
-use super::control::{ControlError, CylinderControl};
+use super::control::{ControlError, CylinderControl, Steered};
 use super::growth::SurfaceGrowth;
 use super::surface::SurfaceError;
 
 /// Rounding that a sum of probabilities may show.
 const TOLERANCE: f64 = 1e-6;
+/// More cells than this are refused.
+pub(super) const MOST_CELLS: usize = 4_000_000;
+/// How many times as many must be expected for a plan to be refused beforehand: chance may bring forth fewer.
+const OVERCROWDED: f64 = 4.0;
 
 /// A kind of cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,6 +147,21 @@ pub enum MosaicError {
         /// How many can be handled.
         most: usize,
     },
+    /// A type that divides so often that there would be more cells than can be handled.
+    #[error(
+        "cells of type \"{name}\" divide every {division_days} days: after {days} days there would be more than {most}; make the days \
+         fewer or the divisions rarer"
+    )]
+    Overcrowded {
+        /// The type.
+        name: String,
+        /// Its mean time between divisions.
+        division_days: f64,
+        /// The days of the plan.
+        days: f64,
+        /// How many cells can be handled.
+        most: usize,
+    },
     /// A surface that cannot be grown on.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
@@ -249,6 +268,34 @@ impl MosaicPlan {
         for (number, control) in self.controls.iter().enumerate() {
             let checked = control.validate(count);
             checked.map_err(|error| MosaicError::Control { number, error })?;
+        }
+        self.has_room()
+    }
+
+    /// Refuses what is bound to end in [`MosaicError::TooManyCells`], which may take minutes. How far controls and the growth of the
+    /// surface hold divisions back is not known beforehand.
+    fn has_room(&self) -> Result<(), MosaicError> {
+        let steered = self.controls.iter().any(|control| match control.steers {
+            Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
+            Steered::Adhesion { .. } | Steered::Blocked => false,
+        });
+        if steered || self.growth != SurfaceGrowth::None {
+            return Ok(());
+        }
+        for (number, kind) in self.types.iter().enumerate() {
+            // Of the type's own kind alone, all dividing after the mean time (Poisson's scatter makes them more) and one relaxation later
+            // than drawn: each division makes one cell into 1 + s of the type.
+            let wait = kind.division_days + 1.0 / f64::from(self.relaxations_per_day);
+            let times = libm::exp(self.days * libm::log1p(kind.switching[number]) / wait);
+            let cells = self.initial_cells as f64 * kind.initial_probability * times;
+            if cells > OVERCROWDED * MOST_CELLS as f64 {
+                return Err(MosaicError::Overcrowded {
+                    name: kind.name.clone(),
+                    division_days: kind.division_days,
+                    days: self.days,
+                    most: MOST_CELLS,
+                });
+            }
         }
         Ok(())
     }

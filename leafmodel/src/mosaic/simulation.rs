@@ -11,13 +11,10 @@ use glam::{DVec2, DVec3};
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, events_to_division, kind_of_child, place_of_child};
-use super::plan::{MosaicError, MosaicPlan, RadiusRule};
+use super::plan::{MOST_CELLS, MosaicError, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::venation::chance::{Use, bits, uniform};
-
-/// More cells than this are refused.
-const MOST_CELLS: usize = 4_000_000;
 
 /// Throws for one initial cell before its surface counts as blocked.
 const THROWS: u32 = 1000;

@@ -80,6 +80,12 @@ pub enum SurfaceError {
         /// The faces at the edge.
         faces: Vec<u32>,
     },
+    /// A point in which parts meet that share no edge there.
+    #[error("not a manifold: parts of the mesh touch at {at} mm in a point only")]
+    Pinched {
+        /// The point, mm.
+        at: DVec3,
+    },
     /// Two neighbours of which one is turned inside out.
     #[error(
         "faces {} and {} are of opposite orientation: both run along their edge from {from} mm to {to} mm",
@@ -182,7 +188,7 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// Every [`SurfaceError`] but the last; the first defect found.
+    /// Every [`SurfaceError`] but [`SurfaceError::Pinched`] and the last; the first defect found.
     pub fn new(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Result<Self, SurfaceError> {
         let (positions, faces) = adjacency::welded(positions, faces)?;
         let keys = adjacency::keys_of_vertices(&faces);
@@ -207,6 +213,49 @@ impl Surface {
         };
         surface.flatten()?;
         Ok(surface)
+    }
+
+    /// Whether the faces around each vertex are one fan. Cells live on others too: they cross edges only, not points.
+    ///
+    /// # Errors
+    ///
+    /// [`SurfaceError::Pinched`] for the first vertex around which they are several.
+    pub fn check_vertices(&self) -> Result<(), SurfaceError> {
+        let mut walked = vec![[false; 3]; self.faces.len()];
+        let mut met = vec![false; self.positions.len()];
+        for face in 0..self.faces.len() {
+            for corner in 0..3 {
+                if walked[face][corner] {
+                    continue;
+                }
+                let vertex = self.faces[face][corner];
+                if std::mem::replace(&mut met[vertex as usize], true) {
+                    let at = self.positions[vertex as usize];
+                    return Err(SurfaceError::Pinched { at });
+                }
+                // Both ways round, across the edges that start and end at the vertex.
+                for side in [0, 2] {
+                    let mut at = (face, corner);
+                    loop {
+                        walked[at.0][at.1] = true;
+                        let edge = (at.1 + side) % 3;
+                        let next = self.neighbours[at.0][edge];
+                        if next == NONE {
+                            break;
+                        }
+                        let corners = &self.faces[next as usize];
+                        let Some(there) = corners.iter().position(|&other| other == vertex) else {
+                            break;
+                        };
+                        at = (next as usize, there);
+                        if walked[at.0][at.1] {
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The same faces and neighbours with the vertices ([`Surface::positions`], in their order) moved elsewhere.

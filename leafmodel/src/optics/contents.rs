@@ -125,6 +125,11 @@ impl Contents {
         "dry_matter",
     ];
 
+    /// Their units, in the same order; numbers without one have an empty one.
+    pub const UNITS: [&'static str; Self::COUNT] = [
+        "", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "", "cm", "g/cm²",
+    ];
+
     /// The values, in the order of the fields.
     pub fn to_array(self) -> [f64; Self::COUNT] {
         [

@@ -44,6 +44,8 @@ pub struct Preset {
     pub contents: Contents,
     /// What the numbers rest on, taken together.
     pub basis: PresetBasis,
+    /// What each rests on, in the order of [`Contents::to_array`].
+    each: [PresetBasis; Contents::COUNT],
 }
 
 impl Preset {
@@ -51,22 +53,31 @@ impl Preset {
     ///
     /// Nobody measures a number of plates: it is fitted, with the contents as measured. A content of 0 is taken to be absent.
     pub fn basis_of(&self, index: usize) -> PresetBasis {
-        let values = self.contents.to_array();
-        match (Contents::NAMES[index], self.basis) {
-            _ if values[index] == 0.0 => PresetBasis::Absent,
-            ("structure", PresetBasis::Measured) => PresetBasis::Fitted,
-            // Structure, chlorophyll and carotenoids of purple leaves are in ANGERS.
-            ("structure" | "chlorophyll" | "carotenoids", _) if self.name == SMOKE_TREE => {
-                PresetBasis::Angers
-            }
-            (_, basis) => basis,
-        }
+        self.each[index]
+    }
+
+    /// The same, whose structure, chlorophyll and carotenoids rest on something else.
+    const fn green_part(mut self, basis: PresetBasis) -> Self {
+        let [structure, chlorophyll, carotenoids, ..] = &mut self.each;
+        *structure = basis;
+        *chlorophyll = basis;
+        *carotenoids = basis;
+        self
     }
 }
 
-const SMOKE_TREE: &str = "smoke-tree-purple";
+/// A content of 0 is taken to be absent.
+const fn unless_absent(value: f64, basis: PresetBasis) -> PresetBasis {
+    if value == 0.0 {
+        PresetBasis::Absent
+    } else {
+        basis
+    }
+}
 
 /// A row: N, chlorophyll, carotenoids, anthocyanins, brown, water, dry matter.
+///
+/// Nobody measures a number of plates, so that where the basis is measured it is fitted.
 const fn preset(
     name: &'static str,
     about: &'static str,
@@ -82,6 +93,23 @@ const fn preset(
         water,
         dry_matter,
     ] = values;
+    let structure_basis = match basis {
+        PresetBasis::Measured => PresetBasis::Fitted,
+        PresetBasis::Angers | PresetBasis::Fitted | PresetBasis::Estimate | PresetBasis::Absent => {
+            basis
+        }
+    };
+    let each = [
+        structure_basis,
+        unless_absent(chlorophyll, basis),
+        unless_absent(carotenoids, basis),
+        unless_absent(anthocyanins, basis),
+        PresetBasis::Absent,
+        PresetBasis::Absent,
+        unless_absent(brown, basis),
+        unless_absent(water, basis),
+        unless_absent(dry_matter, basis),
+    ];
     Preset {
         name,
         about,
@@ -97,6 +125,7 @@ const fn preset(
             dry_matter,
         },
         basis,
+        each,
     }
 }
 
@@ -120,7 +149,9 @@ pub const ALL: [Preset; 19] = {
         preset("sugar-maple-orange", "sugar maple in autumn", [1.6, 2.0, 7.0, 4.0, 0.1, 0.008, 0.005], Estimate),
         preset("red-maple-scarlet", "red maple in autumn", [1.7, 3.0, 5.0, 15.0, 0.1, 0.008, 0.005], Estimate),
         preset("sweetgum-purple-red", "sweetgum (Liquidambar) in autumn", [1.7, 8.0, 6.0, 30.0, 0.1, 0.009, 0.006], Estimate),
-        preset(SMOKE_TREE, "a purple smoke tree (Cotinus), green beneath its red", [1.7, 35.0, 8.0, 30.0, 0.0, 0.010, 0.006], Estimate),
+        // Structure, chlorophyll and carotenoids of purple leaves are in ANGERS.
+        preset("smoke-tree-purple", "a purple smoke tree (Cotinus), green beneath its red", [1.7, 35.0, 8.0, 30.0, 0.0, 0.010, 0.006], Estimate)
+            .green_part(Angers),
         preset("croton-red", "red part of a croton (Codiaeum)", [2.1, 15.0, 8.0, 25.0, 0.0, 0.02, 0.008], Estimate),
         preset("croton-yellow", "yellow part of a croton (Codiaeum)", [2.1, 3.0, 10.0, 0.0, 0.0, 0.02, 0.008], Estimate),
         preset("brown-litter", "a dead leaf on the ground", [2.2, 0.3, 0.8, 0.0, 1.1, 0.001, 0.007], Estimate),

@@ -91,6 +91,55 @@ fn area(shape: &Shape) -> f64 {
     0.5 * doubled.sum::<f64>()
 }
 
+/// A mesh that has no normals with some: at each corner of a face the mean of those faces around that turn away from it by less than
+/// 45°, by area. So round things look round, and edges are sharp: across an edge a mean would lean so far from both its faces that light
+/// which falls on them could not be reflected. A point has as many vertices as normals.
+pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
+    let crease = std::f64::consts::FRAC_1_SQRT_2;
+    let doubled: Vec<DVec3> = faces
+        .iter()
+        .map(|&[a, b, c]| {
+            let corner = |vertex: u32| positions[vertex as usize];
+            (corner(b) - corner(a)).cross(corner(c) - corner(a))
+        })
+        .collect();
+    let mut around: Vec<Vec<usize>> = vec![Vec::new(); positions.len()];
+    for (number, face) in faces.iter().enumerate() {
+        for &vertex in face {
+            around[vertex as usize].push(number);
+        }
+    }
+    let mut shape = Shape {
+        positions: Vec::new(),
+        normals: Vec::new(),
+        faces: Vec::with_capacity(faces.len()),
+    };
+    let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); positions.len()];
+    for (number, face) in faces.iter().enumerate() {
+        let own = doubled[number].normalize_or_zero();
+        let corners = face.map(|point| {
+            let point = point as usize;
+            let near = around[point].iter().map(|&other| doubled[other]);
+            let near = near.filter(|other| other.normalize_or_zero().dot(own) > crease);
+            let normal = near.sum::<DVec3>().try_normalize().unwrap_or(own);
+            let known = vertices[point].iter();
+            let found = known.copied().find(|&vertex| {
+                let other = shape.normals[vertex as usize];
+                other == normal
+            });
+            found.unwrap_or_else(|| {
+                let vertex = shape.positions.len() as u32;
+                shape.positions.push(positions[point]);
+                shape.normals.push(normal);
+                vertices[point].push(vertex);
+                vertex
+            })
+        });
+        shape.faces.push(corners);
+    }
+    shape
+}
+
 /// Unit normals at the points of a mesh that has none: the mean of the faces around, by area.
 pub fn smooth_normals(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];

@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::mosaic::plan::{CellType, MosaicPlan};
+use crate::mosaic::shapes::ellipsoid;
 use crate::mosaic::shapes::rounded_cube;
 
 const BARE: [f64; Contents::COUNT] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -256,15 +257,10 @@ fn a_coarse_mesh_is_cut_fine_enough_for_its_cells_and_stays_closed_with_hard_edg
         positions.extend(face.map(|corner: usize| corners[corner]));
         faces.push([first, first + 1, first + 2]);
     }
-    let normals = smooth_normals(&positions, &faces);
     let shape = SolidShape::Mesh(Arc::new(SolidMesh {
         file: "tetrahedron.obj".to_owned(),
         scale_mm: 1.0,
-        shape: Shape {
-            positions,
-            normals,
-            faces,
-        },
+        shape: creased(&positions, &faces),
     }));
     let mut pattern = pattern(1.0);
     pattern.plan.initial_cells = 200;
@@ -350,4 +346,39 @@ fn a_profile_too_crumpled_to_be_measured_is_refused_in_words_of_the_plan() {
     let refused = Solid::grow(&plan(SolidShape::Lathe { profile_mm }, None), &|| false);
     let refused = refused.expect_err("it is refused");
     assert!(matches!(refused, SolidError::TooFine { .. }), "{refused}");
+}
+
+#[test]
+fn edges_of_a_mesh_without_normals_are_sharp_and_round_parts_smooth() {
+    let corner = |i: u32| {
+        let side = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
+        DVec3::new(side(1), side(2), side(4))
+    };
+    let cube: Vec<DVec3> = (0..8).map(corner).collect();
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let faces: Vec<[u32; 3]> = quads
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
+    let sharp = creased(&cube, &faces);
+    assert_eq!(sharp.positions.len(), 24);
+    for face in &sharp.faces {
+        let [a, b, c] = face.map(|vertex| sharp.positions[vertex as usize]);
+        let flat = (b - a).cross(c - a).normalize();
+        let leans = |&vertex: &u32| sharp.normals[vertex as usize].dot(flat);
+        assert!(face.iter().map(leans).all(|cosine| cosine > 1.0 - 1e-12));
+    }
+    let ball = ellipsoid(DVec3::splat(10.0), 1.0).expect("a ball");
+    let smooth = creased(&ball.positions, &ball.faces);
+    assert_eq!(smooth.positions.len(), ball.positions.len());
+    let off = smooth.positions.iter().zip(&smooth.normals);
+    let least = off.map(|(p, n)| p.normalize().dot(*n));
+    assert!(least.fold(1.0, f64::min) > 0.999);
 }

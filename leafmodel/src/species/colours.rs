@@ -72,11 +72,6 @@ pub struct Age {
     pub death_day: Quantity,
 }
 
-/// Units of contents, in the order of [`Contents::NAMES`].
-const UNITS: [&str; Contents::COUNT] = [
-    "", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "", "cm", "g/cm²",
-];
-
 /// The leaf that a preset stands for.
 pub fn coloured(preset: &str) -> Option<&'static ColouredLeaf> {
     COLOURED.iter().find(|leaf| leaf.preset == preset)
@@ -97,7 +92,11 @@ impl ColouredLeaf {
     pub fn quantities(&self) -> Vec<(String, &'static str, Quantity)> {
         let mut all = Vec::new();
         for Holding { tissue, contents } in self.tissues {
-            for ((name, unit), quantity) in Contents::NAMES.into_iter().zip(UNITS).zip(contents) {
+            for ((name, unit), quantity) in Contents::NAMES
+                .into_iter()
+                .zip(Contents::UNITS)
+                .zip(contents)
+            {
                 let Some(quantity) = *quantity else { continue };
                 all.push((
                     format!("{tissue}: {}", name.replace('_', " ")),

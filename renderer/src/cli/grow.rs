@@ -239,12 +239,19 @@ impl Grown {
         if !blade {
             return Ok(Self::Flat { laminas, compound });
         }
+        let is_stopped = || stop.load(Ordering::Relaxed);
         let blades: Result<Vec<Leaf>, LeafError> = plans
             .iter()
             .zip(laminas)
-            .map(|(plan, lamina)| Leaf::from_lamina(plan, lamina))
+            .map(|(plan, lamina)| Leaf::from_lamina_unless(plan, lamina, &is_stopped))
             .collect();
-        let mut blades = blades.map_err(Failure::bad)?;
+        let mut blades = blades.map_err(|error| {
+            if is_stopped() {
+                Failure::Interrupted
+            } else {
+                Failure::bad(error)
+            }
+        })?;
         let whole = match (&plan.compound, compound) {
             (Some(form), Some(flat)) => WholeLeaf::assembled(plan, form, flat, blades),
             _ => WholeLeaf::simple(blades.remove(0)),

@@ -34,6 +34,11 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         arguments.out.as_deref(),
         arguments.colour.as_ref().and_then(|file| file.as_deref()),
     ];
+    if let [Some(one), Some(other)] = files
+        && one == other
+    {
+        return Err(Failure::written_twice(one));
+    }
     for file in files.into_iter().flatten() {
         check_writable(file)?;
     }

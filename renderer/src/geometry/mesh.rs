@@ -1,5 +1,7 @@
 //! A triangle mesh that is fit to be traced.
 
+use std::fmt;
+
 use glam::{DVec3, Vec2, Vec3};
 use thiserror::Error;
 
@@ -48,6 +50,19 @@ pub struct DroppedFaces {
     pub duplicate: usize,
     /// Number of the first face that was left out, in the order given, and why.
     pub first: Option<(usize, DropCause)>,
+}
+
+impl fmt::Display for DroppedFaces {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} faces left out ({} not finite, {} without area, {} duplicate)",
+            self.total(),
+            self.not_finite,
+            self.degenerate,
+            self.duplicate
+        )
+    }
 }
 
 impl DroppedFaces {

@@ -4,6 +4,8 @@ mod lights;
 mod materials;
 mod meshes;
 mod notes;
+#[cfg(test)]
+mod tests;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -149,15 +151,7 @@ impl World {
         for mesh in &scene.meshes {
             let built = build_mesh(&mesh.name, &mesh.value)?;
             if built.dropped().total() > 0 {
-                let dropped = built.dropped();
-                notes.push(format!(
-                    "meshes.{}: {} faces left out ({} not finite, {} without area, {} duplicate)",
-                    mesh.name,
-                    dropped.total(),
-                    dropped.not_finite,
-                    dropped.degenerate,
-                    dropped.duplicate
-                ));
+                notes.push(format!("meshes.{}: {}", mesh.name, built.dropped()));
             }
             meshes.push(built);
         }
@@ -269,7 +263,9 @@ fn grow_solids(
             source: Box::new(source),
         })
     });
-    grown.collect()
+    // Of several errors the first in the scene's order, whichever thread was first.
+    let grown: Vec<Result<_, _>> = grown.collect();
+    grown.into_iter().collect()
 }
 
 /// Instances, and what they are: one of each object, in their order, then the other parts of leaves.

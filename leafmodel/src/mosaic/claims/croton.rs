@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::{BACKGROUND, FOREGROUND, Row, Seen, grown, surface};
+use crate::blade::mottle::Mottle;
 use crate::mosaic::paint::{SheetField, TypeField};
 use crate::mosaic::shapes::sheet;
 use crate::mosaic::statistics::{
@@ -160,4 +161,35 @@ fn three_crotons_differ_with_equal_statistics_and_are_unstructured() {
         PatternClass::Unstructured,
         "{counts:?}"
     );
+}
+
+#[test]
+fn noise_of_a_small_lattice_repeats_its_blotches_and_a_mosaic_does_not() {
+    const SCALE_MM: f64 = 4.0;
+    const REPEAT_CELLS: u32 = 6;
+    let leaf = lamina(2.0);
+    let mosaic = Mosaic::grow(&leaf, &INDIVIDUALS.plan(), 1).expect("a good plan");
+    let seen = Seen::of(&mosaic);
+    let field = SheetField::new(&leaf, TypeField::of_mosaic(&mosaic, 2, 0.0), false);
+    // A square of the lamina, and how far along the midrib it is compared with itself.
+    let square = |shift: f64| {
+        let places = (0..1600).map(|i| (f64::from(i % 40), f64::from(i / 40)));
+        let moved = places.map(|(x, y)| DVec2::new(0.75 * x - 15.0, 0.75 * y + 35.0 + shift));
+        moved.collect::<Vec<DVec2>>()
+    };
+    let of_mosaic = |shift: f64| {
+        let points: Vec<SurfacePoint> = square(shift).iter().map(|&p| field.locate(p)).collect();
+        seen.at(&leaf, &points)
+    };
+    let noise = Mottle::new(1, SCALE_MM).repeating(REPEAT_CELLS);
+    let of_noise = |shift: f64| -> Vec<u32> {
+        let marked = |p: &DVec2| u32::from(noise.at(*p) > 0.25);
+        square(shift).iter().map(marked).collect()
+    };
+    let period = SCALE_MM * f64::from(REPEAT_CELLS);
+    assert!(kappa(&of_noise(0.0), &of_noise(period)) > 0.999);
+    let first = of_mosaic(0.0);
+    let alike = (12..=45).map(|mm| kappa(&first, &of_mosaic(f64::from(mm))));
+    let most = alike.fold(f64::NEG_INFINITY, f64::max);
+    assert!(most < 0.2, "κ {most} at some distance");
 }

@@ -3,6 +3,7 @@ mod steered;
 use glam::DVec3;
 
 use super::*;
+use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
 use crate::mosaic::growth::{GrowthCourse, SurfaceGrowth};
 use crate::mosaic::plan::CellType;
 use crate::mosaic::testing::{sphere, square};
@@ -344,6 +345,27 @@ fn what_a_plan_has_wrong_is_named() {
         step: 0.0,
         radius_weight: 10.0,
         ..small(200, 1000.0)
+    };
+    let error = explosive.validate().expect_err("bound to fail");
+    assert_eq!(
+        error.to_string(),
+        "cells of type \"foreground\" divide every 0.1 days: after 1000 days there would be more than 4000000; make the days fewer \
+         or the divisions rarer"
+    );
+    // Where a control decides how often cells divide, it shows on the way only.
+    let explosive = MosaicPlan {
+        controls: vec![CylinderControl {
+            from: DVec3::ZERO,
+            to: DVec3::Z,
+            radius_mm: None,
+            image: ControlImage::Constant(1.0),
+            steers: Steered::DivisionRate {
+                kind: None,
+                low: 0.0,
+                high: 1.0,
+            },
+        }],
+        ..explosive
     };
     let surface = square(10.0, 5.0);
     let error = Mosaic::grow_to(&surface, &explosive, 1, &[1000.0], 5000, &|| false);

@@ -219,3 +219,27 @@ fn needles_are_not_cut_into_more_faces_than_allowed() {
     let (fine, _) = cut(100_000).expect("few enough");
     assert!(fine.faces().len() > 200 && fine.longest_edge() <= 1.0);
 }
+
+#[test]
+fn a_point_in_which_two_bodies_touch_is_found_and_a_margin_is_none() {
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let body = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let mirrored = corners.map(|corner| -corner);
+    let mut positions = corners.to_vec();
+    positions.extend(mirrored);
+    let mut faces = body.to_vec();
+    // Turned over, since a mirror does that.
+    faces.extend(
+        body.map(|face| face.map(|vertex| vertex + 4))
+            .map(|[a, b, c]| [a, c, b]),
+    );
+    let two = Surface::new(positions, faces).expect("each edge has two faces");
+    assert_eq!(
+        two.check_vertices().expect_err("pinched").to_string(),
+        "not a manifold: parts of the mesh touch at [0, 0, 0] mm in a point only"
+    );
+    let one = Surface::new(corners.to_vec(), body.to_vec()).expect("a body");
+    assert_eq!(one.check_vertices(), Ok(()));
+    let open = Surface::new(corners.to_vec(), body[..3].to_vec()).expect("a cup");
+    assert_eq!(open.check_vertices(), Ok(()));
+}

@@ -206,6 +206,7 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
             scale_mm: 7.0,
             threshold: 0.25,
             softness: 0.7,
+            repeat_cells: None,
         };
         let along = Mask::Veins {
             orders: [1, 2],

@@ -6,6 +6,7 @@ use leafmodel::species::leaf_traits::{LeafTraits, Provenance, Quantity, traits};
 
 use super::choice::{is_word, unknown_preset};
 use crate::cli::arguments::file_and_leaf;
+use crate::cli::columns::in_columns;
 use crate::cli::{Failure, say};
 
 /// Prints a preset's words and, if it stands for a species, the table of its traits.
@@ -25,10 +26,10 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
     say(format!("  {}", preset.about));
     say(format!("  source: {}", preset.source));
     if let Some(traits) = traits(preset.name) {
-        say(table(traits.species, &green(traits)));
+        say(table(traits.species, green(traits)));
     }
     if let Some(leaf) = coloured(preset.name) {
-        say(table(leaf.species, &in_colour(leaf)));
+        say(table(leaf.species, in_colour(leaf)));
     }
     Ok(())
 }
@@ -65,23 +66,10 @@ fn in_colour(leaf: &ColouredLeaf) -> Vec<Row> {
     rows
 }
 
-/// Rows in columns that are two spaces or more apart.
-fn table(species: &str, rows: &[Row]) -> String {
-    let head = ["trait", "value", "range", "from"].map(str::to_owned);
-    let rows: Vec<&Row> = std::iter::once(&head).chain(rows).collect();
-    let width = |column: usize| {
-        rows.iter()
-            .map(|row| row[column].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths = [width(0), width(1), width(2)];
-    let mut text = format!("  {species}");
-    for [name, value, range, from] in rows {
-        let [a, b, c] = widths;
-        text += &format!("\n  {name:<a$}  {value:<b$}  {range:<c$}  {from}");
-    }
-    text
+/// The species, and rows with a head.
+fn table(species: &str, mut rows: Vec<Row>) -> String {
+    rows.insert(0, ["trait", "value", "range", "from"].map(str::to_owned));
+    format!("  {species}\n{}", in_columns(&rows))
 }
 
 fn told(from: Provenance) -> String {
@@ -117,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_table_tells_value_range_and_source_of_each_trait() {
-        let text = table("", &green(traits("ginkgo").expect("a species")));
+        let text = table("", green(traits("ginkgo").expect("a species")));
         let chlorophyll = text
             .lines()
             .find(|line| line.trim_start().starts_with("chlorophyll"));

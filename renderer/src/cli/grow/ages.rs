@@ -4,12 +4,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use leafmodel::blade::contents_map::ContentsMap;
-use leafmodel::leaf::{Lamina, LeafPlan};
+use leafmodel::blade::senescence::Senescence;
+use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 
 use super::colours::in_daylight;
 use super::maps;
 use super::outputs::{Outputs, numbered};
-use crate::cli::{Failure, say};
+use crate::cli::Failure;
 use crate::image::portable_network;
 
 /// Refuses plans of leaves that do not age by days.
@@ -19,13 +20,21 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
             "--ages shows how one blade ages, and this is a compound leaf: take its block `compound` out of the plan",
         ));
     }
-    last_day(plan).map(|_| ())
+    let last = last_day(plan)?;
+    if last > Senescence::LATEST_DAY {
+        return Err(Failure::bad(format!(
+            "--ages shows a leaf until all of it is dead, which is on day {last}; days go to {}: let `senescence.death_day` be \
+             less, or `senescence.blend_days`, or the days by which its tissue comes later",
+            Senescence::LATEST_DAY
+        )));
+    }
+    Ok(())
 }
 
 /// From this day on all of the leaf is dead.
 fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
     let senescence = plan.senescence.as_ref();
-    let last = senescence.and_then(leafmodel::blade::senescence::Senescence::last_day);
+    let last = senescence.and_then(Senescence::last_day);
     last.ok_or_else(|| {
         Failure::bad(
             "--ages needs a leaf that ages by days: presets such as `birch-autumn` do, others with a block `senescence` that has `day`",
@@ -70,6 +79,15 @@ pub(super) fn write(
         return check(plan);
     };
     let is_stopped = || stop.load(Ordering::Relaxed);
+    let failed = |error: LeafError| {
+        if is_stopped() {
+            Failure::Interrupted
+        } else {
+            Failure::bad(error)
+        }
+    };
+    // Cells do not change their type as they age.
+    let pattern = plan.grow_pattern(lamina, &is_stopped).map_err(failed)?;
     let painted = |day: f64, map_size: u32| -> Result<ContentsMap, Failure> {
         let plan = LeafPlan {
             senescence: senescence.on_day(day),
@@ -79,14 +97,7 @@ pub(super) fn write(
         if is_stopped() {
             return Err(Failure::Interrupted);
         }
-        let map = plan.paint(lamina, &is_stopped);
-        map.map_err(|error| {
-            if is_stopped() {
-                Failure::Interrupted
-            } else {
-                Failure::bad(error)
-            }
-        })
+        plan.paint_with(lamina, pattern.as_ref()).map_err(failed)
     };
     for (number, day) in days(last_day(plan)?, written.count).enumerate() {
         if !outputs.staged.is_empty() {
@@ -103,13 +114,14 @@ pub(super) fn write(
             let file = format!("{}-{:04}", written.name, number + 1);
             maps::write(folder, &file, &map, &lamina.outline, Some(day), stop)?;
         }
-        say(format!("day {day:.1}"));
+        eprintln!("day {day:.1}");
     }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::blade::senescence::AgeSource;
     use leafmodel::species::find;
 
     use super::*;
@@ -132,5 +144,28 @@ mod tests {
             let plan = find(name).expect("a preset").plan();
             assert_eq!(check(&plan).is_ok(), ages, "{name}");
         }
+    }
+
+    #[test]
+    fn a_leaf_that_dies_after_the_last_day_is_refused() {
+        let mut plan = find("birch-autumn").expect("a preset").plan();
+        let senescence = plan.senescence.as_mut().expect("it ages");
+        let AgeSource::Day { course, .. } = &mut senescence.source else {
+            panic!("{senescence:?}");
+        };
+        let later = course.death.most() + senescence.blend;
+        course.death_day = Senescence::LATEST_DAY - later;
+        assert!(check(&plan).is_ok());
+        let senescence = plan.senescence.as_mut().expect("it ages");
+        let AgeSource::Day { course, .. } = &mut senescence.source else {
+            panic!("{senescence:?}");
+        };
+        course.death_day = Senescence::LATEST_DAY;
+        plan.check_senescence().expect("a good plan");
+        let failure = check(&plan);
+        let Err(Failure::BadInput(message)) = &failure else {
+            panic!("{failure:?}");
+        };
+        assert!(message.contains("days go to 10000"), "{message}");
     }
 }

@@ -8,6 +8,7 @@ use leafmodel::optics::{Contents, Pigments, ProspectD};
 use leafmodel::shape::outline::Outline;
 use rayon::prelude::*;
 
+use crate::image::tone::to_srgb;
 use crate::spectrum::cie::{d65, observer, srgb_from_xyz};
 
 /// Between wavelengths, nm: reflectance of leaves is smooth.
@@ -46,12 +47,7 @@ impl Daylight {
 
 /// A linear value as sRGB byte.
 fn encoded(linear: f64) -> u8 {
-    let value = if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
-    };
-    libm::round(255.0 * value.clamp(0.0, 1.0)) as u8
+    (255.0 * to_srgb(linear.clamp(0.0, 1.0))).round() as u8
 }
 
 /// The reflectance of each texel under D65 as sRGB, apex up, on white paper.

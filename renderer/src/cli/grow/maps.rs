@@ -15,11 +15,6 @@ use crate::export::mitsuba::map_picture;
 use crate::image::{Attribute, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
 
-/// Units in the order of [`Contents::NAMES`], in ASCII as attributes have it.
-const UNITS: [&str; Contents::COUNT] = [
-    "1", "ug/cm2", "ug/cm2", "ug/cm2", "ug/cm2", "ug/cm2", "1", "cm", "g/cm2",
-];
-
 /// Writes the map of one blade as `DIR/NAME.exr`, on a day of its ageing if it has one.
 pub(super) fn write(
     folder: &Path,
@@ -68,15 +63,23 @@ fn picture(name: &str, map: &ContentsMap, outline: &Outline, day: Option<f64>) -
             "first row at the least y, towards the base; columns from the least x".to_owned(),
         ),
     ];
-    let units = Contents::NAMES.into_iter().zip(UNITS);
+    let units = Contents::NAMES.into_iter().zip(Contents::UNITS);
     picture
         .attributes
-        .extend(units.map(|(content, unit)| text(&format!("unit.{content}"), unit.to_owned())));
+        .extend(units.map(|(content, unit)| text(&format!("unit.{content}"), in_ascii(unit))));
     if let Some(day) = day {
         let day = ("lamina:day".to_owned(), Attribute::Double(day));
         picture.attributes.push(day);
     }
     picture
+}
+
+/// A unit as attributes have it; that of a number without one is 1.
+fn in_ascii(unit: &str) -> String {
+    match unit {
+        "" => "1".to_owned(),
+        unit => unit.replace('µ', "u").replace('²', "2"),
+    }
 }
 
 #[cfg(test)]

@@ -96,10 +96,7 @@ impl Outputs {
         let mut seen: Vec<&PathBuf> = Vec::new();
         for path in arguments.out.iter().chain(reports) {
             if seen.contains(&path) {
-                let path = path.display();
-                return Err(Failure::bad(format!(
-                    "{path} is to be written twice: name another file"
-                )));
+                return Err(Failure::written_twice(path));
             }
             check_writable(path)?;
             seen.push(path);

@@ -2,7 +2,7 @@
 
 use leafmodel::optics::Pigments;
 
-use super::leaf::in_columns;
+use crate::cli::columns::in_columns;
 
 /// Every figure with its unit, how far it can be trusted, and its source.
 pub(super) fn table() -> String {

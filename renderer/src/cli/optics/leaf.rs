@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
+use crate::cli::columns::in_columns;
 use crate::scene::nearest::nearest;
 
 /// A leaf of which nothing is said.
@@ -21,17 +22,17 @@ const DEFAULT: Contents = Contents {
     dry_matter: 0.009,
 };
 
-/// What a number is, as a table says it, and its unit.
+/// What a number is, as a table says it, and what stands for its unit if it has none.
 const ABOUT: [(&str, &str); Contents::COUNT] = [
     ("structure N", "plates"),
-    ("chlorophyll a + b", "µg/cm²"),
-    ("carotenoids", "µg/cm²"),
-    ("anthocyanins", "µg/cm²"),
-    ("betacyanins", "µg/cm²"),
-    ("betaxanthins", "µg/cm²"),
+    ("chlorophyll a + b", ""),
+    ("carotenoids", ""),
+    ("anthocyanins", ""),
+    ("betacyanins", ""),
+    ("betaxanthins", ""),
     ("brown pigments", "PROSPECT's unit"),
-    ("water", "cm"),
-    ("dry matter", "g/cm²"),
+    ("water", ""),
+    ("dry matter", ""),
 ];
 
 /// The leaf, and where its numbers are from.
@@ -71,20 +72,6 @@ fn unknown_preset(wanted: &str) -> Failure {
     ))
 }
 
-/// Rows in columns that are two spaces apart.
-pub(super) fn in_columns<const N: usize>(rows: &[[String; N]]) -> String {
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
-    let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
-    let lines = rows.iter().map(|row| {
-        let cells = row.iter().zip(widths);
-        let line: String = cells
-            .map(|(cell, width)| format!("  {cell:<width$}"))
-            .collect();
-        line.trim_end().to_owned()
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
-
 impl Chosen {
     /// Preset and numbers in a line.
     pub(super) fn line(&self) -> String {
@@ -109,13 +96,14 @@ impl Chosen {
         let head = ["content", "value", "unit", "rests on"].map(str::to_owned);
         let mut rows = vec![head];
         let values = self.contents.to_array();
-        for (index, ((what, unit), value)) in ABOUT.into_iter().zip(values).enumerate() {
+        for (index, ((what, other), value)) in ABOUT.into_iter().zip(values).enumerate() {
+            let unit = Contents::UNITS[index].to_owned() + other;
             let basis = match (self.given[index], &self.preset) {
                 ((option, Some(_)), _) => format!("given by {option}"),
                 ((_, None), Some(preset)) => preset.basis_of(index).word().to_owned(),
                 ((_, None), None) => "default of this command".to_owned(),
             };
-            rows.push([what.to_owned(), value.to_string(), unit.to_owned(), basis]);
+            rows.push([what.to_owned(), value.to_string(), unit, basis]);
         }
         let mut text = String::new();
         if let Some(preset) = self.preset {

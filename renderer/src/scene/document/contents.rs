@@ -5,6 +5,19 @@ use leafmodel::optics::Contents;
 use super::limits::Limits;
 use super::reader::Block;
 
+/// Keys of contents, in the order of [`Contents::to_array`].
+pub(crate) const KEYS: [&str; Contents::COUNT] = [
+    "structure",
+    "chlorophyll_ug_per_cm2",
+    "carotenoids_ug_per_cm2",
+    "anthocyanins_ug_per_cm2",
+    "betacyanins_ug_per_cm2",
+    "betaxanthins_ug_per_cm2",
+    "brown",
+    "water_cm",
+    "dry_matter_g_per_cm2",
+];
+
 /// Number of plates.
 pub(crate) const STRUCTURE: Limits = Limits::closed(1.0, 10.0);
 

@@ -6,6 +6,7 @@ use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, Picture, RimWidth};
 use leafmodel::optics::Contents;
 
+use super::contents::KEYS;
 use super::contents::STRUCTURE;
 use super::limits::Limits;
 use super::names::require_name;
@@ -15,20 +16,7 @@ use crate::scene::assets;
 use crate::scene::error::SceneError;
 use crate::scene::source::Place;
 
-/// Keys of contents, in the order of [`Contents::to_array`].
-pub(super) const KEYS: [&str; Contents::COUNT] = [
-    "structure",
-    "chlorophyll_ug_per_cm2",
-    "carotenoids_ug_per_cm2",
-    "anthocyanins_ug_per_cm2",
-    "betacyanins_ug_per_cm2",
-    "betaxanthins_ug_per_cm2",
-    "brown",
-    "water_cm",
-    "dry_matter_g_per_cm2",
-];
-
-/// Most of each of them, as in a block of contents.
+/// Most of each content, as in a block of contents.
 const MOST: [f64; Contents::COUNT] = [10.0, 1e3, 1e3, 1e3, 1e3, 1e3, 100.0, 1.0, 1.0];
 
 /// Largest picture that is read, bytes.
@@ -185,10 +173,13 @@ fn read_mask(block: &Block<'_>) -> Option<Mask> {
             let scale_mm = inner.number_or("scale_mm", PATCH_MM, SCALE_MM);
             let threshold = inner.number_or("threshold", Limits::closed(-1.0, 1.0), 0.0);
             let softness = inner.number_or("softness", Limits::closed(0.001, 2.0), NOISE_SOFTNESS);
+            let repeat_cells = inner.entry("repeat_cells").is_some();
+            let cells = inner.integer_or("repeat_cells", 1, 65536, 1) as u32;
             Some(Mask::Noise {
                 scale_mm,
                 threshold,
                 softness,
+                repeat_cells: repeat_cells.then_some(cells),
             })
         }
         _ => {

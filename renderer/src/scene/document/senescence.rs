@@ -20,10 +20,11 @@ pub(crate) const BLEND_DAYS: f64 = 4.0;
 /// anything, if that is known.
 pub(super) fn read_senescence(leaf: &Block<'_>, earns: Option<bool>) -> Option<Senescence> {
     let block = leaf.optional_block("senescence")?;
-    let read = if block.entry("day").is_some() {
-        read_days(&block)
-    } else {
-        read_revenue(&block)
+    let read = match block.exactly_one(&["day", "revenue_share"]) {
+        Some("day") => read_days(&block, block.number("day", Limits::closed(0.0, 1e4))),
+        Some(_) => read_revenue(&block),
+        // The other keys may still be wrong.
+        None => read_days(&block, None),
     };
     block.finish();
     if let (Some(senescence), Some(false)) = (&read, earns)
@@ -61,9 +62,7 @@ fn read_revenue(block: &Block<'_>) -> Option<Senescence> {
     })
 }
 
-fn read_days(block: &Block<'_>) -> Option<Senescence> {
-    block.exclude("day", "revenue_share");
-    let day = block.number("day", Limits::closed(0.0, 1e4));
+fn read_days(block: &Block<'_>, day: Option<f64>) -> Option<Senescence> {
     let blend = block.number_or("blend_days", Limits::closed(0.001, 1e3), BLEND_DAYS);
     let named = block.optional_text("course");
     let mut course = match named {

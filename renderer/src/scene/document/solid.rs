@@ -274,7 +274,7 @@ fn read_mesh(block: &Block<'_>) -> Option<SolidMesh> {
     let scale_mm = block.number_or("scale_mm", Limits::above(0.0, 1e6), 1.0);
     let (written, at) = path?;
     let file = resolve(block.cx, written, at, wanted)?;
-    let mend = "mend the mesh: each edge has at most two faces, both turned the same way";
+    let mend = "mend the mesh: each edge has at most two faces, both turned the same way, and the faces around a point hang together";
     let shape = assets::read(&file)
         .map_err(|error| (error.without_path(&file), "make the file readable"))
         .and_then(|bytes| {
@@ -283,18 +283,24 @@ fn read_mesh(block: &Block<'_>) -> Option<SolidMesh> {
             mesh.map_err(|error| (error.to_string(), "save the mesh anew as PLY or OBJ"))
         })
         .and_then(|mesh| {
+            let dropped = mesh.dropped();
+            if dropped.total() > 0 {
+                let code = "scene::faces_left_out";
+                let help = "mend the mesh: each face has an area and corners of its own";
+                block.cx.warn(at, code, dropped.to_string(), help);
+            }
             let positions: Vec<DVec3> = mesh.positions().iter().map(|p| p.as_dvec3()).collect();
             let faces = mesh.triangles().to_vec();
-            let normals = mesh.normals().map_or_else(
-                || leafmodel::solid::smooth_normals(&positions, &faces),
-                |normals| unit(normals, &positions, &faces),
-            );
             leafmodel::mosaic::Surface::new(positions.clone(), faces.clone())
+                .and_then(|surface| surface.check_vertices())
                 .map_err(|error| (error.to_string(), mend))?;
-            Ok(Shape {
-                positions,
-                normals,
-                faces,
+            Ok(match mesh.normals() {
+                Some(normals) => Shape {
+                    normals: unit(normals, &positions, &faces),
+                    positions,
+                    faces,
+                },
+                None => leafmodel::solid::creased(&positions, &faces),
             })
         });
     match shape {
@@ -326,4 +332,50 @@ fn unit(normals: &[glam::Vec3], positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<
     let both = of_file.zip(smooth);
     both.map(|(normal, smooth)| normal.try_normalize().unwrap_or(smooth))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use super::*;
+    use crate::scene::load::parse;
+
+    #[test]
+    fn faces_that_a_mesh_of_a_body_loses_are_told() {
+        let sphere = SolidShape::Ellipsoid {
+            semi_axes_mm: DVec3::splat(10.0),
+        };
+        let ball = sphere.triangles(2.0).expect("a sphere");
+        assert!(ball.faces.len() > 100);
+        let mut text = String::new();
+        for DVec3 { x, y, z } in ball.positions {
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+        for face in ball.faces {
+            let [a, b, c] = face.map(|corner| corner + 1);
+            let _ = writeln!(text, "f {a} {b} {c}");
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let warnings = |text: &str| -> Vec<String> {
+            std::fs::write(folder.path().join("ball.obj"), text).expect("a file");
+            let scene = "format = 1\n[film.rgb]\nsize = [4, 4]\nspp = 1\n[camera.perspective]\n\
+                position_m = [0, -1, 0]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 40\n\
+                [lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n[objects.fruit]\nsolid = \"fruit\"\n\
+                [solids.fruit.contents]\n[solids.fruit.shape.mesh]\npath = \"ball.obj\"\n";
+            let loaded = parse(scene, "fruit.toml", folder.path(), &[]);
+            let loaded = loaded.unwrap_or_else(|errors| panic!("{errors}"));
+            let warnings = loaded.warnings.iter();
+            warnings.map(|warning| warning.render(false)).collect()
+        };
+        assert_eq!(warnings(&text), [""; 0]);
+        let told = warnings(&(text + "f 1 1 2\n"));
+        assert_eq!(told.len(), 1, "{told:?}");
+        for part in [
+            "1 faces left out (0 not finite, 1 without area, 0 duplicate)",
+            "path = \"ball.obj\"",
+        ] {
+            assert!(told[0].contains(part), "{}", told[0]);
+        }
+    }
 }

@@ -22,6 +22,7 @@ pub(super) use self::mosaic::mosaic;
 use self::outline::outline;
 pub(super) use self::pigments::pigments;
 use self::venation::{arcuate, auxin, filled, vein_style};
+use super::contents::KEYS;
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
 use super::senescence::{BLEND, BLEND_DAYS, delays, numbers};
 use super::tree::{Entry, Node, Table, Value};
@@ -148,15 +149,16 @@ fn leaf(plan: &LeafPlan) -> Keys {
 
 fn contents(contents: &Contents) -> Keys {
     let mut keys = Keys::default();
-    keys.number("structure", contents.structure);
-    keys.number("chlorophyll_ug_per_cm2", contents.chlorophyll);
-    keys.number("carotenoids_ug_per_cm2", contents.carotenoids);
-    keys.number_unless("anthocyanins_ug_per_cm2", contents.anthocyanins, 0.0);
-    keys.number_unless("betacyanins_ug_per_cm2", contents.betacyanins, 0.0);
-    keys.number_unless("betaxanthins_ug_per_cm2", contents.betaxanthins, 0.0);
-    keys.number_unless("brown", contents.brown, 0.0);
-    keys.number("water_cm", contents.water);
-    keys.number("dry_matter_g_per_cm2", contents.dry_matter);
+    let named = KEYS.into_iter().zip(Contents::NAMES);
+    for ((key, name), value) in named.zip(contents.to_array()) {
+        // None of these where nothing is said; the others are always said.
+        match name {
+            "anthocyanins" | "betacyanins" | "betaxanthins" | "brown" => {
+                keys.number_unless(key, value, 0.0);
+            }
+            _ => keys.number(key, value),
+        }
+    }
     keys
 }
 

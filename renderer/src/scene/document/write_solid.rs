@@ -7,6 +7,7 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM};
 use leafmodel::solid::SolidShape;
 
+use super::contents::KEYS;
 use super::leaf::MAP_SIZE;
 use super::solid::{COAT_ALPHA, DEPTH_MM, NOTHING};
 use super::tree::Value;
@@ -58,14 +59,8 @@ fn optics(keys: &mut Keys, optics: &SolidOptics) {
 fn contents(contents: &Contents) -> Keys {
     let mut keys = Keys::default();
     let own = contents.to_array().into_iter().zip(NOTHING.to_array());
-    for (name, (value, default)) in Contents::NAMES.into_iter().zip(own) {
-        let unit = match name {
-            "structure" | "brown" => "",
-            "water" => "_cm",
-            "dry_matter" => "_g_per_cm2",
-            _ => "_ug_per_cm2",
-        };
-        keys.number_unless(&format!("{name}{unit}"), value, default);
+    for (key, (value, default)) in KEYS.into_iter().zip(own) {
+        keys.number_unless(key, value, default);
     }
     keys
 }
@@ -201,7 +196,7 @@ mod tests {
             (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
         ) {
             let [b, c, d, e, f, g, h, i] = held;
-            let contents = Contents::from_array([1.0, b, c, d, 0.0 * e, 0.0 * f, g, h, i]);
+            let contents = Contents::from_array([1.0, b, c, d, e, f, g, h, i]);
             let (depth_mm, scattering_per_mm, eta) = optics;
             let (coat_eta, alpha) = coat.unwrap_or((eta, COAT_ALPHA));
             let solid = Solid {

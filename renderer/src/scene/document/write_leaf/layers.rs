@@ -4,7 +4,8 @@ use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, RimWidth};
 
 use super::Keys;
-use crate::scene::document::layers::{KEYS, NOISE_SOFTNESS, SCALE_MM, SOFTNESS_MM};
+use crate::scene::document::contents::KEYS;
+use crate::scene::document::layers::{NOISE_SOFTNESS, SCALE_MM, SOFTNESS_MM};
 use crate::scene::document::tree::Value;
 
 pub(super) fn layers(layers: &[Layer]) -> Keys {
@@ -95,10 +96,14 @@ fn mask(mask: &Mask) -> Option<(&'static str, Keys)> {
             scale_mm,
             threshold,
             softness,
+            repeat_cells,
         } => {
             keys.number_unless("scale_mm", *scale_mm, SCALE_MM);
             keys.number_unless("threshold", *threshold, 0.0);
             keys.number_unless("softness", *softness, NOISE_SOFTNESS);
+            if let Some(cells) = repeat_cells {
+                keys.integer("repeat_cells", u64::from(*cells));
+            }
             "noise"
         }
         Mask::Picture(picture) => {

@@ -150,6 +150,7 @@ fn layers_and_days_read_back_to_the_same() {
                 scale_mm: 3.0,
                 threshold: -0.2,
                 softness: 0.5,
+                repeat_cells: Some(6),
             },
             Mode::Replace,
             0.0,

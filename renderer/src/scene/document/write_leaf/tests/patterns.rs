@@ -85,13 +85,18 @@ fn mask() -> impl Strategy<Value = Mask> {
             let (from, to) = if up { (low, high) } else { (high, low) };
             Mask::BaseToTip { from, to }
         }),
-        (0.01..50.0, -1.0..1.0, 0.001..2.0).prop_map(|(scale_mm, threshold, softness)| {
-            Mask::Noise {
-                scale_mm,
-                threshold,
-                softness,
-            }
-        }),
+        (
+            (0.01..50.0, -1.0..1.0, 0.001..2.0),
+            prop::option::of(1_u32..300)
+        )
+            .prop_map(|((scale_mm, threshold, softness), repeat_cells)| {
+                Mask::Noise {
+                    scale_mm,
+                    threshold,
+                    softness,
+                    repeat_cells,
+                }
+            }),
     ]
 }
 

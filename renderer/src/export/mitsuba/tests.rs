@@ -1,0 +1,260 @@
+use super::*;
+use crate::scene::load;
+
+const SCENE: &str = r#"
+format = 1
+[film.spectral]
+size = [8, 4]
+spp = 1
+bands_nm = [450, 550]
+[camera.perspective]
+position_m = [0, 0, 0.5]
+look_at_m = [0, 0, 0]
+up = [0, 1, 0]
+vertical_fov_deg = 20
+[materials.mapped.leaf.map]
+file = "map.exr"
+[materials.plain.leaf.measured]
+reflectance = 0.4
+transmittance = 0.5
+[meshes.blade.rectangle]
+width_m = 0.05
+height_m = 0.1
+[objects.left]
+mesh = "blade"
+material = "mapped"
+position_m = [-0.1, 0, 0]
+[objects.right]
+mesh = "blade"
+material = "plain"
+position_m = [0.1, 0, 0]
+[lights.sun.distant]
+irradiance_w_m2_nm = { blackbody_k = 5800, scale = 1.5 }
+towards = [0, 0, 1]
+"#;
+
+/// A contents map of 2 × 3 texels, each of its 54 numbers different.
+fn map() -> ContentsTexture {
+    let texel = |i: u16| std::array::from_fn(|channel| 1.0 + f32::from(i) + channel as f32 / 8.0);
+    ContentsTexture::new(2, 3, (0..6).map(texel).collect())
+}
+
+fn scene(folder: &Path) -> (Description, World) {
+    scene_with("", folder)
+}
+
+/// The scene with more blocks.
+fn scene_with(blocks: &str, folder: &Path) -> (Description, World) {
+    openexr::write(&map_picture(&map()), &folder.join("map.exr")).expect("a map");
+    let text = SCENE.to_owned() + blocks;
+    let scene = load::parse(&text, "scene.toml", folder, &[])
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .description;
+    let world = World::build(&scene).expect("a scene that can be built");
+    (scene, world)
+}
+
+#[test]
+fn an_export_holds_all_that_its_xml_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene(folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    let mut files = 0;
+    for word in xml.split('"') {
+        let ending = Path::new(word)
+            .extension()
+            .and_then(|ending| ending.to_str());
+        if ending.is_some_and(|ending| ["ply", "exr", "spd", "csv"].contains(&ending)) {
+            assert!(out.join(word).is_file(), "{word} is missing");
+            files += 1;
+        }
+    }
+    assert_eq!(
+        files, 5,
+        "two meshes, a map, the sun's spectrum, PROSPECT's table: {xml}"
+    );
+    assert!(out.join("lamina.json").is_file());
+}
+
+#[test]
+fn each_palette_has_a_table_which_its_leaves_name() {
+    const PALETTES: &str = r#"
+[materials.mapped.leaf.pigments.chlorophyll]
+a_to_b = 8
+[materials.red.leaf.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 1
+carotenoids_ug_per_cm2 = 5
+anthocyanins_ug_per_cm2 = 20
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+[materials.red.leaf.pigments.anthocyanins]
+shift_nm = 15
+[materials.same.leaf.map]
+file = "map.exr"
+[materials.same.leaf.pigments.chlorophyll]
+a_to_b = 8
+"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene_with(PALETTES, folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    assert_eq!(xml.matches("value=\"pigments-1.csv\"").count(), 2);
+    assert_eq!(xml.matches("value=\"pigments-2.csv\"").count(), 1);
+    assert!(!out.join("pigments-3.csv").exists());
+    let row = |file: &str, nm: &str| -> Vec<f64> {
+        let text = fs::read_to_string(out.join(file)).expect("a table");
+        let line = text.lines().find(|line| line.starts_with(nm)).expect(nm);
+        let figures = line.split(',').skip(1);
+        figures
+            .map(|figure| figure.parse().expect("a number"))
+            .collect()
+    };
+    let (own, shifted) = (row("prospect_d.csv", "600,"), row("pigments-2.csv", "600,"));
+    let differ: Vec<usize> = (0..own.len()).filter(|i| own[*i] != shifted[*i]).collect();
+    assert_eq!(differ, [3], "anthocyanins alone: {own:?} and {shifted:?}");
+    assert!(shifted[3] > own[3], "moved towards the red");
+}
+
+#[test]
+fn a_map_is_exported_as_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene(folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let back = crate::scene::assets::contents_map(&out.join("maps/material-mapped.exr"))
+        .expect("a contents map");
+    assert_eq!(back.size(), map().size());
+    assert_eq!(back.texels(), map().texels());
+}
+
+#[test]
+fn every_part_of_a_compound_leaf_is_a_shape_and_mirrored_ones_are_mirrored_in_their_files() {
+    const LEAF: &str = r#"
+[leaves.trefoil]
+length_mm = 20
+map_size = 16
+[leaves.trefoil.outline.cubic]
+[leaves.trefoil.venation.arcuate]
+[leaves.trefoil.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 40
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+[leaves.trefoil.compound.palmate]
+leaflets = 3
+spread_deg = 240
+petiolule = 1
+petiole = 1
+variants = 2
+[objects.clover]
+leaf = "trefoil"
+position_m = [0, 0, 0.1]
+"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene_with(LEAF, folder.path());
+    // Two rectangles; three blades with a stalk each, and the petiole.
+    assert_eq!(world.objects.len(), 2 + 7);
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    assert_eq!(xml.matches("<shape type=\"ply\"").count(), 9);
+    // Two blades and what stalks are made of; each shape names one.
+    assert_eq!(
+        xml.matches("<bsdf type=\"lamina_leaf\" id=\"leaf-trefoil")
+            .count(),
+        3
+    );
+    assert_eq!(xml.matches("<ref id=\"leaf-trefoil").count(), 7);
+    for word in xml
+        .split('"')
+        .filter(|word| word.starts_with("meshes/") || word.starts_with("maps/"))
+    {
+        assert!(out.join(word).is_file(), "{word} is missing");
+    }
+    for number in 0..world.objects.len() {
+        let instance = world.geometry.instance(number as u32);
+        let file = xml::mesh_file(&scene, &world, number);
+        let bytes = fs::read(out.join(&file)).expect("its mesh");
+        let mesh = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
+        let own = world.geometry.mesh(instance.mesh);
+        let side = if file.contains("mirrored") { -1.0 } else { 1.0 };
+        assert_eq!(mesh.positions()[0].x, side * own.positions()[0].x);
+        assert_eq!(file.contains("mirrored"), xml::is_mirrored(&world, number));
+    }
+}
+
+#[test]
+fn bodies_and_solid_materials_become_plugins_with_their_maps() {
+    const BODY: &str = r#"
+[solids.plum]
+map_size = 64
+depth_mm = 0.5
+coat = { eta = 1.33, alpha = 0.1 }
+[solids.plum.shape.sphere]
+radius_mm = 20
+[solids.plum.contents]
+anthocyanins_ug_per_cm2 = 20
+[solids.plum.mosaic]
+cells = 50
+days = 0
+[solids.plum.mosaic.types.one]
+initial_share = 1
+[materials.flesh.solid.contents]
+carotenoids_ug_per_cm2 = 5
+[objects.plum]
+solid = "plum"
+[objects.slab]
+mesh = "blade"
+material = "flesh"
+position_m = [0, 0, 0.1]
+"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene_with(BODY, folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    for id in ["solid-plum", "material-flesh"] {
+        let bsdf = format!("<bsdf type=\"lamina_solid\" id=\"{id}\">");
+        assert_eq!(xml.matches(&bsdf).count(), 1, "{xml}");
+        assert_eq!(xml.matches(&format!("<ref id=\"{id}\"/>")).count(), 1);
+    }
+    let numbers = [("depth_mm", 0.5), ("coat_eta", 1.33), ("coat_alpha", 0.1)];
+    for (name, value) in numbers {
+        assert!(xml.contains(&format!("name=\"{name}\" value=\"{value}\"")));
+    }
+    let map = crate::scene::assets::contents_map(&out.join("maps/solid-plum.exr"));
+    assert_eq!(map.expect("a contents map").size(), (64, 64));
+    assert!(out.join("meshes/plum.ply").is_file());
+}
+
+#[test]
+fn an_earlier_export_is_replaced_and_another_folder_is_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene(folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    fs::write(out.join("stale"), "").expect("a file");
+    write(&scene, &world, &out).expect("it is written again");
+    assert!(
+        !out.join("stale").exists(),
+        "the folder is the new export alone"
+    );
+
+    let other = folder.path().join("photographs");
+    fs::create_dir(&other).expect("a folder");
+    fs::write(other.join("leaf.jpg"), "dear").expect("a file");
+    let refused = write(&scene, &world, &other);
+    assert!(
+        matches!(refused, Err(ExportError::NotOurs { .. })),
+        "{refused:?}"
+    );
+    assert_eq!(
+        fs::read(other.join("leaf.jpg")).expect("still there"),
+        b"dear"
+    );
+}
