@@ -67,7 +67,7 @@ pub struct Solid {
 pub enum SolidError {
     /// Its shape.
     #[error("shape: {0}")]
-    Shape(#[from] ShapeError),
+    Shape(#[source] ShapeError),
     /// A body too slender, or with too many cells, for its triangles.
     #[error(
         "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, or give its mosaic fewer cells"
@@ -85,6 +85,16 @@ pub enum SolidError {
     /// Its map.
     #[error("map_size: {0}")]
     Atlas(#[from] AtlasError),
+}
+
+impl From<ShapeError> for SolidError {
+    fn from(error: ShapeError) -> Self {
+        if let ShapeError::TooFine { triangles } = error {
+            // Of edges a plan says nothing.
+            return Self::TooFine { triangles };
+        }
+        Self::Shape(error)
+    }
 }
 
 impl SolidError {
@@ -113,12 +123,7 @@ impl Solid {
             let suits_mm = pattern.edge_mm(area);
             suits_mm.min(smooth_mm.max(suits_mm / MOST_PER_SPACING))
         });
-        let shape = plan.shape.triangles(edge_mm);
-        if let Err(ShapeError::TooFine { triangles }) = shape {
-            // Of edges a plan says nothing.
-            return Err(SolidError::TooFine { triangles });
-        }
-        let shape = shape?;
+        let shape = plan.shape.triangles(edge_mm)?;
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };

@@ -158,11 +158,11 @@ fn betalains_and_anthocyanins_in_one_leaf_are_a_warning() {
 
 #[test]
 fn betalains_and_anthocyanins_in_cells_of_one_body_are_a_warning() {
-    let told = |own: &str, cells: &str| {
+    let told = |own: &str, cells: &str, more: &str| {
         let solid = format!(
             "\n[solids.odd.shape.sphere]\nradius_mm = 10\n[solids.odd.contents]\n{own}\n\
              [solids.odd.mosaic]\ndays = 3\n[solids.odd.mosaic.types.red]\ninitial_share = 1\n\
-             contents = {{ {cells} }}\n"
+             contents = {{ {cells} }}\n{more}"
         );
         let loaded = accept(&(text_of("minimal.toml") + &solid), "minimal.toml", &[]);
         let codes = loaded
@@ -174,8 +174,17 @@ fn betalains_and_anthocyanins_in_cells_of_one_body_are_a_warning() {
             .count()
     };
     let (red, yellow) = ("anthocyanins_ug_per_cm2 = 3", "betaxanthins_ug_per_cm2 = 2");
-    assert_eq!(told(red, red), 0);
-    assert_eq!(told(red, yellow), 1);
+    assert_eq!(told(red, red, ""), 0);
+    assert_eq!(told(red, yellow, ""), 1);
+    // The body itself shows where no cell may be, and only there.
+    let yellow = "anthocyanins_ug_per_cm2 = 0, betaxanthins_ug_per_cm2 = 2";
+    assert_eq!(told(red, yellow, ""), 0);
+    let control = |steers: &str| {
+        format!(
+            "[solids.odd.mosaic.controls.ring]\nfrom_mm = [0, 0, -10]\nto_mm = [0, 0, 0]\nconstant = 1\n{steers}"
+        )
+    };
+    assert_eq!(told(red, yellow, &control("steers = \"blocked\"")), 1);
 }
 
 #[test]

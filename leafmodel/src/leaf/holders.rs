@@ -33,9 +33,12 @@ impl LeafPlan {
             None => vec![("contents".to_owned(), lamina)],
             Some(mosaic) => {
                 let types = mosaic.plan.types.iter().zip(&mosaic.contents);
-                types
-                    .map(|(kind, held)| (format!("mosaic.types.{}", kind.name), held.to_array()))
-                    .collect()
+                let types = types
+                    .map(|(kind, held)| (format!("mosaic.types.{}", kind.name), held.to_array()));
+                let bare = mosaic
+                    .may_leave_bare()
+                    .then(|| ("contents".to_owned(), lamina));
+                types.chain(bare).collect()
             }
         };
         for layer in &self.layers {
@@ -103,10 +106,13 @@ fn lay(holders: &mut Vec<Holder>, layer: &Layer) {
 mod tests {
     use std::sync::Arc;
 
+    use glam::DVec3;
+
     use super::*;
     use crate::blade::ageing_courses::{COURSES, LITTER, YELLOW};
     use crate::blade::masks::Picture;
     use crate::blade::senescence::Senescence;
+    use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
     use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
     use crate::mosaic::plan::{CellType, MosaicPlan};
     use crate::species::find;
@@ -227,6 +233,52 @@ mod tests {
         };
         let both = Some(keys("mosaic.types.red", "mosaic.types.green"));
         assert_eq!(plan.anthocyanins_beside_betalains(), both);
+    }
+
+    #[test]
+    fn beside_a_mosaic_the_leaf_itself_counts_where_no_cell_may_be() {
+        let red = CellType {
+            name: "red".to_owned(),
+            division_days: f64::INFINITY,
+            initial_probability: 1.0,
+            switching: vec![1.0],
+            adhesion: vec![0.0],
+        };
+        let held = Contents {
+            betacyanins: 0.0,
+            anthocyanins: 5.0,
+            ..beet().tissue.lamina
+        };
+        let steered = |steers: Option<Steered>| {
+            let control = |steers| CylinderControl {
+                from: DVec3::ZERO,
+                to: DVec3::Z,
+                radius_mm: None,
+                image: ControlImage::Constant(1.0),
+                steers,
+            };
+            let mosaic = MosaicPattern {
+                plan: MosaicPlan {
+                    types: vec![red.clone()],
+                    controls: steers.map(control).into_iter().collect(),
+                    ..MosaicPlan::default()
+                },
+                contents: vec![held],
+                blend_mm: 0.2,
+                faces: LeafFaces::Through,
+            };
+            let plan = LeafPlan {
+                mosaic: Some(mosaic),
+                petiole: None,
+                compound: None,
+                ..beet()
+            };
+            plan.anthocyanins_beside_betalains()
+        };
+        assert_eq!(steered(None), None);
+        assert_eq!(steered(Some(Steered::InitialType(0))), None);
+        let both = Some(keys("mosaic.types.red", "contents"));
+        assert_eq!(steered(Some(Steered::Blocked)), both);
     }
 
     #[test]

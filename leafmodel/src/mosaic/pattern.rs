@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use thiserror::Error;
 
+use super::control::Controls;
 use super::paint::{SheetField, TypeField};
 use super::shapes::{ShapeError, sheet};
 use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError, SurfacePoint};
@@ -84,6 +85,11 @@ impl MosaicPattern {
             return Err(PatternError::Blend { blend_mm });
         }
         Ok(())
+    }
+
+    /// Whether a control may keep cells off some places, where the tissue itself shows.
+    pub fn may_leave_bare(&self) -> bool {
+        Controls(&self.plan.controls).block()
     }
 
     /// Length of edge, mm, that suits triangles on which the mosaic is to grow, for a surface of `area` mm².

@@ -102,7 +102,7 @@ pub enum MosaicError {
         types: usize,
     },
     /// Probabilities that do not make one.
-    #[error("{field} sum to {sum}, not to 1")]
+    #[error("{field} sum to {}, not to 1", (1e9 * sum).round() / 1e9)]
     NotOne {
         /// Which ones.
         field: String,

@@ -76,9 +76,9 @@ pub enum ShapeError {
         /// Where, mm.
         height: f64,
     },
-    /// Too many triangles.
+    /// Too many triangles: `max_edge_mm` is too small for the shape.
     #[error(
-        "the shape would take about {triangles:.0} triangles, at most {MOST_TRIANGLES:.0} are allowed: raise max_edge_mm"
+        "the shape would take about {triangles:.0} triangles, at most {MOST_TRIANGLES:.0} are allowed"
     )]
     TooFine {
         /// How many it would take.

@@ -11,13 +11,10 @@ use glam::{DVec2, DVec3};
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, events_to_division, kind_of_child, place_of_child};
-use super::plan::{MOST_CELLS as MOST, MosaicError, MosaicPlan, RadiusRule};
+use super::plan::{MOST_CELLS, MosaicError, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::venation::chance::{Use, bits, uniform};
-
-/// More cells than this are refused (fewer in tests, where to get there takes seconds).
-const MOST_CELLS: usize = if cfg!(test) { 500_000 } else { MOST };
 
 /// Throws for one initial cell before its surface counts as blocked.
 const THROWS: u32 = 1000;
@@ -99,6 +96,18 @@ impl Mosaic {
         days: &[f64],
         is_stopped: &dyn Fn() -> bool,
     ) -> Result<Vec<Self>, MosaicError> {
+        Self::grow_to(surface, plan, seed, days, MOST_CELLS, is_stopped)
+    }
+
+    /// [`Mosaic::grow_until`] with another limit to the number of cells.
+    fn grow_to(
+        surface: &Surface,
+        plan: &MosaicPlan,
+        seed: u64,
+        days: &[f64],
+        most_cells: usize,
+        is_stopped: &dyn Fn() -> bool,
+    ) -> Result<Vec<Self>, MosaicError> {
         plan.validate()?;
         for &day in days {
             let good = (0.0..=plan.days).contains(&day);
@@ -114,7 +123,7 @@ impl Mosaic {
                 if is_stopped() {
                     return Err(MosaicError::Stopped);
                 }
-                run.next_event()?;
+                run.next_event(most_cells)?;
             }
             grown[stage] = Some(run.mosaic(days[stage])?);
         }
@@ -259,7 +268,7 @@ impl<'a> Run<'a> {
     }
 
     /// Divides what is due and relaxes.
-    fn next_event(&mut self) -> Result<(), MosaicError> {
+    fn next_event(&mut self, most_cells: usize) -> Result<(), MosaicError> {
         self.event += 1;
         let per_day = u64::from(self.plan.relaxations_per_day);
         if self.grown.is_some() && (self.event - 1).is_multiple_of(per_day) {
@@ -289,10 +298,10 @@ impl<'a> Run<'a> {
         for number in due {
             self.divide(number);
         }
-        if self.cells.len() > MOST_CELLS {
+        if self.cells.len() > most_cells {
             return Err(MosaicError::TooManyCells {
                 day: self.event as f64 / per_day as f64,
-                most: MOST_CELLS,
+                most: most_cells,
             });
         }
         if self.plan.radius == RadiusRule::Daily && self.event.is_multiple_of(per_day) {

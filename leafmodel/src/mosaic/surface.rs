@@ -34,6 +34,16 @@ pub enum SurfaceError {
         /// Their number.
         count: usize,
     },
+    /// More faces than a surface may be cut into.
+    #[error(
+        "to cut the mesh until no edge is longer than {max_edge_mm} mm takes more than {most} faces"
+    )]
+    TooManyFaces {
+        /// How many there may be.
+        most: usize,
+        /// The longest edge wanted, mm.
+        max_edge_mm: f64,
+    },
     /// A corner that is no vertex.
     #[error("face {face} names vertex {vertex}, but there are {vertices} (from 0)")]
     NoSuchVertex {

@@ -241,13 +241,11 @@ fn keep_within(triangle: &[DVec2; 3], bound: f64, found: &mut Vec<(u32, DVec2)>)
 
 /// Faces that found no cell get those of their neighbours that have some, the nearer to cells first.
 fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
-    let empty = |found: &[Vec<(u32, DVec2)>], face: u32| found[face as usize].is_empty();
-    let mut waiting: Vec<u32> = (0..found.len() as u32)
-        .filter(|&face| empty(found, face))
-        .collect();
-    while !waiting.is_empty() {
+    let mut next: Vec<u32> = (0..found.len() as u32).collect();
+    loop {
+        next.retain(|&face| found[face as usize].is_empty());
         let mut ring = Vec::new();
-        for &face in &waiting {
+        for &face in &next {
             let triangle = surface.corners(face);
             let centre = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
             let mut taken: Vec<(u32, DVec2)> = Vec::new();
@@ -276,10 +274,14 @@ fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
         if ring.is_empty() {
             return;
         }
+        // Only beside faces that have just got some is there more to take.
+        next.clear();
         for (face, taken) in ring {
             found[face as usize] = taken;
+            next.extend((0..3).filter_map(|edge| surface.neighbour(face, edge)));
         }
-        waiting.retain(|&face| empty(found, face));
+        next.sort_unstable();
+        next.dedup();
     }
 }
 

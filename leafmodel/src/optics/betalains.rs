@@ -1,6 +1,6 @@
 //! What betalains absorb, which PROSPECT-D does not separate.
 //!
-//! Vacuolar pigments of the Caryophyllales in place of anthocyanins. The bands are Gaussians in
+//! Vacuolar pigments in place of anthocyanins ([`super::Contents::NEVER_TOGETHER`] says where). The bands are Gaussians in
 //! wavelength: betacyanins those of betanin (peak 538 nm; the widths follow from the ratios of absorbance
 //! that Nilsson's photometric method of 1970 rests on, unverified), betaxanthins those of the class
 //! (peak 480 nm, width unverified). Absorptivities in solution become absorptivities in leaves by a packaging

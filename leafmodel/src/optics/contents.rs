@@ -94,8 +94,15 @@ impl Contents {
         Ok(self)
     }
 
-    /// Whether there are betalains and anthocyanins in one leaf, which no plant has: betalains occur in the Caryophyllales
-    /// only (beet, amaranths, cacti), in place of anthocyanins. Optics computes such a leaf all the same.
+    /// Where betalains occur, and what to do where they are beside anthocyanins.
+    ///
+    /// # Source
+    ///
+    /// \[strack2003\], abstract.
+    pub const NEVER_TOGETHER: &'static str = "betalains occur in the Caryophyllales (beet, amaranths, cacti) and some mushrooms only, in place of anthocyanins: leave one out";
+
+    /// Whether there are betalains and anthocyanins in one leaf, which no plant has ([`Contents::NEVER_TOGETHER`]). Optics
+    /// computes such a leaf all the same.
     ///
     /// For a map the greatest value of each content answers for all its points: the rule holds for plants, not for points.
     pub fn mixes_betalains_and_anthocyanins(&self) -> bool {

@@ -21,9 +21,6 @@ pub use table::ReflectanceTable;
 
 use thiserror::Error;
 
-use super::constituents::SpecificAbsorption;
-use super::contents::Contents;
-
 /// Reduced scattering of fruit flesh, per mm: an estimate, 0.5 to 3 are as likely in the visible and near infrared.
 pub const SCATTERING_PER_MM: f64 = 1.5;
 /// Refractive index of watery tissue: an estimate, 1.33 (water) to 1.5 (dry).
@@ -92,17 +89,8 @@ impl Solid {
         Ok(self)
     }
 
-    /// `µa(λ) = Σᵢ Cᵢ Kᵢ(λ) / depth`, per mm, ≥ 0. The structure `N` has no part in it.
-    pub fn absorption_per_mm(&self, absorption: &SpecificAbsorption, contents: &Contents) -> f64 {
-        absorption.of_leaf(contents) / self.depth_mm
-    }
-
-    /// `a = µs' / (µs' + µa)`, in (0, 1].
-    pub fn albedo(&self, absorption: &SpecificAbsorption, contents: &Contents) -> f64 {
-        self.albedo_of(absorption.of_leaf(contents))
-    }
-
-    /// `a` of contents that absorb `whole = Σᵢ Cᵢ Kᵢ(λ)` in all.
+    /// `a = µs' / (µs' + µa)`, in (0, 1], of contents that absorb `whole = Σᵢ Cᵢ Kᵢ(λ)` in all, so that `µa = whole / depth`
+    /// per mm. The structure `N` has no part in it.
     pub fn albedo_of(&self, whole: f64) -> f64 {
         self.scattering_per_mm / (self.scattering_per_mm + whole / self.depth_mm)
     }

@@ -45,8 +45,8 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     let Chosen { contents, .. } = chosen;
     if contents.mixes_betalains_and_anthocyanins() {
         eprintln!(
-            "warning: this leaf holds betalains and anthocyanins, which never occur in the same plant: betalains occur in the \
-             Caryophyllales only (beet, amaranths, cacti), in place of anthocyanins"
+            "warning: this leaf holds betalains and anthocyanins, which never occur in the same plant: {}",
+            Contents::NEVER_TOGETHER
         );
     }
     if arguments.about {

@@ -344,7 +344,7 @@ fn what_a_plan_has_wrong_is_named() {
         initial_relaxations: 0,
         step: 0.0,
         radius_weight: 10.0,
-        ..small(20_000, 1000.0)
+        ..small(200, 1000.0)
     };
     let error = explosive.validate().expect_err("bound to fail");
     assert_eq!(
@@ -367,6 +367,11 @@ fn what_a_plan_has_wrong_is_named() {
         }],
         ..explosive
     };
-    let error = Mosaic::grow(&square(10.0, 5.0), &explosive, 1).expect_err("too many");
-    assert!(matches!(error, MosaicError::TooManyCells { .. }), "{error}");
+    let surface = square(10.0, 5.0);
+    let error = Mosaic::grow_to(&surface, &explosive, 1, &[1000.0], 5000, &|| false);
+    let error = error.expect_err("too many");
+    assert!(
+        matches!(error, MosaicError::TooManyCells { most: 5000, .. }),
+        "{error}"
+    );
 }

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use super::{NONE, Surface, SurfaceError, SurfacePoint, adjacency};
 
+/// More faces than this are refused.
+const MOST_FACES: usize = 1 << 28;
+
 /// Where the faces of a subdivided surface lie in the surface that they were cut from.
 #[derive(Clone, Debug)]
 pub struct Ancestry {
@@ -45,8 +48,17 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NotALength`] for a length that is not positive; [`SurfaceError::TooLarge`].
+    /// [`SurfaceError::NotALength`] for a length that is not positive; [`SurfaceError::TooManyFaces`].
     pub fn subdivided(&self, max_edge_mm: f64) -> Result<(Self, Ancestry), SurfaceError> {
+        self.subdivided_to(max_edge_mm, MOST_FACES)
+    }
+
+    /// [`Surface::subdivided`] with another limit to the number of faces.
+    pub(super) fn subdivided_to(
+        &self,
+        max_edge_mm: f64,
+        most_faces: usize,
+    ) -> Result<(Self, Ancestry), SurfaceError> {
         if !(max_edge_mm.is_finite() && max_edge_mm > 0.0) {
             return Err(SurfaceError::NotALength {
                 name: "the longest edge",
@@ -54,21 +66,27 @@ impl Surface {
             });
         }
         let expected = self.total_area() / (max_edge_mm * max_edge_mm);
-        if expected > (1_u64 << 28) as f64 {
-            return Err(SurfaceError::TooLarge {
-                count: expected as usize,
+        if expected > most_faces as f64 {
+            return Err(SurfaceError::TooManyFaces {
+                most: most_faces,
+                max_edge_mm,
             });
         }
         let mut surface = self.clone();
         let mut ancestry = Ancestry::of(self);
         while surface.longest_edge() > max_edge_mm {
-            (surface, ancestry) = surface.halved(&ancestry, max_edge_mm)?;
+            (surface, ancestry) = surface.halved(&ancestry, max_edge_mm, most_faces)?;
         }
         Ok((surface, ancestry))
     }
 
     /// Halves the long edges once.
-    fn halved(&self, ancestry: &Ancestry, max_edge: f64) -> Result<(Self, Ancestry), SurfaceError> {
+    fn halved(
+        &self,
+        ancestry: &Ancestry,
+        max_edge: f64,
+        most_faces: usize,
+    ) -> Result<(Self, Ancestry), SurfaceError> {
         let edges = self.edge_numbers();
         let mut cut = Cut {
             positions: self.positions.clone(),
@@ -95,11 +113,13 @@ impl Surface {
                 marked[k] = *middle;
             }
             cut.face(ids, edges[face], marked, old, weights);
-        }
-        if cut.faces.len() > 1 << 29 {
-            return Err(SurfaceError::TooLarge {
-                count: cut.faces.len(),
-            });
+            // Long edges of slender faces take more of them than their area says.
+            if cut.faces.len() > most_faces {
+                return Err(SurfaceError::TooManyFaces {
+                    most: most_faces,
+                    max_edge_mm: max_edge,
+                });
+            }
         }
         let (neighbours, neighbour_edges) = adjacency::pair(&cut.positions, &cut.faces, &cut.keys)?;
         let surface = Self::assemble(cut.positions, cut.faces, neighbours, neighbour_edges)?;

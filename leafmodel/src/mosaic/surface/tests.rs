@@ -206,6 +206,21 @@ fn subdividing_keeps_the_surface_and_tells_where_the_parts_lie() {
 }
 
 #[test]
+fn needles_are_not_cut_into_more_faces_than_allowed() {
+    // Their area asks for less than one face, their edges for hundreds.
+    let points = vec![DVec3::ZERO, DVec3::X * 100.0, DVec3::new(100.0, 1e-6, 0.0)];
+    let needle = Surface::new(points, vec![[0, 1, 2]]).expect("good");
+    let cut = |most| needle.subdivided_to(1.0, most);
+    let refused = cut(200).expect_err("too many");
+    assert!(
+        matches!(refused, SurfaceError::TooManyFaces { most: 200, .. }),
+        "{refused}"
+    );
+    let (fine, _) = cut(100_000).expect("few enough");
+    assert!(fine.faces().len() > 200 && fine.longest_edge() <= 1.0);
+}
+
+#[test]
 fn a_point_in_which_two_bodies_touch_is_found_and_a_margin_is_none() {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let body = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

@@ -1,4 +1,5 @@
 use super::*;
+use crate::optics::Contents;
 use crate::optics::ProspectD;
 
 #[test]
@@ -69,13 +70,13 @@ fn contents_spread_over_twice_the_depth_absorb_half_as_much() {
         eta: ETA,
     };
     let at = ProspectD::coefficients(680.0).expect("in range").absorption;
-    let one = solid.absorption_per_mm(&at, &contents);
+    let whole = at.of_leaf(&contents);
     let two = Solid {
         depth_mm: 2.0,
         ..solid
     };
-    assert!((one - 2.0 * two.absorption_per_mm(&at, &contents)).abs() < 1e-15);
-    assert!((solid.albedo(&at, &contents) - 1.5 / (1.5 + one)).abs() < 1e-15);
+    assert!((solid.albedo_of(whole) - 1.5 / (1.5 + whole)).abs() < 1e-15);
+    assert!((two.albedo_of(whole) - 1.5 / (1.5 + 0.5 * whole)).abs() < 1e-15);
 }
 
 #[test]

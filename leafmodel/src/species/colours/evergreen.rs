@@ -6,7 +6,7 @@ use super::super::leaf_traits::coloured::{
 use super::super::{leaf_traits, trees};
 use super::autumn::red_maple;
 use super::contours;
-use super::numbers::{angers, betalain, one_leaf, red};
+use super::numbers::{angers, betacyanin, betaxanthin, one_leaf, red};
 use super::{ColouredLeaf, Holding};
 use crate::blade::layers::{Change, Layer, Mode};
 use crate::blade::masks::{Mask, RimWidth};
@@ -163,7 +163,7 @@ pub(super) const CROTON: ColouredLeaf = ColouredLeaf {
         .carotenoids(angers(10.0, [0.0, 25.3]))],
     age: None,
     plan: |leaf| {
-        // Fig. 1 of the paper on clonal mosaics: Table I.
+        // Fig. 1 of the paper on clonal mosaics, Table I [binsfeld2011].
         let mut mosaic = MosaicPlan::default();
         for (kind, name) in mosaic.types.iter_mut().zip(["yellow", "green"]) {
             name.clone_into(&mut kind.name);
@@ -188,12 +188,12 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
         Holding::new("yellow")
             .chlorophyll(angers(3.0, [0.8, 10.0]))
             .carotenoids(angers(4.5, [0.0, 10.0]))
-            .betaxanthins(betalain(9.0)),
+            .betaxanthins(betaxanthin(9.0)),
         Holding::new("red")
             .chlorophyll(angers(5.0, [0.8, 20.0]))
             .carotenoids(angers(2.5, [0.0, 10.0]))
-            .betacyanins(betalain(20.0))
-            .betaxanthins(betalain(5.0)),
+            .betacyanins(betacyanin(20.0))
+            .betaxanthins(betaxanthin(5.0)),
     ],
     age: None,
     plan: |leaf| {

@@ -9,6 +9,9 @@ const FITTED: Source = Source {
     says: "to reflectance and transmittance of one yellow leaf of a relative in Japan; range ours, 30 % about the fit",
 };
 
+/// Of pigments by eye.
+const LOOKS: &str = "so much that it looks like the plant; nothing per area was found";
+
 /// What is left of green in a leaf that has turned, within the lowest of ANGERS.
 pub(super) const fn last_chlorophyll(value: f64) -> Quantity {
     estimate(value, [0.8, 10.0], ANGERS_LEAVES)
@@ -21,11 +24,12 @@ pub(super) const fn last_carotenoids(value: f64) -> Quantity {
 
 /// Anthocyanins, which no source at hand gives per area of an autumn leaf.
 pub(super) const fn red(value: f64, range: [f64; 2]) -> Quantity {
-    by_eye(
-        value,
-        range,
-        "so much that it looks like the plant; nothing per area was found",
-    )
+    by_eye(value, range, LOOKS)
+}
+
+/// Betaxanthins, which no source at hand gives per area or weight of a leaf.
+pub(super) const fn betaxanthin(value: f64) -> Quantity {
+    by_eye(value, [1.0, 20.0], LOOKS)
 }
 
 /// Brown pigments of living tissue; without any a yellow leaf looks like a lemon.
@@ -63,11 +67,11 @@ pub(super) const fn angers(value: f64, range: [f64; 2]) -> Quantity {
     estimate(value, range, ANGERS_LEAVES)
 }
 
-/// Betalains per area.
-pub(super) const fn betalain(value: f64) -> Quantity {
+/// Betacyanins per area.
+pub(super) const fn betacyanin(value: f64) -> Quantity {
     estimate(
         value,
-        [1.0, 34.0],
+        [1.2, 34.0],
         Source {
             key: "cai2001",
             says: "0.08 to 1.36 mg of betacyanins per g of fresh weight over 37 species of Amaranthaceae; 15 to 25 mg of that per cm² assumed",

@@ -11,17 +11,17 @@ pub(in crate::species) const ANGERS_LEAVES: Source = Source {
 };
 
 /// Structure of the mesophyll.
-pub(in crate::species) const fn structure(value: f64) -> Quantity {
+pub(super) const fn structure(value: f64) -> Quantity {
     estimate(value, [1.05, 2.71], ANGERS_LEAVES)
 }
 
 /// Chlorophyll, chosen by eye.
-pub(in crate::species) const fn chlorophyll(value: f64) -> Quantity {
+pub(super) const fn chlorophyll(value: f64) -> Quantity {
     estimate(value, [0.8, 106.7], ANGERS_LEAVES)
 }
 
 /// Carotenoids of a green leaf from its chlorophyll: `1.13 + 0.222 C` (r 0.95 over the green leaves of ANGERS).
-pub(in crate::species) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
+pub(super) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
     let value = 1.13 + 0.222 * chlorophyll.value;
     Quantity {
         value,
@@ -33,11 +33,11 @@ pub(in crate::species) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
     }
 }
 
-pub(in crate::species) const fn water(value: f64) -> Quantity {
+pub(super) const fn water(value: f64) -> Quantity {
     estimate(value, [0.0044, 0.034], ANGERS_LEAVES)
 }
 
-pub(in crate::species) const fn dry_matter(value: f64) -> Quantity {
+pub(super) const fn dry_matter(value: f64) -> Quantity {
     estimate(value, [0.0017, 0.033], ANGERS_LEAVES)
 }
 
@@ -64,7 +64,7 @@ pub(in crate::species) const fn by_eye(value: f64, range: [f64; 2], why: &'stati
     }
 }
 
-pub(in crate::species) const fn measured(
+pub(super) const fn measured(
     value: f64,
     range: [f64; 2],
     key: &'static str,
@@ -77,7 +77,7 @@ pub(in crate::species) const fn measured(
     }
 }
 
-pub(in crate::species) const fn related(
+pub(super) const fn related(
     value: f64,
     range: [f64; 2],
     key: &'static str,
@@ -90,7 +90,7 @@ pub(in crate::species) const fn related(
     }
 }
 
-pub(in crate::species) const fn flora(value: f64, range: [f64; 2], source: Source) -> Quantity {
+pub(super) const fn flora(value: f64, range: [f64; 2], source: Source) -> Quantity {
     Quantity {
         value,
         range,
@@ -98,14 +98,14 @@ pub(in crate::species) const fn flora(value: f64, range: [f64; 2], source: Sourc
     }
 }
 
-pub(in crate::species) const fn flora_span(range: [f64; 2], source: Source) -> Span {
+pub(super) const fn flora_span(range: [f64; 2], source: Source) -> Span {
     Span {
         range,
         from: Provenance::Flora(source),
     }
 }
 
-pub(in crate::species) const fn width_by_eye(range: [f64; 2], why: &'static str) -> Span {
+pub(super) const fn width_by_eye(range: [f64; 2], why: &'static str) -> Span {
     Span {
         range,
         from: Provenance::ByEye(why),
@@ -113,7 +113,7 @@ pub(in crate::species) const fn width_by_eye(range: [f64; 2], why: &'static str)
 }
 
 /// The thickness of leaves of 64 forest species of the southern Appalachians.
-pub(in crate::species) const fn thickness(value: f64) -> Quantity {
+pub(super) const fn thickness(value: f64) -> Quantity {
     estimate(
         value,
         [0.117, 0.474],

@@ -2,6 +2,7 @@
 
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
+use leafmodel::optics::Contents;
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::Ending;
 
@@ -23,7 +24,8 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
     }
     if let Some([anthocyanins, betalains]) = plan.anthocyanins_beside_betalains() {
         warnings.push(format!(
-            "the leaf holds anthocyanins ({anthocyanins}) and betalains ({betalains}), which never occur in the same plant"
+            "the leaf holds anthocyanins ({anthocyanins}) and betalains ({betalains}), which never occur in the same plant: {}",
+            Contents::NEVER_TOGETHER
         ));
     }
     if network.edges().is_empty() {

@@ -21,9 +21,6 @@ pub(crate) const KEYS: [&str; Contents::COUNT] = [
 /// Number of plates.
 pub(crate) const STRUCTURE: Limits = Limits::closed(1.0, 10.0);
 
-/// What to do about betalains beside anthocyanins.
-pub(crate) const NEVER_TOGETHER: &str = "betalains occur in the Caryophyllales (beet, amaranths, cacti) and some mushrooms only, in place of anthocyanins: leave one out";
-
 /// Reads a block of contents.
 pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
     const PIGMENT: Limits = Limits::closed(0.0, 1000.0);
@@ -54,7 +51,7 @@ pub(crate) fn read_contents(block: &Block<'_>) -> Option<Contents> {
             "scene::betalains_and_anthocyanins",
             "this leaf holds betalains and anthocyanins, which never occur in the same plant"
                 .to_owned(),
-            NEVER_TOGETHER,
+            Contents::NEVER_TOGETHER,
         );
     }
     Some(contents)

@@ -8,7 +8,7 @@ use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::optics::Contents;
 
 use super::compound::read_compound;
-use super::contents::{NEVER_TOGETHER, read_contents};
+use super::contents::read_contents;
 use super::layers::read_layers;
 use super::limits::Limits;
 use super::material::{read_abaxial_ratio, read_coats};
@@ -117,7 +117,9 @@ fn warn_of_pigments(block: &Block<'_>, plan: &LeafPlan) {
             "this leaf holds anthocyanins (`{anthocyanins}`) and betalains (`{betalains}`), which never occur in the same plant"
         );
         let code = "scene::betalains_and_anthocyanins";
-        block.cx.warn(&block.at, code, message, NEVER_TOGETHER);
+        block
+            .cx
+            .warn(&block.at, code, message, Contents::NEVER_TOGETHER);
     }
 }
 

@@ -12,7 +12,7 @@ use super::contents::read_changed;
 use super::limits::Limits;
 use super::names::Names;
 use super::reader::Block;
-use super::values::number_at;
+use super::values::{number_at, rounded};
 use crate::scene::error::SceneError;
 
 /// Width of the blend between unlike cells where nothing is said, mm.
@@ -169,7 +169,10 @@ fn read_types(
         impossible(
             &section,
             "initial_share",
-            format!("the initial shares of the types sum to {sum}, not to 1"),
+            format!(
+                "the initial shares of the types sum to {}, not to 1",
+                rounded(sum)
+            ),
             "change them so that they sum to 1",
         );
         return None;
@@ -215,7 +218,7 @@ fn complete(block: &Block<'_>, own: usize, said: &[Option<f64>]) -> Option<Vec<f
     impossible(
         block,
         "switching",
-        format!("its probabilities sum to {sum}, not to 1"),
+        format!("its probabilities sum to {}, not to 1", rounded(sum)),
         "change them so that they sum to 1, or leave the type itself out: it gets the rest",
     );
     None

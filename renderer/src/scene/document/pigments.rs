@@ -8,6 +8,7 @@ use leafmodel::optics::pigments::{
 
 use super::limits::Limits;
 use super::reader::Block;
+use super::values::rounded;
 use crate::scene::error::SceneError;
 
 /// Rounding that a sum of shares may show.
@@ -127,7 +128,10 @@ fn read_shares<const N: usize>(
     }
     let error = SceneError::Impossible {
         key: "shares".to_owned(),
-        problem: format!("the shares of the {class} sum to {sum}, not to 1"),
+        problem: format!(
+            "the shares of the {class} sum to {}, not to 1",
+            rounded(sum)
+        ),
         help: "change them so that they sum to 1; what is left out has a share of 0".to_owned(),
     };
     block.cx.error(&block.at, error);

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use leafmodel::mosaic::pattern::MosaicPattern;
 use leafmodel::mosaic::shapes::Shape;
 use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::solid::{SolidMesh, SolidPlan, SolidShape};
 
-use super::contents::{NEVER_TOGETHER, read_changed};
+use super::contents::read_changed;
 use super::context::QUOTED;
 use super::leaf::MAP_SIZE;
 use super::limits::Limits;
@@ -124,7 +125,10 @@ fn read_held(block: &Block<'_>) -> Contents {
 /// Tells of anthocyanins and betalains in unlike cells of one body; what the body itself holds is told there.
 fn tell_of_mixed_cells(block: &Block<'_>, plan: &SolidPlan) {
     let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
-    let parts = std::iter::once(&plan.contents).chain(cells);
+    // Under a mosaic the body itself shows only where no cell may be.
+    let shows = |mosaic: &MosaicPattern| mosaic.may_leave_bare();
+    let own = plan.mosaic.as_ref().is_none_or(shows);
+    let parts = own.then_some(&plan.contents).into_iter().chain(cells);
     if plan.contents.mixes_betalains_and_anthocyanins() {
         return;
     }
@@ -142,7 +146,7 @@ fn tell_of_mixture(block: &Block<'_>, what: &str) {
         &block.at,
         "scene::betalains_and_anthocyanins",
         format!("{what} betalains and anthocyanins, which never occur in the same plant"),
-        NEVER_TOGETHER,
+        Contents::NEVER_TOGETHER,
     );
 }
 
@@ -170,6 +174,9 @@ fn read_optics(block: &Block<'_>) -> SolidOptics {
         scattering_per_mm: block.number_or("scattering_per_mm", per_mm, SCATTERING_PER_MM),
         eta: block.number_or("eta", Limits::closed(1.0, 2.0), ETA),
     };
+    let tissue = tissue
+        .checked()
+        .expect("what the keys allow lies within the ranges of the model");
     let (mut eta, mut alpha) = (tissue.eta, COAT_ALPHA);
     if let Some(coat) = block.optional_block("coat") {
         eta = coat.number_or("eta", Limits::closed(1.0, 2.5), eta);

@@ -25,6 +25,11 @@ pub(crate) fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
     text
 }
 
+/// A sum as it is told, without the rounding of its summands.
+pub(crate) fn rounded(sum: f64) -> f64 {
+    (1e9 * sum).round() / 1e9
+}
+
 /// Reports a value of another type.
 pub(crate) fn wrong_type(cx: &Context, node: &Node, key: &str, wanted: &str) {
     let written = cx.quoted(node);

@@ -1,6 +1,8 @@
 //! What is odd about a scene's materials and shows only once files are read and leaves are grown.
 
 use super::MaterialOwner;
+use leafmodel::optics::Contents;
+
 use crate::material::Material;
 use crate::material::leaf::LeafTissue;
 use crate::material::solid::SolidTissue;
@@ -70,7 +72,8 @@ pub(super) fn on_maps<'m>(
         .filter(|(_, material)| mixes(material))
         .map(|(name, _)| {
             format!(
-                "materials.{name}: its map holds betalains and anthocyanins, which never occur in the same plant"
+                "materials.{name}: its map holds betalains and anthocyanins, which never occur in the same plant: {}",
+                Contents::NEVER_TOGETHER
             )
         })
         .collect()
