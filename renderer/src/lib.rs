@@ -14,4 +14,5 @@ pub mod light;
 pub mod material;
 pub mod sampling;
 pub mod scene;
+pub mod simd;
 pub mod spectrum;

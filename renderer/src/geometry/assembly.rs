@@ -8,10 +8,13 @@ use super::bounds::Bounds;
 use super::instance::Instance;
 use super::mesh::TriangleMesh;
 use super::ray::Ray;
-use super::slab::SlabRay;
 use super::surface::SurfacePoint;
-use super::triangle::{ShearRay, TriangleBlock};
+use super::triangle::TriangleBlock;
 use super::wide_tree::WideTree;
+use crate::simd::Level;
+use search::{AnyHit, NearestHit, Search};
+
+mod search;
 
 /// Placed meshes with their trees. Immutable, shared by every thread.
 #[derive(Clone, Debug)]
@@ -19,8 +22,9 @@ pub struct Geometry {
     meshes: Vec<TracedMesh>,
     placements: Vec<Placement>,
     tree: WideTree,
-    /// Instance of each leaf of `tree`.
-    order: Vec<u32>,
+    /// Of each leaf of `tree` its instance.
+    carriers: Vec<Carrier>,
+    level: Level,
 }
 
 /// Where a ray meets the geometry first.
@@ -91,9 +95,29 @@ pub(super) struct Placement {
     pub(super) offset: DVec3,
     /// Takes normals to the world.
     pub(super) normals: DMat3,
+    carrier: Carrier,
+}
+
+/// What a ray needs to know of an instance, in one line of the cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Carrier {
     /// World to local, as rays are carried.
-    local_linear: Mat3,
-    local_offset: Vec3,
+    linear: Mat3,
+    offset: Vec3,
+    mesh: u32,
+    instance: u32,
+}
+
+impl Carrier {
+    /// The ray in the local frame, with the same `t`.
+    #[inline(always)]
+    fn carry(&self, ray: &Ray) -> (Vec3, Vec3) {
+        (
+            self.linear * ray.origin + self.offset,
+            self.linear * ray.direction,
+        )
+    }
 }
 
 impl Placement {
@@ -123,9 +147,13 @@ impl Placement {
             ));
         }
         let inverse = linear.inverse();
-        let local_linear = inverse.as_mat3();
-        let local_offset = (-(inverse * offset)).as_vec3();
-        if !local_linear.is_finite() || !local_offset.is_finite() {
+        let carrier = Carrier {
+            linear: inverse.as_mat3(),
+            offset: (-(inverse * offset)).as_vec3(),
+            mesh: instance.mesh,
+            instance: number as u32,
+        };
+        if !carrier.linear.is_finite() || !carrier.offset.is_finite() {
             return Err(refuse("has an inverse beyond 32-bit numbers"));
         }
         Ok(Self {
@@ -133,27 +161,17 @@ impl Placement {
             linear,
             offset,
             normals: inverse.transpose(),
-            local_linear,
-            local_offset,
+            carrier,
         })
-    }
-
-    /// The ray in the local frame, with the same `t`.
-    #[inline]
-    fn carry(&self, ray: &Ray) -> (Vec3, Vec3) {
-        (
-            self.local_linear * ray.origin + self.local_offset,
-            self.local_linear * ray.direction,
-        )
     }
 
     /// Sum of the magnitudes that are added up when a world point is carried into the local frame, by coordinate.
     pub(super) fn to_local_size(&self, world: DVec3) -> DVec3 {
-        let columns = self.local_linear;
+        let columns = self.carrier.linear;
         columns.x_axis.abs().as_dvec3() * world.x.abs()
             + columns.y_axis.abs().as_dvec3() * world.y.abs()
             + columns.z_axis.abs().as_dvec3() * world.z.abs()
-            + self.local_offset.abs().as_dvec3()
+            + self.carrier.offset.abs().as_dvec3()
     }
 
     fn world_bounds(&self, local: &Bounds) -> Bounds {
@@ -190,38 +208,6 @@ impl TracedMesh {
             tree,
             blocks,
         }
-    }
-
-    /// Calls `found(triangle, hit)` for the triangles that the ray may meet no later than `limit`; it gives the new
-    /// limit.
-    #[inline]
-    fn walk<const NEAREST_FIRST: bool>(
-        &self,
-        origin: Vec3,
-        direction: Vec3,
-        t_min: f32,
-        limit: f32,
-        mut found: impl FnMut(u32, super::triangle::TriangleHit, f32) -> f32,
-    ) {
-        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest number.
-        if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
-            return;
-        }
-        let slab = SlabRay::new(origin, direction, t_min, self.tree.bounds());
-        let shear = ShearRay::new(origin, direction, t_min);
-        self.tree
-            .walk::<NEAREST_FIRST>(&slab, limit, |leaf, _, mut limit| {
-                let block = &self.blocks[leaf as usize];
-                let mut candidates = block.candidates(&shear);
-                while candidates != 0 {
-                    let lane = candidates.trailing_zeros() as usize;
-                    candidates &= candidates - 1;
-                    if let Some(hit) = block.hit(lane, &shear, &slab) {
-                        limit = found(block.id(lane), hit, limit);
-                    }
-                }
-                limit
-            });
     }
 }
 
@@ -272,85 +258,37 @@ impl Geometry {
             }
         }
         let (tree, leaves) = WideTree::build(&boxes, 1);
+        let carriers = leaves
+            .into_iter()
+            .flatten()
+            .map(|instance| placements[instance as usize].carrier)
+            .collect();
         Ok(Self {
             meshes,
             placements,
             tree,
-            order: leaves.into_iter().flatten().collect(),
+            carriers,
+            level: Level::best(),
         })
+    }
+
+    /// Traces with other instructions than the fastest; hits have the same bits.
+    #[must_use]
+    pub fn at_level(mut self, level: Level) -> Self {
+        self.level = level;
+        self
     }
 
     /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance, triangle).
     ///
     /// `None` also for a ray that is not finite or has no direction.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
-        self.walk::<true>(ray, |hit, limit| {
-            let nearer = |best: Hit| {
-                hit.t < best.t
-                    || hit.t == best.t
-                        && (hit.instance, hit.triangle) < (best.instance, best.triangle)
-            };
-            if hit.t <= limit && best.is_none_or(nearer) {
-                best = Some(hit);
-                hit.t
-            } else {
-                limit
-            }
-        });
-        best
+        self.level.run(Search::<NearestHit>::new(self, ray))
     }
 
     /// Whether anything is hit with `t_min ≤ t ≤ t_max`: [`Geometry::intersect`] gives something.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        let mut occluded = false;
-        self.walk::<false>(ray, |hit, limit| {
-            if hit.t <= limit {
-                occluded = true;
-                f32::NEG_INFINITY
-            } else {
-                limit
-            }
-        });
-        occluded
-    }
-
-    /// Calls `found(hit, limit)` for hits that may be no farther than the limit; it gives the new limit.
-    #[inline]
-    fn walk<const NEAREST_FIRST: bool>(&self, ray: &Ray, mut found: impl FnMut(Hit, f32) -> f32) {
-        if !ray.is_proper() {
-            return;
-        }
-        let slab = SlabRay::new(ray.origin, ray.direction, ray.t_min, self.tree.bounds());
-        self.tree
-            .walk::<NEAREST_FIRST>(&slab, ray.t_max, |leaf, enter, mut limit| {
-                let instance = self.order[leaf as usize];
-                let placement = &self.placements[instance as usize];
-                let (origin, direction) = placement.carry(ray);
-                let mesh = &self.meshes[placement.instance.mesh as usize];
-                mesh.walk::<NEAREST_FIRST>(
-                    origin,
-                    direction,
-                    ray.t_min,
-                    limit,
-                    |triangle, hit, _| {
-                        // Rounding may find a hit before the instance's own box; the box's word keeps culling by it exact.
-                        let t = hit.t.max(enter);
-                        limit = found(
-                            Hit {
-                                t,
-                                instance,
-                                triangle,
-                                b1: hit.b1,
-                                b2: hit.b2,
-                            },
-                            limit,
-                        );
-                        limit
-                    },
-                );
-                limit
-            });
+        self.level.run(Search::<AnyHit>::new(self, ray))
     }
 
     /// The surface at a hit. The ray is the one that found it.
@@ -383,7 +321,7 @@ impl Geometry {
         meshes
             + self.tree.memory_bytes()
             + self.placements.capacity() * size_of::<Placement>()
-            + self.order.capacity() * size_of::<u32>()
+            + self.carriers.capacity() * size_of::<Carrier>()
     }
 
     /// A mesh by number.

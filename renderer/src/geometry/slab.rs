@@ -3,12 +3,28 @@
 use glam::Vec3;
 
 use super::bounds::Bounds;
-
-/// Boxes that are tested together.
-pub(super) const LANES: usize = 8;
+use crate::simd::{Eight, Row};
 
 /// Planes of boxes, by plane (min x, y, z, max x, y, z) and box.
-pub(super) type BoxPlanes = [[f32; LANES]; 6];
+pub(super) type BoxPlanes = [Row; 6];
+
+/// A row of [`BoxPlanes`]. An enum, so that the compiler knows that it is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Plane {
+    MinX,
+    MinY,
+    MinZ,
+    MaxX,
+    MaxY,
+    MaxZ,
+}
+
+/// Lower and upper plane of each axis.
+const PLANES: [[Plane; 2]; 3] = [
+    [Plane::MinX, Plane::MaxX],
+    [Plane::MinY, Plane::MaxY],
+    [Plane::MinZ, Plane::MaxZ],
+];
 
 /// How far the sheared triangle test may see a vertex from where it is, relative to its distances from the origin
 /// across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an error below (2 |x| + 4 |z|) · 2⁻²⁴
@@ -30,9 +46,9 @@ pub(super) struct SlabRay {
     near_origin: [f32; 3],
     far_origin: [f32; 3],
     inverse: [f32; 3],
-    /// Rows of [`BoxPlanes`] that the ray meets first and last on each axis.
-    near_plane: [usize; 3],
-    far_plane: [usize; 3],
+    /// Planes that the ray meets first and last on each axis.
+    near_plane: [Plane; 3],
+    far_plane: [Plane; 3],
     t_min: f32,
 }
 
@@ -64,15 +80,16 @@ impl SlabRay {
         };
         let error = (reach + along) * SHEAR_ERROR;
         let inverse = direction.recip();
-        let mut near_plane = [0; 3];
-        let mut far_plane = [0; 3];
+        let mut near_plane = [Plane::MinX; 3];
+        let mut far_plane = [Plane::MinX; 3];
         let mut near_origin = [0.0; 3];
         let mut far_origin = [0.0; 3];
         for axis in 0..3 {
             // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
             let down = inverse[axis].is_sign_negative();
-            near_plane[axis] = if down { axis + 3 } else { axis };
-            far_plane[axis] = if down { axis } else { axis + 3 };
+            let [low, high] = PLANES[axis];
+            near_plane[axis] = if down { high } else { low };
+            far_plane[axis] = if down { low } else { high };
             let shift = if down { -error[axis] } else { error[axis] };
             near_origin[axis] = origin[axis] + shift;
             far_origin[axis] = origin[axis] - shift;
@@ -87,41 +104,34 @@ impl SlabRay {
         }
     }
 
-    /// Distances at which the ray enters and leaves eight boxes; a box is met if `enter ≤ leave`.
+    /// Distances at which the ray enters eight boxes, and a bit for each box that it meets no later than `limit`.
     ///
     /// Every operation is monotonic in the box, so a box inside another never enters earlier nor leaves later. A
     /// plane that the ray runs in (0 · ∞) does not count, which errs to the safe side.
-    #[inline]
-    pub(super) fn eight(&self, planes: &BoxPlanes) -> ([f32; LANES], [f32; LANES]) {
-        let mut enter = [self.t_min; LANES];
-        let mut leave = [f32::INFINITY; LANES];
+    #[inline(always)]
+    pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
+        let mut enter = e.splat(self.t_min);
+        let mut leave = e.splat(f32::INFINITY);
         for axis in 0..3 {
-            let near = &planes[self.near_plane[axis]];
-            let far = &planes[self.far_plane[axis]];
-            for lane in 0..LANES {
-                enter[lane] = greater(
-                    (near[lane] - self.near_origin[axis]) * self.inverse[axis],
-                    enter[lane],
-                );
-                leave[lane] = less(
-                    (far[lane] - self.far_origin[axis]) * self.inverse[axis],
-                    leave[lane],
-                );
-            }
+            let near = e.load(&planes[self.near_plane[axis] as usize]);
+            let far = e.load(&planes[self.far_plane[axis] as usize]);
+            let inverse = e.splat(self.inverse[axis]);
+            let near = e.mul(e.sub(near, e.splat(self.near_origin[axis])), inverse);
+            let far = e.mul(e.sub(far, e.splat(self.far_origin[axis])), inverse);
+            enter = e.greater(near, enter);
+            leave = e.less(far, leave);
         }
-        for distance in &mut leave {
-            *distance *= FAR_FACTOR;
-        }
-        (enter, leave)
+        let last = e.less(e.mul(leave, e.splat(FAR_FACTOR)), e.splat(limit));
+        (enter, e.at_most(enter, last))
     }
 
     /// As [`SlabRay::eight`], for one box, bit for bit; `None` if it is missed, else the distance of entry.
-    #[inline]
+    #[inline(always)]
     pub(super) fn one(&self, min: [f32; 3], max: [f32; 3]) -> Option<f32> {
         let mut enter = self.t_min;
         let mut leave = f32::INFINITY;
         for axis in 0..3 {
-            let (near, far) = if self.near_plane[axis] == axis {
+            let (near, far) = if self.near_plane[axis] == PLANES[axis][0] {
                 (min[axis], max[axis])
             } else {
                 (max[axis], min[axis])

@@ -2,21 +2,30 @@
 
 use glam::Vec3;
 
-use super::slab::{LANES, SlabRay, greater, less};
+use super::slab::SlabRay;
+use crate::simd::{Eight, LANES, Row};
 
 /// Eight triangles by vertex, axis and lane; lanes that are not used hold NaN, which no ray meets.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct TriangleBlock {
-    vertices: [[[f32; LANES]; 3]; 3],
+    vertices: [[Row; 3]; 3],
     ids: [u32; LANES],
+}
+
+/// An axis of space. An enum, so that the compiler knows that there are three.
+#[derive(Clone, Copy, Debug)]
+enum Axis {
+    X,
+    Y,
+    Z,
 }
 
 /// A ray made ready for triangle tests: axes permuted so that the ray runs along the third, and sheared onto it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearRay {
     origin: [f32; 3],
-    axes: [usize; 3],
+    axes: [Axis; 3],
     shear: [f32; 3],
     t_min: f32,
 }
@@ -26,29 +35,59 @@ impl ShearRay {
     #[inline]
     pub(super) fn new(origin: Vec3, direction: Vec3, t_min: f32) -> Self {
         let size = direction.abs();
-        let z = if size.x > size.y && size.x > size.z {
-            0
+        let [x, y, z] = if size.x > size.y && size.x > size.z {
+            [Axis::Y, Axis::Z, Axis::X]
         } else if size.y > size.z {
-            1
+            [Axis::Z, Axis::X, Axis::Y]
         } else {
-            2
+            [Axis::X, Axis::Y, Axis::Z]
         };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-        let axes = if direction[z] < 0.0 {
-            [y, x, z]
-        } else {
-            [x, y, z]
-        };
+        let along = direction[z as usize];
+        let axes = if along < 0.0 { [y, x, z] } else { [x, y, z] };
         Self {
             origin: origin.to_array(),
             axes,
             shear: [
-                direction[axes[0]] / direction[z],
-                direction[axes[1]] / direction[z],
-                1.0 / direction[z],
+                direction[axes[0] as usize] / along,
+                direction[axes[1] as usize] / along,
+                1.0 / along,
             ],
             t_min,
         }
+    }
+}
+
+/// What the projection of eight corners needs in every lane. No closures here or below: they are compiled as functions
+/// of their own, without the instructions of the level, before they are inlined.
+struct ShearLanes<E: Eight> {
+    x: E::F,
+    y: E::F,
+    origin: [E::F; 3],
+}
+
+impl<E: Eight> ShearLanes<E> {
+    #[inline(always)]
+    fn new(e: E, ray: &ShearRay) -> Self {
+        let [kx, ky, kz] = ray.axes;
+        Self {
+            x: e.splat(ray.shear[0]),
+            y: e.splat(ray.shear[1]),
+            origin: [
+                e.splat(ray.origin[kx as usize]),
+                e.splat(ray.origin[ky as usize]),
+                e.splat(ray.origin[kz as usize]),
+            ],
+        }
+    }
+
+    /// Corners relative to the ray: across it twice, and along it, not yet scaled.
+    #[inline(always)]
+    fn project(&self, e: E, ray: &ShearRay, corner: &[Row; 3]) -> [E::F; 3] {
+        let [kx, ky, kz] = ray.axes;
+        let z = e.sub(e.load(&corner[kz as usize]), self.origin[2]);
+        let x = e.sub(e.load(&corner[kx as usize]), self.origin[0]);
+        let y = e.sub(e.load(&corner[ky as usize]), self.origin[1]);
+        [e.sub(x, e.mul(self.x, z)), e.sub(y, e.mul(self.y, z)), z]
     }
 }
 
@@ -65,14 +104,14 @@ impl TriangleBlock {
     pub(super) fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
         assert!(triangles.len() <= LANES, "a block has eight lanes");
         let mut block = Self {
-            vertices: [[[f32::NAN; LANES]; 3]; 3],
+            vertices: [[Row([f32::NAN; LANES]); 3]; 3],
             ids: [u32::MAX; LANES],
         };
         for (lane, (id, corners)) in triangles.iter().enumerate() {
             block.ids[lane] = *id;
             for (vertex, corner) in corners.iter().enumerate() {
                 for axis in 0..3 {
-                    block.vertices[vertex][axis][lane] = corner[axis];
+                    block.vertices[vertex][axis].0[lane] = corner[axis];
                 }
             }
         }
@@ -85,40 +124,41 @@ impl TriangleBlock {
     }
 
     fn corner(&self, vertex: usize, lane: usize) -> [f32; 3] {
-        self.vertices[vertex].map(|axis| axis[lane])
+        self.vertices[vertex].each_ref().map(|axis| axis.0[lane])
     }
 
-    /// Calls `accept` for every lane that the ray may meet: bit `l` set if lane `l` passed the edge tests.
+    /// A bit for each lane in which [`TriangleBlock::hit`] may find something no farther than `limit`.
     ///
-    /// The edge functions of \[woop2013\] on eight lanes in `f32`. A product that rounds keeps its order, so the sign
-    /// of a difference of two products is right or the difference is 0; zeros pass here and are settled by
-    /// [`TriangleBlock::hit`]. This loop is the seam for a hand-written kernel: any kernel that gives a superset of
-    /// these bits gives the same hits.
-    #[inline]
-    pub(super) fn candidates(&self, ray: &ShearRay) -> u32 {
-        let [kx, ky, kz] = ray.axes;
-        let [sx, sy, _] = ray.shear;
-        let mut xs = [[0.0_f32; LANES]; 3];
-        let mut ys = [[0.0_f32; LANES]; 3];
-        for vertex in 0..3 {
-            let corner = &self.vertices[vertex];
-            for lane in 0..LANES {
-                let z = corner[kz][lane] - ray.origin[kz];
-                xs[vertex][lane] = (corner[kx][lane] - ray.origin[kx]) - sx * z;
-                ys[vertex][lane] = (corner[ky][lane] - ray.origin[ky]) - sy * z;
-            }
+    /// The edge functions of \[woop2013\] on eight lanes. A product that rounds keeps its order, so the sign of a
+    /// difference of two products is right or the difference is 0; zeros pass here and are settled by `hit`. In the
+    /// other lanes `t` has the bits that it has there, so what lies outside the ray's interval is left out.
+    #[inline(always)]
+    pub(super) fn candidates<E: Eight>(&self, e: E, ray: &ShearRay, limit: f32) -> u32 {
+        let [a, b, c] = &self.vertices;
+        let lanes = ShearLanes::new(e, ray);
+        let [ax, ay, az] = lanes.project(e, ray, a);
+        let [bx, by, bz] = lanes.project(e, ray, b);
+        let [cx, cy, cz] = lanes.project(e, ray, c);
+        let u = e.sub(e.mul(cx, by), e.mul(cy, bx));
+        let v = e.sub(e.mul(ax, cy), e.mul(ay, cx));
+        let w = e.sub(e.mul(bx, ay), e.mul(by, ax));
+        // The smallest and greatest of the three: signs agree, zeros with either.
+        let least = e.less(e.less(u, v), w);
+        let most = e.greater(e.greater(u, v), w);
+        let zero = e.splat(0.0);
+        let inside = e.at_most(zero, least) | e.at_most(most, zero);
+        if inside == 0 {
+            return 0;
         }
-        let mut inside = [0_u32; LANES];
-        for lane in 0..LANES {
-            let u = xs[2][lane] * ys[1][lane] - ys[2][lane] * xs[1][lane];
-            let v = xs[0][lane] * ys[2][lane] - ys[0][lane] * xs[2][lane];
-            let w = xs[1][lane] * ys[0][lane] - ys[1][lane] * xs[0][lane];
-            // The smallest and greatest of the three: signs agree, zeros with either.
-            let least = less(less(u, v), w);
-            let most = greater(greater(u, v), w);
-            inside[lane] = u32::from(least >= 0.0) | u32::from(most <= 0.0);
-        }
-        inside.iter().rev().fold(0, |bits, &lane| bits << 1 | lane)
+        let strictly = e.below(zero, least) | e.below(most, zero);
+        let sz = e.splat(ray.shear[2]);
+        let sum = e.add(
+            e.add(e.mul(u, e.mul(sz, az)), e.mul(v, e.mul(sz, bz))),
+            e.mul(w, e.mul(sz, cz)),
+        );
+        let t = e.div(sum, e.add(e.add(u, v), w));
+        let within = e.at_most(e.splat(ray.t_min), t) & e.at_most(t, e.splat(limit));
+        inside & (within | !strictly)
     }
 
     /// The hit in one lane, or `None`.
@@ -126,10 +166,10 @@ impl TriangleBlock {
     /// `t` is never less than the distance at which the ray enters the triangle's own box, and a ray that misses that
     /// box misses the triangle. Both are facts about triangle and ray alone, and boxes of the tree contain that box:
     /// so culling by them changes nothing, even where rounding moves `t` (a triangle seen edge-on).
-    #[inline]
+    #[inline(always)]
     pub(super) fn hit(&self, lane: usize, ray: &ShearRay, slab: &SlabRay) -> Option<TriangleHit> {
         let [a, b, c] = [0, 1, 2].map(|vertex| self.corner(vertex, lane));
-        let [kx, ky, kz] = ray.axes;
+        let [kx, ky, kz] = ray.axes.map(|axis| axis as usize);
         let [sx, sy, sz] = ray.shear;
         let project = |corner: [f32; 3]| {
             let z = corner[kz] - ray.origin[kz];

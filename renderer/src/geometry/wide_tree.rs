@@ -3,7 +3,8 @@
 use super::bounds::Bounds;
 use super::bvh;
 use super::median;
-use super::slab::{BoxPlanes, LANES, SlabRay};
+use super::slab::{BoxPlanes, SlabRay};
+use crate::simd::{Eight, LANES, Row, Stack};
 
 /// Levels of nodes that a tree may have; deeper ones are built anew by halving.
 const MAX_DEPTH: usize = 18;
@@ -24,7 +25,7 @@ struct WideNode {
 
 impl WideNode {
     fn empty() -> Self {
-        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        let (low, high) = (Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES]));
         Self {
             planes: [low, low, low, high, high, high],
             children: [LEAF; LANES],
@@ -33,11 +34,20 @@ impl WideNode {
 
     fn set(&mut self, lane: usize, bounds: &Bounds, child: u32) {
         for axis in 0..3 {
-            self.planes[axis][lane] = bounds.min[axis];
-            self.planes[axis + 3][lane] = bounds.max[axis];
+            self.planes[axis].0[lane] = bounds.min[axis];
+            self.planes[axis + 3].0[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
     }
+}
+
+/// What is done at the leaves of a tree.
+pub(super) trait Visitor {
+    /// Asks for the memory of a leaf that is likely to be visited soon.
+    fn fetch(&self, leaf: u32);
+
+    /// Visits a leaf whose box the ray enters at `enter`; gives the new limit, −∞ to end the walk.
+    fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32;
 }
 
 /// A tree over boxes, up to `leaf_size` of them in a leaf.
@@ -136,50 +146,67 @@ impl WideTree {
         self.nodes.capacity() * size_of::<WideNode>()
     }
 
-    /// Visits the leaves whose boxes the ray enters no later than `limit`.
+    /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`.
     ///
-    /// `visit(leaf, enter, limit)` gives the new limit; −∞ ends the walk. With `NEAREST_FIRST` leaves come in the
-    /// order of their boxes where that is known. Which leaves are visited beyond those within the final limit depends
-    /// on that order, so nothing but the limit may depend on it.
-    #[inline]
-    pub(super) fn walk<const NEAREST_FIRST: bool>(
+    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Which leaves are visited
+    /// beyond those within the final limit depends on that order, so nothing but the limit may depend on it.
+    #[inline(always)]
+    pub(super) fn walk<const NEAREST_FIRST: bool, E: Eight>(
         &self,
+        e: E,
         ray: &SlabRay,
         mut limit: f32,
-        mut visit: impl FnMut(u32, f32, f32) -> f32,
+        visitor: &mut impl Visitor,
     ) {
         if self.nodes.is_empty() {
             return;
         }
-        let mut stack = [(0.0_f32, 0_u32); STACK];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (enter, child) = stack[height];
-            if enter > limit {
-                continue;
-            }
-            if child & LEAF != 0 {
-                limit = visit(child & !LEAF, enter, limit);
+        let mut stack = Stack::<(f32, u32), STACK>::new();
+        let (mut enter, mut child) = (0.0_f32, 0_u32);
+        loop {
+            if child & LEAF == 0 {
+                let node = &self.nodes[child as usize];
+                let (enters, mut met) = ray.eight(e, &node.planes, limit);
+                if met != 0 {
+                    let enters = e.store(enters);
+                    let base = stack.height();
+                    loop {
+                        let lane = met.trailing_zeros() as usize % LANES;
+                        met &= met - 1;
+                        (enter, child) = (enters.0[lane], node.children[lane]);
+                        if met == 0 && stack.height() == base {
+                            break;
+                        }
+                        if child & LEAF == 0 {
+                            e.prefetch(&self.nodes, child as usize);
+                        } else {
+                            visitor.fetch(child & !LEAF);
+                        }
+                        if NEAREST_FIRST {
+                            stack.push_in_order(base, (enter, child));
+                        } else {
+                            stack.push((enter, child));
+                        }
+                        if met == 0 {
+                            if let Some(next) = stack.pop() {
+                                (enter, child) = next;
+                            }
+                            break;
+                        }
+                    }
+                    continue;
+                }
+            } else {
+                limit = visitor.visit(child & !LEAF, enter, limit);
                 if limit == f32::NEG_INFINITY {
                     return;
                 }
-                continue;
             }
-            let node = &self.nodes[child as usize];
-            let (enter, leave) = ray.eight(&node.planes);
-            let base = height;
-            for lane in 0..LANES {
-                if enter[lane] <= leave[lane] && enter[lane] <= limit {
-                    let mut place = height;
-                    if NEAREST_FIRST {
-                        while place > base && stack[place - 1].0 < enter[lane] {
-                            stack[place] = stack[place - 1];
-                            place -= 1;
-                        }
-                    }
-                    stack[place] = (enter[lane], node.children[lane]);
-                    height += 1;
+            loop {
+                let Some(next) = stack.pop() else { return };
+                (enter, child) = next;
+                if enter <= limit {
+                    break;
                 }
             }
         }
@@ -260,7 +287,7 @@ mod tests {
             let node = &tree.nodes[node as usize];
             for lane in 0..LANES {
                 let corner = |first: usize| {
-                    Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + axis][lane]))
+                    Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + axis].0[lane]))
                 };
                 let child = Bounds {
                     min: corner(0),

@@ -17,7 +17,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
         let Some(enter) = world.one(bounds.min.to_array(), bounds.max.to_array()) else {
             continue;
         };
-        let (origin, direction) = placement.carry(ray);
+        let (origin, direction) = placement.carrier.carry(ray);
         let slab = SlabRay::new(origin, direction, ray.t_min, mesh.tree.bounds());
         let shear = ShearRay::new(origin, direction, ray.t_min);
         for block in &mesh.blocks {

@@ -1,0 +1,213 @@
+//! A ray's way through the two levels of trees.
+//!
+//! Everything here is inlined into one function for each level of instructions and each kind of search. There are no
+//! closures: they would be compiled on their own first, without those instructions.
+
+use std::marker::PhantomData;
+
+use glam::Vec3;
+
+use super::super::ray::Ray;
+use super::super::slab::SlabRay;
+use super::super::triangle::ShearRay;
+use super::super::wide_tree::Visitor;
+use super::{Carrier, Geometry, Hit, TracedMesh};
+use crate::simd::{Eight, Task};
+
+/// What is looked for.
+pub(super) trait Found: Default {
+    /// What comes of it.
+    type Output;
+    /// Whether near hits are to come first.
+    const NEAREST_FIRST: bool;
+
+    /// Takes note of a hit, which may be farther than the limit; gives the new limit, −∞ to end the search.
+    fn hit(&mut self, hit: Hit, limit: f32) -> f32;
+
+    /// What was found.
+    fn output(self) -> Self::Output;
+}
+
+/// The nearest hit; of equal distances the smaller (instance, triangle).
+#[derive(Default)]
+pub(super) struct NearestHit(Option<Hit>);
+
+impl Found for NearestHit {
+    type Output = Option<Hit>;
+    const NEAREST_FIRST: bool = true;
+
+    #[inline(always)]
+    fn hit(&mut self, hit: Hit, limit: f32) -> f32 {
+        if hit.t > limit {
+            return limit;
+        }
+        if let Some(best) = self.0 {
+            let first = (hit.instance, hit.triangle) < (best.instance, best.triangle);
+            if hit.t > best.t || hit.t == best.t && !first {
+                return limit;
+            }
+        }
+        self.0 = Some(hit);
+        hit.t
+    }
+
+    #[inline(always)]
+    fn output(self) -> Option<Hit> {
+        self.0
+    }
+}
+
+/// Whether there is a hit.
+#[derive(Default)]
+pub(super) struct AnyHit(bool);
+
+impl Found for AnyHit {
+    type Output = bool;
+    const NEAREST_FIRST: bool = false;
+
+    #[inline(always)]
+    fn hit(&mut self, hit: Hit, limit: f32) -> f32 {
+        if hit.t > limit {
+            return limit;
+        }
+        self.0 = true;
+        f32::NEG_INFINITY
+    }
+
+    #[inline(always)]
+    fn output(self) -> bool {
+        self.0
+    }
+}
+
+/// The search of one ray for `F`.
+pub(super) struct Search<'a, F> {
+    geometry: &'a Geometry,
+    ray: &'a Ray,
+    found: PhantomData<F>,
+}
+
+impl<'a, F: Found> Search<'a, F> {
+    #[inline(always)]
+    pub(super) fn new(geometry: &'a Geometry, ray: &'a Ray) -> Self {
+        Self {
+            geometry,
+            ray,
+            found: PhantomData,
+        }
+    }
+}
+
+impl<F: Found> Task for Search<'_, F> {
+    type Output = F::Output;
+
+    #[inline(always)]
+    fn run<E: Eight>(self, e: E) -> F::Output {
+        let Self { geometry, ray, .. } = self;
+        let mut found = F::default();
+        if ray.is_proper() {
+            let bounds = geometry.tree.bounds();
+            let slab = SlabRay::new(ray.origin, ray.direction, ray.t_min, bounds);
+            let mut instances = Instances {
+                e,
+                geometry,
+                ray,
+                found: &mut found,
+            };
+            if F::NEAREST_FIRST {
+                (geometry.tree).walk::<true, E>(e, &slab, ray.t_max, &mut instances);
+            } else {
+                (geometry.tree).walk::<false, E>(e, &slab, ray.t_max, &mut instances);
+            }
+        }
+        found.output()
+    }
+}
+
+/// At the leaves of the upper tree: the ray goes through the tree of the instance's mesh.
+struct Instances<'a, E, F> {
+    e: E,
+    geometry: &'a Geometry,
+    ray: &'a Ray,
+    found: &'a mut F,
+}
+
+impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
+    #[inline(always)]
+    fn fetch(&self, leaf: u32) {
+        self.e.prefetch(&self.geometry.carriers, leaf as usize);
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32 {
+        let carrier = &self.geometry.carriers[leaf as usize];
+        let (origin, direction) = carrier.carry(self.ray);
+        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest number.
+        if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
+            return limit;
+        }
+        let mesh = &self.geometry.meshes[carrier.mesh as usize];
+        let slab = SlabRay::new(origin, direction, self.ray.t_min, mesh.tree.bounds());
+        let shear = ShearRay::new(origin, direction, self.ray.t_min);
+        let mut triangles = Triangles {
+            e: self.e,
+            mesh,
+            carrier,
+            enter,
+            slab: &slab,
+            shear: &shear,
+            found: &mut *self.found,
+            limit,
+        };
+        if F::NEAREST_FIRST {
+            (mesh.tree).walk::<true, E>(self.e, &slab, limit, &mut triangles);
+        } else {
+            (mesh.tree).walk::<false, E>(self.e, &slab, limit, &mut triangles);
+        }
+        triangles.limit
+    }
+}
+
+/// At the leaves of a mesh's tree: the ray is tested against eight triangles.
+struct Triangles<'a, E, F> {
+    e: E,
+    mesh: &'a TracedMesh,
+    carrier: &'a Carrier,
+    /// Where the ray enters the instance's box.
+    enter: f32,
+    slab: &'a SlabRay,
+    shear: &'a ShearRay,
+    found: &'a mut F,
+    /// The limit after the last visit.
+    limit: f32,
+}
+
+impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
+    #[inline(always)]
+    fn fetch(&self, leaf: u32) {
+        self.e.prefetch(&self.mesh.blocks, leaf as usize);
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, leaf: u32, _: f32, mut limit: f32) -> f32 {
+        let block = &self.mesh.blocks[leaf as usize];
+        let mut candidates = block.candidates(self.e, self.shear, limit);
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize;
+            candidates &= candidates - 1;
+            if let Some(hit) = block.hit(lane, self.shear, self.slab) {
+                let hit = Hit {
+                    // Rounding may find a hit before the instance's own box; the box's word keeps culling by it exact.
+                    t: hit.t.max(self.enter),
+                    instance: self.carrier.instance,
+                    triangle: block.id(lane),
+                    b1: hit.b1,
+                    b2: hit.b2,
+                };
+                limit = self.found.hit(hit, limit);
+            }
+        }
+        self.limit = limit;
+        limit
+    }
+}

@@ -1,0 +1,209 @@
+//! Eight `f32` numbers at a time, on whatever vector unit the machine has.
+//!
+//! Kernels are written once over [`Eight`] and compiled for each instruction set; which one runs is
+//! chosen when the program starts ([`Level::best`]). Only operations that IEEE 754 rounds
+//! correctly are offered, and no fused multiply-add, so that every level gives the same bits.
+//!
+//! - **In**: rows of eight numbers.
+//! - **Out**: rows of eight numbers, or a bit for each lane.
+//! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
+//!   same bits at every level.
+//! - **Left out**: wider units. AVX-512 brought nothing for trees of eight children.
+#![allow(
+    unsafe_code,
+    reason = "intrinsics; a token of a level exists only where its instructions do"
+)]
+
+#[cfg(target_arch = "aarch64")]
+mod neon;
+mod scalar;
+mod stack;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use scalar::Scalar;
+pub(crate) use stack::Stack;
+
+/// Numbers in a row.
+pub(crate) const LANES: usize = 8;
+
+/// A row of numbers, aligned for the widest unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(crate) struct Row(pub(crate) [f32; LANES]);
+
+/// The operations on rows, by the instructions of one level.
+///
+/// A value of an implementing type is the proof that the machine has these instructions. Methods
+/// are inlined into the function of [`Level::run`] that is compiled for them.
+pub(crate) trait Eight: Copy {
+    /// Eight numbers in registers.
+    type F: Copy;
+
+    /// The same number in every lane.
+    fn splat(self, value: f32) -> Self::F;
+    /// A row from memory.
+    fn load(self, row: &Row) -> Self::F;
+    /// The row in memory.
+    fn store(self, row: Self::F) -> Row;
+    /// `a + b`.
+    fn add(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a − b`.
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a · b`.
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a / b`.
+    fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a` where it is less, else `b`; so `b` where either is not a number.
+    fn less(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a` where it is greater, else `b`; so `b` where either is not a number.
+    fn greater(self, a: Self::F, b: Self::F) -> Self::F;
+    /// Bit `i` is set where `a ≤ b` in lane `i`.
+    fn at_most(self, a: Self::F, b: Self::F) -> u32;
+    /// Bit `i` is set where `a < b` in lane `i`.
+    fn below(self, a: Self::F, b: Self::F) -> u32;
+    /// Asks for an element's memory before it is needed; places outside the slice do no harm.
+    fn prefetch<T>(self, slice: &[T], place: usize);
+}
+
+/// What can be run at any level.
+pub(crate) trait Task {
+    /// What comes of it.
+    type Output;
+
+    /// Runs it; implementations are `#[inline(always)]`, and so is what they call with `eight`.
+    fn run<E: Eight>(self, eight: E) -> Self::Output;
+}
+
+/// A set of vector instructions that this machine has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level(Kind);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Scalar,
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "aarch64")]
+    Neon,
+}
+
+impl Level {
+    /// The levels that run here, the slowest first.
+    pub fn all() -> Vec<Self> {
+        #[allow(
+            unused_mut,
+            reason = "on other processors there is the one level alone"
+        )]
+        let mut levels = vec![Self(Kind::Scalar)];
+        #[cfg(target_arch = "x86_64")]
+        {
+            levels.push(Self(Kind::Sse2));
+            if std::arch::is_x86_feature_detected!("avx2") {
+                levels.push(Self(Kind::Avx2));
+            }
+        }
+        #[cfg(target_arch = "aarch64")]
+        levels.push(Self(Kind::Neon));
+        levels
+    }
+
+    /// The fastest level that runs here.
+    pub fn best() -> Self {
+        *Self::all().last().expect("one level runs everywhere")
+    }
+
+    /// Its name: `scalar`, `sse2`, `avx2` or `neon`.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Kind::Scalar => "scalar",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse2 => "sse2",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2 => "avx2",
+            #[cfg(target_arch = "aarch64")]
+            Kind::Neon => "neon",
+        }
+    }
+
+    /// Runs a task with the instructions of this level.
+    #[inline]
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+        match self.0 {
+            Kind::Scalar => task.run(Scalar),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse2 => task.run(x86::Sse2),
+            // SAFETY: `Level` has no public constructor; `all` makes this one where AVX2 is detected.
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2 => unsafe { x86::with_avx2(task) },
+            #[cfg(target_arch = "aarch64")]
+            Kind::Neon => task.run(neon::Neon),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every operation on two rows.
+    struct Operations(Row, Row);
+
+    impl Task for Operations {
+        type Output = ([Row; 6], [u32; 2]);
+
+        #[inline(always)]
+        fn run<E: Eight>(self, eight: E) -> Self::Output {
+            let (a, b) = (eight.load(&self.0), eight.load(&self.1));
+            let rows = [
+                eight.add(a, b),
+                eight.sub(a, b),
+                eight.mul(a, b),
+                eight.div(a, b),
+                eight.less(a, b),
+                eight.greater(a, eight.splat(self.1.0[0])),
+            ];
+            let bits = [eight.at_most(a, b), eight.below(a, b)];
+            (rows.map(|row| eight.store(row)), bits)
+        }
+    }
+
+    #[test]
+    fn every_level_gives_the_same_bits() {
+        let odd = [
+            0.0,
+            -0.0,
+            1.0,
+            -3.5,
+            f32::NAN,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            1e-42,
+            f32::MAX,
+            0.1,
+        ];
+        for shift in 0..odd.len() {
+            for step in 1..odd.len() {
+                let row = |start: usize, step: usize| {
+                    Row(std::array::from_fn(|i| odd[(start + i * step) % odd.len()]))
+                };
+                let (a, b) = (row(0, 1), row(shift, step));
+                let bits = |(rows, bits): ([Row; 6], [u32; 2])| {
+                    // Which NaN comes out is the machine's affair; nothing here looks at it.
+                    let words = rows.map(|row| {
+                        row.0
+                            .map(|value| if value.is_nan() { 1 } else { value.to_bits() })
+                    });
+                    (words, bits)
+                };
+                let expected = bits(Level(Kind::Scalar).run(Operations(a, b)));
+                for level in Level::all() {
+                    let got = bits(level.run(Operations(a, b)));
+                    assert_eq!(got, expected, "{} on {a:?} and {b:?}", level.name());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! A stack of fixed size whose memory is not cleared: a ray would spend more time on that than on a node.
+
+use std::mem::MaybeUninit;
+
+/// At most `N` values.
+pub(crate) struct Stack<T, const N: usize> {
+    /// The first `height` of them are initialised.
+    values: [MaybeUninit<T>; N],
+    height: usize,
+}
+
+impl<T: Copy, const N: usize> Stack<T, N> {
+    /// Without values.
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self {
+            values: [const { MaybeUninit::uninit() }; N],
+            height: 0,
+        }
+    }
+
+    /// How many values there are.
+    #[inline(always)]
+    pub(crate) fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Puts a value on top.
+    ///
+    /// # Panics
+    ///
+    /// If there is no room.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, value: T) {
+        self.values[self.height].write(value);
+        self.height += 1;
+    }
+
+    /// Takes the topmost value.
+    #[inline(always)]
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        self.height = self.height.checked_sub(1)?;
+        // SAFETY: what lies below the height is initialised.
+        Some(unsafe { self.values[self.height].assume_init() })
+    }
+}
+
+impl<T: Copy, const N: usize> Stack<(f32, T), N> {
+    /// Puts a value below those of the topmost with a smaller number, but not below the first `base` values.
+    ///
+    /// # Panics
+    ///
+    /// If there is no room.
+    #[inline(always)]
+    pub(crate) fn push_in_order(&mut self, base: usize, value: (f32, T)) {
+        let mut place = self.height;
+        self.push(value);
+        while place > base {
+            // SAFETY: `place ≤ height` before the push, so the value below it is initialised.
+            let below = unsafe { self.values[place - 1].assume_init() };
+            if below.0 >= value.0 {
+                break;
+            }
+            self.values[place].write(below);
+            place -= 1;
+        }
+        self.values[place].write(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_comes_off_first_and_the_base_stays_below() {
+        let mut stack = Stack::<(f32, char), 8>::new();
+        stack.push((100.0, 'a'));
+        stack.push((-5.0, 'b'));
+        let base = stack.height();
+        for value in [(4.0, 'c'), (1.0, 'd'), (9.0, 'e'), (1.0, 'f'), (7.0, 'g')] {
+            stack.push_in_order(base, value);
+        }
+        let off: String = std::iter::from_fn(|| stack.pop())
+            .map(|(_, letter)| letter)
+            .collect();
+        assert_eq!(off, "fdcgeba");
+        assert_eq!(stack.pop(), None);
+    }
+}

@@ -1,0 +1,197 @@
+//! x86-64: SSE2, which every such processor has, and AVX2.
+
+use std::arch::x86_64::{
+    __m128, __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_add_ps, _mm_cmple_ps, _mm_cmplt_ps,
+    _mm_div_ps, _mm_load_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_prefetch,
+    _mm_set1_ps, _mm_store_ps, _mm_sub_ps, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps,
+    _mm256_load_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_set1_ps, _mm256_store_ps, _mm256_sub_ps,
+};
+
+use super::{Eight, LANES, Row, Task};
+
+/// Bytes that the processor fetches at once.
+const CACHE_LINE: usize = 64;
+
+/// The instructions of AVX2; made by [`with_avx2`] alone.
+#[derive(Clone, Copy)]
+pub(super) struct Avx2(());
+
+#[derive(Clone, Copy)]
+pub(super) struct Sse2;
+
+/// Runs a task compiled for AVX2.
+///
+/// # Safety
+///
+/// The processor has AVX2.
+#[target_feature(enable = "avx2")]
+pub(super) unsafe fn with_avx2<T: Task>(task: T) -> T::Output {
+    task.run(Avx2(()))
+}
+
+#[inline(always)]
+fn prefetch<T>(slice: &[T], place: usize) {
+    let start = slice.as_ptr().wrapping_add(place).cast::<i8>();
+    let mut at = 0;
+    while at < size_of::<T>() {
+        // SAFETY: SSE is part of x86-64, and a prefetch of any address at all has no effect but on time.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(at)) };
+        at += CACHE_LINE;
+    }
+}
+
+// In all of the following:
+// SAFETY: `Avx2` exists only below `with_avx2`, whose caller has detected it. Rows are 32-byte aligned.
+impl Eight for Avx2 {
+    type F = __m256;
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> __m256 {
+        unsafe { _mm256_set1_ps(value) }
+    }
+
+    #[inline(always)]
+    fn load(self, row: &Row) -> __m256 {
+        unsafe { _mm256_load_ps(row.0.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn store(self, row: __m256) -> Row {
+        let mut stored = Row([0.0; LANES]);
+        unsafe { _mm256_store_ps(stored.0.as_mut_ptr(), row) };
+        stored
+    }
+
+    #[inline(always)]
+    fn add(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_add_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn sub(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_sub_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn mul(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_mul_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn div(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_div_ps(a, b) }
+    }
+
+    // MINPS and MAXPS give the second operand where either is not a number, as the trait has it.
+    #[inline(always)]
+    fn less(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_min_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn greater(self, a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_max_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn at_most(self, a: __m256, b: __m256) -> u32 {
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn below(self, a: __m256, b: __m256) -> u32 {
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn prefetch<T>(self, slice: &[T], place: usize) {
+        prefetch(slice, place);
+    }
+}
+
+/// Applies a four-lane operation to both halves.
+#[inline(always)]
+fn halves(a: [__m128; 2], b: [__m128; 2], f: impl Fn(__m128, __m128) -> __m128) -> [__m128; 2] {
+    [f(a[0], b[0]), f(a[1], b[1])]
+}
+
+#[inline(always)]
+fn bits(mask: [__m128; 2]) -> u32 {
+    // SAFETY: SSE is part of x86-64.
+    let [low, high] = mask.map(|half| unsafe { _mm_movemask_ps(half) } as u32);
+    low | high << 4
+}
+
+// In all of the following:
+// SAFETY: SSE and SSE2 are part of x86-64. Rows are 32-byte aligned, so both halves are 16-byte aligned.
+impl Eight for Sse2 {
+    type F = [__m128; 2];
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> Self::F {
+        [unsafe { _mm_set1_ps(value) }; 2]
+    }
+
+    #[inline(always)]
+    fn load(self, row: &Row) -> Self::F {
+        let (low, high) = row.0.split_at(LANES / 2);
+        unsafe { [_mm_load_ps(low.as_ptr()), _mm_load_ps(high.as_ptr())] }
+    }
+
+    #[inline(always)]
+    fn store(self, row: Self::F) -> Row {
+        let mut stored = Row([0.0; LANES]);
+        let (low, high) = stored.0.split_at_mut(LANES / 2);
+        unsafe {
+            _mm_store_ps(low.as_mut_ptr(), row[0]);
+            _mm_store_ps(high.as_mut_ptr(), row[1]);
+        }
+        stored
+    }
+
+    #[inline(always)]
+    fn add(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_add_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_sub_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_mul_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn div(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_div_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn less(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_min_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn greater(self, a: Self::F, b: Self::F) -> Self::F {
+        halves(a, b, |a, b| unsafe { _mm_max_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn at_most(self, a: Self::F, b: Self::F) -> u32 {
+        bits(halves(a, b, |a, b| unsafe { _mm_cmple_ps(a, b) }))
+    }
+
+    #[inline(always)]
+    fn below(self, a: Self::F, b: Self::F) -> u32 {
+        bits(halves(a, b, |a, b| unsafe { _mm_cmplt_ps(a, b) }))
+    }
+
+    #[inline(always)]
+    fn prefetch<T>(self, slice: &[T], place: usize) {
+        prefetch(slice, place);
+    }
+}
