@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::dielectric::Dielectric;
-use renderer::bsdf::leaf::{Coat, LeafBsdf};
+use renderer::bsdf::leaf::{Coat, LeafBsdf, Tissue};
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
 use support::chi_square::{ChiSquare, sidak};
@@ -22,11 +22,17 @@ fn leaf(coats: &[Coat; 2], reflectance: f32, transmittance: f32) -> LeafBsdf<'_,
     // Lanes differ, so that a lane that leaks into another one is seen.
     let fade = Lanes::from_fn(|lane| 1.0 - 0.05 * lane as f32);
     let r = fade * reflectance;
-    LeafBsdf::new(coats, r, fade * transmittance, Lanes::splat(1.3))
+    LeafBsdf::new(
+        coats,
+        Tissue::new(coats, r, fade * transmittance, Lanes::splat(1.3)),
+    )
 }
 
 fn lossless(coats: &[Coat; 2]) -> LeafBsdf<'_, 8> {
-    LeafBsdf::new(coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE)
+    LeafBsdf::new(
+        coats,
+        Tissue::new(coats, Lanes::splat(0.55), Lanes::splat(0.45), Lanes::ONE),
+    )
 }
 
 /// What a leaf scatters from `wo`, in one lane, with its values falsified by a factor.
@@ -142,7 +148,8 @@ fn the_leaf_is_reciprocal() {
 fn equal_faces_look_the_same_from_both_sides() {
     let coat = Coat::new(1.45, 0.3, 0.2);
     let coats = [coat.clone(), coat];
-    let leaf = LeafBsdf::<8>::new(&coats, Lanes::splat(0.3), Lanes::splat(0.2), Lanes::ONE);
+    let tissue = Tissue::<8>::new(&coats, Lanes::splat(0.3), Lanes::splat(0.2), Lanes::ONE);
+    let leaf = LeafBsdf::new(&coats, tissue);
     for i in 0..1000 {
         let [a, b, c, d] = Stream::new(4, 0, 0, i).next4();
         let wo = renderer::sampling::warp::cosine_hemisphere(Vec2::new(a, b));

@@ -5,9 +5,9 @@ use leafmodel::optics::solid::{ETA, HalfSpace, ReflectanceTable, SCATTERING_PER_
 use leafmodel::optics::{Contents, ProspectD};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::leaf::Coat;
+use renderer::material::Material;
 use renderer::material::palette::Palette;
 use renderer::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
-use renderer::material::{Material, PathSpectra};
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Wavelengths;
 use support::chi_square::{ChiSquare, sidak};
@@ -34,11 +34,8 @@ fn material(contents: Contents, optics: Solid, coat: Coat) -> Material {
     )))
 }
 
-fn spectra() -> PathSpectra<4> {
-    PathSpectra::new(Wavelengths {
-        nm: WAVELENGTHS_NM,
-        pdf: [1.0; 4],
-    })
+fn wavelengths() -> Wavelengths<4> {
+    Wavelengths::new(WAVELENGTHS_NM)
 }
 
 fn fruit() -> Solid {
@@ -100,8 +97,8 @@ fn the_material_gives_back_the_half_spaces_of_the_anchors() {
     assert_eq!(anchors.len(), 5);
     for [eta, albedo, normal, _] in anchors {
         let material = watery(Solid { eta, ..fruit() }, albedo, smooth(eta));
-        let mut spectra = spectra();
-        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        let wavelengths = wavelengths();
+        let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
         let found = scattered(&bsdf, Vec3::Z, 3);
         eprintln!("n = {eta}, a = {albedo}: {found:?} for {normal}");
         assert!(
@@ -118,8 +115,8 @@ fn under_diffuse_light_the_material_is_somewhat_darker_than_the_half_space() {
     let space = HalfSpace::new(ETA);
     for albedo in [0.5, 0.9, 0.99, 0.999] {
         let material = watery(fruit(), albedo, smooth(ETA));
-        let mut spectra = spectra();
-        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        let wavelengths = wavelengths();
+        let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
         let (found, exact) = (diffuse(&bsdf, 3), space.reflected(albedo, 0.0));
         let short = 1.0 - found / exact.diffuse;
         eprintln!(
@@ -142,8 +139,8 @@ fn an_integrating_sphere_finds_the_tables_reflectance_below_any_coat() {
     ] {
         let material = material(rind(), fruit(), coat);
         for (lane, nm) in WAVELENGTHS_NM.map(f64::from).into_iter().enumerate() {
-            let mut spectra = spectra();
-            let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+            let wavelengths = wavelengths();
+            let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
             let at = ProspectD::coefficients(nm).expect("in range").absorption;
             let expected = table.at(fruit().albedo_of(at.of_leaf(&rind())));
             for wo in [Vec3::Z, Vec3::NEG_Z] {
@@ -162,8 +159,8 @@ fn tissue_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
     let nothing = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0).expect("in range");
     for alpha in [0.1, 0.3, 0.8] {
         let material = material(nothing, fruit(), Coat::new(1.45, alpha, alpha));
-        let mut spectra = spectra();
-        let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+        let wavelengths = wavelengths();
+        let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
         for wo in directions() {
             let found = scattered(&bsdf, wo, 1);
             assert!(
@@ -177,8 +174,8 @@ fn tissue_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
 #[test]
 fn solid_tissue_is_reciprocal_and_sends_nothing_through() {
     let material = material(rind(), fruit(), Coat::new(1.4, 0.2, 0.2));
-    let mut spectra = spectra();
-    let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+    let wavelengths = wavelengths();
+    let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
     for i in 0..5000 {
         let [a, b, c, d] = Stream::new(3, 0, 0, i).next4();
         let direction = |u: f32, v: f32| {
@@ -209,8 +206,8 @@ fn solid_tissue_is_sampled_as_its_density_says() {
     ];
     let level = sidak(0.01, directions.len());
     let material = material(rind(), fruit(), Coat::new(1.38, 0.25, 0.25));
-    let mut spectra = spectra();
-    let bsdf = material.bsdf(Vec2::ZERO, &mut spectra);
+    let wavelengths = wavelengths();
+    let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
     for (number, wo) in directions.into_iter().enumerate() {
         let outcome = CHI_SQUARE.run(
             |draw| {

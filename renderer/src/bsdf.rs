@@ -6,6 +6,8 @@
 //! - **Always true**: energy is not created; all but the dielectric are reciprocal; a density never depends
 //!   on wavelength.
 
+use std::f32::consts::FRAC_1_PI;
+
 use glam::{Vec2, Vec3};
 
 use crate::spectrum::Lanes;
@@ -18,7 +20,7 @@ pub mod leaf;
 
 use crate::sampling::warp;
 use dielectric::Dielectric;
-use leaf::LeafBsdf;
+use leaf::{LeafBsdf, LeafView};
 
 /// A direction that was drawn, and what light from it is multiplied by.
 #[derive(Clone, Copy, Debug)]
@@ -44,60 +46,126 @@ pub enum Bsdf<'a, const N: usize> {
     Leaf(LeafBsdf<'a, N>),
 }
 
-impl<const N: usize> Bsdf<'_, N> {
+/// What light from a direction gives to a view.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered<const N: usize> {
     /// `f(wo, wi)`, sr⁻¹, without the cosine; zero for specular parts.
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Lanes<N> {
-        match self {
-            Self::Diffuse(reflectance) => {
-                if wo.z * wi.z > 0.0 {
-                    *reflectance * std::f32::consts::FRAC_1_PI
-                } else {
-                    Lanes::ZERO
-                }
-            }
-            Self::Dielectric(dielectric) => Lanes::splat(dielectric.eval(wo, wi)),
-            Self::Leaf(leaf) => leaf.eval(wo, wi),
-        }
-    }
+    pub f: Lanes<N>,
+    /// Density with which [`View::sample`] draws the direction, sr⁻¹; zero for specular parts.
+    pub pdf: f32,
+}
 
-    /// Density with which [`Bsdf::sample`] draws `wi`, sr⁻¹; zero for specular parts.
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+impl<const N: usize> Scattered<N> {
+    /// Nothing, and never drawn.
+    pub const NOTHING: Self = Self {
+        f: Lanes::ZERO,
+        pdf: 0.0,
+    };
+}
+
+/// A [`Bsdf`] seen from one direction `wo`: what depends on it alone is worked out once.
+#[derive(Clone, Debug)]
+pub enum View<'a, const N: usize> {
+    /// Lambertian reflection on both sides.
+    Diffuse {
+        /// Where it is seen from.
+        wo: Vec3,
+        /// Its reflectance.
+        reflectance: Lanes<N>,
+    },
+    /// The boundary of a transparent medium.
+    Dielectric {
+        /// Where it is seen from.
+        wo: Vec3,
+        /// The boundary.
+        dielectric: Dielectric,
+    },
+    /// A leaf.
+    Leaf(LeafView<'a, N>),
+}
+
+impl<const N: usize> View<'_, N> {
+    /// What light from `wi` gives, and how likely it is drawn.
+    #[inline]
+    pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         match self {
-            Self::Diffuse(_) => {
+            Self::Diffuse { wo, reflectance } => {
                 if wo.z * wi.z > 0.0 {
-                    wi.z.abs() * std::f32::consts::FRAC_1_PI
+                    Scattered {
+                        f: *reflectance * FRAC_1_PI,
+                        pdf: wi.z.abs() * FRAC_1_PI,
+                    }
                 } else {
-                    0.0
+                    Scattered::NOTHING
                 }
             }
-            Self::Dielectric(dielectric) => dielectric.pdf(wo, wi),
-            Self::Leaf(leaf) => leaf.pdf(wo, wi),
+            Self::Dielectric { wo, dielectric } => Scattered {
+                f: Lanes::splat(dielectric.eval(*wo, wi)),
+                pdf: dielectric.pdf(*wo, wi),
+            },
+            Self::Leaf(leaf) => leaf.scatter(wi),
         }
     }
 
     /// Draws a direction; `lobe` chooses the lobe, `u` the direction in it.
-    pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
+    #[inline]
+    pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         match self {
-            Self::Diffuse(reflectance) => {
+            Self::Diffuse { wo, reflectance } => {
                 let up = warp::cosine_hemisphere(u);
                 let wi = Vec3::new(up.x, up.y, up.z.copysign(wo.z));
-                (up.z > 0.0 && wo.z != 0.0).then_some(BsdfSample {
+                (up.z > 0.0).then_some(BsdfSample {
                     wi,
                     weight: *reflectance,
-                    pdf: up.z * std::f32::consts::FRAC_1_PI,
+                    pdf: up.z * FRAC_1_PI,
                     specular: false,
                 })
             }
-            Self::Dielectric(dielectric) => {
-                dielectric.sample(wo, lobe, u).map(|sample| BsdfSample {
+            Self::Dielectric { wo, dielectric } => {
+                dielectric.sample(*wo, lobe, u).map(|sample| BsdfSample {
                     wi: sample.wi,
                     weight: Lanes::splat(sample.weight),
                     pdf: sample.pdf,
                     specular: sample.specular,
                 })
             }
-            Self::Leaf(leaf) => leaf.sample(wo, lobe, u),
+            Self::Leaf(leaf) => leaf.sample(lobe, u),
         }
+    }
+}
+
+impl<'a, const N: usize> Bsdf<'a, N> {
+    /// The surface seen from `wo`; `None` from within its plane, where nothing is to be seen.
+    #[inline]
+    pub fn seen_from(&self, wo: Vec3) -> Option<View<'a, N>> {
+        match self {
+            _ if wo.z == 0.0 => None,
+            Self::Diffuse(reflectance) => Some(View::Diffuse {
+                wo,
+                reflectance: *reflectance,
+            }),
+            Self::Dielectric(dielectric) => Some(View::Dielectric {
+                wo,
+                dielectric: *dielectric,
+            }),
+            Self::Leaf(leaf) => leaf.seen_from(wo).map(View::Leaf),
+        }
+    }
+
+    /// `f(wo, wi)`, sr⁻¹, without the cosine; zero for specular parts.
+    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Lanes<N> {
+        let view = self.seen_from(wo);
+        view.map_or(Lanes::ZERO, |view| view.scatter(wi).f)
+    }
+
+    /// Density with which [`Bsdf::sample`] draws `wi`, sr⁻¹; zero for specular parts.
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.seen_from(wo).map_or(0.0, |view| view.scatter(wi).pdf)
+    }
+
+    /// Draws a direction; `lobe` chooses the lobe, `u` the direction in it.
+    pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
+        self.seen_from(wo)?.sample(lobe, u)
     }
 
     /// Whether light samples are wasted on it.

@@ -12,7 +12,7 @@ pub mod distant;
 pub mod environment;
 pub mod selection;
 
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
@@ -23,7 +23,7 @@ pub enum Light {
     /// A disc at infinity.
     Distant(DistantLight),
     /// The same radiance from every direction, W m⁻² sr⁻¹ nm⁻¹.
-    Constant(Curve),
+    Constant(Spectrum),
     /// A picture at infinity.
     Environment(EnvironmentLight),
     /// A surface that shines.
@@ -57,6 +57,16 @@ impl Light {
             Self::Constant(_) => None,
             Self::Environment(light) => light.sample(wavelengths, u),
             Self::Area(light) => light.sample(position, wavelengths, choice, u),
+        }
+    }
+
+    /// Works its spectra out at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        match self {
+            Self::Distant(light) => light.tabulate(grid),
+            Self::Constant(radiance) => radiance.tabulate(grid),
+            Self::Environment(light) => light.tabulate(grid),
+            Self::Area(light) => light.tabulate(grid),
         }
     }
 

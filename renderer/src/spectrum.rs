@@ -11,8 +11,10 @@ pub mod lanes;
 pub mod planck;
 pub mod rgb;
 pub mod table;
+pub mod tabulated;
 pub mod wavelengths;
 
 pub use curve::Curve;
 pub use lanes::Lanes;
-pub use wavelengths::{WavelengthSampler, Wavelengths};
+pub use tabulated::{Spectrum, Table};
+pub use wavelengths::{WavelengthGrid, WavelengthSampler, Wavelengths};

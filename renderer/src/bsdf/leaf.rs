@@ -6,10 +6,10 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use crate::bsdf::BsdfSample;
 use crate::bsdf::directional_albedo::DirectionalAlbedo;
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
+use crate::bsdf::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::Lanes;
 
@@ -35,31 +35,38 @@ impl Coat {
         }
     }
 
+    /// Whether the coat reflects anything.
+    #[inline]
+    fn shines(&self) -> bool {
+        self.eta != 1.0
+    }
+
     /// What the coat's lobe reflects, by direction.
     pub fn albedo(&self) -> &DirectionalAlbedo {
         &self.albedo
     }
 
-    /// The lobe, for two directions on the side +z.
-    fn eval(&self, wo: Vec3, wi: Vec3) -> f32 {
+    /// The lobe and the density of drawing it from `wo`, whose Λ is `lambda`; for two directions on the side +z.
+    #[inline]
+    fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
         let Some(h) = (wo + wi).try_normalize() else {
-            return 0.0;
+            return (0.0, 0.0);
         };
         let fresnel = fresnel::dielectric(wo.dot(h), self.eta);
-        self.ggx.d(h) * self.ggx.g2(wo, wi) * fresnel / (4.0 * wo.z * wi.z)
+        let shared = self.ggx.d(h) / (4.0 * wo.z);
+        let shadowed = 1.0 / (1.0 + lambda + self.ggx.lambda(wi));
+        (shared * shadowed * fresnel / wi.z, shared / (1.0 + lambda))
     }
 
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        (wo + wi)
-            .try_normalize()
-            .filter(|h| wo.dot(*h) > 0.0)
-            .map_or(0.0, |h| self.ggx.visible_density(wo, h) / (4.0 * wo.dot(h)))
+    /// `1 − Ē`.
+    fn passed_mean(&self) -> f32 {
+        1.0 - self.albedo.mean()
     }
 }
 
 /// What the tissue does with light that has passed the coats.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Tissue<const N: usize> {
+pub struct Tissue<const N: usize> {
     /// `r` of the adaxial and the abaxial face.
     reflectance: [Lanes<N>; 2],
     /// `t` of light that enters by the adaxial and by the abaxial face.
@@ -72,134 +79,131 @@ pub struct LeafBsdf<'a, const N: usize> {
     /// Adaxial and abaxial.
     coats: &'a [Coat; 2],
     tissue: Tissue<N>,
-    /// `c(A, A)` and `c(B, B)`.
-    reflecting: [Lanes<N>; 2],
-    /// `c(A, B)`.
-    through: Lanes<N>,
 }
 
-/// Number of the face that `w` lies on: 0 adaxial, 1 abaxial.
-fn face(w: Vec3) -> usize {
-    usize::from(w.z < 0.0)
+/// A leaf at one point, seen from one direction: what all directions of light have in common.
+#[derive(Clone, Debug)]
+pub struct LeafView<'a, const N: usize> {
+    /// Coats of the side of the view, and of the other.
+    coats: [&'a Coat; 2],
+    wo: Vec3,
+    /// Λ of the coat for the view.
+    lambda: f32,
+    /// `f` of both kinds of diffuse light, but for the share that passes the coat on the side of `wi`.
+    reflecting: Lanes<N>,
+    through: Lanes<N>,
+    /// Probabilities of the coat, of tissue reflection and of transmission.
+    lobes: [f32; 3],
 }
 
 fn above(w: Vec3) -> Vec3 {
     Vec3::new(w.x, w.y, w.z.abs())
 }
 
-impl<'a, const N: usize> LeafBsdf<'a, N> {
+impl<const N: usize> Tissue<N> {
     /// From the leaf's reflectance `R` and transmittance `T` at normal incidence on the adaxial face, and the
     /// abaxial over adaxial reflectance `ratio`.
     pub fn new(
-        coats: &'a [Coat; 2],
+        coats: &[Coat; 2],
         reflectance: Lanes<N>,
         transmittance: Lanes<N>,
         ratio: Lanes<N>,
     ) -> Self {
-        let normal = coats.each_ref().map(|coat| coat.albedo.normal());
-        let passed_mean = coats.each_ref().map(|coat| 1.0 - coat.albedo.mean());
-        let most = (passed_mean[1] / passed_mean[0]).min(1.0);
-        let mut tissue = Tissue {
+        let [normal_a, normal_b] = coats.each_ref().map(|coat| coat.albedo.normal());
+        let [passed_a, passed_b] = coats.each_ref().map(Coat::passed_mean);
+        let most = (passed_b / passed_a).min(1.0);
+        let (into_a, into_b) = (1.0 / (1.0 - normal_a), 1.0 / (1.0 - normal_b));
+        let back = passed_a / passed_b;
+        let mut tissue = Self {
             reflectance: [Lanes::ZERO; 2],
             transmittance: [Lanes::ZERO; 2],
         };
-        let mut through = Lanes::ZERO;
         for lane in 0..N {
             let (r, t) = (reflectance.0[lane], transmittance.0[lane]);
-            let t_ab = (t / (1.0 - normal[0])).min(most);
-            let r_a = ((r - normal[0]) / (1.0 - normal[0])).clamp(0.0, 1.0 - t_ab);
-            let c = t_ab / passed_mean[1];
-            let t_ba = (c * passed_mean[0]).min(1.0);
-            let absorbed = (1.0 - ratio.0[lane] * r - t).max(0.0) / (1.0 - normal[1]);
-            let r_b = (1.0 - t_ba - absorbed).clamp(0.0, 1.0 - t_ba);
+            let t_ab = (t * into_a).min(most);
+            let t_ba = (t_ab * back).min(1.0);
+            let r_a = ((r - normal_a) * into_a).max(0.0).min(1.0 - t_ab);
+            let absorbed = (1.0 - ratio.0[lane] * r - t).max(0.0) * into_b;
+            let r_b = (1.0 - t_ba - absorbed).max(0.0).min(1.0 - t_ba);
             tissue.reflectance[0].0[lane] = r_a;
             tissue.reflectance[1].0[lane] = r_b;
             tissue.transmittance[0].0[lane] = t_ab;
             tissue.transmittance[1].0[lane] = t_ba;
-            through.0[lane] = c;
         }
-        let reflecting = [
-            tissue.reflectance[0] / passed_mean[0],
-            tissue.reflectance[1] / passed_mean[1],
-        ];
+        tissue
+    }
+
+    /// All of it, to be kept in a table.
+    pub fn to_lanes(self) -> [Lanes<N>; 4] {
+        let [r_a, r_b] = self.reflectance;
+        let [t_ab, t_ba] = self.transmittance;
+        [r_a, r_b, t_ab, t_ba]
+    }
+
+    /// What [`Tissue::to_lanes`] gave.
+    #[inline]
+    pub fn from_lanes([r_a, r_b, t_ab, t_ba]: [Lanes<N>; 4]) -> Self {
         Self {
-            coats,
-            tissue,
-            reflecting,
-            through,
+            reflectance: [r_a, r_b],
+            transmittance: [t_ab, t_ba],
         }
+    }
+}
+
+impl<'a, const N: usize> LeafBsdf<'a, N> {
+    /// Tissue under an adaxial and an abaxial coat, for which it was made.
+    #[inline]
+    pub fn new(coats: &'a [Coat; 2], tissue: Tissue<N>) -> Self {
+        Self { coats, tissue }
+    }
+
+    /// The leaf seen from `wo`; `None` from within its plane.
+    #[inline]
+    pub fn seen_from(&self, wo: Vec3) -> Option<LeafView<'a, N>> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let side = usize::from(wo.z < 0.0);
+        let coats = [&self.coats[side], &self.coats[1 - side]];
+        let [coat, _] = coats;
+        let albedo = coat.albedo.at(wo);
+        let passed = 1.0 - albedo;
+        let reflectance = self.tissue.reflectance[side];
+        let transmittance = self.tissue.transmittance[side];
+        let reflected = passed * reflectance.mean();
+        let transmitted = passed * transmittance.mean();
+        let total = albedo + reflected + transmitted;
+        let share = if total > 0.0 { 1.0 / total } else { 0.0 };
+        // c(A, B) serves both ways.
+        let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].passed_mean());
+        Some(LeafView {
+            coats,
+            wo,
+            lambda: if coat.shines() {
+                coat.ggx.lambda(above(wo))
+            } else {
+                0.0
+            },
+            reflecting: reflectance * (passed * FRAC_1_PI / coat.passed_mean()),
+            through: through * (passed * FRAC_1_PI),
+            lobes: [albedo, reflected, transmitted].map(|lobe| lobe * share),
+        })
     }
 
     /// `f(wo, wi)`, sr⁻¹.
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Lanes<N> {
-        if wo.z == 0.0 || wi.z == 0.0 {
-            return Lanes::ZERO;
-        }
-        let (o, i) = (face(wo), face(wi));
-        let passed =
-            (1.0 - self.coats[o].albedo.at(wo)) * (1.0 - self.coats[i].albedo.at(wi)) * FRAC_1_PI;
-        if o == i {
-            let lobe = self.coats[o].eval(above(wo), above(wi));
-            self.reflecting[o] * passed + Lanes::splat(lobe)
-        } else {
-            self.through * passed
-        }
-    }
-
-    /// Probabilities of the coat, of tissue reflection and of transmission, as seen from `wo`.
-    fn lobes(&self, wo: Vec3) -> [f32; 3] {
-        let side = face(wo);
-        let coat = self.coats[side].albedo.at(wo);
-        let reflected = (1.0 - coat) * self.tissue.reflectance[side].mean();
-        let transmitted = (1.0 - coat) * self.tissue.transmittance[side].mean();
-        let total = coat + reflected + transmitted;
-        if total > 0.0 {
-            [coat / total, reflected / total, transmitted / total]
-        } else {
-            [0.0; 3]
-        }
+        let view = self.seen_from(wo);
+        view.map_or(Lanes::ZERO, |view| view.scatter(wi).f)
     }
 
     /// Density of [`LeafBsdf::sample`], sr⁻¹.
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if wo.z == 0.0 || wi.z == 0.0 {
-            return 0.0;
-        }
-        let [coat, reflected, transmitted] = self.lobes(wo);
-        let cosine = wi.z.abs() * FRAC_1_PI;
-        if face(wo) == face(wi) {
-            coat * self.coats[face(wo)].pdf(above(wo), above(wi)) + reflected * cosine
-        } else {
-            transmitted * cosine
-        }
+        self.seen_from(wo).map_or(0.0, |view| view.scatter(wi).pdf)
     }
 
     /// Draws a direction in proportion to what each lobe scatters.
     pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        if wo.z == 0.0 {
-            return None;
-        }
-        let [coat, reflected, transmitted] = self.lobes(wo);
-        let up = if lobe < coat {
-            let outward = above(wo);
-            let h = self.coats[face(wo)].ggx.sample_visible(outward, u);
-            2.0 * outward.dot(h) * h - outward
-        } else {
-            warp::cosine_hemisphere(u)
-        };
-        if up.z <= 0.0 || reflected + transmitted + coat == 0.0 {
-            return None;
-        }
-        let through = lobe >= coat + reflected;
-        let side = 1.0_f32.copysign(wo.z);
-        let wi = Vec3::new(up.x, up.y, if through { -side * up.z } else { side * up.z });
-        let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi) * (wi.z.abs() / pdf),
-            pdf,
-            specular: false,
-        })
+        self.seen_from(wo)?.sample(lobe, u)
     }
 
     /// Share of diffuse light that the leaf scatters, mean of the two faces.
@@ -210,5 +214,62 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
                 + Lanes::splat(coat)
         };
         (of_face(0) + of_face(1)) * 0.5
+    }
+}
+
+impl<const N: usize> LeafView<'_, N> {
+    /// What light from `wi` gives, and how likely it is drawn.
+    #[inline]
+    pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
+        if wi.z == 0.0 {
+            return Scattered::NOTHING;
+        }
+        let [coat, other] = self.coats;
+        let [shining, reflected, transmitted] = self.lobes;
+        let cosine = wi.z.abs() * FRAC_1_PI;
+        if self.wo.z * wi.z < 0.0 {
+            return Scattered {
+                f: self.through * (1.0 - other.albedo.at(wi)),
+                pdf: transmitted * cosine,
+            };
+        }
+        let diffuse = Scattered {
+            f: self.reflecting * (1.0 - coat.albedo.at(wi)),
+            pdf: reflected * cosine,
+        };
+        if !coat.shines() {
+            return diffuse;
+        }
+        let (lobe, pdf) = coat.lobe(above(self.wo), self.lambda, above(wi));
+        Scattered {
+            f: diffuse.f + Lanes::splat(lobe),
+            pdf: diffuse.pdf + shining * pdf,
+        }
+    }
+
+    /// Draws a direction in proportion to what each lobe scatters.
+    #[inline]
+    pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
+        let [coat, reflected, transmitted] = self.lobes;
+        let up = if lobe < coat {
+            let outward = above(self.wo);
+            let h = self.coats[0].ggx.sample_visible(outward, u);
+            2.0 * outward.dot(h) * h - outward
+        } else {
+            warp::cosine_hemisphere(u)
+        };
+        if up.z <= 0.0 || reflected + transmitted + coat == 0.0 {
+            return None;
+        }
+        let through = lobe >= coat + reflected;
+        let side = 1.0_f32.copysign(self.wo.z);
+        let wi = Vec3::new(up.x, up.y, if through { -side * up.z } else { side * up.z });
+        let Scattered { f, pdf } = self.scatter(wi);
+        (pdf > 0.0).then(|| BsdfSample {
+            wi,
+            weight: f * (wi.z.abs() / pdf),
+            pdf,
+            specular: false,
+        })
     }
 }

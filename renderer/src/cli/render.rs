@@ -13,8 +13,8 @@ use crate::image::{openexr, portable_network, tone};
 use crate::integrator::develop::develop;
 use crate::integrator::render::{Job, Rendered, render};
 use crate::scene::description::{Description, FilmKind};
-use crate::scene::world::{World, wavelength_sampler};
-use crate::spectrum::Lanes;
+use crate::scene::world::World;
+use crate::spectrum::wavelengths::seen_at;
 
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let started = Instant::now();
@@ -158,10 +158,6 @@ fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
             .collect();
     };
     // Bands within the visible stand for the wavelengths around them; a film without any is shown grey.
-    let visible = wavelength_sampler(&FilmKind::Rgb {
-        range_nm: [400.0, 780.0],
-    });
-    let steps = 380;
     let nearest = |nm: f64| {
         let distance = |i: &usize| (bands[*i].center_nm - nm).abs();
         (0..bands.len())
@@ -172,13 +168,10 @@ fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
         .iter()
         .any(|band| (400.0..=780.0).contains(&band.center_nm));
     let mut weights = vec![[0.0_f32; 3]; bands.len()];
-    for step in 0..steps {
-        let wavelengths = visible.draw::<1>((step as f32 + 0.5) / steps as f32);
-        let mut colour = [0.0; 3];
-        visible.film_values(&wavelengths, &Lanes::ONE, &mut colour);
-        let weight = &mut weights[nearest(f64::from(wavelengths.nm[0]))];
-        for (sum, value) in weight.iter_mut().zip(colour) {
-            *sum += value / steps as f32;
+    for nm in (400..780).map(|nm| f64::from(nm) + 0.5) {
+        let weight = &mut weights[nearest(nm)];
+        for (sum, value) in weight.iter_mut().zip(seen_at(nm)) {
+            *sum += value as f32;
         }
     }
     film.pixels()

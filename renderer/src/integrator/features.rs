@@ -2,7 +2,7 @@
 
 use crate::integrator::path::{FirstHit, PathResult};
 use crate::spectrum::cie;
-use crate::spectrum::{Curve, WavelengthSampler, Wavelengths};
+use crate::spectrum::{Curve, Spectrum, WavelengthSampler, Wavelengths};
 
 /// Values of a sample, in this order: the film's own channels (R, G, B or bands), coverage, then sums over
 /// covered samples of distance, position, normal and, on a colour film, albedo.
@@ -22,7 +22,7 @@ impl Layout {
     pub fn new(wavelengths: &WavelengthSampler) -> Self {
         Self {
             beauty: wavelengths.channels(),
-            albedo: matches!(wavelengths, WavelengthSampler::Rgb(_)),
+            albedo: wavelengths.is_rgb(),
         }
     }
 
@@ -62,7 +62,7 @@ impl Layout {
         sampler: &WavelengthSampler,
         wavelengths: &Wavelengths<N>,
         found: &PathResult<N>,
-        white: &Curve,
+        white: &Spectrum,
         values: &mut [f32],
     ) {
         sampler.film_values(wavelengths, &found.radiance, &mut values[..self.beauty]);
@@ -88,7 +88,10 @@ impl Layout {
 }
 
 /// D65 of luminance 1: a surface of albedo 1 under it is 1 1 1 in linear sRGB.
-pub fn white() -> Curve {
+pub fn white(sampler: &WavelengthSampler) -> Spectrum {
     let luminance = cie::xyz_of(cie::d65)[1];
-    Curve::uniform(300.0, 5.0, 106, |nm| cie::d65(nm) / luminance)
+    let curve = Curve::uniform(300.0, 5.0, 106, |nm| cie::d65(nm) / luminance);
+    let mut white = Spectrum::from(curve);
+    white.tabulate(sampler.grid());
+    white
 }

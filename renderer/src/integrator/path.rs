@@ -2,13 +2,12 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::bsdf::Bsdf;
+use crate::bsdf::{Scattered, View};
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::integrator::mis;
 use crate::light::Light;
-use crate::material::PathSpectra;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -55,7 +54,6 @@ pub fn trace<const N: usize>(
     wavelengths: Wavelengths<N>,
     stream: &mut Stream,
 ) -> PathResult<N> {
-    let mut spectra = PathSpectra::new(wavelengths);
     let mut result = PathResult {
         radiance: Lanes::ZERO,
         first: None,
@@ -69,17 +67,17 @@ pub fn trace<const N: usize>(
         result.rays += 1;
         let Some(hit) = world.geometry.intersect(&ray) else {
             result.radiance +=
-                throughput * from_infinity(world, ray.direction, bounce_pdf, &spectra);
+                throughput * from_infinity(world, ray.direction, bounce_pdf, &wavelengths);
             break;
         };
         let surface = world.geometry.surface(&ray, &hit);
         if let Some(number) = world.objects[surface.instance as usize].light {
-            let found = emission(world, number, &ray, &surface, bounce_pdf, &spectra);
+            let found = emission(world, number, &ray, &surface, bounce_pdf, &wavelengths);
             result.radiance += throughput * found;
         }
         let bsdf = world
             .material_of(surface.instance)
-            .bsdf(surface.uv, &mut spectra);
+            .bsdf(surface.uv, &wavelengths);
         let frame = Frame::new(surface.shading_normal, surface.tangent);
         let wo = frame.to_local(-ray.direction);
         if depth == 0 {
@@ -98,31 +96,36 @@ pub fn trace<const N: usize>(
         if world.integrator.max_depth.is_some_and(|most| depth >= most) {
             break;
         }
+        let Some(view) = bsdf.seen_from(wo) else {
+            break;
+        };
         stream.seek(CAMERA_SETS + depth * sets);
         let [lobe, bounce_x, bounce_y, roulette] = stream.next4();
         if !bsdf.is_specular() {
             let vertex = Vertex {
                 surface: &surface,
                 frame: &frame,
-                bsdf: &bsdf,
-                wo,
+                view: &view,
             };
             for &number in &world.selection.always {
                 let u = stream.next4();
-                let (light, rays) = direct(world, number, 1.0, &vertex, &spectra.wavelengths, u);
+                let (light, rays) = direct(world, number, 1.0, &vertex, &wavelengths, u);
                 result.radiance += throughput * light;
                 result.rays += rays;
             }
-            let [which, x, y, _] = stream.next4();
-            if let Some((number, choice)) = world.selection.choose(which) {
+            if world.selection.chosen.is_empty() {
+                // Nothing to choose from: no numbers are drawn.
+            } else if let [which, x, y, _] = stream.next4()
+                && let Some((number, choice)) = world.selection.choose(which)
+            {
                 let chance = world.selection.probability(number);
                 let u = [choice, x, y, 0.0];
-                let (light, rays) = direct(world, number, chance, &vertex, &spectra.wavelengths, u);
+                let (light, rays) = direct(world, number, chance, &vertex, &wavelengths, u);
                 result.radiance += throughput * light;
                 result.rays += rays;
             }
         }
-        let Some(sample) = bsdf.sample(wo, lobe, Vec2::new(bounce_x, bounce_y)) else {
+        let Some(sample) = view.sample(lobe, Vec2::new(bounce_x, bounce_y)) else {
             break;
         };
         throughput *= sample.weight;
@@ -152,8 +155,7 @@ pub fn trace<const N: usize>(
 struct Vertex<'a, const N: usize> {
     surface: &'a SurfacePoint,
     frame: &'a Frame,
-    bsdf: &'a Bsdf<'a, N>,
-    wo: Vec3,
+    view: &'a View<'a, N>,
 }
 
 /// Light from infinity that a bounce (or the camera) found by itself.
@@ -161,11 +163,11 @@ fn from_infinity<const N: usize>(
     world: &World,
     direction: Vec3,
     bounce_pdf: f32,
-    spectra: &PathSpectra<N>,
+    wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
     let mut sum = Lanes::ZERO;
     for (number, light) in world.lights.iter().enumerate() {
-        if let Some((radiance, pdf)) = light.at_infinity(direction, &spectra.wavelengths) {
+        if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
             let light_pdf = pdf * world.selection.probability(number);
             sum += radiance * mis::power(bounce_pdf, light_pdf);
         }
@@ -180,7 +182,7 @@ fn emission<const N: usize>(
     ray: &Ray,
     surface: &SurfacePoint,
     bounce_pdf: f32,
-    spectra: &PathSpectra<N>,
+    wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
     let Light::Area(light) = &world.lights[number] else {
         return Lanes::ZERO;
@@ -192,7 +194,7 @@ fn emission<const N: usize>(
             ray.direction,
             surface.geometric_normal,
             distance,
-            &spectra.wavelengths,
+            wavelengths,
         )
         .map_or(Lanes::ZERO, |(radiance, pdf)| {
             radiance * mis::power(bounce_pdf, pdf * world.selection.probability(number))
@@ -216,7 +218,8 @@ fn direct<const N: usize>(
         return (Lanes::ZERO, 0);
     };
     let wi = vertex.frame.to_local(sample.wi);
-    let scattered = vertex.bsdf.eval(vertex.wo, wi) * wi.z.abs();
+    let Scattered { f, pdf } = vertex.view.scatter(wi);
+    let scattered = f * wi.z.abs();
     if scattered.is_zero() || sample.radiance.is_zero() {
         return (Lanes::ZERO, 0);
     }
@@ -228,6 +231,6 @@ fn direct<const N: usize>(
         return (Lanes::ZERO, 1);
     }
     let light_pdf = sample.pdf * chance;
-    let weight = mis::power(light_pdf, vertex.bsdf.pdf(vertex.wo, wi)) / light_pdf;
+    let weight = mis::power(light_pdf, pdf) / light_pdf;
     (scattered * sample.radiance * weight, 1)
 }

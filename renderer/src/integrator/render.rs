@@ -9,7 +9,7 @@ use crate::integrator::features::{self, Layout, MOST_CHANNELS};
 use crate::integrator::path;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
-use crate::spectrum::Curve;
+use crate::spectrum::Spectrum;
 
 /// Which samples of which picture.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ pub fn render(
     let rays = AtomicU64::new(0);
     let paths = AtomicU64::new(0);
     let total = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
-    let white = features::white();
+    let white = features::white(&world.wavelengths);
     let mut first = 0;
     while first < job.spp && !stop.load(Ordering::Relaxed) {
         let pass = first.clamp(1, LONGEST_PASS).min(job.spp - first);
@@ -84,11 +84,10 @@ pub fn render(
                 x,
                 y,
             };
-            let traced = match layout.beauty {
-                // Colour takes 8 lanes: 4 are noisier, 16 bring nothing more.
-                3 | 5..=8 => samples.add::<8>(first, first + pass, pixel),
-                0..=4 => samples.add::<4>(first, first + pass, pixel),
-                9..=16 => samples.add::<16>(first, first + pass, pixel),
+            let traced = match world.wavelengths.grid().lanes() {
+                4 => samples.add::<4>(first, first + pass, pixel),
+                8 => samples.add::<8>(first, first + pass, pixel),
+                16 => samples.add::<16>(first, first + pass, pixel),
                 _ => samples.add::<32>(first, first + pass, pixel),
             };
             rays.fetch_add(traced, Ordering::Relaxed);
@@ -117,7 +116,7 @@ struct Samples<'a> {
     world: &'a World,
     job: &'a Job,
     layout: Layout,
-    white: &'a Curve,
+    white: &'a Spectrum,
     x: u32,
     y: u32,
 }

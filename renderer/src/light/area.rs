@@ -5,12 +5,12 @@ use glam::{Vec2, Vec3};
 use crate::light::LightSample;
 use crate::sampling::distribution::Piecewise1d;
 use crate::sampling::warp;
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Triangles in world space with one radiance.
 #[derive(Clone, Debug)]
 pub struct AreaLight {
-    radiance: Curve,
+    radiance: Spectrum,
     triangles: Box<[[Vec3; 3]]>,
     by_area: Piecewise1d,
     area: f32,
@@ -24,7 +24,7 @@ impl AreaLight {
             .map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length())
             .collect();
         Self {
-            radiance,
+            radiance: radiance.into(),
             area: areas.iter().sum(),
             by_area: Piecewise1d::new(&areas),
             triangles: triangles.into(),
@@ -38,7 +38,12 @@ impl AreaLight {
 
     /// Radiance curve, W m⁻² sr⁻¹ nm⁻¹.
     pub fn radiance(&self) -> &Curve {
-        &self.radiance
+        self.radiance.curve()
+    }
+
+    /// Works its radiance out at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.radiance.tabulate(grid);
     }
 
     /// A point on the surface, uniform over its area, seen from `position`.

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use crate::geometry::frame::Frame;
 use crate::light::LightSample;
 use crate::sampling::warp;
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Uniform radiance within a cone of directions.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub struct DistantLight {
     /// 1 − cos of half the angular diameter.
     one_minus_cos: f32,
     solid_angle: f32,
-    radiance: Curve,
+    radiance: Spectrum,
 }
 
 impl DistantLight {
@@ -32,8 +32,13 @@ impl DistantLight {
             frame: Frame::from_normal(towards),
             one_minus_cos: one_minus_cos as f32,
             solid_angle: 2.0 * PI * one_minus_cos as f32,
-            radiance: irradiance.scaled((1.0 / projected) as f32),
+            radiance: irradiance.scaled((1.0 / projected) as f32).into(),
         }
+    }
+
+    /// Works its radiance out at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.radiance.tabulate(grid);
     }
 
     /// A direction to the disc, uniform over its solid angle.
@@ -70,10 +75,7 @@ mod tests {
     fn irradiance_on_a_facing_surface_is_what_was_asked_for() {
         for diameter in [0.0093_f64, 0.5, 2.0] {
             let light = DistantLight::new(Vec3::Z, diameter, Curve::Constant(3.0));
-            let wavelengths = Wavelengths {
-                nm: [550.0; 8],
-                pdf: [1.0; 8],
-            };
+            let wavelengths = Wavelengths::new([550.0; 8]);
             let side = 64;
             let mut irradiance = 0.0;
             for i in 0..side * side {

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use crate::light::LightSample;
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb;
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z) down.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct EnvironmentLight {
     texels: Box<[[f32; 3]]>,
     /// What RGB 1 1 1 stands for.
     white: Curve,
+    /// The spectra that red, green and blue of 1 stand for.
+    primaries: Option<Table>,
     /// Turn about +z, rad.
     rotation: f32,
     distribution: Piecewise2d,
@@ -50,6 +52,7 @@ impl EnvironmentLight {
             height,
             texels: texels.into(),
             white,
+            primaries: None,
             rotation,
         }
     }
@@ -71,6 +74,25 @@ impl EnvironmentLight {
         &self.white
     }
 
+    /// Works its primaries out at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.primaries = Some(Table::new(grid, |nm| self.primaries_at(nm)));
+    }
+
+    fn primaries_at(&self, nm: f32) -> [f32; 3] {
+        rgb::basis_at(nm).map(|basis| basis * self.white.at(nm))
+    }
+
+    fn primaries<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> [Lanes<N>; 3] {
+        let table = self.primaries.as_ref();
+        table
+            .and_then(|table| table.row(wavelengths))
+            .unwrap_or_else(|| {
+                let values = wavelengths.nm.map(|nm| self.primaries_at(nm));
+                std::array::from_fn(|primary| Lanes::from_fn(|lane| values[lane][primary]))
+            })
+    }
+
     fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
         let x = uv[0] * self.width as f32 - 0.5;
         let y = (uv[1] * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
@@ -88,8 +110,8 @@ impl EnvironmentLight {
                 }
             }
         }
-        let [red, green, blue] = rgb::basis(wavelengths);
-        (red * colour[0] + green * colour[1] + blue * colour[2]) * self.white.lanes(wavelengths)
+        let [red, green, blue] = self.primaries(wavelengths);
+        red * colour[0] + green * colour[1] + blue * colour[2]
     }
 
     fn uv_of(&self, wi: Vec3) -> [f32; 2] {
@@ -148,10 +170,9 @@ mod tests {
         EnvironmentLight::new(texels, width, Curve::Constant(1.0), 0.7)
     }
 
-    const WAVELENGTHS: Wavelengths<8> = Wavelengths {
-        nm: [420.0, 460.0, 500.0, 540.0, 580.0, 620.0, 660.0, 700.0],
-        pdf: [1.0; 8],
-    };
+    fn wavelengths() -> Wavelengths<8> {
+        Wavelengths::new([420.0, 460.0, 500.0, 540.0, 580.0, 620.0, 660.0, 700.0])
+    }
 
     #[test]
     fn a_drawn_direction_has_the_density_and_radiance_that_are_told_of_it() {
@@ -160,9 +181,9 @@ mod tests {
         for i in 0..2000 {
             let u = Vec2::new((i as f32 * 0.618_034).fract(), (i as f32 + 0.5) / 2000.0);
             let sample = light
-                .sample(&WAVELENGTHS, u)
+                .sample(&wavelengths(), u)
                 .expect("the sky is bright everywhere");
-            let (radiance, pdf) = light.towards(sample.wi, &WAVELENGTHS);
+            let (radiance, pdf) = light.towards(sample.wi, &wavelengths());
             across_a_border += usize::from((pdf / sample.pdf - 1.0).abs() > 1e-3);
             assert!((radiance.0[3] / sample.radiance.0[3] - 1.0).abs() < 1e-2);
         }
@@ -177,14 +198,14 @@ mod tests {
         let side = 512;
         for i in 0..side * side {
             let u = Vec2::new((i % side) as f32 + 0.5, (i / side) as f32 + 0.5) / side as f32;
-            if let Some(sample) = light.sample(&WAVELENGTHS, u) {
+            if let Some(sample) = light.sample(&wavelengths(), u) {
                 drawn += f64::from(sample.radiance.0[6] / sample.pdf);
             }
             let z = 1.0 - 2.0 * u.y;
             let (sin, cos) = libm::sincosf(2.0 * PI * u.x);
             let radius = (1.0 - z * z).sqrt();
             let wi = Vec3::new(radius * cos, radius * sin, z);
-            even += f64::from(light.towards(wi, &WAVELENGTHS).0.0[6] * 4.0 * PI);
+            even += f64::from(light.towards(wi, &wavelengths()).0.0[6] * 4.0 * PI);
         }
         assert!((drawn / even - 1.0).abs() < 2e-3, "{drawn} against {even}");
     }

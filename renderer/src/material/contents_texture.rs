@@ -53,8 +53,9 @@ impl ContentsTexture {
         Contents::from_array(sums.map(|sum| sum / self.texels.len() as f64))
     }
 
-    /// Contents at `uv`.
-    pub fn at(&self, uv: Vec2) -> Contents {
+    /// Contents at `uv`, in the order of [`Contents::to_array`].
+    #[inline]
+    pub fn at(&self, uv: Vec2) -> [f32; Contents::COUNT] {
         let x = (uv.x * self.width as f32 - 0.5).clamp(0.0, (self.width - 1) as f32);
         let y = (uv.y * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
         let (x0, y0) = (x as usize, y as usize);
@@ -65,9 +66,9 @@ impl ContentsTexture {
         let value = |i: usize| {
             let below = a[i] * (1.0 - share_x) + b[i] * share_x;
             let above = c[i] * (1.0 - share_x) + d[i] * share_x;
-            f64::from(below * (1.0 - share_y) + above * share_y)
+            below * (1.0 - share_y) + above * share_y
         };
-        Contents::from_array(std::array::from_fn(value))
+        std::array::from_fn(value)
     }
 }
 
@@ -79,10 +80,12 @@ mod tests {
     fn a_lookup_at_a_texel_centre_gives_the_texel_and_between_two_their_mean() {
         let texel = |value: f32| [1.0 + value, value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let map = ContentsTexture::new(2, 2, vec![texel(1.0), texel(2.0), texel(3.0), texel(4.0)]);
-        assert_eq!(map.at(Vec2::new(0.25, 0.25)).chlorophyll, 1.0);
-        assert_eq!(map.at(Vec2::new(0.75, 0.75)).chlorophyll, 4.0);
-        assert_eq!(map.at(Vec2::new(0.5, 0.25)).chlorophyll, 1.5);
-        assert_eq!(map.at(Vec2::new(0.5, 0.5)).structure, 3.5);
-        assert_eq!(map.at(Vec2::new(-1.0, 2.0)).chlorophyll, 3.0);
+        let at = |x, y| map.at(Vec2::new(x, y));
+        let [structure, chlorophyll] = [0, 1];
+        assert_eq!(at(0.25, 0.25)[chlorophyll], 1.0);
+        assert_eq!(at(0.75, 0.75)[chlorophyll], 4.0);
+        assert_eq!(at(0.5, 0.25)[chlorophyll], 1.5);
+        assert_eq!(at(0.5, 0.5)[structure], 3.5);
+        assert_eq!(at(-1.0, 2.0)[chlorophyll], 3.0);
     }
 }

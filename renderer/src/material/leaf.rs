@@ -1,14 +1,12 @@
 //! A leaf's material: what decides its R and T, and its coats.
 
 use glam::Vec2;
-use leafmodel::optics::fast::PileLane;
 use leafmodel::optics::{Contents, ProspectD};
 
-use crate::bsdf::leaf::{Coat, LeafBsdf};
-use crate::material::PathSpectra;
+use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palette;
-use crate::spectrum::{Curve, Lanes, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
 /// A leaf's material.
 #[derive(Clone, Debug)]
@@ -18,9 +16,11 @@ pub struct LeafMaterial {
     /// What its pigments are; measured spectra have no use for it.
     pub palette: Palette,
     /// Abaxial over adaxial reflectance.
-    pub abaxial_ratio: Curve,
+    abaxial_ratio: Spectrum,
     /// Adaxial and abaxial coat.
-    pub coats: [Coat; 2],
+    coats: [Coat; 2],
+    /// Of a leaf that is the same everywhere what its tissue does.
+    uniform: Option<Table>,
 }
 
 /// What decides a leaf's reflectance and transmittance.
@@ -39,48 +39,40 @@ pub enum LeafTissue {
     },
 }
 
-/// PROSPECT-D's constants at a path's wavelengths, for one palette.
-#[derive(Clone, Debug)]
-pub struct LeafOptics<const N: usize> {
-    palette: usize,
-    lanes: [PileLane; N],
-}
-
-impl<const N: usize> LeafOptics<N> {
-    /// At these wavelengths; outside 400–2500 nm the tables' end values hold (a scene that comes there has said so).
-    pub fn new(palette: &Palette, wavelengths: &Wavelengths<N>) -> Self {
+impl LeafMaterial {
+    /// A leaf of this tissue, whose pigments are those of `palette`, under an adaxial and an abaxial coat.
+    pub fn new(
+        tissue: LeafTissue,
+        palette: Palette,
+        abaxial_ratio: Curve,
+        coats: [Coat; 2],
+    ) -> Self {
         Self {
-            palette: palette.number(),
-            lanes: wavelengths
-                .nm
-                .map(|nm| PileLane::new(&palette.coefficients(f64::from(nm)))),
+            tissue,
+            palette,
+            abaxial_ratio: abaxial_ratio.into(),
+            coats,
+            uniform: None,
         }
     }
 
-    /// Number of the palette.
-    pub fn palette(&self) -> usize {
-        self.palette
-    }
-
-    /// R and T of a leaf with these contents.
-    pub fn reflectance_transmittance(&self, contents: &Contents) -> (Lanes<N>, Lanes<N>) {
-        let (reflectance, transmittance) = PileLane::evaluate_lanes(&self.lanes, contents);
-        (Lanes(reflectance), Lanes(transmittance))
-    }
-
-    /// What contents absorb in all, `Σ C K`.
-    pub fn absorption(&self, contents: &Contents) -> [f64; N] {
-        let whole = Contents {
-            structure: 1.0,
-            ..*contents
+    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.abaxial_ratio.tabulate(grid);
+        self.uniform = match self.tissue {
+            LeafTissue::Map(_) => None,
+            LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => {
+                let at = |nm| {
+                    self.tissue_at(Vec2::ZERO, &Wavelengths::new([nm]))
+                        .to_lanes()
+                };
+                Some(Table::new(grid, |nm| {
+                    at(nm).map(|lanes: Lanes<1>| lanes.0[0])
+                }))
+            }
         };
-        self.lanes
-            .each_ref()
-            .map(|lane| lane.absorption_per_plate(&whole))
     }
-}
 
-impl LeafMaterial {
     /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence reflects more than
     /// R, so that the leaf cannot give R back; with a map its mean contents stand for all.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
@@ -110,24 +102,35 @@ impl LeafMaterial {
     }
 
     /// The BSDF at texture coordinates `uv`.
-    pub fn bsdf<const N: usize>(&self, uv: Vec2, spectra: &mut PathSpectra<N>) -> LeafBsdf<'_, N> {
+    #[inline]
+    pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> LeafBsdf<'_, N> {
+        let row = self
+            .uniform
+            .as_ref()
+            .and_then(|table| table.row(wavelengths));
+        let tissue = row.map_or_else(|| self.tissue_at(uv, wavelengths), Tissue::from_lanes);
+        LeafBsdf::new(&self.coats, tissue)
+    }
+
+    fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
+        let optics = |contents: &[f32; Contents::COUNT]| {
+            let pile = self.palette.lanes(wavelengths);
+            let (reflectance, transmittance) = pile.reflectance_transmittance(contents);
+            (Lanes(reflectance), Lanes(transmittance))
+        };
         let (reflectance, transmittance) = match &self.tissue {
-            LeafTissue::Uniform(contents) => spectra
-                .optics(&self.palette)
-                .reflectance_transmittance(contents),
-            LeafTissue::Map(map) => spectra
-                .optics(&self.palette)
-                .reflectance_transmittance(&map.at(uv)),
+            LeafTissue::Uniform(contents) => optics(&contents.to_array().map(|c| c as f32)),
+            LeafTissue::Map(map) => optics(&map.at(uv)),
             LeafTissue::Measured {
                 reflectance,
                 transmittance,
             } => (
-                reflectance.lanes(&spectra.wavelengths),
-                transmittance.lanes(&spectra.wavelengths),
+                reflectance.lanes(wavelengths),
+                transmittance.lanes(wavelengths),
             ),
         };
-        let ratio = self.abaxial_ratio.lanes(&spectra.wavelengths);
-        LeafBsdf::new(&self.coats, reflectance, transmittance, ratio)
+        let ratio = self.abaxial_ratio.lanes(wavelengths);
+        Tissue::new(&self.coats, reflectance, transmittance, ratio)
     }
 }
 
@@ -138,12 +141,12 @@ mod tests {
 
     use super::*;
     use crate::material::palette::Palettes;
+    use crate::scene::description::FilmKind;
+    use crate::spectrum::WavelengthSampler;
+    use glam::Vec3;
 
     fn at(nm: f32) -> Wavelengths<4> {
-        Wavelengths {
-            nm: [nm; 4],
-            pdf: [1.0; 4],
-        }
+        Wavelengths::new([nm; 4])
     }
 
     fn palettes() -> [Pigments; 6] {
@@ -172,16 +175,16 @@ mod tests {
             let palette = known.of(pigments);
             for step in 0..1000 {
                 let nm = 395.0 + 2.13 * step as f32;
-                let optics = LeafOptics::<4>::new(&palette, &at(nm));
-                let (r, t) = optics.reflectance_transmittance(&green);
+                let held = green.to_array().map(|content| content as f32);
+                let (r, t) = palette.lanes(&at(nm)).reflectance_transmittance(&held);
                 let exact = ProspectD::coefficients_of(pigments, f64::from(nm))
                     .reflectance_transmittance(&green);
                 assert!(
-                    (f64::from(r.0[0]) - exact.reflectance).abs() < 1e-6,
+                    (f64::from(r[0]) - exact.reflectance).abs() < 1e-6,
                     "R at {nm} nm"
                 );
                 assert!(
-                    (f64::from(t.0[3]) - exact.transmittance).abs() < 1e-6,
+                    (f64::from(t[3]) - exact.transmittance).abs() < 1e-6,
                     "T at {nm} nm"
                 );
             }
@@ -189,16 +192,39 @@ mod tests {
     }
 
     #[test]
-    fn a_path_among_more_palettes_than_it_keeps_sees_each_as_it_is() {
+    fn tabulated_leaves_are_what_they_are_at_any_wavelength() {
         let red = Contents::new(1.6, 5.0, 5.0, 20.0, 0.1, 0.011, 0.006).expect("a leaf");
-        let mut known = Palettes::default();
-        let palettes = palettes().map(|pigments| known.of(&pigments));
-        let mut spectra = PathSpectra::new(at(575.0));
-        for turn in 0..3 * palettes.len() {
-            let palette = &palettes[turn * 5 % palettes.len()];
-            let got = spectra.optics(palette).reflectance_transmittance(&red);
-            let alone = LeafOptics::new(palette, &at(575.0)).reflectance_transmittance(&red);
-            assert_eq!(got, alone);
+        let sampler = WavelengthSampler::new(&FilmKind::Rgb {
+            range_nm: [400.0, 780.0],
+        });
+        let mut known = Palettes::on(sampler.grid());
+        let texel = red.to_array().map(|content| content as f32);
+        for pigments in &palettes() {
+            for tissue in [
+                LeafTissue::Uniform(red),
+                LeafTissue::Map(ContentsTexture::new(1, 1, vec![texel])),
+            ] {
+                let mut leaf = LeafMaterial::new(
+                    tissue,
+                    known.of(pigments),
+                    Curve::from_points(&[(400.0, 1.7), (700.0, 1.0)]),
+                    [Coat::new(1.45, 0.3, 0.3), Coat::new(1.4, 0.4, 0.4)],
+                );
+                leaf.tabulate(sampler.grid());
+                for u in [0.0, 0.3, 0.999] {
+                    let drawn = sampler.draw::<8>(u);
+                    let free = Wavelengths::new(drawn.nm);
+                    let (wo, wi) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, -0.8));
+                    for wi in [wi, -wi] {
+                        let got = leaf.bsdf(Vec2::ZERO, &drawn).eval(wo, wi);
+                        let expected = leaf.bsdf(Vec2::ZERO, &free).eval(wo, wi);
+                        for lane in 0..8 {
+                            let error = (got.0[lane] - expected.0[lane]).abs();
+                            assert!(error <= 1e-7, "{} nm: {error}", drawn.nm[lane]);
+                        }
+                    }
+                }
+            }
         }
     }
 
@@ -208,12 +234,12 @@ mod tests {
         let red = Contents::new(2.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0).expect("a leaf");
         let mut known = Palettes::default();
         let mut exceeds = |pigments: &Pigments| {
-            let leaf = LeafMaterial {
-                tissue: LeafTissue::Uniform(red),
-                palette: known.of(pigments),
-                abaxial_ratio: Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
-                coats: [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],
-            };
+            let leaf = LeafMaterial::new(
+                LeafTissue::Uniform(red),
+                known.of(pigments),
+                Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+                [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],
+            );
             leaf.coat_exceeds_reflectance([655.0, 660.0]).is_some()
         };
         let blue = Pigments {

@@ -5,7 +5,10 @@
 
 use std::sync::{Arc, OnceLock};
 
+use leafmodel::optics::fast::{self, PileLanes};
 use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD, SpecificAbsorption};
+
+use crate::spectrum::{Table, WavelengthGrid, Wavelengths};
 
 /// First and last whole nanometre of PROSPECT's table.
 const TABLE_NM: [usize; 2] = [400, 2500];
@@ -17,6 +20,8 @@ pub struct Palette {
     pigments: Pigments,
     /// By whole nanometre.
     table: Arc<[Coefficients]>,
+    /// At the wavelengths of the picture's paths.
+    tabulated: Option<Arc<Table>>,
 }
 
 /// PROSPECT-D's own columns, number 0.
@@ -37,6 +42,26 @@ impl Palette {
             number,
             pigments,
             table,
+            tabulated: None,
+        }
+    }
+
+    /// The palette with its constants worked out at every wavelength of a grid.
+    fn on(mut self, grid: &WavelengthGrid) -> Self {
+        let constants = |nm| fast::constants(&self.coefficients(f64::from(nm)));
+        self.tabulated = Some(Arc::new(Table::new(grid, constants)));
+        self
+    }
+
+    /// PROSPECT's constants at a path's wavelengths.
+    #[inline]
+    pub fn lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
+        let table = self.tabulated.as_ref();
+        let Some(row) = table.and_then(|table| table.row(wavelengths)) else {
+            return PileLanes::new(&wavelengths.nm.map(|nm| self.coefficients(f64::from(nm))));
+        };
+        PileLanes {
+            constants: row.map(|lanes| lanes.0),
         }
     }
 
@@ -86,29 +111,49 @@ impl Palette {
 
 /// The distinct palettes of a scene, by number; the first is PROSPECT-D's own.
 #[derive(Clone, Debug)]
-pub struct Palettes(Vec<Palette>);
+pub struct Palettes {
+    palettes: Vec<Palette>,
+    grid: Option<WavelengthGrid>,
+}
 
 impl Default for Palettes {
     fn default() -> Self {
-        Self(vec![Palette::default()])
+        Self {
+            palettes: vec![Palette::default()],
+            grid: None,
+        }
     }
 }
 
 impl Palettes {
+    /// For a picture with these wavelengths, at which the constants are worked out beforehand.
+    pub fn on(grid: &WavelengthGrid) -> Self {
+        Self {
+            palettes: vec![Palette::default().on(grid)],
+            grid: Some(grid.clone()),
+        }
+    }
+
     /// The palette of these pigments, made when it is first asked for.
     pub fn of(&mut self, pigments: &Pigments) -> Palette {
-        let known = self.0.iter().find(|palette| palette.pigments == *pigments);
+        let known = self
+            .palettes
+            .iter()
+            .find(|palette| palette.pigments == *pigments);
         if let Some(palette) = known {
             return palette.clone();
         }
-        let palette = Palette::new(self.0.len(), *pigments);
-        self.0.push(palette.clone());
+        let mut palette = Palette::new(self.palettes.len(), *pigments);
+        if let Some(grid) = &self.grid {
+            palette = palette.on(grid);
+        }
+        self.palettes.push(palette.clone());
         palette
     }
 
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &Palette> {
-        self.0.iter()
+        self.palettes.iter()
     }
 }
 

@@ -8,11 +8,10 @@ use glam::Vec2;
 use leafmodel::optics::solid::{ReflectanceTable, Solid};
 use leafmodel::optics::{Contents, ProspectD};
 
-use crate::bsdf::leaf::{Coat, LeafBsdf};
-use crate::material::PathSpectra;
+use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palette;
-use crate::spectrum::Lanes;
+use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// What solid tissue holds per area of its surface.
 #[derive(Clone, Debug)]
@@ -32,6 +31,8 @@ pub struct SolidMaterial {
     table: Arc<ReflectanceTable>,
     /// A body is seen from outside; a sheet of it looks alike from both sides.
     coats: [Coat; 2],
+    /// Of a body that is the same everywhere what its tissue does.
+    uniform: Option<Table>,
 }
 
 /// Tables of reflectance, one for each refractive index: making one takes a tenth of a second.
@@ -66,6 +67,7 @@ impl SolidMaterial {
             optics,
             table,
             coats: [coat.clone(), coat],
+            uniform: None,
         }
     }
 
@@ -101,13 +103,39 @@ impl SolidMaterial {
             })
     }
 
-    /// The BSDF at texture coordinates `uv`.
-    pub fn bsdf<const N: usize>(&self, uv: Vec2, spectra: &mut PathSpectra<N>) -> LeafBsdf<'_, N> {
-        let absorption = match &self.tissue {
-            SolidTissue::Uniform(contents) => spectra.absorption(&self.palette, contents),
-            SolidTissue::Map(map) => spectra.absorption(&self.palette, &map.at(uv)),
+    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.uniform = match self.tissue {
+            SolidTissue::Map(_) => None,
+            SolidTissue::Uniform(_) => {
+                let at = |nm| {
+                    self.tissue_at(Vec2::ZERO, &Wavelengths::new([nm]))
+                        .to_lanes()
+                };
+                Some(Table::new(grid, |nm| {
+                    at(nm).map(|lanes: Lanes<1>| lanes.0[0])
+                }))
+            }
         };
-        let reflectance = Lanes(absorption.map(|absorption| self.reflectance(absorption) as f32));
-        LeafBsdf::new(&self.coats, reflectance, Lanes::ZERO, Lanes::ONE)
+    }
+
+    /// The BSDF at texture coordinates `uv`.
+    pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> LeafBsdf<'_, N> {
+        let row = self
+            .uniform
+            .as_ref()
+            .and_then(|table| table.row(wavelengths));
+        let tissue = row.map_or_else(|| self.tissue_at(uv, wavelengths), Tissue::from_lanes);
+        LeafBsdf::new(&self.coats, tissue)
+    }
+
+    fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
+        let contents = match &self.tissue {
+            SolidTissue::Uniform(contents) => contents.to_array().map(|content| content as f32),
+            SolidTissue::Map(map) => map.at(uv),
+        };
+        let absorption = self.palette.lanes(wavelengths).absorption(&contents);
+        let reflectance = absorption.map(|absorbed| self.reflectance(f64::from(absorbed)) as f32);
+        Tissue::new(&self.coats, Lanes(reflectance), Lanes::ZERO, Lanes::ONE)
     }
 }

@@ -104,12 +104,10 @@ pub fn grow_solid(
 pub fn grow(leaf: &description::Leaf, palette: &Palette) -> Result<GrownLeaf, PlantError> {
     let whole = WholeLeaf::grow(&leaf.plan)?;
     let stalk_contents = whole.stalk_contents(&leaf.plan)?;
-    let material = |tissue| LeafMaterial {
-        tissue,
-        palette: palette.clone(),
-        abaxial_ratio: Curve::from_description(&leaf.abaxial_ratio),
-        coats: leaf.coats.map(build_coat),
-    };
+    let ratio = Curve::from_description(&leaf.abaxial_ratio);
+    let coats = leaf.coats.map(build_coat);
+    let material =
+        |tissue| LeafMaterial::new(tissue, palette.clone(), ratio.clone(), coats.clone());
     let (mut meshes, mut materials) = (Vec::new(), Vec::new());
     // The mesh of each blade, and that of its stalk.
     let mut own = Vec::new();

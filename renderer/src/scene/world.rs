@@ -28,10 +28,9 @@ use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description, FilmKind, ObjectShape};
+use crate::scene::description::{self, Description, ObjectShape};
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
-use crate::spectrum::wavelengths::VisibleDistribution;
 
 /// Everything that paths meet.
 #[derive(Debug)]
@@ -155,9 +154,9 @@ impl World {
             }
             meshes.push(built);
         }
-        let wavelengths = wavelength_sampler(&scene.film.kind);
+        let wavelengths = WavelengthSampler::new(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
-        let mut known = Known::default();
+        let mut known = Known::on(wavelengths.grid());
         let mut materials = Vec::new();
         for material in &scene.materials {
             let built = build_material(&material.name, &material.value, &mut known)?;
@@ -207,6 +206,12 @@ impl World {
                 objects[object].light = Some(number);
             }
             lights.push(build_light(&light.name, &light.value, &meshes, &instances)?);
+        }
+        for material in &mut materials {
+            material.tabulate(wavelengths.grid());
+        }
+        for light in &mut lights {
+            light.tabulate(wavelengths.grid());
         }
         let geometry = Geometry::build(meshes, instances)?;
         let (low, high) = geometry.bounds();
@@ -309,12 +314,4 @@ fn place(
         put_piece(&mut put, number, piece);
     }
     (instances, objects)
-}
-
-/// What a film of this kind makes paths carry.
-pub fn wavelength_sampler(kind: &FilmKind) -> WavelengthSampler {
-    match kind {
-        FilmKind::Rgb { range_nm } => WavelengthSampler::Rgb(VisibleDistribution::new(*range_nm)),
-        FilmKind::Spectral { bands } => WavelengthSampler::Bands(bands.clone()),
-    }
 }

@@ -7,9 +7,7 @@
 
 use std::sync::OnceLock;
 
-use crate::spectrum::lanes::Lanes;
 use crate::spectrum::table::parse_shipped;
-use crate::spectrum::wavelengths::Wavelengths;
 
 fn basis_table() -> &'static [(f64, [f64; 3])] {
     static TABLE: OnceLock<Vec<(f64, [f64; 3])>> = OnceLock::new();
@@ -27,18 +25,6 @@ pub fn basis_at(nm: f32) -> [f32; 3] {
     std::array::from_fn(|i| {
         table[below].1[i] as f32 * (1.0 - share) + table[below + 1].1[i] as f32 * share
     })
-}
-
-/// The basis at a path's wavelengths: lanes for red, green and blue.
-pub fn basis<const N: usize>(wavelengths: &Wavelengths<N>) -> [Lanes<N>; 3] {
-    let mut basis = [Lanes::ZERO; 3];
-    for lane in 0..N {
-        let values = basis_at(wavelengths.nm[lane]);
-        for (spectrum, value) in basis.iter_mut().zip(values) {
-            spectrum.0[lane] = value;
-        }
-    }
-    basis
 }
 
 #[cfg(test)]

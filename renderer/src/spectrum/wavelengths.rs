@@ -1,38 +1,100 @@
 //! Which wavelengths a path carries, and what its radiance adds to the film.
+//!
+//! A picture's paths carry one of [`ROWS`] sets of wavelengths: the middles of `ROWS × lanes` equal
+//! shares of the distribution, so some 0.2 nm apart in a colour picture. What depends on wavelength
+//! alone is tabulated for each of them ([`Table`]) and never worked out along a path.
 
-use crate::sampling::distribution::Guide;
-use crate::scene::description::Band;
+use crate::scene::description::{Band, FilmKind};
 use crate::spectrum::cie;
 use crate::spectrum::lanes::Lanes;
+use crate::spectrum::tabulated::Table;
+
+/// Sets of wavelengths that paths choose from.
+pub const ROWS: usize = 256;
+
+/// Marks wavelengths that are in no row of the picture's grid.
+const NO_ROW: u32 = u32::MAX;
 
 /// The wavelengths of one path, nm.
 #[derive(Clone, Copy, Debug)]
 pub struct Wavelengths<const N: usize> {
     /// A vacuum wavelength for each lane, nm.
     pub nm: [f32; N],
-    /// Density with which each was drawn, nm⁻¹; 1 for the bands of a spectral film.
-    pub pdf: [f32; N],
+    row: u32,
+}
+
+impl<const N: usize> Wavelengths<N> {
+    /// Any wavelengths, nm: every spectrum is worked out for them anew.
+    pub fn new(nm: [f32; N]) -> Self {
+        Self { nm, row: NO_ROW }
+    }
+
+    /// Number of the row of the picture's grid that they are; beyond all rows if they are none.
+    #[inline]
+    pub(super) fn row(&self) -> usize {
+        self.row as usize
+    }
+}
+
+/// The sets of wavelengths of a picture.
+#[derive(Clone, Debug)]
+pub struct WavelengthGrid {
+    lanes: usize,
+    /// By row and lane, nm.
+    nm: Box<[f32]>,
+}
+
+impl WavelengthGrid {
+    fn new(lanes: usize, mut nm: impl FnMut(usize, usize) -> f32) -> Self {
+        let places = (0..ROWS).flat_map(|row| (0..lanes).map(move |lane| (row, lane)));
+        Self {
+            lanes,
+            nm: places.map(|(row, lane)| nm(row, lane)).collect(),
+        }
+    }
+
+    /// Wavelengths in a set.
+    pub fn lanes(&self) -> usize {
+        self.lanes
+    }
+
+    /// The wavelengths, row by row, nm.
+    pub fn nm(&self) -> &[f32] {
+        &self.nm
+    }
 }
 
 /// Draws wavelengths and turns the radiance found at them into film values.
 #[derive(Clone, Debug)]
-pub enum WavelengthSampler {
+pub struct WavelengthSampler {
+    grid: WavelengthGrid,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
     /// Colour: wavelengths drawn in proportion to how much the observer sees there.
-    Rgb(VisibleDistribution),
+    Rgb {
+        range_nm: [f64; 2],
+        /// Linear sRGB of radiance 1 at each wavelength, over its density and the number of lanes.
+        weights: Table,
+    },
     /// Bands: one lane a band.
     Bands(Vec<Band>),
 }
 
 /// Densities over 1 nm steps of a range, for inverse-transform sampling.
 #[derive(Clone, Debug)]
-pub struct VisibleDistribution {
+struct VisibleDistribution {
     first_nm: f64,
     step_nm: f64,
     /// Cumulative, from 0 to 1, one more than there are steps.
     cumulative: Vec<f64>,
-    guide: Guide,
-    /// Linear sRGB of radiance 1 nm wide at each border of the steps, divided by the ȳ integral.
-    rgb: Vec<[f32; 3]>,
+}
+
+/// Linear sRGB of radiance 1 nm wide at a wavelength, divided by the ȳ integral.
+pub fn seen_at(nm: f64) -> [f64; 3] {
+    cie::srgb_from_xyz(cie::observer(nm).map(|c| c / cie::luminance_integral()))
 }
 
 impl VisibleDistribution {
@@ -40,7 +102,7 @@ impl VisibleDistribution {
     const EVEN_SHARE: f64 = 0.1;
 
     /// Over a range in nm, rising.
-    pub fn new(range_nm: [f64; 2]) -> Self {
+    fn new(range_nm: [f64; 2]) -> Self {
         let steps = ((range_nm[1] - range_nm[0]).ceil() as usize).max(1);
         let step_nm = (range_nm[1] - range_nm[0]) / steps as f64;
         let border = |i: usize| range_nm[0] + i as f64 * step_nm;
@@ -62,96 +124,135 @@ impl VisibleDistribution {
         for value in &mut cumulative {
             *value /= sum;
         }
-        let rgb = (0..=steps)
-            .map(|i| {
-                let xyz = cie::observer(border(i)).map(|c| c / cie::luminance_integral());
-                cie::srgb_from_xyz(xyz).map(|c| c as f32)
-            })
-            .collect();
         Self {
             first_nm: range_nm[0],
             step_nm,
-            guide: Guide::new(&cumulative),
             cumulative,
-            rgb,
         }
     }
 
     /// A wavelength and its density for `u` in [0, 1).
-    fn draw(&self, u: f64) -> (f32, f32) {
-        let below = self.guide.count_up_to(&self.cumulative, u);
+    fn draw(&self, u: f64) -> (f64, f64) {
+        let below = self.cumulative.partition_point(|&border| border <= u);
         let step = below.clamp(1, self.cumulative.len() - 1) - 1;
         let mass = self.cumulative[step + 1] - self.cumulative[step];
         let within = ((u - self.cumulative[step]) / mass).clamp(0.0, 1.0);
         let nm = self.first_nm + (step as f64 + within) * self.step_nm;
-        (nm as f32, (mass / self.step_nm) as f32)
+        (nm, mass / self.step_nm)
     }
+}
 
-    fn rgb_at(&self, nm: f32) -> [f32; 3] {
-        let place = ((f64::from(nm) - self.first_nm) / self.step_nm)
-            .clamp(0.0, (self.rgb.len() - 1) as f64);
-        let below = (place as usize).min(self.rgb.len() - 2);
-        let share = (place - below as f64) as f32;
-        std::array::from_fn(|i| self.rgb[below][i] * (1.0 - share) + self.rgb[below + 1][i] * share)
+/// Lanes that a film with this many bands takes.
+fn lanes_of(bands: usize) -> usize {
+    match bands {
+        0..=4 => 4,
+        5..=8 => 8,
+        9..=16 => 16,
+        _ => 32,
     }
 }
 
 impl WavelengthSampler {
+    /// For what a film records.
+    pub fn new(film: &FilmKind) -> Self {
+        match film {
+            FilmKind::Rgb { range_nm } => Self::rgb(*range_nm),
+            FilmKind::Spectral { bands } => Self::bands(bands.clone()),
+        }
+    }
+
+    fn rgb(range_nm: [f64; 2]) -> Self {
+        // 4 lanes are noisier, 16 bring nothing more.
+        let lanes = 8;
+        let distribution = VisibleDistribution::new(range_nm);
+        // Lanes share the distribution between them, and rows a lane's share: so samples of a pixel
+        // are stratified over the rows, and the eight wavelengths of each over the whole range.
+        let drawn = |row: usize, lane: usize| {
+            let share = (row as f64 + 0.5) / ROWS as f64;
+            distribution.draw((lane as f64 + share) / lanes as f64)
+        };
+        let grid = WavelengthGrid::new(lanes, |row, lane| drawn(row, lane).0 as f32);
+        let weights = Table::by_place(&grid, |row, lane| {
+            let (nm, density) = drawn(row, lane);
+            seen_at(nm).map(|c| (c / (density * lanes as f64)) as f32)
+        });
+        Self {
+            grid,
+            kind: Kind::Rgb { range_nm, weights },
+        }
+    }
+
+    fn bands(bands: Vec<Band>) -> Self {
+        // Lanes beyond the last band carry that band's wavelength; nobody reads them.
+        let grid = WavelengthGrid::new(lanes_of(bands.len()), |row, lane| {
+            let band = bands[lane.min(bands.len() - 1)];
+            let share = (row as f64 + 0.5) / ROWS as f64;
+            (band.center_nm + (share - 0.5) * band.width_nm) as f32
+        });
+        Self {
+            grid,
+            kind: Kind::Bands(bands),
+        }
+    }
+
+    /// The sets of wavelengths that are drawn.
+    pub fn grid(&self) -> &WavelengthGrid {
+        &self.grid
+    }
+
+    /// Whether the film records colour.
+    pub fn is_rgb(&self) -> bool {
+        matches!(self.kind, Kind::Rgb { .. })
+    }
+
     /// How many values a path adds to the film.
     pub fn channels(&self) -> usize {
-        match self {
-            Self::Rgb(_) => 3,
-            Self::Bands(bands) => bands.len(),
+        match &self.kind {
+            Kind::Rgb { .. } => 3,
+            Kind::Bands(bands) => bands.len(),
         }
     }
 
-    /// Wavelengths for one path: `N` strata of one random number.
+    /// Wavelengths for one path; `u` in [0, 1) chooses the row.
     ///
-    /// A spectral film with fewer bands than lanes fills up with its last band.
+    /// # Panics
+    ///
+    /// If `N` is not the grid's number of lanes.
+    #[inline]
     pub fn draw<const N: usize>(&self, u: f32) -> Wavelengths<N> {
-        let mut wavelengths = Wavelengths {
-            nm: [0.0; N],
-            pdf: [1.0; N],
-        };
-        for lane in 0..N {
-            match self {
-                Self::Rgb(distribution) => {
-                    let stratum = f64::from(u) + lane as f64 / N as f64;
-                    let (nm, pdf) = distribution.draw(stratum - stratum.floor());
-                    wavelengths.nm[lane] = nm;
-                    wavelengths.pdf[lane] = pdf;
-                }
-                Self::Bands(bands) => {
-                    let band = bands[lane.min(bands.len() - 1)];
-                    let offset = (f64::from(u) - 0.5) * band.width_nm;
-                    wavelengths.nm[lane] = (band.center_nm + offset) as f32;
-                }
-            }
+        assert_eq!(
+            N, self.grid.lanes,
+            "paths carry as many wavelengths as the grid has lanes"
+        );
+        let row = ((u * ROWS as f32) as usize).min(ROWS - 1);
+        let mut nm = [0.0; N];
+        nm.copy_from_slice(&self.grid.nm[row * N..][..N]);
+        Wavelengths {
+            nm,
+            row: row as u32,
         }
-        wavelengths
     }
 
-    /// What radiance at the path's wavelengths is to the film: linear sRGB, or radiance per band.
+    /// What radiance at drawn wavelengths is to the film: linear sRGB, or radiance per band.
     ///
     /// `values` has [`WavelengthSampler::channels`] entries.
+    #[inline]
     pub fn film_values<const N: usize>(
         &self,
         wavelengths: &Wavelengths<N>,
         radiance: &Lanes<N>,
         values: &mut [f32],
     ) {
-        match self {
-            Self::Rgb(distribution) => {
-                values.fill(0.0);
-                for lane in 0..N {
-                    let weight = radiance.0[lane] / (wavelengths.pdf[lane] * N as f32);
-                    let rgb = distribution.rgb_at(wavelengths.nm[lane]);
-                    for (value, component) in values.iter_mut().zip(rgb) {
-                        *value += weight * component;
-                    }
+        match &self.kind {
+            Kind::Rgb { weights, .. } => {
+                let weights = weights
+                    .row::<N, 3>(wavelengths)
+                    .expect("a path's wavelengths are drawn from the grid");
+                for (value, weight) in values.iter_mut().zip(weights) {
+                    *value = (weight * *radiance).sum();
                 }
             }
-            Self::Bands(_) => {
+            Kind::Bands(_) => {
                 for (value, lane) in values.iter_mut().zip(radiance.0) {
                     *value = lane;
                 }
@@ -161,15 +262,9 @@ impl WavelengthSampler {
 
     /// First and last wavelength that can be drawn, nm.
     pub fn range_nm(&self) -> [f64; 2] {
-        match self {
-            Self::Rgb(distribution) => {
-                let steps = (distribution.cumulative.len() - 1) as f64;
-                [
-                    distribution.first_nm,
-                    distribution.first_nm + steps * distribution.step_nm,
-                ]
-            }
-            Self::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
+        match &self.kind {
+            Kind::Rgb { range_nm, .. } => *range_nm,
+            Kind::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
                 [
                     range[0].min(band.center_nm - 0.5 * band.width_nm),
                     range[1].max(band.center_nm + 0.5 * band.width_nm),
@@ -185,17 +280,17 @@ mod tests {
 
     #[test]
     fn the_mean_over_drawn_wavelengths_is_the_colour_of_the_spectrum() {
-        let sampler = WavelengthSampler::Rgb(VisibleDistribution::new([360.0, 830.0]));
+        let sampler = WavelengthSampler::rgb([360.0, 830.0]);
         let spectrum = |nm: f32| 0.2 + (nm - 360.0) / 400.0;
         let mut mean = [0.0_f64; 3];
-        let draws = 4096;
+        let draws = ROWS;
         for i in 0..draws {
             let wavelengths = sampler.draw::<8>((i as f32 + 0.5) / draws as f32);
             let radiance = Lanes::from_fn(|lane| spectrum(wavelengths.nm[lane]));
             let mut rgb = [0.0; 3];
             sampler.film_values(&wavelengths, &radiance, &mut rgb);
             for (sum, value) in mean.iter_mut().zip(rgb) {
-                *sum += f64::from(value) / f64::from(draws);
+                *sum += f64::from(value) / draws as f64;
             }
         }
         let expected = cie::srgb_from_xyz(cie::xyz_of(|nm| f64::from(spectrum(nm as f32))));
@@ -219,9 +314,10 @@ mod tests {
                 width_nm: 0.0,
             },
         ];
-        let sampler = WavelengthSampler::Bands(bands);
-        let wavelengths = sampler.draw::<8>(0.25);
-        assert_eq!(wavelengths.nm[..2], [447.5, 900.0]);
+        let sampler = WavelengthSampler::bands(bands);
+        let wavelengths = sampler.draw::<4>(0.25);
+        // The middle of the 65th of 256 shares of the band.
+        assert_eq!(wavelengths.nm, [447.519_53, 900.0, 900.0, 900.0]);
         let mut values = [0.0; 2];
         sampler.film_values(
             &wavelengths,

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
-use leafmodel::optics::fast::PileLane;
+use leafmodel::optics::fast::PileLanes;
 use leafmodel::optics::{Contents, Pigments, ProspectD};
 use leafmodel::shape::outline::Outline;
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ const STEP_NM: usize = 10;
 const PAPER: u8 = 255;
 
 /// Reflectance of leaves with one palette of pigments to linear sRGB.
-struct Daylight(Vec<(PileLane, [f64; 3])>);
+struct Daylight(Vec<(PileLanes<1>, [f64; 3])>);
 
 impl Daylight {
     fn new(pigments: &Pigments) -> Self {
@@ -26,17 +26,17 @@ impl Daylight {
         let lane = |nm: f64| {
             let at = ProspectD::coefficients_of(pigments, nm);
             let xyz = observer(nm).map(|matching| matching * d65(nm) / white);
-            (PileLane::new(&at), srgb_from_xyz(xyz))
+            (PileLanes::new(&[at]), srgb_from_xyz(xyz))
         };
         Self(wavelengths().map(lane).collect())
     }
 
     /// sRGB of the light that comes back from a leaf with these contents; white paper is 255.
     fn colour(&self, contents: &Contents) -> [u8; 3] {
+        let contents = contents.to_array().map(|content| content as f32);
         let mut rgb = [0.0; 3];
         for (lane, weights) in &self.0 {
-            let k = lane.absorption_per_plate(contents);
-            let (reflectance, _) = lane.evaluate(k, contents.structure);
+            let ([reflectance], _) = lane.reflectance_transmittance(&contents);
             for (sum, weight) in rgb.iter_mut().zip(weights) {
                 *sum += weight * f64::from(reflectance);
             }

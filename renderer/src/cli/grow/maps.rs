@@ -156,7 +156,7 @@ radiance_w_m2_sr_nm = 0.1
             for column in (0..map.width).step_by(5) {
                 let centre = |i: u32, count: u32| ((f64::from(i) + 0.5) / f64::from(count)) as f32;
                 let uv = Vec2::new(centre(column, map.width), centre(row, map.height));
-                let found = texture.at(uv).to_array();
+                let found = texture.at(uv).map(f64::from);
                 let held = map.texels[(row * map.width + column) as usize];
                 for (found, held) in found.into_iter().zip(held) {
                     let held = f64::from(held);

@@ -26,7 +26,7 @@ pub(super) fn build_light(
             Curve::from_description(irradiance),
         )),
         description::Light::Constant { radiance } => {
-            Light::Constant(Curve::from_description(radiance))
+            Light::Constant(Curve::from_description(radiance).into())
         }
         description::Light::Environment {
             file,

@@ -13,10 +13,9 @@ use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
 use crate::scene::assets;
 use crate::scene::description::{self, Description};
-use crate::spectrum::Curve;
+use crate::spectrum::{Curve, WavelengthGrid};
 
 /// What materials share, each made when it is first needed.
-#[derive(Default)]
 pub(super) struct Known {
     /// Palettes of pigments.
     pub(super) palettes: Palettes,
@@ -24,6 +23,14 @@ pub(super) struct Known {
 }
 
 impl Known {
+    /// For a picture with these wavelengths.
+    pub(super) fn on(grid: &WavelengthGrid) -> Self {
+        Self {
+            palettes: Palettes::on(grid),
+            reflectances: ReflectanceTables::default(),
+        }
+    }
+
     /// What each leaf and each body of solid tissue needs.
     pub(super) fn for_grown(
         &mut self,
@@ -53,7 +60,7 @@ pub(super) fn build_material(
     };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
-            Material::Diffuse(Curve::from_description(reflectance))
+            Material::Diffuse(Curve::from_description(reflectance).into())
         }
         description::Material::Dielectric { eta, roughness } => Material::Dielectric(Dielectric {
             eta: *eta as f32,
@@ -78,12 +85,12 @@ pub(super) fn build_material(
                     transmittance: Curve::from_description(transmittance),
                 },
             };
-            Material::Leaf(Box::new(LeafMaterial {
+            Material::Leaf(Box::new(LeafMaterial::new(
                 tissue,
-                palette: known.palettes.of(pigments),
-                abaxial_ratio: Curve::from_description(abaxial_ratio),
-                coats: coats.map(build_coat),
-            }))
+                known.palettes.of(pigments),
+                Curve::from_description(abaxial_ratio),
+                coats.map(build_coat),
+            )))
         }
         description::Material::Solid {
             tissue,

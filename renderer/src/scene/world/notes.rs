@@ -93,12 +93,12 @@ mod tests {
         let first = [1.5, 30.0, 8.0, anthocyanins, 0.0, 0.0, 0.0, 0.01, 0.01];
         let second = [1.5, 30.0, 8.0, 0.0, 0.0, betaxanthins, 0.0, 0.01, 0.01];
         let coat = Coat::new(1.45, 0.3, 0.3);
-        Material::Leaf(Box::new(LeafMaterial {
-            tissue: LeafTissue::Map(ContentsTexture::new(2, 1, vec![first, second])),
-            palette: Palette::default(),
-            abaxial_ratio: Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
-            coats: [coat.clone(), coat],
-        }))
+        Material::Leaf(Box::new(LeafMaterial::new(
+            LeafTissue::Map(ContentsTexture::new(2, 1, vec![first, second])),
+            Palette::default(),
+            Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+            [coat.clone(), coat],
+        )))
     }
 
     #[test]

@@ -1,0 +1,121 @@
+//! Functions of wavelength, worked out beforehand at all wavelengths that a picture's paths may carry.
+
+use std::fmt;
+
+use crate::spectrum::curve::Curve;
+use crate::spectrum::lanes::Lanes;
+use crate::spectrum::wavelengths::{WavelengthGrid, Wavelengths};
+
+/// Some values at each wavelength of a grid: by row of the grid, value and lane.
+#[derive(Clone, PartialEq)]
+pub struct Table(Box<[f32]>);
+
+impl fmt::Debug for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Table of {} numbers", self.0.len())
+    }
+}
+
+impl Table {
+    /// The values that `f` gives for each wavelength in nm.
+    pub fn new<const C: usize>(grid: &WavelengthGrid, mut f: impl FnMut(f32) -> [f32; C]) -> Self {
+        let lanes = grid.lanes();
+        Self::by_place(grid, |row, lane| f(grid.nm()[row * lanes + lane]))
+    }
+
+    /// The values that `f` gives for each row and lane.
+    pub fn by_place<const C: usize>(
+        grid: &WavelengthGrid,
+        mut f: impl FnMut(usize, usize) -> [f32; C],
+    ) -> Self {
+        let lanes = grid.lanes();
+        let mut values = vec![0.0; grid.nm().len() * C];
+        for (row, values) in values.chunks_exact_mut(lanes * C).enumerate() {
+            for lane in 0..lanes {
+                for (column, value) in f(row, lane).into_iter().enumerate() {
+                    values[column * lanes + lane] = value;
+                }
+            }
+        }
+        Self(values.into())
+    }
+
+    /// The `C` values at a path's wavelengths; `None` if they are not of the grid.
+    #[inline]
+    pub fn row<const N: usize, const C: usize>(
+        &self,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<[Lanes<N>; C]> {
+        let start = wavelengths.row() * (N * C);
+        let values = self.0.get(start..start + N * C)?;
+        let mut row = [Lanes::ZERO; C];
+        for (lanes, values) in row.iter_mut().zip(values.chunks_exact(N)) {
+            lanes.0.copy_from_slice(values);
+        }
+        Some(row)
+    }
+}
+
+/// A spectrum along paths: a curve, with its values at the wavelengths of a picture once they are tabulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    curve: Curve,
+    table: Option<Table>,
+}
+
+impl From<Curve> for Spectrum {
+    fn from(curve: Curve) -> Self {
+        Self { curve, table: None }
+    }
+}
+
+impl Spectrum {
+    /// The curve.
+    pub fn curve(&self) -> &Curve {
+        &self.curve
+    }
+
+    /// Works it out at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.table = match &self.curve {
+            Curve::Constant(_) => None,
+            Curve::Uniform { .. } | Curve::Points { .. } => {
+                Some(Table::new(grid, |nm| [self.curve.at(nm)]))
+            }
+        };
+    }
+
+    /// Values at a path's wavelengths.
+    #[inline]
+    pub fn lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        let row = self.table.as_ref().and_then(|table| table.row(wavelengths));
+        row.map_or_else(|| self.curve.lanes(wavelengths), |[lanes]| lanes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::description::FilmKind;
+    use crate::spectrum::wavelengths::{ROWS, WavelengthSampler};
+
+    #[test]
+    fn a_tabulated_spectrum_has_the_values_of_its_curve() {
+        let sampler = WavelengthSampler::new(&FilmKind::Rgb {
+            range_nm: [360.0, 830.0],
+        });
+        let curve = Curve::from_points(&[(400.0, 0.0), (500.0, 1.0), (520.0, 0.5)]);
+        let mut spectrum = Spectrum::from(curve.clone());
+        for tabulated in [false, true] {
+            if tabulated {
+                spectrum.tabulate(sampler.grid());
+            }
+            for row in 0..ROWS {
+                let drawn = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
+                assert_eq!(spectrum.lanes(&drawn), curve.lanes(&drawn));
+                let free = Wavelengths::new(drawn.nm);
+                assert_eq!(spectrum.lanes(&free), curve.lanes(&drawn));
+            }
+        }
+    }
+}
