@@ -1,16 +1,32 @@
-//! Radiance in, means and variances out.
+//! Radiance and first hits in, means and variances out.
 //!
-//! - **In**: samples, each a value per channel, pixel by pixel.
-//! - **Out**: mean and variance of the mean per pixel and channel.
+//! - **In**: samples, each a value per channel and what the camera ray met, block of pixels by block.
+//! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which samples arrive; a
 //!   sample with a value that is not finite is rejected whole and counted, one beyond ±2³⁰ is clamped and counted.
+//!   All pixels of a block have the same number of samples.
+//! - **Memory**: 32 bytes a channel and 56 bytes of features a pixel: 152 for colour.
 
-pub mod accumulator;
+mod block;
+mod features;
+mod fixed;
+mod moments;
+mod pixel;
+#[cfg(test)]
+mod tests;
+
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-pub use accumulator::Accumulator;
+pub use block::{BLOCK_SIDE, Block, PixelSums};
+pub use features::{FEATURE_SAMPLES, Feature};
+pub use moments::Moments;
+pub use pixel::Pixel;
+
+use block::Faults;
+use features::{Albedos, Positions, Surface};
 
 /// Most pixels of a film.
 pub const MOST_PIXELS: u64 = 1 << 28;
@@ -48,12 +64,23 @@ pub enum FilmError {
 }
 
 /// Sums for every pixel.
+///
+/// One run of memory for each kind of sum, in the order of blocks, and in a block of rows: what is exposed together
+/// lies together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     width: u32,
     height: u32,
     channels: usize,
-    pixels: Vec<Accumulator>,
+    /// For each block the samples that its pixels have, rejected ones included.
+    drawn: Vec<u32>,
+    /// For each pixel as many as channels.
+    moments: Vec<Moments>,
+    positions: Vec<Positions>,
+    surfaces: Vec<Surface>,
+    /// Empty if none is recorded.
+    albedos: Vec<Albedos>,
+    faults: Faults,
 }
 
 impl Film {
@@ -62,7 +89,7 @@ impl Film {
     /// # Errors
     ///
     /// [`FilmError`] if it has no pixels or channels, or would be too large.
-    pub fn new(width: u32, height: u32, channels: usize) -> Result<Self, FilmError> {
+    pub fn new(width: u32, height: u32, channels: usize, albedo: bool) -> Result<Self, FilmError> {
         let pixels = u64::from(width) * u64::from(height);
         if pixels == 0 || channels == 0 {
             return Err(FilmError::Empty {
@@ -71,7 +98,7 @@ impl Film {
                 channels,
             });
         }
-        let bytes = pixels.saturating_mul(Accumulator::bytes(channels) as u64);
+        let bytes = pixels.saturating_mul(Self::bytes_a_pixel(channels, albedo) as u64);
         if pixels > MOST_PIXELS || bytes > MOST_BYTES {
             return Err(FilmError::TooLarge {
                 width,
@@ -80,13 +107,25 @@ impl Film {
                 bytes,
             });
         }
-        let pixels = vec![Accumulator::new(channels); pixels as usize];
+        let pixels = pixels as usize;
+        let blocks = width.div_ceil(BLOCK_SIDE) as usize * height.div_ceil(BLOCK_SIDE) as usize;
         Ok(Self {
             width,
             height,
             channels,
-            pixels,
+            drawn: vec![0; blocks],
+            moments: vec![Moments::default(); pixels * channels],
+            positions: vec![Positions::default(); pixels],
+            surfaces: vec![Surface::default(); pixels],
+            albedos: vec![Albedos::default(); if albedo { pixels } else { 0 }],
+            faults: Faults::default(),
         })
+    }
+
+    /// Memory of a pixel, bytes; a block has four more.
+    pub const fn bytes_a_pixel(channels: usize, albedo: bool) -> usize {
+        let albedo = if albedo { size_of::<Albedos>() } else { 0 };
+        channels * size_of::<Moments>() + size_of::<Positions>() + size_of::<Surface>() + albedo
     }
 
     /// Pixels across.
@@ -104,112 +143,175 @@ impl Film {
         self.channels
     }
 
-    /// The pixels, row by row from the top.
-    pub fn pixels(&self) -> &[Accumulator] {
-        &self.pixels
-    }
-
-    /// Lets `expose` add samples to every pixel, spread over the current thread pool: it is called with column, row and
-    /// the pixel's sums. Which thread exposes a pixel does not show.
-    pub fn expose(&mut self, expose: impl Fn(u32, u32, &mut Accumulator) + Sync) {
-        // Short runs of pixels: neighbours share what is in the cache, threads end together.
-        const RUN: usize = 16;
-        let width = self.width as usize;
-        self.pixels
-            .par_chunks_mut(RUN)
-            .enumerate()
-            .for_each(|(run, pixels)| {
-                for (offset, pixel) in pixels.iter_mut().enumerate() {
-                    let place = run * RUN + offset;
-                    expose((place % width) as u32, (place / width) as u32, pixel);
-                }
-            });
-    }
-
-    /// Adds another film's samples.
+    /// The sums of a pixel.
     ///
     /// # Panics
     ///
-    /// If the films have different sizes.
-    pub fn merge(&mut self, other: &Self) {
-        assert_eq!(
-            (self.width, self.height, self.channels),
-            (other.width, other.height, other.channels),
-            "films of one size are merged"
+    /// If it is outside the film.
+    pub fn pixel(&self, x: u32, y: u32) -> Pixel<'_> {
+        assert!(
+            x < self.width && y < self.height,
+            "the pixel is on the film"
         );
-        for (own, others) in self.pixels.iter_mut().zip(&other.pixels) {
-            own.merge(others);
+        let (column, row) = (x / BLOCK_SIDE, y / BLOCK_SIDE);
+        let height = BLOCK_SIDE.min(self.height - row * BLOCK_SIDE) as usize;
+        let width = BLOCK_SIDE.min(self.width - column * BLOCK_SIDE) as usize;
+        let corner = (row * BLOCK_SIDE) as usize * self.width as usize
+            + (column * BLOCK_SIDE) as usize * height;
+        let place = corner + (y % BLOCK_SIDE) as usize * width + (x % BLOCK_SIDE) as usize;
+        let block = row as usize * self.blocks_across() + column as usize;
+        let rejected = self.faults.rejected.get(&place).copied().unwrap_or(0);
+        Pixel {
+            moments: &self.moments[place * self.channels..][..self.channels],
+            position: &self.positions[place],
+            surface: &self.surfaces[place],
+            albedo: self.albedos.get(place),
+            samples: self.drawn[block] - rejected,
         }
     }
 
-    /// One channel's means, row by row from the top; 0 where no sample fell.
-    pub fn mean(&self, channel: usize) -> Vec<f32> {
-        self.pixels
-            .iter()
-            .map(|pixel| pixel.mean(channel) as f32)
+    /// Something of every pixel, row by row from the top, worked out on the current thread pool.
+    pub fn map<T: Send>(&self, of: impl Fn(&Pixel<'_>) -> T + Sync) -> Vec<T> {
+        let width = self.width as usize;
+        (0..self.positions.len())
+            .into_par_iter()
+            .with_min_len(width)
+            .map(|place| of(&self.pixel((place % width) as u32, (place / width) as u32)))
             .collect()
+    }
+
+    /// One channel's means; 0 where no sample fell.
+    pub fn mean(&self, channel: usize) -> Vec<f32> {
+        self.map(|pixel| pixel.mean(channel) as f32)
     }
 
     /// One channel's variances of the mean, as if samples were independent; 0 below two samples.
     ///
     /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of the error.
     pub fn variance_of_mean(&self, channel: usize) -> Vec<f32> {
-        self.pixels
-            .iter()
-            .map(|pixel| pixel.variance_of_mean(channel) as f32)
-            .collect()
+        self.map(|pixel| pixel.variance_of_mean(channel) as f32)
+    }
+
+    /// Lets `expose` add samples to every block, spread over the current thread pool. Which thread exposes a block does
+    /// not show.
+    pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
+        let (width, height, channels) = (self.width, self.height, self.channels);
+        let across = self.blocks_across();
+        let row_pixels = (BLOCK_SIDE * width) as usize;
+        let rows = self.drawn.len() / across;
+        let faults = Mutex::new(Faults::default());
+        let rows = self
+            .drawn
+            .par_chunks_mut(across)
+            .zip(self.moments.par_chunks_mut(row_pixels * channels))
+            .zip(self.positions.par_chunks_mut(row_pixels))
+            .zip(self.surfaces.par_chunks_mut(row_pixels))
+            .zip(chunks_or_nothing(&mut self.albedos, row_pixels, rows));
+        rows.enumerate().for_each(
+            |(row, ((((drawn, moments), positions), surfaces), albedos))| {
+                let y = row as u32 * BLOCK_SIDE;
+                let pixels = (BLOCK_SIDE * BLOCK_SIDE.min(height - y)) as usize;
+                let blocks = drawn
+                    .par_iter_mut()
+                    .zip(moments.par_chunks_mut(pixels * channels))
+                    .zip(positions.par_chunks_mut(pixels))
+                    .zip(surfaces.par_chunks_mut(pixels))
+                    .zip(chunks_or_nothing(albedos, pixels, across));
+                blocks.enumerate().for_each(
+                    |(column, ((((drawn, moments), positions), surfaces), albedos))| {
+                        let x = column as u32 * BLOCK_SIDE;
+                        let mut block = Block {
+                            x,
+                            y,
+                            width: BLOCK_SIDE.min(width - x),
+                            place: row * row_pixels + column * pixels,
+                            channels,
+                            drawn,
+                            moments,
+                            positions,
+                            surfaces,
+                            albedos,
+                            faults: Faults::default(),
+                        };
+                        expose(&mut block);
+                        if !block.faults.is_empty() {
+                            let mut all = faults.lock().unwrap_or_else(PoisonError::into_inner);
+                            all.merge(&block.faults);
+                        }
+                    },
+                );
+            },
+        );
+        let found = faults.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.faults.merge(&found);
+    }
+
+    /// Adds another film's samples. Sums add up exactly, whichever samples the films have; they should have no sample
+    /// in common.
+    ///
+    /// # Panics
+    ///
+    /// If the films have different sizes.
+    pub fn merge(&mut self, other: &Self) {
+        let size = |film: &Self| (film.width, film.height, film.channels, film.albedos.len());
+        assert_eq!(size(self), size(other), "films of one size are merged");
+        merge_each(&mut self.drawn, &other.drawn, |own, other| *own += other);
+        merge_each(&mut self.moments, &other.moments, Moments::merge);
+        merge_each(&mut self.positions, &other.positions, Positions::merge);
+        merge_each(&mut self.surfaces, &other.surfaces, Surface::merge);
+        merge_each(&mut self.albedos, &other.albedos, Albedos::merge);
+        self.faults.merge(&other.faults);
     }
 
     /// Samples that were rejected because a value was not finite.
     pub fn rejected(&self) -> u64 {
-        self.pixels
-            .iter()
-            .map(|pixel| u64::from(pixel.rejected()))
-            .sum()
+        let counts = self.faults.rejected.values();
+        counts.map(|&count| u64::from(count)).sum()
     }
 
     /// Values that were clamped.
     pub fn clamped(&self) -> u64 {
-        self.pixels
-            .iter()
-            .map(|pixel| u64::from(pixel.clamped()))
+        self.faults.clamped
+    }
+
+    /// Samples that were drawn, rejected ones included.
+    pub fn drawn(&self) -> u64 {
+        let blocks = (0..).zip(&self.drawn);
+        blocks
+            .map(|(block, &drawn)| u64::from(drawn) * u64::from(self.pixels_of(block)))
             .sum()
     }
 
-    /// Samples that count.
-    pub fn samples(&self) -> u64 {
-        self.pixels
-            .iter()
-            .map(|pixel| u64::from(pixel.samples()))
-            .sum()
+    /// Fewest and most samples of a pixel, rejected ones included.
+    pub fn drawn_range(&self) -> [u32; 2] {
+        let fewest = self.drawn.iter().copied().min();
+        let most = self.drawn.iter().copied().max();
+        [fewest, most].map(|count| count.expect("a film has a pixel"))
+    }
+
+    fn blocks_across(&self) -> usize {
+        self.width.div_ceil(BLOCK_SIDE) as usize
+    }
+
+    /// Pixels of a block.
+    fn pixels_of(&self, block: usize) -> u32 {
+        let corner = [block % self.blocks_across(), block / self.blocks_across()]
+            .map(|place| place as u32 * BLOCK_SIDE);
+        BLOCK_SIDE.min(self.width - corner[0]) * BLOCK_SIDE.min(self.height - corner[1])
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Adds to each of `own` the one of `others` at its place.
+fn merge_each<T: Send + Sync>(own: &mut [T], others: &[T], add: impl Fn(&mut T, &T) + Sync) {
+    own.par_iter_mut()
+        .zip(others)
+        .with_min_len(4096)
+        .for_each(|(own, other)| add(own, other));
+}
 
-    #[test]
-    fn a_film_that_would_not_fit_is_refused_with_its_size() {
-        assert!(matches!(
-            Film::new(1 << 20, 1 << 20, 3),
-            Err(FilmError::TooLarge { .. })
-        ));
-        assert!(matches!(
-            Film::new(u32::MAX, u32::MAX, 32),
-            Err(FilmError::TooLarge { .. })
-        ));
-        assert!(matches!(Film::new(0, 5, 3), Err(FilmError::Empty { .. })));
-    }
-
-    #[test]
-    fn every_pixel_is_exposed_once_at_its_own_place() {
-        let mut film = Film::new(37, 23, 2).expect("a small film");
-        film.expose(|x, y, pixel| pixel.add(&[x as f32, y as f32]));
-        for (place, pixel) in film.pixels().iter().enumerate() {
-            assert_eq!(pixel.mean(0), (place % 37) as f64);
-            assert_eq!(pixel.mean(1), (place / 37) as f64);
-            assert_eq!(pixel.samples(), 1);
-        }
-    }
+/// Chunks of what may not be there at all: then `count` empty ones.
+fn chunks_or_nothing<T>(all: &mut [T], size: usize, count: usize) -> Vec<&mut [T]> {
+    let mut chunks: Vec<&mut [T]> = all.chunks_mut(size).collect();
+    chunks.resize_with(count, Default::default);
+    chunks
 }

@@ -36,8 +36,8 @@ pub fn picture_of(text: &str, seed: u64) -> Rendered {
 
 /// Mean of one channel over all pixels.
 pub fn mean_of(rendered: &Rendered, channel: usize) -> f64 {
-    let pixels = rendered.film.pixels();
-    pixels.iter().map(|pixel| pixel.mean(channel)).sum::<f64>() / pixels.len() as f64
+    let means = rendered.film.map(|pixel| pixel.mean(channel));
+    means.iter().sum::<f64>() / means.len() as f64
 }
 
 /// Mean of one channel over all pixels and seeds, and the standard error of that mean from the scatter over seeds.

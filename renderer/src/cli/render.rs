@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     reporter.finish();
     let trace_seconds = tracing.elapsed().as_secs_f64();
     write_picture(&scene, &world, &job, &rendered, &exr, &png)?;
-    let paths = rendered.film.samples() + rendered.film.rejected();
+    let paths = rendered.film.drawn();
     let seconds = started.elapsed().as_secs_f64();
     let rays_per_second = rendered.rays as f64 / trace_seconds;
     let paths_per_second = paths as f64 / trace_seconds;
@@ -151,11 +151,7 @@ fn write_picture(
 fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
     let film = &rendered.film;
     let FilmKind::Spectral { bands } = &scene.film.kind else {
-        return film
-            .pixels()
-            .iter()
-            .map(|pixel| [0, 1, 2].map(|i| pixel.mean(i) as f32))
-            .collect();
+        return film.map(|pixel| [0, 1, 2].map(|i| pixel.mean(i) as f32));
     };
     // Bands within the visible stand for the wavelengths around them; a film without any is shown grey.
     let nearest = |nm: f64| {
@@ -174,20 +170,17 @@ fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
             *sum += value as f32;
         }
     }
-    film.pixels()
-        .iter()
-        .map(|pixel| {
-            if !in_sight {
-                let mean = (0..bands.len()).map(|band| pixel.mean(band)).sum::<f64>();
-                return [(mean / bands.len() as f64) as f32; 3];
+    film.map(|pixel| {
+        if !in_sight {
+            let mean = (0..bands.len()).map(|band| pixel.mean(band)).sum::<f64>();
+            return [(mean / bands.len() as f64) as f32; 3];
+        }
+        let mut colour = [0.0; 3];
+        for (band, weight) in weights.iter().enumerate() {
+            for (sum, value) in colour.iter_mut().zip(weight) {
+                *sum += value * pixel.mean(band) as f32;
             }
-            let mut colour = [0.0; 3];
-            for (band, weight) in weights.iter().enumerate() {
-                for (sum, value) in colour.iter_mut().zip(weight) {
-                    *sum += value * pixel.mean(band) as f32;
-                }
-            }
-            colour
-        })
-        .collect()
+        }
+        colour
+    })
 }

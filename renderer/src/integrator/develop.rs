@@ -1,21 +1,22 @@
 //! From the film's sums to the layers of a picture.
 
-use glam::Vec2;
+use glam::DVec3;
 
+use crate::film::Pixel;
 use crate::image::openexr::{spectral_attributes, spectral_channel_name};
 use crate::image::{Attribute, Layer, Picture, REC709};
 use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Camera as CameraBlock, Description, FilmKind};
 use crate::scene::world::World;
 
-/// The picture with all its layers and what is to be known about it.
+/// The picture with all its layers and what is to be known about it, worked out on the current thread pool.
 ///
 /// Colour: `R G B A`, `albedo.*`, `variance.*`. Bands: `S0.<nm>nm` in the layout of Fichet, Pacanowski and Wilkie
-/// (JCGT 10(3), 2021), `variance.S0.<nm>nm`, `A`. Both: `depth.Z` (m), `P.*` (m), `N.*`, `samples.Y`, `id.object`
-/// (object number + 1 at the pixel's middle, 0 for none), means over the samples that met something.
+/// (JCGT 10(3), 2021), `variance.S0.<nm>nm`, `A`. Both: `P.*` (m), `N.*`, means over covered samples among the first
+/// [`crate::film::FEATURE_SAMPLES`]; `depth.Z` (m), the distance of P from the camera; `samples.Y`; `id.object`, the number + 1 of
+/// the object that the pixel's first sample met, 0 for none.
 pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendered) -> Picture {
     let film = &rendered.film;
-    let layout = rendered.layout;
     let beauty: Vec<String> = match &scene.film.kind {
         FilmKind::Rgb { .. } => ["R", "G", "B"].map(str::to_owned).to_vec(),
         FilmKind::Spectral { bands } => bands
@@ -24,64 +25,32 @@ pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendere
             .collect(),
     };
     let mut layers = Vec::new();
-    for (channel, name) in beauty.iter().enumerate() {
-        layers.push(Layer {
-            name: name.clone(),
-            data: film.mean(channel),
-        });
-        let variance = film.variance_of_mean(channel);
-        layers.push(Layer {
-            name: format!("variance.{name}"),
-            data: variance,
-        });
-    }
-    let alpha = film.mean(layout.alpha());
-    let mut covered = |name: &str, channel: usize| {
-        let mut data = film.mean(channel);
-        for (value, alpha) in data.iter_mut().zip(&alpha) {
-            *value = if *alpha > 0.0 { *value / alpha } else { 0.0 };
-        }
-        layers.push(Layer {
-            name: name.to_owned(),
-            data,
-        });
+    let mut layer = |name: &str, data: Vec<f32>| {
+        let name = name.to_owned();
+        layers.push(Layer { name, data });
     };
-    covered("depth.Z", layout.depth());
+    for (channel, name) in beauty.iter().enumerate() {
+        layer(name, film.mean(channel));
+        layer(&format!("variance.{name}"), film.variance_of_mean(channel));
+    }
+    layer("A", film.map(|pixel| pixel.alpha() as f32));
+    layer("depth.Z", film.map(|pixel| depth(&scene.camera, pixel)));
     for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
-        covered(&format!("P.{letter}"), layout.position() + axis);
-        covered(&format!("N.{letter}"), layout.normal() + axis);
+        let position = |pixel: &Pixel<'_>| pixel.position().map_or(0.0, |p| p[axis] as f32);
+        layer(&format!("P.{letter}"), film.map(position));
+        layer(
+            &format!("N.{letter}"),
+            film.map(|pixel| pixel.normal()[axis] as f32),
+        );
     }
-    if layout.albedo {
+    if rendered.layout.albedo {
         for (component, letter) in ["R", "G", "B"].into_iter().enumerate() {
-            covered(&format!("albedo.{letter}"), layout.albedo() + component);
-        }
-        for layer in layers
-            .iter_mut()
-            .filter(|layer| layer.name.starts_with("albedo"))
-        {
-            layer
-                .data
-                .iter_mut()
-                .for_each(|value| *value = value.clamp(0.0, 1.0));
+            let albedo = |pixel: &Pixel<'_>| pixel.albedo()[component].clamp(0.0, 1.0) as f32;
+            layer(&format!("albedo.{letter}"), film.map(albedo));
         }
     }
-    layers.push(Layer {
-        name: "A".to_owned(),
-        data: alpha,
-    });
-    let samples = film
-        .pixels()
-        .iter()
-        .map(|pixel| pixel.samples() as f32)
-        .collect();
-    layers.push(Layer {
-        name: "samples.Y".to_owned(),
-        data: samples,
-    });
-    layers.push(Layer {
-        name: "id.object".to_owned(),
-        data: object_numbers(world, job),
-    });
+    layer("samples.Y", film.map(|pixel| pixel.samples() as f32));
+    layer("id.object", film.map(|pixel| pixel.object() as f32));
     Picture {
         width: job.width,
         height: job.height,
@@ -90,20 +59,13 @@ pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendere
     }
 }
 
-/// Number + 1 of the object in the middle of each pixel, seen through the middle of the lens.
-fn object_numbers(world: &World, job: &Job) -> Vec<f32> {
-    let mut numbers = Vec::with_capacity(job.width as usize * job.height as usize);
-    for y in 0..job.height {
-        for x in 0..job.width {
-            let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-            let ray = world.camera.ray(middle, Vec2::splat(0.5));
-            let hit = world.geometry.intersect(&ray);
-            numbers.push(hit.map_or(0.0, |hit| {
-                (world.objects[hit.instance as usize].object + 1) as f32
-            }));
-        }
-    }
-    numbers
+/// Distance of a pixel's mean point from the middle of the lens, m; 0 where nothing is covered.
+///
+/// Points that a pixel sees lie along one line but for its width and the blur of the lens, so this is the mean distance nearly.
+fn depth(camera: &CameraBlock, pixel: &Pixel<'_>) -> f32 {
+    pixel.position().map_or(0.0, |position| {
+        (DVec3::from_array(position) - camera.position).length() as f32
+    })
 }
 
 fn attributes(
@@ -172,7 +134,7 @@ fn attributes(
 fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
     let axes = crate::camera::Camera::axes(camera);
     let (right, up, back) = (axes.x_axis, axes.y_axis, -axes.z_axis);
-    let offset = |axis: glam::DVec3| -axis.dot(camera.position);
+    let offset = |axis: DVec3| -axis.dot(camera.position);
     let to_camera = glam::DMat4::from_cols_array(&[
         right.x,
         up.x,

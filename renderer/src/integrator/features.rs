@@ -1,21 +1,21 @@
 //! What a picture records besides radiance: layers for compositing and denoising.
 
-use crate::integrator::path::{FirstHit, PathResult};
+use crate::film::{FEATURE_SAMPLES, Feature};
+use crate::integrator::path::PathResult;
 use crate::spectrum::cie;
 use crate::spectrum::{Curve, Spectrum, WavelengthSampler, Wavelengths};
 
-/// Values of a sample, in this order: the film's own channels (R, G, B or bands), coverage, then sums over
-/// covered samples of distance, position, normal and, on a colour film, albedo.
+/// What a film of some kind records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// R, G, B or the bands.
+    /// Channels: R, G, B or the bands.
     pub beauty: usize,
     /// Whether albedo is recorded.
     pub albedo: bool,
 }
 
-/// Most values of a sample: 32 bands and the layers.
-pub const MOST_CHANNELS: usize = 48;
+/// Most channels of a film: 32 bands.
+pub const MOST_CHANNELS: usize = 32;
 
 impl Layout {
     /// For a film of this kind.
@@ -26,64 +26,28 @@ impl Layout {
         }
     }
 
-    /// Place of coverage.
-    pub fn alpha(self) -> usize {
-        self.beauty
-    }
-
-    /// Place of distance.
-    pub fn depth(self) -> usize {
-        self.beauty + 1
-    }
-
-    /// Place of x of the position.
-    pub fn position(self) -> usize {
-        self.beauty + 2
-    }
-
-    /// Place of x of the normal.
-    pub fn normal(self) -> usize {
-        self.beauty + 5
-    }
-
-    /// Place of red of the albedo.
-    pub fn albedo(self) -> usize {
-        self.beauty + 8
-    }
-
-    /// Values of a sample.
-    pub fn channels(self) -> usize {
-        self.beauty + 8 + if self.albedo { 3 } else { 0 }
-    }
-
-    /// Fills a sample's values from what its path found; albedo is shown under the light `white`.
-    pub fn fill<const N: usize>(
+    /// What the path of sample number `number` met first, if anything; albedo is shown under the light `white`, and worked
+    /// out only where it is recorded.
+    pub fn feature<const N: usize>(
         self,
+        number: u32,
         sampler: &WavelengthSampler,
         wavelengths: &Wavelengths<N>,
         found: &PathResult<N>,
         white: &Spectrum,
-        values: &mut [f32],
-    ) {
-        sampler.film_values(wavelengths, &found.radiance, &mut values[..self.beauty]);
-        values[self.beauty..].fill(0.0);
-        let Some(FirstHit {
-            distance,
-            position,
-            normal,
-            albedo,
-        }) = &found.first
-        else {
-            return;
-        };
-        values[self.alpha()] = 1.0;
-        values[self.depth()] = *distance;
-        values[self.position()..][..3].copy_from_slice(&position.to_array());
-        values[self.normal()..][..3].copy_from_slice(&normal.to_array());
-        if self.albedo {
-            let seen = *albedo * white.lanes(wavelengths);
-            sampler.film_values(wavelengths, &seen, &mut values[self.albedo()..][..3]);
+    ) -> Option<Feature> {
+        let first = found.first.as_ref()?;
+        let mut albedo = [0.0; 3];
+        if self.albedo && number < FEATURE_SAMPLES {
+            let seen = first.albedo * white.lanes(wavelengths);
+            sampler.film_values(wavelengths, &seen, &mut albedo);
         }
+        Some(Feature {
+            position: first.position.to_array(),
+            normal: first.normal.to_array(),
+            albedo,
+            object: first.object,
+        })
     }
 }
 

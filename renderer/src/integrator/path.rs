@@ -41,6 +41,8 @@ pub struct FirstHit<const N: usize> {
     pub normal: Vec3,
     /// Share of light that the surface scatters.
     pub albedo: Lanes<N>,
+    /// Number of the object in the scene.
+    pub object: u32,
 }
 
 /// Radiance that arrives along `ray`, whose direction is a unit vector.
@@ -91,6 +93,7 @@ pub fn trace<const N: usize>(
                 position: surface.position,
                 normal: facing,
                 albedo: bsdf.albedo(),
+                object: world.objects[surface.instance as usize].object as u32,
             });
         }
         if world.integrator.max_depth.is_some_and(|most| depth >= most) {

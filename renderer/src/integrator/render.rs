@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::Vec2;
 
-use crate::film::{Accumulator, Film, FilmError};
+use crate::film::{Film, FilmError, PixelSums};
 use crate::integrator::features::{self, Layout, MOST_CHANNELS};
 use crate::integrator::path;
 use crate::sampling::stream::Stream;
@@ -51,8 +51,8 @@ const LONGEST_PASS: u32 = 16;
 
 /// Renders on the current thread pool.
 ///
-/// After each pass and now and then within it `progress` is told; once `stop` is set, pixels that were not yet begun
-/// in this pass are left as they are, and what was rendered is returned.
+/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet begun in this pass are left
+/// as they are, and what was rendered is returned.
 ///
 /// # Errors
 ///
@@ -64,7 +64,7 @@ pub fn render(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Rendered, FilmError> {
     let layout = Layout::new(&world.wavelengths);
-    let mut film = Film::new(job.width, job.height, layout.channels())?;
+    let mut film = Film::new(job.width, job.height, layout.beauty, layout.albedo)?;
     let rays = AtomicU64::new(0);
     let paths = AtomicU64::new(0);
     let total = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
@@ -72,29 +72,31 @@ pub fn render(
     let mut first = 0;
     while first < job.spp && !stop.load(Ordering::Relaxed) {
         let pass = first.clamp(1, LONGEST_PASS).min(job.spp - first);
-        film.expose(|x, y, pixel| {
+        film.expose(|block| {
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            let samples = Samples {
-                world,
-                job,
-                layout,
-                white: &white,
-                x,
-                y,
-            };
-            let traced = match world.wavelengths.grid().lanes() {
-                4 => samples.add::<4>(first, first + pass, pixel),
-                8 => samples.add::<8>(first, first + pass, pixel),
-                16 => samples.add::<16>(first, first + pass, pixel),
-                _ => samples.add::<32>(first, first + pass, pixel),
-            };
+            let mut traced = 0;
+            block.expose(pass, |x, y, pixel| {
+                let samples = Samples {
+                    world,
+                    job,
+                    layout,
+                    white: &white,
+                    x,
+                    y,
+                };
+                traced += match world.wavelengths.grid().lanes() {
+                    4 => samples.add::<4>(first, first + pass, pixel),
+                    8 => samples.add::<8>(first, first + pass, pixel),
+                    16 => samples.add::<16>(first, first + pass, pixel),
+                    _ => samples.add::<32>(first, first + pass, pixel),
+                };
+            });
             rays.fetch_add(traced, Ordering::Relaxed);
-            let done = paths.fetch_add(u64::from(pass), Ordering::Relaxed) + u64::from(pass);
-            if x == 0 {
-                progress(Progress { paths: done, total });
-            }
+            let added = u64::from(pass) * u64::from(block.pixels());
+            let paths = paths.fetch_add(added, Ordering::Relaxed) + added;
+            progress(Progress { paths, total });
         });
         first += pass;
     }
@@ -102,7 +104,7 @@ pub fn render(
         paths: paths.load(Ordering::Relaxed),
         total,
     });
-    let interrupted = film.samples() + film.rejected() < total;
+    let interrupted = film.drawn() < total;
     Ok(Rendered {
         film,
         layout,
@@ -123,10 +125,10 @@ struct Samples<'a> {
 
 impl Samples<'_> {
     /// Adds samples number `first` to `end − 1`; gives the number of rays.
-    fn add<const N: usize>(&self, first: u32, end: u32, pixel: &mut Accumulator) -> u64 {
+    fn add<const N: usize>(&self, first: u32, end: u32, pixel: &mut PixelSums<'_>) -> u64 {
         let mut rays = 0;
         let mut values = [0.0; MOST_CHANNELS];
-        let values = &mut values[..self.layout.channels()];
+        let values = &mut values[..self.layout.beauty];
         for sample in first..end {
             let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
             let [film_x, film_y, lens_x, lens_y] = stream.next4();
@@ -138,9 +140,11 @@ impl Samples<'_> {
             let found = path::trace(self.world, ray, wavelengths, &mut stream);
             rays += u64::from(found.rays);
             let sampler = &self.world.wavelengths;
-            self.layout
-                .fill(sampler, &wavelengths, &found, self.white, values);
-            pixel.add(values);
+            sampler.film_values(&wavelengths, &found.radiance, values);
+            let feature = self
+                .layout
+                .feature(sample, sampler, &wavelengths, &found, self.white);
+            pixel.add(sample, values, feature.as_ref());
         }
         rays
     }

@@ -1,0 +1,136 @@
+//! Blocks of pixels: what one thread exposes at a time, and what gets the same number of samples.
+
+use std::collections::BTreeMap;
+
+use super::features::{Albedos, Feature, Positions, Surface};
+use super::moments::Moments;
+
+/// Pixels along a block's sides; blocks at the right and lower border may have fewer.
+pub const BLOCK_SIDE: u32 = 8;
+
+/// Samples that were not taken as they came. Both are rare, so nothing is kept for pixels without any.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Faults {
+    /// Samples that were rejected, by the place of their pixel in the film.
+    pub(super) rejected: BTreeMap<usize, u32>,
+    /// Values that were clamped.
+    pub(super) clamped: u64,
+}
+
+impl Faults {
+    pub(super) fn merge(&mut self, other: &Self) {
+        for (&place, count) in &other.rejected {
+            *self.rejected.entry(place).or_default() += count;
+        }
+        self.clamped += other.clamped;
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.rejected.is_empty() && self.clamped == 0
+    }
+}
+
+/// A block that is being exposed. All its pixels have the same number of samples.
+#[derive(Debug)]
+pub struct Block<'a> {
+    /// Column of its first pixel.
+    pub(super) x: u32,
+    /// Row of its first pixel.
+    pub(super) y: u32,
+    /// Pixels across.
+    pub(super) width: u32,
+    /// Place of its first pixel in the film.
+    pub(super) place: usize,
+    pub(super) channels: usize,
+    pub(super) drawn: &'a mut u32,
+    pub(super) moments: &'a mut [Moments],
+    pub(super) positions: &'a mut [Positions],
+    pub(super) surfaces: &'a mut [Surface],
+    /// Empty on films without albedo.
+    pub(super) albedos: &'a mut [Albedos],
+    pub(super) faults: Faults,
+}
+
+impl Block<'_> {
+    /// Samples that each pixel has so far, rejected ones included: the number of the next.
+    pub fn drawn(&self) -> u32 {
+        *self.drawn
+    }
+
+    /// Column and row of its first pixel.
+    pub fn corner(&self) -> [u32; 2] {
+        [self.x, self.y]
+    }
+
+    /// Number of pixels.
+    pub fn pixels(&self) -> u32 {
+        self.positions.len() as u32
+    }
+
+    /// Adds the next `samples` of every pixel: `expose` is called with column, row and where to put them, and has to add as many.
+    pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
+        let places = self
+            .moments
+            .chunks_exact_mut(self.channels)
+            .zip(self.positions.iter_mut())
+            .zip(self.surfaces.iter_mut());
+        let mut albedos = self.albedos.iter_mut();
+        for (within, ((moments, position), surface)) in (0_u32..).zip(places) {
+            let mut pixel = PixelSums {
+                moments,
+                position,
+                surface,
+                albedo: albedos.next(),
+                rejected: 0,
+                clamped: 0,
+            };
+            let (column, row) = (within % self.width, within / self.width);
+            expose(self.x + column, self.y + row, &mut pixel);
+            self.faults.clamped += pixel.clamped;
+            if pixel.rejected > 0 {
+                let place = self.place + within as usize;
+                *self.faults.rejected.entry(place).or_default() += pixel.rejected;
+            }
+        }
+        *self.drawn += samples;
+    }
+}
+
+/// Where a pixel's samples go.
+#[derive(Debug)]
+pub struct PixelSums<'a> {
+    moments: &'a mut [Moments],
+    position: &'a mut Positions,
+    surface: &'a mut Surface,
+    albedo: Option<&'a mut Albedos>,
+    rejected: u32,
+    clamped: u64,
+}
+
+impl PixelSums<'_> {
+    /// Adds sample number `number`: a value for each channel, and what the camera ray met.
+    ///
+    /// A sample with a value that is not finite is rejected whole and counted; a channel's value beyond ±2³⁰ is clamped
+    /// and counted.
+    pub fn add(&mut self, number: u32, values: &[f32], feature: Option<&Feature>) {
+        debug_assert_eq!(values.len(), self.moments.len(), "a value a channel");
+        let finite =
+            values.iter().all(|value| value.is_finite()) && feature.is_none_or(Feature::is_finite);
+        if !finite {
+            self.rejected += 1;
+            return;
+        }
+        for (moments, &value) in self.moments.iter_mut().zip(values) {
+            self.clamped += u64::from(moments.add(value));
+        }
+        let Some(feature) = feature else {
+            return;
+        };
+        if self.surface.add(number, feature) {
+            self.position.add(feature.position);
+            if let Some(albedo) = &mut self.albedo {
+                albedo.add(feature.albedo);
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Sum and sum of squares of one channel of one pixel.
+
+use super::fixed::{MOST, ONE, value_and_square};
+
+/// First two moments of a channel's samples, in units of 2⁻⁶⁴.
+///
+/// Integer addition is associative, so parts of a picture merge to the same bits in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Moments {
+    /// Sum of the samples.
+    sum: i128,
+    /// Sum of their squares; stays at the greatest number where a value beyond 2²⁷ comes a thousand times.
+    squares: u128,
+}
+
+impl Moments {
+    /// Adds a finite value; whether it had to be clamped to ±2³⁰.
+    pub fn add(&mut self, value: f32) -> bool {
+        let taken = value.clamp(-MOST, MOST);
+        let (sum, square) = value_and_square(taken);
+        self.sum += sum;
+        self.squares = self.squares.saturating_add(square);
+        taken != value
+    }
+
+    /// Adds another one's samples.
+    pub fn merge(&mut self, other: &Self) {
+        self.sum += other.sum;
+        self.squares = self.squares.saturating_add(other.squares);
+    }
+
+    /// Sum of the samples.
+    pub fn sum(&self) -> f64 {
+        self.sum as f64 / ONE
+    }
+
+    /// Mean over `samples`; 0 without any.
+    pub fn mean(&self, samples: u32) -> f64 {
+        if samples == 0 {
+            0.0
+        } else {
+            self.sum() / f64::from(samples)
+        }
+    }
+
+    /// Unbiased sample variance over `samples`, the number of samples; 0 below two.
+    pub fn variance_of_mean(&self, samples: u32) -> f64 {
+        if samples < 2 {
+            return 0.0;
+        }
+        let count = f64::from(samples);
+        let mean = self.mean(samples);
+        let square = self.squares as f64 / ONE / count;
+        (square - mean * mean).max(0.0) / (count - 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_and_variance_are_those_of_the_samples() {
+        let (mut rising, mut constant) = (Moments::default(), Moments::default());
+        for i in 0..100 {
+            rising.add(i as f32);
+            constant.add(0.25);
+        }
+        assert!((rising.mean(100) - 49.5).abs() < 1e-12);
+        // Variance of 0 … 99 with n − 1 is 841.666…; of the mean a hundredth of that.
+        assert!((rising.variance_of_mean(100) - 8.416_666_666).abs() < 1e-6);
+        assert_eq!(constant.mean(100), 0.25);
+        assert_eq!(constant.variance_of_mean(100), 0.0);
+    }
+
+    #[test]
+    fn a_huge_value_is_clamped_and_says_so() {
+        let mut moments = Moments::default();
+        assert!(moments.add(1e30));
+        assert!(!moments.add(3.0));
+        assert_eq!(moments.sum(), f64::from(MOST) + 3.0);
+    }
+
+    #[test]
+    fn squares_that_no_longer_fit_stay_at_the_most() {
+        let mut moments = Moments::default();
+        for _ in 0..100 {
+            moments.add(MOST);
+        }
+        assert_eq!(moments.squares, u128::MAX);
+        assert_eq!(moments.mean(100), f64::from(MOST));
+    }
+}
