@@ -39,6 +39,11 @@ impl Camera {
         }
     }
 
+    /// Whether rays start from more than one point.
+    pub fn has_lens(&self) -> bool {
+        self.lens_radius > 0.0
+    }
+
     /// Unit vectors to the right of the picture, up, and into the scene.
     pub fn axes(camera: &description::Camera) -> DMat3 {
         let forward = (camera.look_at - camera.position).normalize_or(DVec3::NEG_Z);

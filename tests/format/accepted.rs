@@ -50,7 +50,7 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
     );
     assert_eq!(
         (scene.integrator.max_depth, scene.integrator.roulette_below),
-        (None, 0.25)
+        (None, 0.1)
     );
     assert_eq!((scene.camera.up, scene.camera.lens_radius), (DVec3::Z, 0.0));
     assert_near(scene.camera.focus_distance, 1.25_f64.sqrt());

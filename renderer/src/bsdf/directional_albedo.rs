@@ -26,6 +26,12 @@ const LATTICE: (u32, u32) = (6765, 4181);
 impl DirectionalAlbedo {
     /// Of a GGX coat with refractive index `eta`.
     pub fn new(ggx: Ggx, eta: f32) -> Self {
+        if eta == 1.0 {
+            return Self {
+                values: Box::new([[0.0; MU_NODES]]),
+                mean: 0.0,
+            };
+        }
         let azimuths = if ggx.alpha_x == ggx.alpha_y {
             1
         } else {

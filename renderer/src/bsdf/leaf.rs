@@ -41,6 +41,16 @@ impl Coat {
         self.eta != 1.0
     }
 
+    /// `E(w)`.
+    #[inline]
+    fn reflected(&self, w: Vec3) -> f32 {
+        if self.shines() {
+            self.albedo.at(w)
+        } else {
+            0.0
+        }
+    }
+
     /// What the coat's lobe reflects, by direction.
     pub fn albedo(&self) -> &DirectionalAlbedo {
         &self.albedo
@@ -166,7 +176,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         let side = usize::from(wo.z < 0.0);
         let coats = [&self.coats[side], &self.coats[1 - side]];
         let [coat, _] = coats;
-        let albedo = coat.albedo.at(wo);
+        let albedo = coat.reflected(wo);
         let passed = 1.0 - albedo;
         let reflectance = self.tissue.reflectance[side];
         let transmittance = self.tissue.transmittance[side];
@@ -229,12 +239,12 @@ impl<const N: usize> LeafView<'_, N> {
         let cosine = wi.z.abs() * FRAC_1_PI;
         if self.wo.z * wi.z < 0.0 {
             return Scattered {
-                f: self.through * (1.0 - other.albedo.at(wi)),
+                f: self.through * (1.0 - other.reflected(wi)),
                 pdf: transmitted * cosine,
             };
         }
         let diffuse = Scattered {
-            f: self.reflecting * (1.0 - coat.albedo.at(wi)),
+            f: self.reflecting * (1.0 - coat.reflected(wi)),
             pdf: reflected * cosine,
         };
         if !coat.shines() {

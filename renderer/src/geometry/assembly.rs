@@ -95,6 +95,9 @@ pub(super) struct Placement {
     pub(super) offset: DVec3,
     /// Takes normals to the world.
     pub(super) normals: DMat3,
+    /// The same in single precision, for directions that are made unit.
+    pub(super) linear_f32: Mat3,
+    pub(super) normals_f32: Mat3,
     carrier: Carrier,
 }
 
@@ -161,6 +164,8 @@ impl Placement {
             linear,
             offset,
             normals: inverse.transpose(),
+            linear_f32: rescaled(linear),
+            normals_f32: rescaled(inverse.transpose()),
             carrier,
         })
     }
@@ -180,6 +185,12 @@ impl Placement {
             translation: self.offset,
         })
     }
+}
+
+/// A transform of directions in single precision, scaled so that its numbers are near 1.
+fn rescaled(matrix: DMat3) -> Mat3 {
+    let size = matrix.x_axis.length() + matrix.y_axis.length() + matrix.z_axis.length();
+    (matrix * (1.0 / size)).as_mat3()
 }
 
 impl TracedMesh {

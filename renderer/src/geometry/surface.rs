@@ -1,6 +1,6 @@
 //! The point of a surface that a ray hit, and rays that leave it.
 
-use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 
 use super::assembly::{Hit, Placement};
 use super::mesh::TriangleMesh;
@@ -84,7 +84,9 @@ impl SurfacePoint {
         let stretch = normal_world.length();
         let geometric = normal_world / stretch;
 
-        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let edges = [b - a, c - b, a - c].map(glam::DVec3::length_squared);
+        let longest2 = edges[0].max(edges[1]).max(edges[2]);
+        let longest = longest2.sqrt();
         let error = {
             // Rounding `world` to f32, and then the sum that moves off the surface.
             let rounding = geometric.abs().dot(world.abs()) * (2.0 * ROUNDING);
@@ -93,15 +95,18 @@ impl SurfacePoint {
             let carried = placement.to_local_size(world) * (6.0 * ROUNDING);
             // The triangle test: vertices relative to the origin, the shear, and edge functions whose error counts
             // the more the thinner the triangle is.
-            let tested = 16.0 * ROUNDING * longest * (1.0 + longest * longest / double_area);
+            let tested = 16.0 * ROUNDING * longest * (1.0 + longest2 / double_area);
             rounding + (normal_local.abs().dot(carried) + tested) / stretch
         };
 
+        // Directions and texture coordinates need no more digits than they are given with.
+        let weights = weights.map(|weight| weight as f32);
+        let geometric = geometric.as_vec3();
         let mut normal = geometric;
         if let Some(normals) = mesh.normals() {
-            let [na, nb, nc] = vertices.map(|vertex| normals[vertex].as_dvec3());
+            let [na, nb, nc] = vertices.map(|vertex| normals[vertex]);
             let interpolated = na * weights[0] + nb * weights[1] + nc * weights[2];
-            if let Some(unit) = unit(placement.normals * interpolated) {
+            if let Some(unit) = (placement.normals_f32 * interpolated).try_normalize() {
                 // The winding says which side is which; normals given for the other side mean the same surface.
                 normal = if unit.dot(geometric) < 0.0 {
                     -unit
@@ -111,49 +116,43 @@ impl SurfacePoint {
             }
         }
 
-        let mut uv = DVec2::new(weights[1], weights[2]);
+        let mut uv = Vec2::new(weights[1], weights[2]);
         let mut tangent = None;
         if let Some(uvs) = mesh.uvs() {
-            let [ua, ub, uc] = vertices.map(|vertex| uvs[vertex].as_dvec2());
-            uv = ua * weights[0] + ub * weights[1] + uc * weights[2];
-            tangent = along_v([a, b, c], [ua, ub, uc], &placement.linear, normal);
+            let uvs = vertices.map(|vertex| uvs[vertex]);
+            uv = uvs[0] * weights[0] + uvs[1] * weights[1] + uvs[2] * weights[2];
+            let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
+            tangent = along_v(edges, uvs, &placement.linear_f32, normal);
         }
         Self {
             position: world.as_vec3(),
             position_error: (error as f32).max(f32::MIN_POSITIVE),
-            geometric_normal: geometric.as_vec3(),
-            shading_normal: normal.as_vec3(),
-            tangent: tangent.unwrap_or_else(|| any_tangent(normal)).as_vec3(),
-            uv: uv.as_vec2(),
+            geometric_normal: geometric,
+            shading_normal: normal,
+            tangent: tangent.unwrap_or_else(|| any_tangent(normal)),
+            uv,
             instance: hit.instance,
             triangle: hit.triangle,
         }
     }
 }
 
-/// The vector made unit; `None` if it is zero or not finite.
-fn unit(vector: DVec3) -> Option<DVec3> {
-    let length = vector.length();
-    (length.is_finite() && length > 0.0).then(|| vector / length)
-}
-
 /// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span the triangle.
 ///
 /// With e = ∂p/∂u Δu + ∂p/∂v Δv on two edges: ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁) / (Δu₁ Δv₂ − Δu₂ Δv₁).
-fn along_v(corners: [DVec3; 3], uvs: [DVec2; 3], linear: &DMat3, normal: DVec3) -> Option<DVec3> {
-    let [a, b, c] = corners;
+fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Option<Vec3> {
     let (first, second) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
-    let determinant = first.x * second.y - second.x * first.y;
-    let scale = first.length() * second.length();
+    let determinant = first.perp_dot(second);
     // Below this the uvs' own rounding decides the direction.
-    if determinant.abs() <= scale * 1e-6 {
+    if determinant.abs() <= first.length() * second.length() * 1e-6 {
         return None;
     }
-    let derivative = ((c - a) * first.x - (b - a) * second.x) * determinant.signum();
-    let direction = unit(*linear * derivative)?;
+    let derivative = edges[1] * (first.x / determinant) - edges[0] * (second.x / determinant);
+    let direction = (*linear * derivative).try_normalize()?;
     let flat = direction - normal * normal.dot(direction);
+    let length2 = flat.length_squared();
     // Nearly along the normal: what is left is rounding.
-    (flat.length() > 1e-6).then(|| flat / flat.length())
+    (length2 > 1e-12).then(|| flat / length2.sqrt())
 }
 
 /// Some unit vector at right angles to a unit vector, without a branch that flips between neighbours except at z = 0.
@@ -161,11 +160,11 @@ fn along_v(corners: [DVec3; 3], uvs: [DVec2; 3], linear: &DMat3, normal: DVec3) 
 /// # Source
 ///
 /// \[duff2017\], the second vector of its basis.
-fn any_tangent(n: DVec3) -> DVec3 {
+fn any_tangent(n: Vec3) -> Vec3 {
     let sign = if n.z.is_sign_negative() { -1.0 } else { 1.0 };
     let a = -1.0 / (sign + n.z);
     let b = n.x * n.y * a;
-    DVec3::new(b, sign + n.y * n.y * a, -n.y)
+    Vec3::new(b, sign + n.y * n.y * a, -n.y)
 }
 
 #[cfg(test)]

@@ -12,12 +12,10 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
-/// Sets of four random numbers before the first vertex (film and lens, wavelength).
+/// Sets of four random numbers before the first vertex: film and wavelength, lens.
 pub const CAMERA_SETS: u32 = 2;
-/// Sets of four random numbers that a vertex owns, used or not, for each of `suns` lights sampled always.
-fn vertex_sets(suns: usize) -> u32 {
-    2 + suns as u32
-}
+/// Sets of four random numbers that a vertex owns, used or not: the bounce, and light that is chosen.
+const VERTEX_SETS: u32 = 2;
 
 /// What one path found.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +62,6 @@ pub fn trace<const N: usize>(
     let mut throughput = Lanes::<N>::ONE;
     // Density of the bounce that led here; infinite if no light sample could have found the same way.
     let mut bounce_pdf = f32::INFINITY;
-    let sets = vertex_sets(world.selection.always.len());
     for depth in 0_u32.. {
         result.rays += 1;
         let Some(hit) = world.geometry.intersect(&ray) else {
@@ -102,7 +99,7 @@ pub fn trace<const N: usize>(
         let Some(view) = bsdf.seen_from(wo) else {
             break;
         };
-        stream.seek(CAMERA_SETS + depth * sets);
+        stream.seek(CAMERA_SETS + depth * VERTEX_SETS);
         let [lobe, bounce_x, bounce_y, roulette] = stream.next4();
         if !bsdf.is_specular() {
             let vertex = Vertex {
@@ -111,7 +108,9 @@ pub fn trace<const N: usize>(
                 view: &view,
             };
             for &number in &world.selection.always {
-                let u = stream.next4();
+                // A sun shares the numbers of the bounce: what both find is added up, so that only their
+                // covariance matters, and a disc of half a degree looks the same wherever it is lit from.
+                let u = [0.0, bounce_x, bounce_y, 0.0];
                 let (light, rays) = direct(world, number, 1.0, &vertex, &wavelengths, u);
                 result.radiance += throughput * light;
                 result.rays += rays;

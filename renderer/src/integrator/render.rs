@@ -131,8 +131,12 @@ impl Samples<'_> {
         let values = &mut values[..self.layout.beauty];
         for sample in first..end {
             let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
-            let [film_x, film_y, lens_x, lens_y] = stream.next4();
-            let [wavelength, ..] = stream.next4();
+            let [film_x, film_y, wavelength, _] = stream.next4();
+            let [lens_x, lens_y, ..] = if self.world.camera.has_lens() {
+                stream.next4()
+            } else {
+                [0.5; 4]
+            };
             let wavelengths = self.world.wavelengths.draw::<N>(wavelength);
             let offset = self.world.filter.sample(Vec2::new(film_x, film_y));
             let place = Vec2::new(self.x as f32, self.y as f32) + offset;

@@ -61,7 +61,7 @@ pub(crate) fn read_camera(parent: &Block<'_>) -> Option<Camera> {
 
 /// Reads `[integrator]`, which may be left out.
 pub(crate) fn read_integrator(parent: &Block<'_>) -> Integrator {
-    const ROULETTE_BELOW: f64 = 0.25;
+    const ROULETTE_BELOW: f64 = 0.1;
     let Some(block) = parent.optional_block("integrator") else {
         return Integrator {
             max_depth: None,
