@@ -2,15 +2,17 @@
 //!
 //! - **In**: a point that is lit, random numbers.
 //! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its density over solid angle.
-//! - **Always true**: what [`Light::sample`] draws, [`Light::pdf`] knows; a light that says it is found by
-//!   bounces only is never sampled.
+//! - **Always true**: what [`Light::sample`] draws, [`Light::at_infinity`] and [`AreaLight::pdf`] know the density of; a light
+//!   that says it is found by bounces only is never sampled.
 
 use glam::{Vec2, Vec3};
 
 pub mod area;
 pub mod distant;
 pub mod environment;
+pub mod patch;
 pub mod selection;
+pub mod tree;
 
 use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
@@ -30,6 +32,15 @@ pub enum Light {
     Area(AreaLight),
 }
 
+/// A point that is lit.
+#[derive(Clone, Copy, Debug)]
+pub struct Receiver {
+    /// Where it is, world, m.
+    pub position: Vec3,
+    /// Unit normal, world. Light counts by the size of its cosine with it, from either side: a leaf transmits.
+    pub normal: Vec3,
+}
+
 /// Light that may arrive at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample<const N: usize> {
@@ -44,19 +55,19 @@ pub struct LightSample<const N: usize> {
 }
 
 impl Light {
-    /// Draws light arriving at `position`; `choice` picks a part of the light, `u` a place on it.
+    /// Draws light arriving at `receiver` from part number `part`: a patch of an area, 0 of the others; `u` picks a place on it.
     pub fn sample<const N: usize>(
         &self,
-        position: Vec3,
+        part: usize,
+        receiver: &Receiver,
         wavelengths: &Wavelengths<N>,
-        choice: f32,
         u: Vec2,
     ) -> Option<LightSample<N>> {
         match self {
             Self::Distant(light) => Some(light.sample(wavelengths, u)),
             Self::Constant(_) => None,
             Self::Environment(light) => light.sample(wavelengths, u),
-            Self::Area(light) => light.sample(position, wavelengths, choice, u),
+            Self::Area(light) => light.sample(part, receiver, wavelengths, u),
         }
     }
 

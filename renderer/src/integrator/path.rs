@@ -7,7 +7,8 @@ use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
 use crate::integrator::mis;
-use crate::light::Light;
+use crate::light::selection::Choice;
+use crate::light::{Light, Receiver};
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -60,18 +61,23 @@ pub fn trace<const N: usize>(
         rays: 0,
     };
     let mut throughput = Lanes::<N>::ONE;
-    // Density of the bounce that led here; infinite if no light sample could have found the same way.
-    let mut bounce_pdf = f32::INFINITY;
+    let mut bounce = Bounce {
+        pdf: f32::INFINITY,
+        from: Receiver {
+            position: ray.origin,
+            normal: ray.direction,
+        },
+    };
     for depth in 0_u32.. {
         result.rays += 1;
         let Some(hit) = world.geometry.intersect(&ray) else {
             result.radiance +=
-                throughput * from_infinity(world, ray.direction, bounce_pdf, &wavelengths);
+                throughput * from_infinity(world, ray.direction, &bounce, &wavelengths);
             break;
         };
         let surface = world.geometry.surface(&ray, &hit);
         if let Some(number) = world.objects[surface.instance as usize].light {
-            let found = emission(world, number, &ray, &surface, bounce_pdf, &wavelengths);
+            let found = emission(world, number, &ray, &surface, &bounce, &wavelengths);
             result.radiance += throughput * found;
         }
         let bsdf = world
@@ -101,31 +107,28 @@ pub fn trace<const N: usize>(
         };
         stream.seek(CAMERA_SETS + depth * VERTEX_SETS);
         let [lobe, bounce_x, bounce_y, roulette] = stream.next4();
+        let receiver = Receiver {
+            position: surface.position,
+            normal: surface.shading_normal,
+        };
         if !bsdf.is_specular() {
             let vertex = Vertex {
                 surface: &surface,
                 frame: &frame,
                 view: &view,
+                receiver,
+                throughput,
+                gathered: result.radiance,
             };
-            for &number in &world.selection.always {
-                // A sun shares the numbers of the bounce: what both find is added up, so that only their
-                // covariance matters, and a disc of half a degree looks the same wherever it is lit from.
-                let u = [0.0, bounce_x, bounce_y, 0.0];
-                let (light, rays) = direct(world, number, 1.0, &vertex, &wavelengths, u);
-                result.radiance += throughput * light;
-                result.rays += rays;
-            }
-            if world.selection.chosen.is_empty() {
-                // Nothing to choose from: no numbers are drawn.
-            } else if let [which, x, y, _] = stream.next4()
-                && let Some((number, choice)) = world.selection.choose(which)
-            {
-                let chance = world.selection.probability(number);
-                let u = [choice, x, y, 0.0];
-                let (light, rays) = direct(world, number, chance, &vertex, &wavelengths, u);
-                result.radiance += throughput * light;
-                result.rays += rays;
-            }
+            let (light, rays) = sampled_light(
+                world,
+                &vertex,
+                &wavelengths,
+                [bounce_x, bounce_y, roulette],
+                stream,
+            );
+            result.radiance += light;
+            result.rays += rays;
         }
         let Some(sample) = view.sample(lobe, Vec2::new(bounce_x, bounce_y)) else {
             break;
@@ -143,14 +146,25 @@ pub fn trace<const N: usize>(
             }
             throughput *= 1.0 / survival;
         }
-        bounce_pdf = if sample.specular {
-            f32::INFINITY
-        } else {
-            sample.pdf
+        bounce = Bounce {
+            pdf: if sample.specular {
+                f32::INFINITY
+            } else {
+                sample.pdf
+            },
+            from: receiver,
         };
         ray = surface.spawn(frame.to_world(sample.wi));
     }
     result
+}
+
+/// How a ray came to be.
+struct Bounce {
+    /// Density of its direction; infinite if no light sample could have found the same way.
+    pdf: f32,
+    /// Where it left; matters only if the density is finite.
+    from: Receiver,
 }
 
 /// A surface point being lit.
@@ -158,20 +172,57 @@ struct Vertex<'a, const N: usize> {
     surface: &'a SurfacePoint,
     frame: &'a Frame,
     view: &'a View<'a, N>,
+    receiver: Receiver,
+    /// What radiance from here is multiplied by on its way to the camera.
+    throughput: Lanes<N>,
+    /// Radiance that the path found before.
+    gathered: Lanes<N>,
+}
+
+/// What the lights that are sampled at a vertex send on to the camera; also the number of rays it took.
+fn sampled_light<const N: usize>(
+    world: &World,
+    vertex: &Vertex<'_, N>,
+    wavelengths: &Wavelengths<N>,
+    [x, y, coin]: [f32; 3],
+    stream: &mut Stream,
+) -> (Lanes<N>, u32) {
+    let (mut sum, mut rays) = (Lanes::ZERO, 0);
+    for &number in &world.selection.always {
+        let choice = Choice::certain(number);
+        // A sun shares the numbers of the bounce: what both find is added up, so that only their covariance
+        // matters, and a disc of half a degree looks the same wherever it is lit from.
+        let u = [0.0, x, y, coin];
+        let (light, traced) = direct(world, &choice, vertex, wavelengths, u);
+        sum += light;
+        rays += traced;
+    }
+    if !world.selection.is_empty() {
+        let u = stream.next4();
+        if let Some(choice) = world.selection.choose(&vertex.receiver, u[0]) {
+            let (light, traced) = direct(world, &choice, vertex, wavelengths, u);
+            sum += light;
+            rays += traced;
+        }
+    }
+    (sum, rays)
 }
 
 /// Light from infinity that a bounce (or the camera) found by itself.
 fn from_infinity<const N: usize>(
     world: &World,
     direction: Vec3,
-    bounce_pdf: f32,
+    bounce: &Bounce,
     wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
     let mut sum = Lanes::ZERO;
-    for (number, light) in world.lights.iter().enumerate() {
+    for &number in &world.selection.at_infinity {
+        let light = &world.lights[number];
         if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
-            let light_pdf = pdf * world.selection.probability(number);
-            sum += radiance * mis::power(bounce_pdf, light_pdf);
+            let chance = world
+                .selection
+                .probability_of_infinite(number, &bounce.from);
+            sum += radiance * mis::power(bounce.pdf, pdf * chance);
         }
     }
     sum
@@ -183,40 +234,46 @@ fn emission<const N: usize>(
     number: usize,
     ray: &Ray,
     surface: &SurfacePoint,
-    bounce_pdf: f32,
+    bounce: &Bounce,
     wavelengths: &Wavelengths<N>,
 ) -> Lanes<N> {
     let Light::Area(light) = &world.lights[number] else {
         return Lanes::ZERO;
     };
-    let offset = surface.position - ray.origin;
-    let distance = offset.length();
-    light
-        .emitted(
-            ray.direction,
-            surface.geometric_normal,
-            distance,
-            wavelengths,
-        )
-        .map_or(Lanes::ZERO, |(radiance, pdf)| {
-            radiance * mis::power(bounce_pdf, pdf * world.selection.probability(number))
-        })
+    let normal = surface.geometric_normal;
+    let Some(radiance) = light.emitted(ray.direction, normal, wavelengths) else {
+        return Lanes::ZERO;
+    };
+    if bounce.pdf.is_infinite() {
+        return radiance;
+    }
+    let light_pdf = light.patch_of(surface.triangle).map_or(0.0, |part| {
+        world
+            .selection
+            .probability_of_part(number, part, &bounce.from)
+            * light.pdf(part, &bounce.from, surface.position)
+    });
+    radiance * mis::power(bounce.pdf, light_pdf)
 }
 
-/// What one light sends to a vertex and on towards the camera; `chance` is the probability that it was asked.
+/// A light sample that would add less than this share of what the path has gathered, in every lane, plays roulette for its
+/// shadow ray.
+const FAINT: f32 = 0.2;
+
+/// What a light that was chosen sends to a vertex and on to the camera; also the number of rays it took.
 ///
-/// Also the number of rays it took.
+/// Of `u` the first number has made the choice, the next two pick a place on the light, the last is for roulette.
 fn direct<const N: usize>(
     world: &World,
-    number: usize,
-    chance: f32,
+    choice: &Choice,
     vertex: &Vertex<'_, N>,
     wavelengths: &Wavelengths<N>,
     u: [f32; 4],
 ) -> (Lanes<N>, u32) {
-    let place = Vec2::new(u[1], u[2]);
-    let light = &world.lights[number];
-    let Some(sample) = light.sample(vertex.surface.position, wavelengths, u[0], place) else {
+    let [_, x, y, coin] = u;
+    let light = &world.lights[choice.light];
+    let place = Vec2::new(x, y);
+    let Some(sample) = light.sample(choice.part, &vertex.receiver, wavelengths, place) else {
         return (Lanes::ZERO, 0);
     };
     let wi = vertex.frame.to_local(sample.wi);
@@ -225,6 +282,17 @@ fn direct<const N: usize>(
     if scattered.is_zero() || sample.radiance.is_zero() {
         return (Lanes::ZERO, 0);
     }
+    let light_pdf = sample.pdf * choice.probability;
+    let weight = mis::power(light_pdf, pdf) / light_pdf;
+    let mut added = vertex.throughput * scattered * sample.radiance * weight;
+    // Unbiased: what was gathered before does not depend on this sample.
+    let survival = survival(added, vertex.gathered * FAINT);
+    if survival < 1.0 {
+        if coin >= survival {
+            return (Lanes::ZERO, 0);
+        }
+        added *= 1.0 / survival;
+    }
     let shadow = match sample.point {
         Some(point) => vertex.surface.spawn_to(point),
         None => vertex.surface.spawn(sample.wi),
@@ -232,7 +300,15 @@ fn direct<const N: usize>(
     if world.geometry.occluded(&shadow) {
         return (Lanes::ZERO, 1);
     }
-    let light_pdf = sample.pdf * chance;
-    let weight = mis::power(light_pdf, pdf) / light_pdf;
-    (scattered * sample.radiance * weight, 1)
+    (added, 1)
+}
+
+/// Greatest share, over the lanes, that `added` is of `enough`; a lane with enough of nothing makes it infinite if anything is added.
+fn survival<const N: usize>(added: Lanes<N>, enough: Lanes<N>) -> f32 {
+    let mut greatest = 0.0_f32;
+    for (added, enough) in added.0.into_iter().zip(enough.0) {
+        // 0 / 0 is no number, and no lane of weight.
+        greatest = greatest.max(added / enough);
+    }
+    greatest
 }

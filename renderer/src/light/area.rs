@@ -2,32 +2,30 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::light::LightSample;
-use crate::sampling::distribution::Piecewise1d;
-use crate::sampling::warp;
+use crate::light::patch::{self, Patch};
+use crate::light::tree::Emitter;
+use crate::light::{LightSample, Receiver};
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
-/// Triangles in world space with one radiance.
+/// Patches in world space with one radiance. A patch is a triangle, or a rectangle of two.
 #[derive(Clone, Debug)]
 pub struct AreaLight {
     radiance: Spectrum,
-    triangles: Box<[[Vec3; 3]]>,
-    by_area: Piecewise1d,
+    patches: Box<[Patch]>,
+    /// The patch that each triangle belongs to; `None` if it has no area in world space.
+    patch_of: Box<[Option<u32>]>,
     area: f32,
 }
 
 impl AreaLight {
-    /// From world-space triangles, counter-clockwise seen from the bright side; at least one has an area.
-    pub fn new(triangles: Vec<[Vec3; 3]>, radiance: Curve) -> Self {
-        let areas: Vec<f32> = triangles
-            .iter()
-            .map(|[a, b, c]| 0.5 * (*b - *a).cross(*c - *a).length())
-            .collect();
+    /// From world-space triangles, counter-clockwise seen from the bright side.
+    pub fn new(triangles: &[[Vec3; 3]], radiance: Curve) -> Self {
+        let (patches, patch_of) = patch::patches(triangles);
         Self {
             radiance: radiance.into(),
-            area: areas.iter().sum(),
-            by_area: Piecewise1d::new(&areas),
-            triangles: triangles.into(),
+            area: patches.iter().map(Patch::area).sum(),
+            patches: patches.into(),
+            patch_of: patch_of.into(),
         }
     }
 
@@ -46,46 +44,53 @@ impl AreaLight {
         self.radiance.tabulate(grid);
     }
 
-    /// A point on the surface, uniform over its area, seen from `position`.
+    /// What shines, piece by piece.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// Number of the patch that a triangle belongs to.
+    pub fn patch_of(&self, triangle: u32) -> Option<usize> {
+        self.patch_of[triangle as usize].map(|patch| patch as usize)
+    }
+
+    /// Each patch as the choice between lights sees it; `mean_radiance` is that of the film's wavelengths,
+    /// W m⁻² sr⁻¹ nm⁻¹.
+    pub fn emitters(&self, mean_radiance: f32) -> impl Iterator<Item = Emitter> + '_ {
+        self.patches
+            .iter()
+            .map(move |patch| patch.emitter(mean_radiance))
+    }
+
+    /// A point of one patch, seen from `receiver`.
     pub fn sample<const N: usize>(
         &self,
-        position: Vec3,
+        patch: usize,
+        receiver: &Receiver,
         wavelengths: &Wavelengths<N>,
-        choice: f32,
         u: Vec2,
     ) -> Option<LightSample<N>> {
-        let (triangle, _) = self.by_area.sample(choice);
-        let [a, b, c] = self.triangles[triangle];
-        let weights = warp::triangle(u);
-        let point = a + (b - a) * weights.x + (c - a) * weights.y;
-        let normal = (b - a).cross(c - a).normalize();
-        let offset = point - position;
-        let distance2 = offset.length_squared();
-        let wi = offset.try_normalize()?;
-        let cos = -wi.dot(normal);
-        (cos > 0.0).then(|| LightSample {
-            wi,
-            point: Some(point),
+        let sample = self.patches[patch].sample(receiver, u)?;
+        Some(LightSample {
+            wi: sample.wi,
+            point: Some(sample.point),
             radiance: self.radiance.lanes(wavelengths),
-            pdf: distance2 / (cos * self.area),
+            pdf: sample.pdf,
         })
     }
 
-    /// Radiance towards `-wi` from a point of the surface with the given normal, and the density over solid angle,
-    /// seen from `distance` away, with which [`AreaLight::sample`] draws it.
+    /// Density over solid angle with which [`AreaLight::sample`] draws a point of that patch, seen from `receiver`.
+    pub fn pdf(&self, patch: usize, receiver: &Receiver, point: Vec3) -> f32 {
+        self.patches[patch].pdf(receiver, point)
+    }
+
+    /// Radiance towards `-wi` from a point of the surface with the given normal; `None` on the dark side.
     pub fn emitted<const N: usize>(
         &self,
         wi: Vec3,
         normal: Vec3,
-        distance: f32,
         wavelengths: &Wavelengths<N>,
-    ) -> Option<(Lanes<N>, f32)> {
-        let cos = -wi.dot(normal);
-        (cos > 0.0).then(|| {
-            (
-                self.radiance.lanes(wavelengths),
-                distance * distance / (cos * self.area),
-            )
-        })
+    ) -> Option<Lanes<N>> {
+        (wi.dot(normal) < 0.0).then(|| self.radiance.lanes(wavelengths))
     }
 }

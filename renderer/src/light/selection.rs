@@ -1,62 +1,183 @@
 //! Which lights are sampled at a point.
 
-use crate::light::Light;
+use crate::light::tree::LightTree;
+use crate::light::{Light, Receiver};
 use crate::sampling::distribution::Piecewise1d;
 
 /// Lights sorted by how they are sampled.
 ///
 /// Suns are small and strong, so each is sampled at every vertex; of all other lights with an extent that
-/// can be drawn, one is chosen by its power; a constant sky is left to the bounces, which find it best.
+/// can be drawn, one is chosen by what it may send there; a constant sky is left to the bounces, which find it best.
 #[derive(Clone, Debug)]
 pub struct LightSelection {
     /// Lights sampled at every vertex.
     pub always: Box<[usize]>,
-    /// Lights of which one is chosen.
-    pub chosen: Box<[usize]>,
-    /// Probability of choosing each light, by its number; 1 for suns, 0 for those left to the bounces.
-    probability: Box<[f32]>,
-    by_power: Option<Piecewise1d>,
+    /// Lights that a ray finds that meets nothing.
+    pub at_infinity: Box<[usize]>,
+    pictures: Option<Pictures>,
+    patches: Option<Patches>,
+}
+
+/// Environment pictures, of which one is chosen by its brightness.
+#[derive(Clone, Debug)]
+struct Pictures {
+    lights: Box<[usize]>,
+    by_irradiance: Piecewise1d,
+    /// All of theirs, on a surface that faces half of the surroundings: rough, W m⁻² nm⁻¹.
+    irradiance: f32,
+}
+
+/// Patches of shining surfaces, of which the tree chooses one.
+#[derive(Clone, Debug)]
+struct Patches {
+    /// Light and part of each leaf of the tree.
+    parts: Box<[(u32, u32)]>,
+    /// Leaf of the first part of each light, by the light's number.
+    first_leaf: Box<[u32]>,
+    tree: LightTree,
+}
+
+/// A light that is to be sampled.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice {
+    /// Number of the light.
+    pub light: usize,
+    /// Which part of it: a patch of an area, 0 of the others.
+    pub part: usize,
+    /// Probability of the choice.
+    pub probability: f32,
+}
+
+impl Choice {
+    /// A light of one part that is sampled always.
+    pub fn certain(light: usize) -> Self {
+        Self {
+            light,
+            part: 0,
+            probability: 1.0,
+        }
+    }
 }
 
 impl LightSelection {
-    /// For lights with the given rough powers, W nm⁻¹.
-    pub fn new(lights: &[Light], powers: &[f32]) -> Self {
-        let mut always = Vec::new();
-        let mut chosen = Vec::new();
+    /// For a scene's lights and a film of the given range of wavelengths.
+    pub fn new(lights: &[Light], range_nm: [f64; 2]) -> Self {
+        let (mut always, mut at_infinity) = (Vec::new(), Vec::new());
+        let (mut pictures, mut irradiances) = (Vec::new(), Vec::new());
+        let (mut emitters, mut parts) = (Vec::new(), Vec::new());
+        let mut first_leaf = vec![0; lights.len()];
         for (number, light) in lights.iter().enumerate() {
             match light {
-                Light::Distant(_) => always.push(number),
-                Light::Environment(_) | Light::Area(_) => chosen.push(number),
-                Light::Constant(_) => {}
-            }
-        }
-        let weights: Vec<f32> = chosen.iter().map(|&number| powers[number]).collect();
-        let by_power = (!chosen.is_empty()).then(|| Piecewise1d::new(&weights));
-        let mut probability = vec![0.0; lights.len()];
-        for &number in &always {
-            probability[number] = 1.0;
-        }
-        if let Some(by_power) = &by_power {
-            for (place, &number) in chosen.iter().enumerate() {
-                probability[number] = by_power.probability(place);
+                Light::Distant(_) => {
+                    always.push(number);
+                    at_infinity.push(number);
+                }
+                Light::Constant(_) => at_infinity.push(number),
+                Light::Environment(light) => {
+                    at_infinity.push(number);
+                    pictures.push(number);
+                    let radiance = light.mean_brightness() * light.white().mean_over(range_nm);
+                    irradiances.push(std::f32::consts::PI * radiance);
+                }
+                Light::Area(light) => {
+                    first_leaf[number] = parts.len() as u32;
+                    emitters.extend(light.emitters(light.radiance().mean_over(range_nm)));
+                    parts.extend(
+                        (0..light.patches().len()).map(|part| (number as u32, part as u32)),
+                    );
+                }
             }
         }
         Self {
             always: always.into(),
-            chosen: chosen.into(),
-            probability: probability.into(),
-            by_power,
+            at_infinity: at_infinity.into(),
+            pictures: (!pictures.is_empty()).then(|| Pictures {
+                lights: pictures.into(),
+                by_irradiance: Piecewise1d::new(&irradiances),
+                irradiance: irradiances.iter().sum(),
+            }),
+            patches: (!emitters.is_empty()).then(|| Patches {
+                parts: parts.into(),
+                first_leaf: first_leaf.into(),
+                tree: LightTree::new(&emitters),
+            }),
         }
     }
 
-    /// Chooses one of the lights that share a sample; also gives what is left of `u`.
-    pub fn choose(&self, u: f32) -> Option<(usize, f32)> {
-        let (place, within) = self.by_power.as_ref()?.sample(u);
-        Some((self.chosen[place], within))
+    /// Whether there is no light to choose at any point.
+    pub fn is_empty(&self) -> bool {
+        self.pictures.is_none() && self.patches.is_none()
     }
 
-    /// Probability that a light is sampled at a vertex.
-    pub fn probability(&self, light: usize) -> f32 {
-        self.probability[light]
+    /// Chooses one of the lights that share a sample by `u` in [0, 1); `None` if none of them shines there.
+    pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<Choice> {
+        let share = self.share_of_pictures(receiver);
+        if u < share {
+            let pictures = self.pictures.as_ref()?;
+            let (place, _) = pictures.by_irradiance.sample(u / share);
+            return Some(Choice {
+                light: pictures.lights[place],
+                part: 0,
+                probability: share * pictures.by_irradiance.probability(place),
+            });
+        }
+        let patches = self.patches.as_ref()?;
+        let (leaf, probability) = if patches.tree.len() == 1 {
+            (0, 1.0)
+        } else {
+            let u = ((u - share) / (1.0 - share)).min(1.0 - f32::EPSILON);
+            patches.tree.choose(receiver, u)?
+        };
+        let (light, part) = patches.parts[leaf];
+        Some(Choice {
+            light: light as usize,
+            part: part as usize,
+            probability: (1.0 - share) * probability,
+        })
+    }
+
+    /// Probability that a light at infinity is sampled at `receiver`; 0 if it is left to the bounces.
+    pub fn probability_of_infinite(&self, light: usize, receiver: &Receiver) -> f32 {
+        if self.always.contains(&light) {
+            return 1.0;
+        }
+        let Some(pictures) = &self.pictures else {
+            return 0.0;
+        };
+        let place = pictures.lights.iter().position(|&number| number == light);
+        place.map_or(0.0, |place| {
+            self.share_of_pictures(receiver) * pictures.by_irradiance.probability(place)
+        })
+    }
+
+    /// Probability that a part of an area is sampled at `receiver`.
+    pub fn probability_of_part(&self, light: usize, part: usize, receiver: &Receiver) -> f32 {
+        let Some(patches) = &self.patches else {
+            return 0.0;
+        };
+        let leaf = patches.first_leaf[light] as usize + part;
+        let probability = if patches.tree.len() == 1 {
+            1.0
+        } else {
+            patches.tree.probability(leaf, receiver)
+        };
+        (1.0 - self.share_of_pictures(receiver)) * probability
+    }
+
+    /// Probability of choosing an environment picture.
+    fn share_of_pictures(&self, receiver: &Receiver) -> f32 {
+        match (&self.pictures, &self.patches) {
+            (None, _) => 0.0,
+            (Some(_), None) => 1.0,
+            (Some(pictures), Some(patches)) => {
+                let near = patches.tree.importance(receiver);
+                if near <= 0.0 {
+                    return 1.0;
+                }
+                let share = pictures.irradiance / (pictures.irradiance + near);
+                // Neither estimate knows of shadows.
+                share.clamp(0.1, 0.9)
+            }
+        }
     }
 }

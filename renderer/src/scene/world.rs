@@ -15,7 +15,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use self::lights::{build_light, power};
+use self::lights::build_light;
 pub(in crate::scene) use self::materials::build_coat;
 use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
@@ -214,19 +214,13 @@ impl World {
             light.tabulate(wavelengths.grid());
         }
         let geometry = Geometry::build(meshes, instances)?;
-        let (low, high) = geometry.bounds();
-        let radius = 0.5 * (high - low).length();
-        let powers: Vec<f32> = lights
-            .iter()
-            .map(|light| power(light, radius, range_nm))
-            .collect();
         Ok(Self {
             geometry,
             objects,
             materials,
             owners,
             palettes: known.palettes,
-            selection: LightSelection::new(&lights, &powers),
+            selection: LightSelection::new(&lights, range_nm),
             lights,
             camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
             filter: PixelFilter::new(scene.film.filter_radius as f32),

@@ -1,4 +1,4 @@
-//! Lights, and how bright they are to one another.
+//! Lights as a scene describes them, made ready.
 
 use super::WorldError;
 use crate::geometry::{Instance, TriangleMesh};
@@ -9,6 +9,7 @@ use crate::light::environment::EnvironmentLight;
 use crate::scene::assets;
 use crate::scene::description;
 use crate::spectrum::Curve;
+
 pub(super) fn build_light(
     name: &str,
     light: &description::Light,
@@ -49,7 +50,7 @@ pub(super) fn build_light(
             let instance = &instances[*object];
             let mesh = &meshes[instance.mesh as usize];
             let mirrored = instance.to_world.matrix3.determinant() < 0.0;
-            let triangles = mesh
+            let triangles: Vec<_> = mesh
                 .triangles()
                 .iter()
                 .map(|face| {
@@ -61,19 +62,10 @@ pub(super) fn build_light(
                     if mirrored { [a, c, b] } else { [a, b, c] }
                 })
                 .collect();
-            Light::Area(AreaLight::new(triangles, Curve::from_description(radiance)))
+            Light::Area(AreaLight::new(
+                &triangles,
+                Curve::from_description(radiance),
+            ))
         }
     })
-}
-
-/// A rough power in W nm⁻¹, for choosing between lights, in a scene of the given radius (m).
-pub(super) fn power(light: &Light, radius: f32, range_nm: [f64; 2]) -> f32 {
-    use std::f32::consts::PI;
-    match light {
-        Light::Distant(_) | Light::Constant(_) => 0.0,
-        Light::Environment(light) => {
-            PI * PI * radius * radius * light.mean_brightness() * light.white().mean_over(range_nm)
-        }
-        Light::Area(light) => PI * light.area() * light.radiance().mean_over(range_nm),
-    }
 }

@@ -1,0 +1,234 @@
+//! A tree over lights that chooses one by what it may send to a point.
+//!
+//! - **In**: [`Emitter`]s, which bound where each light is, where it shines and how brightly; a [`Receiver`]; a random number.
+//! - **Out**: the number of one light, and the probability of any from any receiver.
+//! - **Always true**: a light that can send light to the receiver, from either side, has a probability above zero;
+//!   [`LightTree::probability`] is that with which [`LightTree::choose`] chooses. The probabilities from one receiver sum to 1, less
+//!   that of a node which may have a light that shines there and turns out to have none: then nothing is chosen.
+//! - **Left out**: shadows, and what the surface does with light beside its cosine.
+//!
+//! # Source
+//!
+//! \[conty2018\], with eight children a node, whose importances are worked out together, and without splitting: one light per choice.
+
+use glam::Vec3;
+
+mod build;
+
+use crate::light::Receiver;
+
+/// Children of a node.
+const WIDTH: usize = 8;
+
+/// Bits that name a child.
+const CHILD_BITS: u32 = 3;
+
+/// Marks the number of a child as that of a light.
+const IS_LIGHT: u32 = 1 << 31;
+
+/// A light is taken as dark only if the cosine that decides lies this far on the dark side: rounding takes less.
+const TOLERANCE: f32 = 1e-3;
+
+/// Least cosine in an importance, lest rounding to zero hide a light.
+const LEAST_COSINE: f32 = 1e-4;
+
+/// Bounds of a light: of one that shines from a sphere, around an axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Emitter {
+    /// Centre of a sphere around all points that shine, world, m.
+    pub center: Vec3,
+    /// Its radius, m; 0 for a point.
+    pub radius: f32,
+    /// Unit vector: middle of the normals that shine.
+    pub axis: Vec3,
+    /// Greatest angle between a normal and the axis, rad, 0 to π.
+    pub spread: f32,
+    /// Greatest angle between a normal and the directions into which that point shines, rad, 0 to π.
+    pub reach: f32,
+    /// Radiant intensity along the axis, W sr⁻¹ nm⁻¹, ≥ 0 and finite: for a surface its radiance times its area.
+    pub intensity: f32,
+}
+
+/// A tree over lights that are numbered from 0.
+#[derive(Clone, Debug)]
+pub struct LightTree {
+    /// The root is the first.
+    nodes: Box<[Node]>,
+    /// For each light which child leads to it, from the root on, three bits a level from the lowest on.
+    trails: Box<[u64]>,
+}
+
+/// Bounds of up to eight children, and where they are; a child that is not there has intensity 0.
+#[derive(Clone, Debug)]
+struct Node {
+    center: [[f32; WIDTH]; 3],
+    radius2: [f32; WIDTH],
+    axis: [[f32; WIDTH]; 3],
+    cos_spread: [f32; WIDTH],
+    sin_spread: [f32; WIDTH],
+    /// The child is dark where the greatest possible cosine towards the receiver is less.
+    least_cos: [f32; WIDTH],
+    /// The child is dark where the cosine at its centre towards the receiver is less: −2 but for what is flat.
+    least_cos_of_center: [f32; WIDTH],
+    intensity: [f32; WIDTH],
+    /// Number of a node, or of a light with [`IS_LIGHT`].
+    child: [u32; WIDTH],
+}
+
+impl LightTree {
+    /// For at least one light, fewer than 2³¹.
+    pub fn new(lights: &[Emitter]) -> Self {
+        build::build(lights)
+    }
+
+    /// How many lights there are.
+    pub fn len(&self) -> usize {
+        self.trails.len()
+    }
+
+    /// Whether there are none; there always are.
+    pub fn is_empty(&self) -> bool {
+        self.trails.is_empty()
+    }
+
+    /// What all lights together may send to a receiver, a rough irradiance in W m⁻² nm⁻¹; zero only if it is dark there.
+    pub fn importance(&self, receiver: &Receiver) -> f32 {
+        self.nodes[0].importances(receiver).iter().sum()
+    }
+
+    /// Chooses a light by `u` in [0, 1), and gives its probability; `None` if no light shines there.
+    pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<(usize, f32)> {
+        // Each level uses up some of the digits of `u`.
+        let mut u = f64::from(u);
+        let mut probability = 1.0;
+        let mut node = &self.nodes[0];
+        loop {
+            let importances = node.importances(receiver);
+            let sum: f32 = importances.iter().sum();
+            if sum <= 0.0 {
+                return None;
+            }
+            let target = u * f64::from(sum);
+            let (mut chosen, mut below) = (0, 0.0);
+            let mut up_to = 0.0;
+            for (child, &importance) in importances.iter().enumerate() {
+                // The last one that has any takes what rounding leaves over.
+                if importance > 0.0 && up_to <= target {
+                    (chosen, below) = (child, up_to);
+                }
+                up_to += f64::from(importance);
+            }
+            probability *= importances[chosen] / sum;
+            u = ((target - below) / f64::from(importances[chosen])).min(1.0 - f64::EPSILON);
+            let child = node.child[chosen];
+            if child & IS_LIGHT != 0 {
+                return Some(((child & !IS_LIGHT) as usize, probability));
+            }
+            node = &self.nodes[child as usize];
+        }
+    }
+
+    /// Probability with which a light is chosen.
+    pub fn probability(&self, light: usize, receiver: &Receiver) -> f32 {
+        let mut trail = self.trails[light];
+        let mut probability = 1.0;
+        let mut node = &self.nodes[0];
+        loop {
+            let importances = node.importances(receiver);
+            let chosen = trail as usize % WIDTH;
+            if importances[chosen] <= 0.0 {
+                return 0.0;
+            }
+            probability *= importances[chosen] / importances.iter().sum::<f32>();
+            trail >>= CHILD_BITS;
+            let child = node.child[chosen];
+            if child & IS_LIGHT != 0 {
+                return probability;
+            }
+            node = &self.nodes[child as usize];
+        }
+    }
+}
+
+impl Node {
+    const EMPTY: Self = Self {
+        center: [[0.0; WIDTH]; 3],
+        radius2: [0.0; WIDTH],
+        axis: [[0.0; WIDTH]; 3],
+        cos_spread: [1.0; WIDTH],
+        sin_spread: [0.0; WIDTH],
+        least_cos: [0.0; WIDTH],
+        least_cos_of_center: [0.0; WIDTH],
+        intensity: [0.0; WIDTH],
+        child: [0; WIDTH],
+    };
+
+    fn set(&mut self, k: usize, bounds: &Emitter, child: u32) {
+        for (axis, (center, direction)) in self.center.iter_mut().zip(&mut self.axis).enumerate() {
+            center[k] = bounds.center[axis];
+            direction[k] = bounds.axis[axis];
+        }
+        self.radius2[k] = bounds.radius * bounds.radius;
+        let (sin, cos) = libm::sincosf(bounds.spread);
+        let everywhere = bounds.spread >= std::f32::consts::PI;
+        (self.cos_spread[k], self.sin_spread[k]) =
+            if everywhere { (-1.0, 0.0) } else { (cos, sin) };
+        self.least_cos[k] = libm::cosf(bounds.reach) - TOLERANCE;
+        // A single normal: what is flat, or a point, and dark behind the plane through its centre.
+        let flat = child & IS_LIGHT != 0
+            && bounds.spread == 0.0
+            && bounds.reach <= std::f32::consts::FRAC_PI_2;
+        self.least_cos_of_center[k] = if flat { -TOLERANCE } else { -2.0 };
+        self.intensity[k] = bounds.intensity;
+        self.child[k] = child;
+    }
+
+    /// A bound on what each child may send to a receiver, but that its distance is taken from its centre and at least its radius.
+    ///
+    /// The importance of \[conty2018\], with cosines instead of angles.
+    fn importances(&self, receiver: &Receiver) -> [f32; WIDTH] {
+        let (p, n) = (receiver.position, receiver.normal);
+        let mut importances = [0.0; WIDTH];
+        for (k, slot) in importances.iter_mut().enumerate() {
+            let x = self.center[0][k] - p.x;
+            let y = self.center[1][k] - p.y;
+            let z = self.center[2][k] - p.z;
+            let distance2 = (x * x + y * y + z * z).max(f32::MIN_POSITIVE);
+            let per_distance = 1.0 / distance2.sqrt();
+            // Half the angle that the sphere fills; a right one from inside.
+            let sin2_size = (self.radius2[k] / distance2).min(1.0);
+            let (sin_size, cos_size) = (sin2_size.sqrt(), (1.0 - sin2_size).sqrt());
+
+            let cos = ((x * n.x + y * n.y + z * n.z).abs() * per_distance).min(1.0);
+            let sin = (1.0 - cos * cos).sqrt();
+            let nearer = cos * cos_size + sin * sin_size;
+            let received = if cos >= cos_size { 1.0 } else { nearer };
+
+            let along = x * self.axis[0][k] + y * self.axis[1][k] + z * self.axis[2][k];
+            let cos = (-along * per_distance).clamp(-1.0, 1.0);
+            let sin = (1.0 - cos * cos).sqrt();
+            // Spread and size together.
+            let cos_sum = self.cos_spread[k] * cos_size - self.sin_spread[k] * sin_size;
+            let sin_sum = self.sin_spread[k] * cos_size + self.cos_spread[k] * sin_size;
+            let nearer = cos * cos_sum + sin * sin_sum;
+            // One choice after the other, so that the compiler needs no branches.
+            let sent = if cos >= cos_sum { 1.0 } else { nearer };
+            let sent = if sin_sum < 0.0 { 1.0 } else { sent };
+            let inside = distance2 <= self.radius2[k];
+            let sent = if inside { 1.0 } else { sent };
+
+            let least_distance2 = distance2.max(self.radius2[k]);
+            let cosines = received.max(LEAST_COSINE) * sent.max(LEAST_COSINE);
+            // A point light may be all but at the receiver.
+            let importance = (self.intensity[k] * cosines / least_distance2).min(1e30);
+            let dark = sent < self.least_cos[k];
+            let importance = if dark { 0.0 } else { importance };
+            let behind = cos < self.least_cos_of_center[k];
+            *slot = if behind { 0.0 } else { importance };
+        }
+        importances
+    }
+}
+
+#[cfg(test)]
+mod tests;
