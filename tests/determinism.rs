@@ -1,10 +1,11 @@
 //! Same bytes for any number of threads.
 
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use renderer::image::openexr;
 use renderer::integrator::develop::develop;
-use renderer::integrator::render::{Job, render};
+use renderer::integrator::render::{Ended, Halt, Job, Rendered, render_until};
 use support::picture::world_of;
 
 const SCENE: &str = "
@@ -45,7 +46,8 @@ azimuth_deg = 100
 radiance_w_m2_sr_nm = { d65 = 0.05 }
 ";
 
-fn exr_bytes(threads: usize) -> Vec<u8> {
+/// A picture of the scene on so many threads, and its file.
+fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
@@ -55,21 +57,86 @@ fn exr_bytes(threads: usize) -> Vec<u8> {
         let job = Job {
             width: 40,
             height: 30,
-            spp: 20,
+            spp,
             seed: 5,
         };
-        let rendered = render(&world, &job, &AtomicBool::new(false), &|_| ()).expect("it fits");
+        let go_on = AtomicBool::new(false);
+        let rendered = render_until(&world, &job, &halt, &go_on, &|_| ()).expect("it fits");
         let folder = tempfile::tempdir().expect("a place for temporary files");
         let path = folder.path().join("picture.exr");
         openexr::write(&develop(&scene, &world, &job, &rendered), &path).expect("it is written");
-        std::fs::read(&path).expect("it was just written")
+        let bytes = std::fs::read(&path).expect("it was just written");
+        (rendered, bytes)
     })
 }
 
 #[test]
 fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
-    let one = exr_bytes(1);
+    let (_, one) = rendered(1, 20, Halt::default());
     for threads in [2, 3, 8] {
-        assert!(one == exr_bytes(threads), "{threads} threads");
+        let (_, bytes) = rendered(threads, 20, Halt::default());
+        assert!(one == bytes, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_picture_that_aims_at_a_noise_has_the_same_bytes_on_any_number_of_threads() {
+    let halt = Halt {
+        noise: Some(0.05),
+        time: None,
+    };
+    let (first, one) = rendered(1, 200, halt);
+    let [fewest, most] = first.film.drawn_range();
+    assert!(
+        fewest < 100 && most > fewest,
+        "{fewest} to {most} samples: some blocks stop early, others go on"
+    );
+    for threads in [2, 3, 8] {
+        let (_, bytes) = rendered(threads, 200, halt);
+        assert!(one == bytes, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_block_that_stopped_early_has_the_bits_of_its_first_samples() {
+    let halt = Halt {
+        noise: Some(0.05),
+        time: None,
+    };
+    let (adaptive, _) = rendered(2, 200, halt);
+    let [fewest, most] = adaptive.film.drawn_range();
+    for spp in [fewest, most] {
+        let (plain, _) = rendered(2, spp, Halt::default());
+        let mut same = 0;
+        for (x, y) in (0..30).flat_map(|y| (0..40).map(move |x| (x, y))) {
+            let (pixel, expected) = (adaptive.film.pixel(x, y), plain.film.pixel(x, y));
+            if pixel.samples() == spp {
+                let of = |pixel: &renderer::film::Pixel<'_>| {
+                    let radiance = [0, 1, 2].map(|channel| pixel.mean(channel));
+                    (radiance, pixel.alpha(), pixel.position(), pixel.object())
+                };
+                assert_eq!(of(&pixel), of(&expected), "pixel {x}, {y}");
+                same += 1;
+            }
+        }
+        assert!(same > 0, "no pixel has {spp} samples");
+    }
+}
+
+#[test]
+fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
+    for noise in [None, Some(0.2)] {
+        let halt = Halt {
+            noise,
+            time: Some(Duration::from_millis(300)),
+        };
+        let (stopped, bytes) = rendered(2, 1 << 20, halt);
+        // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done for 0.2 at once.
+        let [_, most] = stopped.film.drawn_range();
+        if noise.is_none() {
+            assert_eq!(stopped.ended, Ended::Time);
+        }
+        let (_, again) = rendered(1, most, Halt { noise, time: None });
+        assert!(bytes == again, "{most} samples, noise {noise:?}");
     }
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use support::picture::{mean_and_error, mean_of, picture_of};
+use renderer::integrator::render::Halt;
+use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of, picture_until};
 
 /// A scene of two bands with a pinhole camera, to which blocks are added.
 fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
@@ -121,6 +122,46 @@ fn a_closed_glowing_room_has_the_radiance_of_the_geometric_series() {
     let text = scene(camera, "", &blocks);
     assert_agrees("room, 0.5", mean_and_error(&text, 0, 8), 0.1 / (1.0 - 0.5));
     assert_agrees("room, 0.9", mean_and_error(&text, 1, 8), 0.1 / (1.0 - 0.9));
+}
+
+#[test]
+fn stopping_at_a_noise_leaves_the_mean_as_it_is_and_reaches_the_noise() {
+    let blocks = glowing_room("0.6", 0.4);
+    let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
+    // Every pixel's radiance is 1, and roulette at every bounce makes paths of very different lengths of it.
+    let text = scene(camera, "roulette_below = 1", &blocks).replace("spp = 64", "spp = 4096");
+    for aim in [0.1, 0.05, 0.03] {
+        let halt = Halt {
+            noise: Some(aim),
+            time: None,
+        };
+        let pictures: Vec<_> = (0..16)
+            .map(|seed| picture_until(&text, seed, &halt))
+            .collect();
+        let what = format!("room, noise {aim}");
+        let means: Vec<f64> = pictures.iter().map(|picture| mean_of(picture, 0)).collect();
+        assert_agrees(&what, mean_and_error_of(&means), 1.0);
+        let (mut square, mut estimate, mut spp) = (0.0, 0.0, 0.0);
+        for picture in &pictures {
+            let squares = picture.film.map(|pixel| (pixel.mean(0) - 1.0).powi(2));
+            square += squares.iter().sum::<f64>() / squares.len() as f64;
+            let noise = picture.noise.expect("it was watched");
+            estimate += noise.reached.expect("there were enough samples").powi(2);
+            spp += picture.film.drawn() as f64 / squares.len() as f64;
+        }
+        let count = pictures.len() as f64;
+        // Relative to radiance and a tenth of the picture's mean.
+        let error = (square / count).sqrt() / 1.1;
+        let estimate = (estimate / count).sqrt();
+        eprintln!(
+            "{what}: error {error:.4}, estimate {estimate:.4}, {:.0} samples",
+            spp / count
+        );
+        // Here samples are nearly independent, so the estimate has no margin, and blocks that stop at a low one are picked.
+        // 4,096 pixels tell errors to 1.1 %: four of that, twice, leave 10 %.
+        assert!(error <= 1.1 * aim && error <= 1.1 * estimate, "{what}");
+        assert!(error >= 0.4 * aim, "{what}: samples are wasted");
+    }
 }
 
 #[test]

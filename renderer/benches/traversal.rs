@@ -127,7 +127,8 @@ fn rates(criterion: &mut Criterion) {
                 });
             });
             group.bench_function(BenchmarkId::new("occluded", level.name()), |bencher| {
-                bencher.iter(|| black_box(to_sky.iter().filter(|ray| geometry.occluded(ray)).count()));
+                bencher
+                    .iter(|| black_box(to_sky.iter().filter(|ray| geometry.occluded(ray)).count()));
             });
         }
         group.finish();

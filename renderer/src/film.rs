@@ -221,6 +221,7 @@ impl Film {
                     |(column, ((((drawn, moments), positions), surfaces), albedos))| {
                         let x = column as u32 * BLOCK_SIDE;
                         let mut block = Block {
+                            number: row * across + column,
                             x,
                             y,
                             width: BLOCK_SIDE.min(width - x),
@@ -282,6 +283,20 @@ impl Film {
             .sum()
     }
 
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.drawn.len()
+    }
+
+    /// Samples that each pixel of a block has, rejected ones included.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such block.
+    pub fn drawn_of(&self, block: usize) -> u32 {
+        self.drawn[block]
+    }
+
     /// Fewest and most samples of a pixel, rejected ones included.
     pub fn drawn_range(&self) -> [u32; 2] {
         let fewest = self.drawn.iter().copied().min();
@@ -293,8 +308,8 @@ impl Film {
         self.width.div_ceil(BLOCK_SIDE) as usize
     }
 
-    /// Pixels of a block.
-    fn pixels_of(&self, block: usize) -> u32 {
+    /// Number of pixels of a block; blocks are counted row by row from the top.
+    pub fn pixels_of(&self, block: usize) -> u32 {
         let corner = [block % self.blocks_across(), block / self.blocks_across()]
             .map(|place| place as u32 * BLOCK_SIDE);
         BLOCK_SIDE.min(self.width - corner[0]) * BLOCK_SIDE.min(self.height - corner[1])

@@ -3,5 +3,6 @@
 pub mod develop;
 pub mod features;
 pub mod mis;
+pub mod noise;
 pub mod path;
 pub mod render;

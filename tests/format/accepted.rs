@@ -43,6 +43,7 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
         (64, 48, 4, 0)
     );
     assert_near(scene.film.filter_radius, 1.5);
+    assert_eq!(scene.film.noise, None);
     assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [400.0, 780.0]));
     assert_eq!(
         (scene.picture.exposure_ev, scene.picture.tone),
@@ -61,7 +62,7 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
 fn film_and_camera_are_in_si_units() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     assert_eq!(scene.name, "whole-scene");
-    assert_eq!(scene.film.seed, u64::MAX);
+    assert_eq!((scene.film.seed, scene.film.noise), (u64::MAX, Some(0.02)));
     assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [380.0, 800.0]));
     assert_eq!(
         (scene.picture.exposure_ev, scene.picture.tone),

@@ -58,6 +58,7 @@ fn errors_of_overrides_point_into_the_override() {
     let minimal = text_of("minimal.toml");
     for (text, code, shown) in [
         ("film.rgb.spp=0", "scene::out_of_range", "-D:1:14"),
+        ("film.rgb.noise=2", "scene::out_of_range", "-D:1:16"),
         ("film.rgb.ssp=4", "scene::unknown_key", "-D:1:10"),
         ("film.rgb.spp", "scene::override", "without `=`"),
         ("picture.tone=filmic", "scene::syntax", "-D:1:14"),

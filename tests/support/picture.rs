@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use renderer::integrator::render::{Job, Rendered, render};
+use renderer::integrator::render::{Halt, Job, Rendered, render_until};
 use renderer::scene::load::parse;
 use renderer::scene::world::World;
 
@@ -24,6 +24,11 @@ pub fn world_of(text: &str) -> (renderer::scene::description::Description, World
 
 /// Renders the scene of a text with its own sample count and the given seed.
 pub fn picture_of(text: &str, seed: u64) -> Rendered {
+    picture_until(text, seed, &Halt::default())
+}
+
+/// The same, and what may end it before.
+pub fn picture_until(text: &str, seed: u64, halt: &Halt) -> Rendered {
     let (description, world) = world_of(text);
     let job = Job {
         width: description.film.width,
@@ -31,7 +36,7 @@ pub fn picture_of(text: &str, seed: u64) -> Rendered {
         spp: description.film.spp,
         seed,
     };
-    render(&world, &job, &AtomicBool::new(false), &|_| ()).expect("a small film fits")
+    render_until(&world, &job, halt, &AtomicBool::new(false), &|_| ()).expect("a small film fits")
 }
 
 /// Mean of one channel over all pixels.
@@ -47,6 +52,11 @@ pub fn mean_and_error(text: &str, channel: usize, seeds: u64) -> (f64, f64) {
     let means: Vec<f64> = (0..seeds)
         .map(|seed| mean_of(&picture_of(text, seed), channel))
         .collect();
+    mean_and_error_of(&means)
+}
+
+/// Mean of independent numbers and its standard error.
+pub fn mean_and_error_of(means: &[f64]) -> (f64, f64) {
     let count = means.len() as f64;
     let mean = means.iter().sum::<f64>() / count;
     let variance = means.iter().map(|m| (m - mean) * (m - mean)).sum::<f64>() / (count - 1.0);

@@ -57,7 +57,7 @@ pub struct SceneArguments {
 }
 
 /// `lamina render`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, PartialEq)]
 pub struct RenderArguments {
     /// Scene and overrides.
     #[command(flatten)]
@@ -68,6 +68,13 @@ pub struct RenderArguments {
     /// Samples a pixel, instead of the scene's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
     pub spp: Option<u32>,
+    /// Relative error at which a part of the picture has enough samples, instead of the scene's: 0.01 is one percent, 0 gives every pixel
+    /// all its samples
+    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
+    pub noise: Option<f64>,
+    /// Stop rendering after this time, at the end of the pass that is under way
+    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
+    pub time: Option<f64>,
     /// Seed of every random number, instead of the scene's
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
@@ -77,6 +84,22 @@ pub struct RenderArguments {
     /// Write times, memory and speed as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+}
+
+/// Longest time that a render may be given: a year.
+const MOST_SECONDS: u32 = 366 * 24 * 3600;
+
+/// A number from `LOW` to `HIGH`.
+fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
+    let number: f64 = text
+        .parse()
+        .map_err(|_| format!("not a number; write one from {LOW} to {HIGH}"))?;
+    let allowed = f64::from(LOW)..=f64::from(HIGH);
+    if allowed.contains(&number) {
+        Ok(number)
+    } else {
+        Err(format!("must be from {LOW} to {HIGH}"))
+    }
 }
 
 /// `lamina export`.
@@ -197,7 +220,8 @@ mod tests {
 
     #[test]
     fn render_takes_all_its_options() {
-        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 -D x.y=1 -D z=2 --stats s.json";
+        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 --noise 0.01 --time 1.5 -D x.y=1 -D z=2 \
+                    --stats s.json";
         let arguments = parsed(line).expect("the line is right");
         let Some(Command::Render(render)) = arguments.command else {
             panic!("{line} is no render");
@@ -207,6 +231,7 @@ mod tests {
             (render.spp, render.threads, render.seed),
             (Some(9), Some(2), Some(7))
         );
+        assert_eq!((render.noise, render.time), (Some(0.01), Some(1.5)));
     }
 
     #[test]
@@ -227,6 +252,13 @@ mod tests {
             "lamina render a.toml --spp 0",
             "lamina render a.toml --spp 1099511627776",
             "lamina render a.toml --threads 0",
+            "lamina render a.toml --noise -0.1",
+            "lamina render a.toml --noise 1.5",
+            "lamina render a.toml --noise nan",
+            "lamina render a.toml --noise little",
+            "lamina render a.toml --time -1",
+            "lamina render a.toml --time inf",
+            "lamina render a.toml --time 10s",
             "lamina optics --n 0.5 --out a.csv",
             "lamina optics --cab nan --out a.csv",
             "lamina optics --cab -1 --out a.csv",

@@ -12,13 +12,15 @@ use crate::integrator::render::Progress;
 pub(super) struct Reporter {
     bar: Option<ProgressBar>,
     started: Instant,
+    /// Time that the render may take.
+    time: Option<Duration>,
     last_line: Mutex<Instant>,
 }
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 impl Reporter {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(time: Option<Duration>) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template(
                 "{bar:40} {percent}% of {len} paths, {elapsed_precise} gone, {eta} to go {msg}",
@@ -30,13 +32,16 @@ impl Reporter {
         Self {
             bar,
             started: now,
+            time,
             last_line: Mutex::new(now),
         }
     }
 
     pub(super) fn tell(&self, progress: Progress) {
         if let Some(bar) = &self.bar {
-            bar.set_length(progress.total);
+            let share = self.share(progress, self.started.elapsed());
+            // What the render will come to: fewer paths than asked for if the time is over before.
+            bar.set_length((progress.paths as f64 / share) as u64);
             bar.set_position(progress.paths);
             return;
         }
@@ -48,13 +53,23 @@ impl Reporter {
             return;
         }
         *last = Instant::now();
-        let share = progress.paths as f64 / progress.total as f64;
-        let elapsed = self.started.elapsed().as_secs_f64();
+        let elapsed = self.started.elapsed();
+        let share = self.share(progress, elapsed);
+        let elapsed = elapsed.as_secs_f64();
         eprintln!(
             "{:.1} % after {elapsed:.0} s, about {:.0} s to go",
             100.0 * share,
             elapsed * (1.0 - share) / share
         );
+    }
+
+    /// How much of the render is done: of its paths or of its time, whichever ends it first.
+    fn share(&self, progress: Progress, elapsed: Duration) -> f64 {
+        let of_paths = progress.paths as f64 / progress.total.max(1) as f64;
+        let of_time = self.time.map_or(0.0, |time| {
+            elapsed.as_secs_f64() / time.as_secs_f64().max(1e-9)
+        });
+        of_paths.max(of_time).clamp(1e-9, 1.0)
     }
 
     pub(super) fn finish(&self) {

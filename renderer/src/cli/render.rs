@@ -1,9 +1,9 @@
 //! `lamina render`: a scene file to STEM.exr and STEM.png.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::cli::arguments::RenderArguments;
 use crate::cli::interrupt::stop_on_interrupt;
@@ -11,40 +11,30 @@ use crate::cli::progress::Reporter;
 use crate::cli::{Failure, check_writable, load_scene, say, stats};
 use crate::image::{openexr, portable_network, tone};
 use crate::integrator::develop::develop;
-use crate::integrator::render::{Job, Rendered, render};
+use crate::integrator::render::{Ended, Halt, Job, Rendered, render_until};
 use crate::scene::description::{Description, FilmKind};
+use crate::scene::load::Loaded;
 use crate::scene::world::World;
 use crate::spectrum::wavelengths::seen_at;
 
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let started = Instant::now();
     let loaded = load_scene(&arguments.scene)?;
+    let [exr, png] = outputs(arguments, &loaded)?;
     let scene = loaded.description;
-    let stem = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(&scene.name));
-    let exr = with_ending(&stem, "exr");
-    let png = with_ending(&stem, "png");
-    check_writable(&exr)?;
-    for output in [&exr, &png] {
-        let is_input =
-            std::fs::canonicalize(output).is_ok_and(|file| loaded.inputs.contains(&file));
-        if is_input {
-            return Err(Failure::bad(format!(
-                "{} is a file that the scene reads: let --out name another",
-                output.display()
-            )));
-        }
-    }
-    if let Some(path) = &arguments.stats {
-        check_writable(path)?;
-    }
     let job = Job {
         width: scene.film.width,
         height: scene.film.height,
         spp: arguments.spp.unwrap_or(scene.film.spp),
         seed: arguments.seed.unwrap_or(scene.film.seed),
+    };
+    let halt = Halt {
+        // 0 on the command line takes back what the scene says.
+        noise: arguments
+            .noise
+            .or(scene.film.noise)
+            .filter(|&noise| noise > 0.0),
+        time: arguments.time.map(Duration::from_secs_f64),
     };
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
@@ -59,46 +49,37 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     let build_seconds = started.elapsed().as_secs_f64();
     let stop = stop_on_interrupt()?;
-    let reporter = Reporter::new();
+    let reporter = Reporter::new(halt.time);
     let tracing = Instant::now();
     let rendered = pool
-        .install(|| render(&world, &job, &stop, &|progress| reporter.tell(progress)))
+        .install(|| {
+            let tell = |progress| reporter.tell(progress);
+            render_until(&world, &job, &halt, &stop, &tell)
+        })
         .map_err(Failure::bad)?;
     reporter.finish();
     let trace_seconds = tracing.elapsed().as_secs_f64();
-    write_picture(&scene, &world, &job, &rendered, &exr, &png)?;
+    pool.install(|| write_picture(&scene, &world, &job, &rendered, &exr, &png))?;
     let paths = rendered.film.drawn();
-    let seconds = started.elapsed().as_secs_f64();
-    let rays_per_second = rendered.rays as f64 / trace_seconds;
-    let paths_per_second = paths as f64 / trace_seconds;
+    let times = Times {
+        all: started.elapsed().as_secs_f64(),
+        build: build_seconds,
+        trace: trace_seconds,
+    };
     if let Some(path) = &arguments.stats {
-        let report = json!({
-            "scene": scene.name,
-            "seconds": seconds,
-            "build_seconds": build_seconds,
-            "trace_seconds": trace_seconds,
-            "peak_mib": stats::peak_mib(),
-            "geometry_mib": world.geometry.memory_bytes() as f64 / f64::from(1 << 20),
-            "threads": pool.current_num_threads(),
-            "spp": paths as f64 / (f64::from(job.width) * f64::from(job.height)),
-            "rays": rendered.rays,
-            "paths": paths,
-            "mrays_per_s": rays_per_second * 1e-6,
-            "mpaths_per_s": paths_per_second * 1e-6,
-            "rejected_samples": rendered.film.rejected(),
-            "clamped_values": rendered.film.clamped(),
-            "interrupted": rendered.interrupted,
-        });
-        stats::write(path, &report)?;
+        let threads = pool.current_num_threads();
+        stats::write(path, &report(&scene, &world, &rendered, &times, threads))?;
     }
     eprintln!(
-        "{:.1} s in all: {build_seconds:.1} s to build, {trace_seconds:.1} s for {:.2} million paths \
-         ({:.2} Mpaths/s, {:.2} Mrays/s)",
-        seconds,
+        "{:.1} s in all: {:.1} s to build, {:.1} s for {:.2} million paths ({:.2} Mpaths/s, {:.2} Mrays/s)",
+        times.all,
+        times.build,
+        times.trace,
         paths as f64 * 1e-6,
-        paths_per_second * 1e-6,
-        rays_per_second * 1e-6
+        times.millions_per_second(paths),
+        times.millions_per_second(rendered.rays)
     );
+    tell_samples(&rendered);
     say(exr.display());
     say(png.display());
     if rendered.film.rejected() > 0 {
@@ -107,7 +88,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             rendered.film.rejected()
         );
     }
-    if rendered.interrupted {
+    if rendered.ended == Ended::Interrupted {
         eprintln!("interrupted: the pictures hold what was rendered until then");
         return Err(Failure::Interrupted);
     }
@@ -118,6 +99,101 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// The picture files, once it is known that they can be written and are no input.
+fn outputs(arguments: &RenderArguments, loaded: &Loaded) -> Result<[PathBuf; 2], Failure> {
+    let stem = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(&loaded.description.name));
+    let outputs = ["exr", "png"].map(|ending| with_ending(&stem, ending));
+    check_writable(&outputs[0])?;
+    for output in &outputs {
+        let is_input =
+            std::fs::canonicalize(output).is_ok_and(|file| loaded.inputs.contains(&file));
+        if is_input {
+            return Err(Failure::bad(format!(
+                "{} is a file that the scene reads: let --out name another",
+                output.display()
+            )));
+        }
+    }
+    if let Some(path) = &arguments.stats {
+        check_writable(path)?;
+    }
+    Ok(outputs)
+}
+
+/// Seconds that a render took.
+struct Times {
+    all: f64,
+    build: f64,
+    trace: f64,
+}
+
+impl Times {
+    fn millions_per_second(&self, count: u64) -> f64 {
+        count as f64 * 1e-6 / self.trace
+    }
+}
+
+/// What `--stats` writes.
+fn report(
+    scene: &Description,
+    world: &World,
+    rendered: &Rendered,
+    times: &Times,
+    threads: usize,
+) -> Value {
+    let film = &rendered.film;
+    let pixels = f64::from(film.width()) * f64::from(film.height());
+    json!({
+        "scene": scene.name,
+        "seconds": times.all,
+        "build_seconds": times.build,
+        "trace_seconds": times.trace,
+        "peak_mib": stats::peak_mib(),
+        "geometry_mib": world.geometry.memory_bytes() as f64 / f64::from(1 << 20),
+        "threads": threads,
+        "spp": film.drawn() as f64 / pixels,
+        "spp_range": film.drawn_range(),
+        "noise": rendered.noise.and_then(|noise| noise.reached),
+        "ended": ended(rendered.ended),
+        "rays": rendered.rays,
+        "paths": film.drawn(),
+        "mrays_per_s": times.millions_per_second(rendered.rays),
+        "mpaths_per_s": times.millions_per_second(film.drawn()),
+        "rejected_samples": film.rejected(),
+        "clamped_values": film.clamped(),
+        "interrupted": rendered.ended == Ended::Interrupted,
+    })
+}
+
+/// Says how many samples pixels got where that was not asked for as a number.
+fn tell_samples(rendered: &Rendered) {
+    let [fewest, most] = rendered.film.drawn_range();
+    let pixels = f64::from(rendered.film.width()) * f64::from(rendered.film.height());
+    let mean = rendered.film.drawn() as f64 / pixels;
+    if let Some(noise) = rendered.noise {
+        let reached = noise.reached.map_or_else(
+            || "noise not known from so few".to_owned(),
+            |reached| format!("noise {reached:.4}, aimed at {}", noise.aim),
+        );
+        eprintln!("{fewest} to {most} samples a pixel, {mean:.1} on average; {reached}");
+    } else if rendered.ended == Ended::Time {
+        eprintln!("{most} samples a pixel, then the time was over");
+    }
+}
+
+/// Why a render ended, in one word.
+fn ended(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Samples => "samples",
+        Ended::Noise => "noise",
+        Ended::Time => "time",
+        Ended::Interrupted => "interrupt",
+    }
 }
 
 /// `stem` with an ending added, whatever dots it has already.

@@ -33,6 +33,8 @@ impl Faults {
 /// A block that is being exposed. All its pixels have the same number of samples.
 #[derive(Debug)]
 pub struct Block<'a> {
+    /// Which of the film's blocks it is, row by row from the top.
+    pub(super) number: usize,
     /// Column of its first pixel.
     pub(super) x: u32,
     /// Row of its first pixel.
@@ -52,14 +54,9 @@ pub struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// Samples that each pixel has so far, rejected ones included: the number of the next.
-    pub fn drawn(&self) -> u32 {
-        *self.drawn
-    }
-
-    /// Column and row of its first pixel.
-    pub fn corner(&self) -> [u32; 2] {
-        [self.x, self.y]
+    /// Which of the film's blocks it is, row by row from the top.
+    pub fn number(&self) -> usize {
+        self.number
     }
 
     /// Number of pixels.

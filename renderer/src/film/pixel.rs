@@ -20,6 +20,11 @@ impl Pixel<'_> {
         self.samples
     }
 
+    /// Number of channels.
+    pub fn channels(&self) -> usize {
+        self.moments.len()
+    }
+
     /// Mean of a channel; 0 without samples.
     pub fn mean(&self, channel: usize) -> f64 {
         self.moments[channel].mean(self.samples)

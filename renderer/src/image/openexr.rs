@@ -1,15 +1,20 @@
 //! `OpenEXR`: 32-bit float channels with names and attributes.
 
+mod deflate;
+
 use std::any::Any;
 use std::io::{Cursor, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image};
-use exr::meta::MetaData;
-use exr::meta::attribute::{AttributeValue, Chromaticities, LineOrder, Text};
+use exr::block::writer::{ChunksWriter, write_chunks_with};
+use exr::image::FlatSamples;
+use exr::meta::attribute::{
+    AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text,
+};
 use exr::meta::header::{Header, LayerAttributes};
-use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2, WritableImage};
+use exr::meta::{BlockDescription, MetaData};
+use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{Attribute, ImageError, Layer, MOST_BYTES, Picture, atomic, check_size};
 
@@ -74,11 +79,12 @@ pub fn write(picture: &Picture, path: &Path) -> Result<(), ImageError> {
 pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     check(picture)?;
     let size = Vec2(picture.width as usize, picture.height as usize);
-    let channels = picture
-        .layers
-        .iter()
-        .map(|layer| AnyChannel::new(text(&layer.name), FlatSamples::F32(layer.data.clone())))
-        .collect();
+    let mut layers: Vec<&Layer> = picture.layers.iter().collect();
+    layers.sort_by(|a, b| a.name.cmp(&b.name));
+    let channels = layers.iter().map(|layer| {
+        let name = text(&layer.name);
+        ChannelDescription::named(name, SampleType::F32)
+    });
     let mut attributes = LayerAttributes::default();
     let mut shared = exr::meta::header::ImageAttributes::with_size(size);
     for (name, value) in &picture.attributes {
@@ -101,20 +107,25 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
         attributes.other.insert(text(name), value);
     }
     shared.display_window.position = Vec2(0, 0);
-    let encoding = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
-    let layer = exr::image::Layer::new(size, attributes, encoding, AnyChannels::sort(channels));
-    let image = Image::new(shared, layer);
+    let header = Header::new(Text::default(), size, channels.collect())
+        .with_encoding(
+            Compression::ZIP16,
+            BlockDescription::ScanLines,
+            LineOrder::Increasing,
+        )
+        .with_attributes(attributes)
+        .with_shared_attributes(shared);
+    let chunks = deflate::blocks(&layers, size.0, size.1);
     let mut bytes = Cursor::new(Vec::new());
     // Our own check stands in for the crate's, which refuses standard attributes that it has fields for.
     let written = guard(|| {
-        image
-            .write()
-            .skip_compatibility_checks()
-            .to_buffered(&mut bytes)
+        let headers = std::iter::once(header).collect();
+        write_chunks_with(&mut bytes, headers, false, |_, writer| {
+            chunks
+                .into_iter()
+                .enumerate()
+                .try_for_each(|(place, chunk)| writer.write_chunk(place, chunk))
+        })
     });
     written.map_err(|what| ImageError::Inconsistent { what })?;
     let mut bytes = bytes.into_inner();

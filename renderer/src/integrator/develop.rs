@@ -94,7 +94,8 @@ fn attributes(
         text("lamina:seed", job.seed.to_string()),
         (
             "lamina:spp".to_owned(),
-            Attribute::Int(i32::try_from(job.spp).unwrap_or(i32::MAX)),
+            // What pixels really have: fewer than asked for if time or noise ended the render.
+            Attribute::Int(rendered.film.drawn_range()[1] as i32),
         ),
         text(
             "lamina:wavelengths",
@@ -112,6 +113,9 @@ fn attributes(
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),
         ("worldToNDC".to_owned(), Attribute::Matrix4(to_ndc)),
     ];
+    if let Some(noise) = rendered.noise {
+        attributes.push(text("lamina:noise", noise.aim.to_string()));
+    }
     match scene.film.kind {
         FilmKind::Rgb { .. } => {
             attributes.push(("chromaticities".to_owned(), REC709));

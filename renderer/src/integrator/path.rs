@@ -120,13 +120,8 @@ pub fn trace<const N: usize>(
                 throughput,
                 gathered: result.radiance,
             };
-            let (light, rays) = sampled_light(
-                world,
-                &vertex,
-                &wavelengths,
-                [bounce_x, bounce_y, roulette],
-                stream,
-            );
+            let (light, rays) =
+                sampled_light(world, &vertex, &wavelengths, [bounce_x, bounce_y], stream);
             result.radiance += light;
             result.rays += rays;
         }
@@ -184,7 +179,7 @@ fn sampled_light<const N: usize>(
     world: &World,
     vertex: &Vertex<'_, N>,
     wavelengths: &Wavelengths<N>,
-    [x, y, coin]: [f32; 3],
+    [x, y]: [f32; 2],
     stream: &mut Stream,
 ) -> (Lanes<N>, u32) {
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
@@ -192,15 +187,14 @@ fn sampled_light<const N: usize>(
         let choice = Choice::certain(number);
         // A sun shares the numbers of the bounce: what both find is added up, so that only their covariance
         // matters, and a disc of half a degree looks the same wherever it is lit from.
-        let u = [0.0, x, y, coin];
-        let (light, traced) = direct(world, &choice, vertex, wavelengths, u);
+        let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], None);
         sum += light;
         rays += traced;
     }
     if !world.selection.is_empty() {
-        let u = stream.next4();
-        if let Some(choice) = world.selection.choose(&vertex.receiver, u[0]) {
-            let (light, traced) = direct(world, &choice, vertex, wavelengths, u);
+        let [which, x, y, coin] = stream.next4();
+        if let Some(choice) = world.selection.choose(&vertex.receiver, which) {
+            let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], Some(coin));
             sum += light;
             rays += traced;
         }
@@ -262,17 +256,17 @@ const FAINT: f32 = 0.2;
 
 /// What a light that was chosen sends to a vertex and on to the camera; also the number of rays it took.
 ///
-/// Of `u` the first number has made the choice, the next two pick a place on the light, the last is for roulette.
+/// `place` picks a place on the light, `coin` is for the roulette of faint samples; without it none is played.
 fn direct<const N: usize>(
     world: &World,
     choice: &Choice,
     vertex: &Vertex<'_, N>,
     wavelengths: &Wavelengths<N>,
-    u: [f32; 4],
+    place: [f32; 2],
+    coin: Option<f32>,
 ) -> (Lanes<N>, u32) {
-    let [_, x, y, coin] = u;
     let light = &world.lights[choice.light];
-    let place = Vec2::new(x, y);
+    let place = Vec2::from_array(place);
     let Some(sample) = light.sample(choice.part, &vertex.receiver, wavelengths, place) else {
         return (Lanes::ZERO, 0);
     };
@@ -286,12 +280,14 @@ fn direct<const N: usize>(
     let weight = mis::power(light_pdf, pdf) / light_pdf;
     let mut added = vertex.throughput * scattered * sample.radiance * weight;
     // Unbiased: what was gathered before does not depend on this sample.
-    let survival = survival(added, vertex.gathered * FAINT);
-    if survival < 1.0 {
+    if let Some(coin) = coin {
+        let survival = survival(added, vertex.gathered * FAINT);
         if coin >= survival {
             return (Lanes::ZERO, 0);
         }
-        added *= 1.0 / survival;
+        if survival < 1.0 {
+            added *= 1.0 / survival;
+        }
     }
     let shadow = match sample.point {
         Some(point) => vertex.surface.spawn_to(point),

@@ -1,11 +1,13 @@
 //! All the paths of a picture, on all threads, pass by pass.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use glam::Vec2;
 
 use crate::film::{Film, FilmError, PixelSums};
 use crate::integrator::features::{self, Layout, MOST_CHANNELS};
+use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::path;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
@@ -24,6 +26,29 @@ pub struct Job {
     pub seed: u64,
 }
 
+/// What ends a render before every pixel has all the samples of its [`Job`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Halt {
+    /// Relative error at which a block of pixels has enough samples; none if all get the same number. See
+    /// [`crate::integrator::noise`].
+    pub noise: Option<f64>,
+    /// Time after which no further pass begins.
+    pub time: Option<Duration>,
+}
+
+/// Why a render ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// Every pixel has the job's samples.
+    Samples,
+    /// Every block has the samples it needs for the error that was aimed at, or the job's.
+    Noise,
+    /// The time was over.
+    Time,
+    /// It was broken off.
+    Interrupted,
+}
+
 /// What was rendered.
 #[derive(Debug)]
 pub struct Rendered {
@@ -33,8 +58,19 @@ pub struct Rendered {
     pub layout: Layout,
     /// Rays traced, shadow rays included.
     pub rays: u64,
-    /// Whether it was broken off.
-    pub interrupted: bool,
+    /// Why no more was rendered.
+    pub ended: Ended,
+    /// What was found of the noise, if something watched it.
+    pub noise: Option<Noise>,
+}
+
+/// Relative errors: root mean square over the picture's pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// What each block aimed at.
+    pub aim: f64,
+    /// What the picture reached, as estimated; none if there were too few samples to tell.
+    pub reached: Option<f64>,
 }
 
 /// How far a render is.
@@ -42,17 +78,14 @@ pub struct Rendered {
 pub struct Progress {
     /// Paths done.
     pub paths: u64,
-    /// Paths in all.
+    /// Paths in all, as far as is known: with a noise to aim at this changes on the way.
     pub total: u64,
 }
 
 /// Samples a pixel of the longest pass: short enough to stop soon, long enough to keep threads busy.
-const LONGEST_PASS: u32 = 16;
+const LONGEST_PASS: u32 = noise::STEP;
 
-/// Renders on the current thread pool.
-///
-/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet begun in this pass are left
-/// as they are, and what was rendered is returned.
+/// Renders on the current thread pool, as [`render_until`] without anything that ends it early but `stop`.
 ///
 /// # Errors
 ///
@@ -63,54 +96,162 @@ pub fn render(
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Rendered, FilmError> {
+    render_until(world, job, &Halt::default(), stop, progress)
+}
+
+/// Renders on the current thread pool, pass by pass, until every pixel has enough samples or `halt` says so.
+///
+/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet begun in this pass are left
+/// as they are, and what was rendered is returned. A render that ends by time has the bits of one whose job has as many
+/// samples as the pixels with most.
+///
+/// # Errors
+///
+/// [`FilmError`] if the film would be too large.
+pub fn render_until(
+    world: &World,
+    job: &Job,
+    halt: &Halt,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Rendered, FilmError> {
+    let started = Instant::now();
     let layout = Layout::new(&world.wavelengths);
     let mut film = Film::new(job.width, job.height, layout.beauty, layout.albedo)?;
-    let rays = AtomicU64::new(0);
-    let paths = AtomicU64::new(0);
-    let total = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
-    let white = features::white(&world.wavelengths);
+    let mut watch = halt
+        .noise
+        .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.albedo));
+    let pass = PassOfPaths {
+        world,
+        job,
+        layout,
+        white: features::white(&world.wavelengths),
+        stop,
+        progress,
+        rays: AtomicU64::new(0),
+        paths: AtomicU64::new(0),
+        total: AtomicU64::new(0),
+    };
+    let all = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
     let mut first = 0;
-    while first < job.spp && !stop.load(Ordering::Relaxed) {
-        let pass = first.clamp(1, LONGEST_PASS).min(job.spp - first);
+    let ended = loop {
+        let goal = watch.as_ref().map_or(job.spp, NoiseWatch::last_goal);
+        if first >= goal {
+            break if first >= job.spp {
+                Ended::Samples
+            } else {
+                Ended::Noise
+            };
+        }
+        if stop.load(Ordering::Relaxed) {
+            break Ended::Interrupted;
+        }
+        let Some(longest) = longest_pass(first, started.elapsed(), halt.time) else {
+            break Ended::Time;
+        };
+        let end = goal.min(first + longest);
+        let total = watch
+            .as_ref()
+            .map_or(all, |watch| watch.expected_paths(&film));
+        pass.total.store(total, Ordering::Relaxed);
+        let goals = |block| watch.as_ref().map_or(end, |watch| watch.goal(block));
+        if !pass.run(&mut film, first, end, &goals) {
+            break Ended::Interrupted;
+        }
+        first = end;
+        if let Some(watch) = watch.as_mut().filter(|_| NoiseWatch::is_border(first)) {
+            watch.look(&film, first);
+        }
+    };
+    let paths = pass.paths.into_inner();
+    progress(Progress {
+        paths,
+        total: paths,
+    });
+    Ok(Rendered {
+        noise: watch.zip(halt.noise).map(|(watch, aim)| Noise {
+            aim,
+            reached: watch.reached(&film),
+        }),
+        film,
+        layout,
+        rays: pass.rays.into_inner(),
+        ended,
+    })
+}
+
+/// Samples that the next pass may have, after `done` samples that took `elapsed`; none once the time is over, but for the first.
+///
+/// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is looked at. Towards the end of the time they get
+/// shorter, so that the last ends soon after it.
+fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<u32> {
+    let longest = done.clamp(1, LONGEST_PASS - done % LONGEST_PASS);
+    let Some(time) = time.filter(|_| done > 0) else {
+        return Some(longest);
+    };
+    let left = time.checked_sub(elapsed).filter(|left| !left.is_zero())?;
+    let of_one = elapsed.as_secs_f64() / f64::from(done);
+    let fit = (left.as_secs_f64() / of_one.max(1e-9)) as u32;
+    Some(longest.min(fit).max(1))
+}
+
+/// What all passes share.
+struct PassOfPaths<'a> {
+    world: &'a World,
+    job: &'a Job,
+    layout: Layout,
+    white: Spectrum,
+    stop: &'a AtomicBool,
+    progress: &'a (dyn Fn(Progress) + Sync),
+    rays: AtomicU64,
+    paths: AtomicU64,
+    total: AtomicU64,
+}
+
+impl PassOfPaths<'_> {
+    /// Adds samples number `first` to `end − 1` of every block that has not yet reached its goal; whether nothing broke in.
+    fn run(
+        &self,
+        film: &mut Film,
+        first: u32,
+        end: u32,
+        goal: &(dyn Fn(usize) -> u32 + Sync),
+    ) -> bool {
+        let whole = AtomicBool::new(true);
         film.expose(|block| {
-            if stop.load(Ordering::Relaxed) {
+            let end = end.min(goal(block.number()));
+            if first >= end {
+                return;
+            }
+            if self.stop.load(Ordering::Relaxed) {
+                whole.store(false, Ordering::Relaxed);
                 return;
             }
             let mut traced = 0;
-            block.expose(pass, |x, y, pixel| {
+            block.expose(end - first, |x, y, pixel| {
                 let samples = Samples {
-                    world,
-                    job,
-                    layout,
-                    white: &white,
+                    world: self.world,
+                    job: self.job,
+                    layout: self.layout,
+                    white: &self.white,
                     x,
                     y,
                 };
-                traced += match world.wavelengths.grid().lanes() {
-                    4 => samples.add::<4>(first, first + pass, pixel),
-                    8 => samples.add::<8>(first, first + pass, pixel),
-                    16 => samples.add::<16>(first, first + pass, pixel),
-                    _ => samples.add::<32>(first, first + pass, pixel),
+                traced += match self.world.wavelengths.grid().lanes() {
+                    4 => samples.add::<4>(first, end, pixel),
+                    8 => samples.add::<8>(first, end, pixel),
+                    16 => samples.add::<16>(first, end, pixel),
+                    _ => samples.add::<32>(first, end, pixel),
                 };
             });
-            rays.fetch_add(traced, Ordering::Relaxed);
-            let added = u64::from(pass) * u64::from(block.pixels());
-            let paths = paths.fetch_add(added, Ordering::Relaxed) + added;
-            progress(Progress { paths, total });
+            self.rays.fetch_add(traced, Ordering::Relaxed);
+            let added = u64::from(end - first) * u64::from(block.pixels());
+            let paths = self.paths.fetch_add(added, Ordering::Relaxed) + added;
+            let total = self.total.load(Ordering::Relaxed);
+            (self.progress)(Progress { paths, total });
         });
-        first += pass;
+        whole.into_inner()
     }
-    progress(Progress {
-        paths: paths.load(Ordering::Relaxed),
-        total,
-    });
-    let interrupted = film.drawn() < total;
-    Ok(Rendered {
-        film,
-        layout,
-        rays: rays.into_inner(),
-        interrupted,
-    })
 }
 
 /// The samples of one pixel.
@@ -131,12 +272,14 @@ impl Samples<'_> {
         let values = &mut values[..self.layout.beauty];
         for sample in first..end {
             let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
-            let [film_x, film_y, wavelength, _] = stream.next4();
-            let [lens_x, lens_y, ..] = if self.world.camera.has_lens() {
-                stream.next4()
+            // Place and lens are stratified together, since blur is in both; without a lens one set does.
+            let [film_x, film_y, third, lens_y] = stream.next4();
+            let wavelength = if self.world.camera.has_lens() {
+                stream.next4()[0]
             } else {
-                [0.5; 4]
+                third
             };
+            let lens_x = third;
             let wavelengths = self.world.wavelengths.draw::<N>(wavelength);
             let offset = self.world.filter.sample(Vec2::new(film_x, film_y));
             let place = Vec2::new(self.x as f32, self.y as f32) + offset;
@@ -151,5 +294,40 @@ impl Samples<'_> {
             pixel.add(sample, values, feature.as_ref());
         }
         rays
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    #[test]
+    fn passes_double_and_never_cross_a_multiple_of_the_longest() {
+        let mut ends = vec![0];
+        while ends[ends.len() - 1] < 64 {
+            let done = ends[ends.len() - 1];
+            ends.push(done + longest_pass(done, SECOND, None).expect("no time is set"));
+        }
+        assert_eq!(ends, [0, 1, 2, 4, 8, 16, 32, 48, 64]);
+        // Wherever a pass shortened by time may have ended.
+        for done in 1..200 {
+            let pass = longest_pass(done, SECOND, None).expect("no time is set");
+            assert_eq!((done + pass - 1) / LONGEST_PASS, done / LONGEST_PASS);
+        }
+    }
+
+    #[test]
+    fn passes_get_shorter_towards_the_end_of_the_time_and_then_there_are_none() {
+        let of_32 = |elapsed, time| longest_pass(32, SECOND * elapsed, Some(SECOND * time));
+        // 32 samples in 32 seconds: as many more as seconds are left.
+        assert_eq!(of_32(32, 100), Some(16));
+        assert_eq!(of_32(32, 37), Some(5));
+        assert_eq!(of_32(64, 65), Some(1));
+        assert_eq!(of_32(32, 32), None);
+        assert_eq!(of_32(40, 32), None);
+        // There is always a first.
+        assert_eq!(longest_pass(0, SECOND, Some(Duration::ZERO)), Some(1));
     }
 }

@@ -80,8 +80,10 @@ pub struct Film {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples a pixel.
+    /// Samples a pixel, the most if noise is aimed at.
     pub spp: u32,
+    /// Relative error at which a part of the picture has enough samples; none if all of it gets the same number.
+    pub noise: Option<f64>,
     /// Seed of every random number.
     pub seed: u64,
     /// Radius of the Gaussian reconstruction filter in pixels; 0 is a box of one pixel.

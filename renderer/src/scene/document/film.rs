@@ -27,6 +27,7 @@ pub(crate) fn read_film(parent: &Block<'_>) -> Option<Film> {
         })
         .and_then(|node| integers_at::<2>(block.cx, node, "size", 1, MOST_PIXELS));
     let spp = block.integer("spp", 1, MOST_SAMPLES);
+    let noise = block.number_or("noise", Limits::closed(0.0, 1.0), 0.0);
     let seed = block.integer_or("seed", 0, u64::MAX, 0);
     let default_radius = if variant == "rgb" { 1.5 } else { 0.0 };
     let filter_radius =
@@ -43,6 +44,7 @@ pub(crate) fn read_film(parent: &Block<'_>) -> Option<Film> {
         width,
         height,
         spp: spp? as u32,
+        noise: (noise > 0.0).then_some(noise),
         seed,
         filter_radius,
         kind: kind?,

@@ -1,0 +1,294 @@
+//! When a block of pixels has enough samples.
+//!
+//! At 16, 32, 64, … samples the luminance of every pixel is compared with what it was at half as many. Half the difference of
+//! two halves scatters as their mean does, if the halves are independent; low-discrepancy halves complement one another, so
+//! the mean is better than that, and the estimate errs to the safe side.
+//!
+//! - **In**: the film's sums at these borders, and the relative error that is aimed at.
+//! - **Out**: for each block the number of samples at which it stops.
+//! - **Always true**: a decision depends on sums of all the samples up to a border and on nothing else, so neither threads
+//!   nor the clock show. A block's pixels are its jury: 64 independent differences, so luck does not stop it.
+//! - **Left out**: light that none of the first samples of a block met.
+
+use rayon::prelude::*;
+
+use crate::film::{BLOCK_SIDE, Film, Pixel};
+
+/// The first border. A decision needs two, so no block stops before twice as many samples.
+const FIRST_BORDER: u32 = 16;
+/// Blocks stop at multiples of this many samples only, where passes end.
+pub const STEP: u32 = 16;
+/// Error is relative to the block's luminance and this share of the picture's mean: what is nearly black need not
+/// be known as closely as what is bright.
+const FLOOR: f64 = 0.1;
+
+/// Luminance of linear Rec. 709 colour.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// What is known of every block's noise, and when each stops.
+#[derive(Clone, Debug)]
+pub struct NoiseWatch {
+    aim: f64,
+    most: u32,
+    colour: bool,
+    /// Luminance of each pixel at the last border, in the order of blocks as the film has them.
+    luminance: Vec<f32>,
+    blocks: Vec<BlockNoise>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct BlockNoise {
+    /// Samples at which the block stops.
+    goal: u32,
+    /// Relative error as one sample would have it: that of `n` samples is this over √n. Negative before it is known.
+    of_one_sample: f32,
+}
+
+impl NoiseWatch {
+    /// Nothing known yet: every block goes on to `most` samples. `colour` says that channels are R, G, B; else luminance is
+    /// the mean of all channels.
+    pub fn new(film: &Film, aim: f64, most: u32, colour: bool) -> Self {
+        let pixels = film.width() as usize * film.height() as usize;
+        let block = BlockNoise {
+            goal: most,
+            of_one_sample: -1.0,
+        };
+        Self {
+            aim,
+            most,
+            colour,
+            luminance: vec![0.0; pixels],
+            blocks: vec![block; film.blocks()],
+        }
+    }
+
+    /// Whether a decision is due at this number of samples.
+    pub fn is_border(samples: u32) -> bool {
+        samples >= FIRST_BORDER && samples.is_power_of_two()
+    }
+
+    /// Samples at which a block stops, as far as is known.
+    pub fn goal(&self, block: usize) -> u32 {
+        self.blocks[block].goal
+    }
+
+    /// The most samples at which a block stops, as far as is known.
+    pub fn last_goal(&self) -> u32 {
+        let goals = self.blocks.iter().map(|block| block.goal);
+        goals.max().unwrap_or(0)
+    }
+
+    /// Paths in all, as far as is known.
+    pub fn expected_paths(&self, film: &Film) -> u64 {
+        let blocks = self.blocks.iter().enumerate();
+        blocks
+            .map(|(number, block)| u64::from(block.goal) * u64::from(film.pixels_of(number)))
+            .sum()
+    }
+
+    /// Looks at the film at a border, when every block that goes on has `samples` samples.
+    pub fn look(&mut self, film: &Film, samples: u32) {
+        let found = self.compare(film);
+        let pixels = |number: usize| f64::from(film.pixels_of(number));
+        let sum: f64 = (0..)
+            .zip(&found)
+            .map(|(number, block)| block.luminance * pixels(number))
+            .sum();
+        let mean = sum / self.luminance.len() as f64;
+        for (block, found) in self.blocks.iter_mut().zip(&found) {
+            // At the first border there is nothing yet to compare with.
+            if block.goal < samples || samples == FIRST_BORDER {
+                continue;
+            }
+            let error = found.relative_error(mean);
+            block.of_one_sample = (error * f64::from(samples).sqrt()) as f32;
+            block.goal = if error <= self.aim {
+                samples
+            } else {
+                // Beyond twice as many the next border decides.
+                let needed = f64::from(samples) * (error / self.aim) * (error / self.aim);
+                let steps = (needed / f64::from(STEP)).ceil() as u32;
+                steps.saturating_mul(STEP).min(self.most)
+            };
+        }
+    }
+
+    /// Relative error that was reached: root mean square over the picture's pixels; none before two borders.
+    pub fn reached(&self, film: &Film) -> Option<f64> {
+        let mut sum = 0.0;
+        for (number, block) in self.blocks.iter().enumerate() {
+            let of_one = f64::from(block.of_one_sample);
+            if of_one < 0.0 {
+                return None;
+            }
+            let variance = of_one * of_one / f64::from(film.drawn_of(number));
+            sum += variance * f64::from(film.pixels_of(number));
+        }
+        Some((sum / self.luminance.len() as f64).sqrt())
+    }
+
+    /// Compares every block with the last border, and remembers this one.
+    fn compare(&mut self, film: &Film) -> Vec<Compared> {
+        let colour = self.colour;
+        let (width, height) = (film.width(), film.height());
+        self.luminance
+            .par_chunks_mut((width * BLOCK_SIDE) as usize)
+            .enumerate()
+            .flat_map_iter(|(row, line)| {
+                let y = row as u32 * BLOCK_SIDE;
+                let pixels = BLOCK_SIDE * BLOCK_SIDE.min(height - y);
+                let blocks = line.chunks_mut(pixels as usize).enumerate();
+                blocks.map(move |(column, before)| {
+                    let x = column as u32 * BLOCK_SIDE;
+                    let across = BLOCK_SIDE.min(width - x);
+                    let count = before.len() as f64;
+                    let mut sums = [0.0; 2];
+                    for (within, before) in (0..).zip(before) {
+                        let pixel = film.pixel(x + within % across, y + within / across);
+                        let now = luminance(&pixel, colour);
+                        let difference = now - f64::from(*before);
+                        sums[0] += now;
+                        sums[1] += difference * difference;
+                        *before = now as f32;
+                    }
+                    Compared {
+                        luminance: sums[0] / count,
+                        square: sums[1] / count,
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+/// A block's luminance, and how far its pixels moved since they had half as many samples.
+#[derive(Clone, Copy, Debug)]
+struct Compared {
+    /// Mean over the pixels.
+    luminance: f64,
+    /// Mean over the pixels of the squared difference: with independent halves the variance of a pixel's mean.
+    square: f64,
+}
+
+impl Compared {
+    /// Error of a pixel over luminance, in a picture with this mean luminance.
+    fn relative_error(&self, picture_mean: f64) -> f64 {
+        if self.square <= 0.0 {
+            return 0.0;
+        }
+        self.square.sqrt() / (self.luminance.max(0.0) + FLOOR * picture_mean.max(0.0))
+    }
+}
+
+fn luminance(pixel: &Pixel<'_>, colour: bool) -> f64 {
+    if colour {
+        let channels = LUMINANCE.iter().enumerate();
+        channels
+            .map(|(channel, weight)| weight * pixel.mean(channel))
+            .sum()
+    } else {
+        (0..pixel.channels())
+            .map(|channel| pixel.mean(channel))
+            .sum::<f64>()
+            / pixel.channels() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A random 0 or 1 for a sample of a pixel.
+    fn coin(x: u32, y: u32, number: u32) -> f32 {
+        let mut bits = u64::from(x) << 42 | u64::from(y) << 21 | u64::from(number);
+        for _ in 0..2 {
+            bits = (bits ^ bits >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        }
+        (bits >> 63) as f32
+    }
+
+    /// Exposes a row of four blocks to grey samples until all have enough for the aim.
+    fn exposed(
+        aim: f64,
+        most: u32,
+        value: impl Fn(u32, u32, u32) -> f32 + Sync,
+    ) -> (Film, NoiseWatch) {
+        let mut film = Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, 3, false).expect("a small film");
+        let mut watch = NoiseWatch::new(&film, aim, most, true);
+        let mut first = 0;
+        while first < watch.last_goal() {
+            let end = (first + STEP).min(watch.last_goal());
+            film.expose(|block| {
+                let end = end.min(watch.goal(block.number()));
+                if first < end {
+                    block.expose(end - first, |x, y, pixel| {
+                        (first..end).for_each(|n| pixel.add(n, &[value(x, y, n); 3], None));
+                    });
+                }
+            });
+            first = end;
+            if NoiseWatch::is_border(first) {
+                watch.look(&film, first);
+            }
+        }
+        (film, watch)
+    }
+
+    #[test]
+    fn a_block_gets_as_many_samples_as_its_variance_asks_for() {
+        // Still, of relative deviation 1, of deviation 0.5, and dark with relative deviation 1.
+        let value = |x, y, number| match x / BLOCK_SIDE {
+            0 => 1.0,
+            1 => 2.0 * coin(x, y, number),
+            2 => 0.5 + coin(x, y, number),
+            _ => 0.02 * coin(x, y, number),
+        };
+        let (film, watch) = exposed(0.05, 100_000, value);
+        let drawn = [0, 1, 2, 3].map(|block| film.drawn_of(block));
+        // The floor is a tenth of the mean over the picture, 0.7525.
+        let expected = |deviation: f64, mean: f64| (deviation / (mean + 0.07525) / 0.05).powi(2);
+        assert_eq!(drawn[0], 32);
+        for (drawn, expected) in [
+            (drawn[1], expected(1.0, 1.0)),
+            (drawn[2], expected(0.5, 1.0)),
+        ] {
+            // 64 squares of normal numbers have a relative deviation of √(2/64) = 0.18; three of it and a step.
+            let off = (f64::from(drawn) - expected).abs();
+            assert!(
+                off < 0.54 * expected + f64::from(STEP),
+                "{drawn} is not near {expected}"
+            );
+        }
+        assert_eq!(
+            drawn[3],
+            32,
+            "{} are enough in the dark",
+            expected(0.01, 0.01)
+        );
+        let reached = watch.reached(&film).expect("there were enough samples");
+        assert!(reached > 0.01 && reached <= 0.05, "{reached}");
+    }
+
+    #[test]
+    fn no_block_gets_more_samples_than_the_most() {
+        let (film, watch) = exposed(1e-4, 72, coin);
+        assert_eq!(film.drawn_range(), [72, 72]);
+        let reached = watch.reached(&film).expect("there were enough samples");
+        assert!(reached > 0.05, "{reached}");
+    }
+
+    #[test]
+    fn nothing_is_known_of_the_noise_of_few_samples() {
+        let (film, watch) = exposed(0.5, 31, coin);
+        assert_eq!(film.drawn_range(), [31, 31]);
+        assert_eq!(watch.reached(&film), None);
+    }
+
+    #[test]
+    fn a_black_picture_has_no_noise() {
+        let (film, watch) = exposed(0.01, 1000, |_, _, _| 0.0);
+        assert_eq!(film.drawn_range(), [32, 32]);
+        assert_eq!(watch.reached(&film), Some(0.0));
+        assert_eq!(watch.expected_paths(&film), film.drawn());
+    }
+}
