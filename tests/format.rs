@@ -86,22 +86,39 @@ fn folder() -> TempDir {
         "flood.csv",
         &("x_m y_m z_m\n".to_owned() + &"nan 0 0\n".repeat(1000)),
     );
-    for (name, literal) in [
-        (
-            "plain.npy",
-            "{'descr': '<f4', 'fortran_order': False, 'shape': (0, 3), }",
-        ),
-        (
-            "cut.npy",
-            "{'descr': [('x_m', '<f4'), ('y_m', '<f4'), ('z_m', '<f4')], 'fortran_order': False, 'shape': (9,), }",
-        ),
-    ] {
-        let length = (literal.len() as u16).to_le_bytes();
-        let bytes = [b"\x93NUMPY\x01\x00", length.as_slice(), literal.as_bytes()].concat();
-        fs::write(folder.path().join(name), bytes).expect("the folder was just made");
-    }
+    let floats = "('x_m', '<f4'), ('y_m', '<f4'), ('z_m', '<f4')";
+    let rows: Vec<u8> = [(0.5_f32, 0_u8), (-0.5, 1)]
+        .iter()
+        .flat_map(|(x, shape)| {
+            [x, &0.0, &1.0]
+                .map(|number| number.to_le_bytes())
+                .concat()
+                .into_iter()
+                .chain([*shape])
+        })
+        .collect();
+    let array = |name: &str, descr: &str, shape: &str, rows: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(path, npy(descr, shape, rows)).expect("the folder was just made");
+    };
+    array(
+        "places.npy",
+        &format!("[{floats}, ('shape', '|u1')]"),
+        "(2,)",
+        &rows,
+    );
+    array("plain.npy", "'<f4'", "(0, 3)", &[]);
+    array("cut.npy", &format!("[{floats}]"), "(9,)", &[]);
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
+}
+
+/// A file as `np.save` writes it.
+fn npy(descr: &str, shape: &str, rows: &[u8]) -> Vec<u8> {
+    let literal = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}\n");
+    let length = (literal.len() as u16).to_le_bytes();
+    let header = [b"\x93NUMPY\x01\x00", length.as_slice(), literal.as_bytes()];
+    [header.concat().as_slice(), rows].concat()
 }
 
 fn parse_text(text: &str, name: &str, overrides: &[&str]) -> Result<Loaded, SceneErrors> {

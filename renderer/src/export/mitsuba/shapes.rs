@@ -150,7 +150,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// A part of a shape whose own frame `to_world` takes to millimetres' metres.
+    /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in metres.
     fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4, emitter: &str) {
         let mut to_world = to_world * DMat4::from(piece.to_leaf);
         let file = MeshFile {

@@ -12,14 +12,16 @@
 
 mod columns;
 mod npy;
+mod row_error;
 mod text;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use glam::DMat4;
 
-use self::columns::RowError;
+use self::row_error::RowError;
 use super::context::{Context, QUOTED};
 use super::path::{Wanted, resolve};
 use super::reader::Block;
@@ -42,6 +44,8 @@ struct Table<'a> {
     /// The path as written, safe to print.
     name: String,
     shapes: &'a ShapeNames<'a>,
+    /// Of each name its place in the list; `None` if it is there more than once.
+    numbers: BTreeMap<&'a str, Option<u32>>,
     /// Local to world of the frame in which the rows are given.
     frame: DMat4,
 }
@@ -115,11 +119,7 @@ pub(super) fn read_instances(
     };
     let cx = block.cx;
     let file = resolve(cx, path, at, wanted)?;
-    let table = Table {
-        name: escaped(path, 2 * QUOTED),
-        shapes: shapes?,
-        frame: frame?,
-    };
+    let table = Table::new(escaped(path, 2 * QUOTED), shapes?, frame?);
     let rows = read_rows(cx, &table, &file, at)?;
     table.report(cx, at, &rows)?;
     Some(rows.places)
@@ -148,7 +148,24 @@ fn read_rows(cx: &Context, table: &Table<'_>, file: &Path, at: &Place) -> Option
     }
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
+    fn new(name: String, shapes: &'a ShapeNames<'a>, frame: DMat4) -> Self {
+        let mut numbers = BTreeMap::new();
+        for (number, shape) in shapes.iter().enumerate() {
+            let number = Some(number as u32);
+            let known = numbers.entry(*shape).or_insert(number);
+            if *known != number {
+                *known = None;
+            }
+        }
+        Self {
+            name,
+            shapes,
+            numbers,
+            frame,
+        }
+    }
+
     /// Reports what is wrong with the file as a whole, where the scene names it.
     fn refuse(&self, cx: &Context, at: &Place, problem: String, help: &str) {
         let error = SceneError::BadFile {

@@ -1,99 +1,27 @@
 //! Tables of instances as `NumPy` writes them: a structured array whose fields are named as columns are.
 //!
 //! Read are arrays of one dimension, little-endian, with fields of floats or integers: what
-//! `np.save("canopy.npy", np.rec.fromarrays([x, y, z], names="x_m,y_m,z_m"))` gives. The header is a Python literal;
-//! of that language only what `np.save` writes is understood.
+//! `np.save("canopy.npy", np.rec.fromarrays([x, y, z], names="x_m,y_m,z_m"))` gives.
 //!
 //! # Source
 //!
 //! `numpy.lib.format`, versions 1.0 to 3.0 of the file format.
 
+mod header;
+
 use rayon::prelude::*;
 
-use super::columns::{Header, Row, RowError, SHAPE};
+use self::header::{Array, Field};
+use super::columns::{Header, Row, SHAPE};
+use super::row_error::RowError;
 use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
-use crate::scene::document::context::{Context, ENOUGH, QUOTED};
+use crate::scene::document::context::Context;
 use crate::scene::error::SceneError;
-use crate::scene::source::{Place, escaped};
+use crate::scene::source::Place;
 
-const MAGIC: &[u8] = b"\x93NUMPY";
-/// Longest header that is read, bytes.
-const MOST_HEADER: usize = 1 << 16;
 /// Rows that one thread reads at a time.
 const PIECE: usize = 1 << 14;
-
-/// How a field's numbers are stored, little-endian.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Number {
-    F32,
-    F64,
-    Signed(usize),
-    Unsigned(usize),
-}
-
-impl Number {
-    /// What `NumPy` calls a type, such as `<f4`.
-    fn of(code: &str) -> Option<Self> {
-        let (order, rest) = code.split_at_checked(1)?;
-        let (kind, size) = rest.split_at_checked(1)?;
-        let size: usize = size.parse().ok()?;
-        // A single byte has no order.
-        if order != "<" && !(order == "|" && size == 1) {
-            return None;
-        }
-        match (kind, size) {
-            ("f", 4) => Some(Self::F32),
-            ("f", 8) => Some(Self::F64),
-            ("i", 1 | 2 | 4 | 8) => Some(Self::Signed(size)),
-            ("u", 1 | 2 | 4 | 8) => Some(Self::Unsigned(size)),
-            _ => None,
-        }
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::F32 => 4,
-            Self::F64 => 8,
-            Self::Signed(size) | Self::Unsigned(size) => size,
-        }
-    }
-
-    /// The number in these bytes, of which there are [`Number::size`].
-    fn read(self, bytes: &[u8]) -> f64 {
-        let mut word = [0; 8];
-        word[..bytes.len()].copy_from_slice(bytes);
-        let unsigned = u64::from_le_bytes(word);
-        match self {
-            Self::F32 => f64::from(f32::from_bits(unsigned as u32)),
-            Self::F64 => f64::from_bits(unsigned),
-            Self::Signed(size) => {
-                let unused = 64 - 8 * size as u32;
-                ((unsigned << unused).cast_signed() >> unused) as f64
-            }
-            Self::Unsigned(_) => unsigned as f64,
-        }
-    }
-}
-
-/// A field of the array: where in a row, and how stored.
-#[derive(Clone, Debug, PartialEq)]
-struct Field {
-    name: String,
-    start: usize,
-    number: Number,
-}
-
-/// What a header says.
-#[derive(Debug, PartialEq)]
-struct Array {
-    fields: Vec<Field>,
-    /// Bytes of a row.
-    stride: usize,
-    rows: usize,
-    /// Where the rows begin.
-    start: usize,
-}
 
 /// Reads the rows; `None` if the file has no rows that can be read, which is then reported.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
@@ -219,248 +147,63 @@ fn wrong_row(
     }
 }
 
-impl Array {
-    /// What the file's header says, or what is wrong with it.
-    fn of(bytes: &[u8]) -> Result<Self, String> {
-        let cut = || "ends within its header".to_owned();
-        let Some(rest) = bytes.strip_prefix(MAGIC) else {
-            return Err("does not begin as a NumPy file does".to_owned());
-        };
-        let (&version, rest) = rest.split_first().ok_or_else(cut)?;
-        let rest = rest.get(1..).ok_or_else(cut)?;
-        let width = match version {
-            1 => 2,
-            2 | 3 => 4,
-            _ => {
-                return Err(format!(
-                    "has version {version} of NumPy's format, read are 1 to 3"
-                ));
-            }
-        };
-        let (length, rest) = rest.split_at_checked(width).ok_or_else(cut)?;
-        let length = Number::Unsigned(width).read(length) as usize;
-        if length > MOST_HEADER {
-            return Err(format!(
-                "has a header of {length} bytes, more than the {MOST_HEADER} that are read"
-            ));
-        }
-        let text = rest.get(..length).ok_or_else(cut)?;
-        let start = bytes.len() - rest.len() + length;
-        let text =
-            std::str::from_utf8(text).map_err(|_| "has a header that is no text".to_owned())?;
-        Self::from_literal(text, start)
-    }
-
-    /// From the dictionary in the header.
-    fn from_literal(text: &str, start: usize) -> Result<Self, String> {
-        let mut words = Words { rest: text };
-        let (mut fields, mut rows) = (None, None);
-        words.take("{")?;
-        while !words.take_if("}") {
-            let key = words.text()?;
-            words.take(":")?;
-            match key {
-                "descr" => fields = Some(words.fields()?),
-                // Of one dimension both orders are the same.
-                "fortran_order" if words.take_if("False") => {}
-                "fortran_order" => words.take("True")?,
-                "shape" => rows = Some(words.one_length()?),
-                other => return Err(format!("has a header with `{}`", escaped(other, QUOTED))),
-            }
-            if !words.take_if(",") {
-                words.take("}")?;
-                break;
-            }
-        }
-        let (fields, stride) = fields.ok_or("has a header without `descr`")?;
-        let rows = rows.ok_or("has a header without `shape`")?;
-        Ok(Self {
-            fields,
-            stride,
-            rows,
-            start,
-        })
-    }
-}
-
-/// What is left of a Python literal.
-struct Words<'t> {
-    rest: &'t str,
-}
-
-impl<'t> Words<'t> {
-    fn take_if(&mut self, word: &str) -> bool {
-        self.rest = self.rest.trim_start();
-        let rest = self.rest.strip_prefix(word);
-        self.rest = rest.unwrap_or(self.rest);
-        rest.is_some()
-    }
-
-    fn take(&mut self, word: &str) -> Result<(), String> {
-        if self.take_if(word) {
-            return Ok(());
-        }
-        let found = escaped(self.rest, QUOTED);
-        Err(format!(
-            "has a header with `{found}` where `{word}` is wanted"
-        ))
-    }
-
-    /// Text in quotes.
-    fn text(&mut self) -> Result<&'t str, String> {
-        let quote = if self.take_if("\"") {
-            '"'
-        } else {
-            self.take("'")?;
-            '\''
-        };
-        let end = self.rest.split_once(quote);
-        let (text, rest) = end.ok_or("has a header with an open quote")?;
-        self.rest = rest;
-        Ok(text)
-    }
-
-    fn integer(&mut self) -> Result<usize, String> {
-        self.rest = self.rest.trim_start();
-        let digits = self.rest.bytes().take_while(u8::is_ascii_digit).count();
-        let (number, rest) = self.rest.split_at(digits);
-        self.rest = rest;
-        let shown = escaped(rest, QUOTED);
-        let number = number.parse();
-        number.map_err(|_| format!("has a header with `{shown}` where a length is wanted"))
-    }
-
-    /// The shape of an array of one dimension: `(3,)`.
-    fn one_length(&mut self) -> Result<usize, String> {
-        let several = "has another number of dimensions than 1".to_owned();
-        self.take("(")?;
-        if self.take_if(")") {
-            return Err(several);
-        }
-        let length = self.integer()?;
-        self.take(",")?;
-        if self.take_if(")") {
-            Ok(length)
-        } else {
-            Err(several)
-        }
-    }
-
-    /// `[('x_m', '<f4'), …]`, and bytes of a row.
-    fn fields(&mut self) -> Result<(Vec<Field>, usize), String> {
-        if !self.take_if("[") {
-            return Err(format!(
-                "is an array of `{}`, without names for its columns",
-                escaped(self.text()?, QUOTED)
-            ));
-        }
-        let mut fields = Vec::new();
-        let mut start = 0;
-        while !self.take_if("]") {
-            self.take("(")?;
-            let name = self.text()?;
-            self.take(",")?;
-            let code = self.text()?;
-            if self.take_if(",") {
-                let name = escaped(name, QUOTED);
-                return Err(format!("has a field `{name}` of several numbers"));
-            }
-            self.take(")")?;
-            // Gaps of aligned rows have no name: '|V4' is four bytes of nothing.
-            let gap = code
-                .strip_prefix("|V")
-                .and_then(|size| size.parse::<u16>().ok());
-            if let (Some(gap), true) = (gap, name.is_empty()) {
-                start += usize::from(gap);
-            } else {
-                let number = Number::of(code).ok_or_else(|| {
-                    format!(
-                        "has a field `{}` of type `{}`; read are little-endian floats of 4 or 8 bytes and integers",
-                        escaped(name, QUOTED),
-                        escaped(code, QUOTED)
-                    )
-                })?;
-                fields.push(Field {
-                    name: name.to_owned(),
-                    start,
-                    number,
-                });
-                start += number.size();
-            }
-            if fields.len() > ENOUGH {
-                return Err(format!("has more than {ENOUGH} fields"));
-            }
-            if !self.take_if(",") {
-                self.take("]")?;
-                break;
-            }
-        }
-        Ok((fields, start))
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::text;
     use super::*;
+    use crate::scene::source::Sources;
 
     fn file(literal: &str) -> Vec<u8> {
-        let mut bytes = MAGIC.to_vec();
-        bytes.extend([1, 0]);
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
         bytes.extend((literal.len() as u16).to_le_bytes());
         bytes.extend(literal.as_bytes());
         bytes
     }
 
     #[test]
-    fn a_header_as_numpy_writes_it_is_understood() {
-        // Written by numpy 2: np.save of a record array, aligned, then padded to 64 bytes.
-        let literal = "{'descr': [('x_m', '<f4'), ('shape', '|u1'), ('', '|V3'), ('y_m', '<f8'), ('n', '<i2')], \
-                       'fortran_order': False, 'shape': (12,), }   \n";
-        let array = Array::of(&file(literal)).expect("a good header");
-        assert_eq!((array.rows, array.stride), (12, 18));
-        assert_eq!(array.start, 10 + literal.len());
-        let starts: Vec<usize> = array.fields.iter().map(|field| field.start).collect();
-        assert_eq!(starts, [0, 4, 8, 16]);
-    }
-
-    #[test]
-    fn numbers_are_those_that_were_stored() {
-        let read = |code: &str, bytes: &[u8]| Number::of(code).expect(code).read(bytes);
-        assert_eq!(read("<f4", &1.5_f32.to_le_bytes()), 1.5);
-        assert_eq!(read("<f8", &(-0.1_f64).to_le_bytes()), -0.1);
-        assert_eq!(read("<i2", &(-3_i16).to_le_bytes()), -3.0);
-        assert_eq!(read("|i1", &(-128_i8).to_le_bytes()), -128.0);
-        assert_eq!(read("<i8", &(-5_i64).to_le_bytes()), -5.0);
-        assert_eq!(read("<u4", &u32::MAX.to_le_bytes()), f64::from(u32::MAX));
-        assert!(read("<f4", &f32::NAN.to_le_bytes()).is_nan());
-    }
-
-    #[test]
-    fn what_is_no_structured_little_endian_array_of_rows_is_refused_with_its_reason() {
-        let of = |fields: &str, shape: &str| {
-            let literal =
-                format!("{{'descr': {fields}, 'fortran_order': False, 'shape': {shape}, }}");
-            Array::of(&file(&literal)).expect_err("it is refused")
+    fn an_array_gives_the_places_that_the_same_rows_give_as_text() {
+        let count = 3 * PIECE / 2;
+        let literal = format!(
+            "{{'descr': [('shape', '<i8'), ('x_m', '<f8'), ('y_m', '<f4'), ('z_m', '<i4'), ('scale', '<f4')], \
+             'fortran_order': False, 'shape': ({count},), }}"
+        );
+        let mut bytes = file(&literal);
+        let mut text = "shape x_m y_m z_m scale\n".to_owned();
+        for row in 0..count {
+            let shape = row as i64 % 3;
+            let (x, y, z) = (0.1 * row as f64, row as f32 / 3.0, row as i32 - 9);
+            let scale = 1.0 + row as f32 / 7.0;
+            bytes.extend(shape.to_le_bytes());
+            bytes.extend(x.to_le_bytes());
+            bytes.extend(y.to_le_bytes());
+            bytes.extend(z.to_le_bytes());
+            bytes.extend(scale.to_le_bytes());
+            // The digits of a 32-bit number mean another number in 64 bits.
+            let (y, scale) = (f64::from(y), f64::from(scale));
+            text += &format!("{shape} {x} {y} {z} {scale}\n");
+        }
+        let cx = Context::new(Sources::default(), std::path::PathBuf::new());
+        let at = Place {
+            source: 0,
+            span: 0..0,
         };
-        for (fields, shape, said) in [
-            ("'<f4'", "(3, 4)", "without names"),
-            ("[('x_m', '>f4')]", "(3,)", "little-endian"),
-            ("[('x_m', '|S4')]", "(3,)", "`|S4`"),
-            ("[('x_m', '<f4', (3,))]", "(3,)", "several numbers"),
-            ("[('x_m', '<f4')]", "(3, 4)", "dimensions"),
-            ("[('x_m', '<f4')]", "()", "dimensions"),
-            ("[('x_m', '<f4')]", "(99999999999999999999,)", "length"),
-            ("[('x_m', [('y_m', '<f4')])]", "(3,)", "wanted"),
-            ("[('x_m", "(3,)", "where"),
-        ] {
-            let problem = of(fields, shape);
-            assert!(problem.contains(said), "{fields} {shape}: {problem}");
-        }
-        for length in 0..100 {
-            let whole =
-                file("{'descr': [('x_m', '<f4')], 'fortran_order': False, 'shape': (3,), }");
-            let cut = &whole[..length.min(whole.len() - 1)];
-            assert!(Array::of(cut).is_err(), "{length} bytes");
-        }
+        let frame = glam::DMat4::from_scale(glam::DVec3::splat(0.3));
+        let table = Table::new("t".to_owned(), &["a", "b", "c"], frame);
+        let array = read(&cx, &table, &at, &bytes).expect("an array");
+        let text = text::read(&cx, &table, &at, text.as_bytes()).expect("a text");
+        assert_eq!(cx.error_count(), 0);
+        assert_eq!(array.places.len(), count);
+        assert!(array.places == text.places);
+        // Of a wrong row its number and its values are told.
+        let second = bytes.len() - (count - 1) * 28;
+        bytes[second..second + 8].copy_from_slice(&7_i64.to_le_bytes());
+        let wrong = read(&cx, &table, &at, &bytes).expect("an array").wrong;
+        assert_eq!(wrong.len(), 1);
+        assert_eq!(wrong[0].line, 2);
+        assert!(
+            wrong[0].shown.starts_with("shape 7, x_m 0.1, "),
+            "{wrong:?}"
+        );
+        assert_eq!(wrong[0].errors[0].0, 0..7);
     }
 }

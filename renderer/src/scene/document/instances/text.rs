@@ -4,7 +4,8 @@
 
 use rayon::prelude::*;
 
-use super::columns::{Header, HeaderError, Row, RowError, SHAPE};
+use super::columns::{Header, HeaderError, Row, SHAPE};
+use super::row_error::RowError;
 use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;
 use crate::scene::document::context::{Context, QUOTED};
@@ -16,6 +17,9 @@ const SEPARATORS: [char; 5] = [',', ';', ' ', '\t', '\r'];
 
 /// Bytes of a piece that one thread reads at a time.
 const PIECE: usize = 1 << 20;
+
+/// Longest line that may be a row, bytes.
+const LONGEST: usize = 1 << 14;
 
 /// Reads the rows; `None` if the file has no rows that can be read, which is then reported.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
@@ -47,6 +51,11 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         }
         rest = below;
     };
+    if line.len() > LONGEST {
+        let problem = format!("has a header of {} bytes", line.len());
+        table.refuse(cx, at, problem, "end header and rows with line feeds");
+        return None;
+    }
     let header = read_header(cx, table, line, line_number)?;
     // Lines, not rows: comments and empty ones count here, which is near enough for a bound.
     let lines = rest.bytes().filter(|byte| *byte == b'\n').count();
@@ -130,7 +139,11 @@ fn read_piece(table: &Table<'_>, header: &Header, piece: &str) -> (Rows, usize) 
     let mut lines = 0;
     for line in piece.lines() {
         lines += 1;
-        if fields(line).next().is_some() {
+        if line.len() > LONGEST {
+            let bytes = line.len();
+            let error = RowError::TooLong { bytes };
+            rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
+        } else if fields(line).next().is_some() {
             rows.push(read_row(table, header, line), |errors| {
                 wrong_row(header, line, lines, errors)
             });
@@ -173,13 +186,12 @@ fn read_row(
 
 /// A shape by its name, or by its place in the object's list.
 fn read_shape(table: &Table<'_>, row: &mut Row, field: &str) {
-    let mut named = (0..table.shapes.len()).filter(|&number| table.shapes[number] == field);
-    match (named.next(), named.next()) {
-        (Some(number), None) => row.shape(table, number as f64, || shown(field)),
-        (Some(_), Some(_)) => row.fail(RowError::AmbiguousShape {
+    match table.numbers.get(field) {
+        Some(Some(number)) => row.shape(table, f64::from(*number), || shown(field)),
+        Some(None) => row.fail(RowError::AmbiguousShape {
             field: shown(field),
         }),
-        (None, _) => {
+        None => {
             let number = field.parse().unwrap_or(f64::NAN);
             row.shape(table, number, || shown(field));
         }
@@ -194,6 +206,20 @@ fn shown(field: &str) -> String {
 fn span(line: &str, piece: &str) -> std::ops::Range<usize> {
     let start = piece.as_ptr() as usize - line.as_ptr() as usize;
     start..start + piece.len()
+}
+
+/// A line of which only the beginning is shown.
+fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
+    let shown: String = line.chars().take(QUOTED).collect();
+    let whole = 0..shown.len();
+    WrongRow {
+        line: number,
+        errors: errors
+            .into_iter()
+            .map(|error| (whole.clone(), error))
+            .collect(),
+        shown,
+    }
 }
 
 fn wrong_row(header: &Header, line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
@@ -222,14 +248,11 @@ mod tests {
     use crate::scene::error::SceneError;
     use crate::scene::source::Sources;
 
-    /// The rows of a table for the shapes `a` and `b`, or the errors with their lines.
+    /// The rows of a table for the shapes `a`, `b` and twice `c`, or the errors with their lines.
     fn read_all(text: &str) -> Result<Vec<InstancePlace>, Vec<(usize, SceneError)>> {
         let cx = Context::new(Sources::default(), std::path::PathBuf::new());
-        let table = Table {
-            name: "t.csv".to_owned(),
-            shapes: &["a", "b"],
-            frame: DMat4::from_translation(DVec3::new(0.0, 0.0, 1.0)),
-        };
+        let frame = DMat4::from_translation(DVec3::new(0.0, 0.0, 1.0));
+        let table = Table::new("t.csv".to_owned(), &["a", "b", "c", "c"], frame);
         let at = Place {
             source: usize::MAX,
             span: 0..0,
@@ -302,7 +325,7 @@ mod tests {
 
     #[test]
     fn of_many_wrong_rows_the_first_are_told_and_the_others_counted() {
-        let text = "x_m y_m z_m shape\n".to_owned() + &"nan 0 inf c\n".repeat(100_000);
+        let text = "x_m y_m z_m shape\n".to_owned() + &"nan 0 inf d\n".repeat(100_000);
         let errors = read_all(&text).expect_err("all are wrong");
         assert_eq!(errors.len(), 20 * 3 + 1);
         let last = errors[60].1.to_string();
@@ -323,5 +346,15 @@ mod tests {
             "scene::out_of_range"
         );
         assert_eq!(code("x_m y_m z_m shape\n0 0 0 -1\n"), "scene::out_of_range");
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0 4\n"), "scene::out_of_range");
+        // A name that is there twice says nothing; its places in the list do.
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0 c\n"), "scene::impossible");
+        assert!(read_all("x_m y_m z_m shape\n0 0 0 2\n0 0 0 3\n").is_ok());
+        let long = "0 ".repeat(LONGEST);
+        assert_eq!(code(&long), "scene::bad_file");
+        assert_eq!(
+            code(&format!("x_m y_m z_m shape\n{long}\n")),
+            "scene::bad_file"
+        );
     }
 }
