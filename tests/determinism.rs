@@ -82,7 +82,7 @@ fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
 #[test]
 fn a_picture_that_aims_at_a_noise_has_the_same_bytes_on_any_number_of_threads() {
     let halt = Halt {
-        noise: Some(0.05),
+        noise: Some(0.02),
         time: None,
     };
     let (first, one) = rendered(1, 200, halt);
@@ -100,7 +100,7 @@ fn a_picture_that_aims_at_a_noise_has_the_same_bytes_on_any_number_of_threads() 
 #[test]
 fn a_block_that_stopped_early_has_the_bits_of_its_first_samples() {
     let halt = Halt {
-        noise: Some(0.05),
+        noise: Some(0.02),
         time: None,
     };
     let (adaptive, _) = rendered(2, 200, halt);

@@ -57,8 +57,68 @@ fn folder() -> TempDir {
         format!("{body}v -10 0 0\nv 0 -10 0\nv 0 0 -10\nf 1 5 6\nf 1 7 5\nf 5 7 6\nf 6 7 1\n");
     write("pinched.obj", &pinched);
     write("no_faces.obj", corners);
+    write(
+        "places.csv",
+        "x_m, y_m, z_m, rotate_z_deg, scale, shape\n0, 0, 0, 0, 1, floor\n1, 2, 3, 90, 0.5, ball\n",
+    );
+    write("no_header.csv", "0, 0, 0\n");
+    write("no_rows.csv", "x_m, y_m, z_m\n# to come\n");
+    write(
+        "columns.csv",
+        "x_m; y_mm; scale; scale_x; x_m; colour\n0; 0; 1; 1; 0; red\n",
+    );
+    write(
+        "rows.csv",
+        "x_m, y_m, z_m, rotate_x_deg, scale, shape\n0, 0, 0, 0, 1, 0\n0, nan, 0, 0, 1, 1\n0, 0, 0, 0, 1\n\
+         0, 2e6, 0, 0, 0, bull\n0, 0, 0, left, 1, 2\n",
+    );
+    write(
+        "turned.csv",
+        "x_m y_m z_m quaternion_w quaternion_x quaternion_y quaternion_z\n0 0 0 1 1 0 0\n",
+    );
+    write("latin.csv", "x_m y_m z_m\n");
+    fs::write(
+        folder.path().join("latin.csv"),
+        b"x_m y_m z_m # bl\xe4tter\n",
+    )
+    .expect("a file");
+    write(
+        "flood.csv",
+        &("x_m y_m z_m\n".to_owned() + &"nan 0 0\n".repeat(1000)),
+    );
+    let floats = "('x_m', '<f4'), ('y_m', '<f4'), ('z_m', '<f4')";
+    let rows: Vec<u8> = [(0.5_f32, 0_u8), (-0.5, 1)]
+        .iter()
+        .flat_map(|(x, shape)| {
+            [x, &0.0, &1.0]
+                .map(|number| number.to_le_bytes())
+                .concat()
+                .into_iter()
+                .chain([*shape])
+        })
+        .collect();
+    let array = |name: &str, descr: &str, shape: &str, rows: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(path, npy(descr, shape, rows)).expect("the folder was just made");
+    };
+    array(
+        "places.npy",
+        &format!("[{floats}, ('shape', '|u1')]"),
+        "(2,)",
+        &rows,
+    );
+    array("plain.npy", "'<f4'", "(0, 3)", &[]);
+    array("cut.npy", &format!("[{floats}]"), "(9,)", &[]);
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
+}
+
+/// A file as `np.save` writes it.
+fn npy(descr: &str, shape: &str, rows: &[u8]) -> Vec<u8> {
+    let literal = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}\n");
+    let length = (literal.len() as u16).to_le_bytes();
+    let header = [b"\x93NUMPY\x01\x00", length.as_slice(), literal.as_bytes()];
+    [header.concat().as_slice(), rows].concat()
 }
 
 fn parse_text(text: &str, name: &str, overrides: &[&str]) -> Result<Loaded, SceneErrors> {

@@ -106,7 +106,7 @@ fn names_become_indices_in_the_order_of_the_file() {
     let shapes: Vec<ObjectShape> = scene
         .objects
         .iter()
-        .map(|object| object.value.shape)
+        .map(|object| object.value.shapes[0])
         .collect();
     let mesh = |mesh, material| ObjectShape::Mesh { mesh, material };
     let leaf = |leaf| ObjectShape::Leaf { leaf };
@@ -122,8 +122,10 @@ fn names_become_indices_in_the_order_of_the_file() {
             mesh(0, 4),
             ObjectShape::Solid { solid: 0 },
             ObjectShape::Solid { solid: 4 },
+            mesh(0, 0),
         ]
     );
+    assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
     assert!(matches!(
         scene.lights[4].value,
         Light::Area { object: 0, .. }
@@ -131,6 +133,26 @@ fn names_become_indices_in_the_order_of_the_file() {
     assert!(
         matches!(&scene.meshes[2].value, Mesh::File { file, scale } if file.is_absolute() && *scale == 0.001)
     );
+}
+
+#[test]
+fn instances_are_the_rows_of_their_file_in_the_frame_of_their_object() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    assert!(scene.objects[0].value.instances.is_none());
+    let places = scene.objects[9].value.instances.as_ref();
+    let places = places.expect("the object has a file");
+    let shapes: Vec<u32> = places.iter().map(|place| place.shape).collect();
+    assert_eq!(shapes, [0, 1]);
+    // Half as large, x to y, y to −x; one metre higher than the row says.
+    let expected = [0.0, 0.5, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 2.0, 4.0];
+    assert_eq!(places[1].to_world, expected);
+    let moved = accept(
+        &text_of("whole.toml"),
+        "whole.toml",
+        &["objects.row.position_m=[0, 0, -3]"],
+    );
+    let places = moved.description.objects[9].value.instances.clone();
+    assert_eq!(places.expect("it still has them")[1].to_world[11], 0.0);
 }
 
 #[test]

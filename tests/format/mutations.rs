@@ -59,3 +59,26 @@ fn three_thousand_changed_scenes_are_told_apart_without_a_panic() {
         "{accepted} of 3000 were accepted"
     );
 }
+
+#[test]
+fn two_thousand_changed_tables_of_instances_are_told_apart_without_a_panic() {
+    let folder = folder();
+    let read = |name: &str| std::fs::read(folder.path().join(name)).expect("the folder's file");
+    let scene = text_of("minimal.toml")
+        + "[meshes.ball.sphere]\nradius_m = 1\n[objects.row]\nmesh = [\"floor\", \"ball\"]\n\
+           material = \"grey\"\ninstances.file = \"changed.csv\"\n";
+    for (ending, whole) in [("csv", read("places.csv")), ("npy", read("places.npy"))] {
+        let scene = scene.replace("changed.csv", &format!("changed.{ending}"));
+        let mut accepted = 0;
+        for seed in 0..1000 {
+            let bytes = mutated(&whole, seed);
+            let file = folder.path().join(format!("changed.{ending}"));
+            std::fs::write(file, bytes).expect("the folder was just made");
+            match parse(&scene, "changed.toml", folder.path(), &[]) {
+                Ok(_) => accepted += 1,
+                Err(errors) => assert!(!errors.to_string().is_empty()),
+            }
+        }
+        assert!((10..900).contains(&accepted), "{accepted} of 1000 {ending}");
+    }
+}

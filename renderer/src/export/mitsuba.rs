@@ -6,10 +6,10 @@
 //! compared band by band.
 
 mod mesh;
+mod shapes;
 mod spectra;
 mod xml;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -132,18 +132,6 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         let path = folder.join(name);
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
-    let mut written = BTreeSet::new();
-    for number in 0..world.objects.len() {
-        let file = xml::mesh_file(scene, world, number);
-        let mesh = world
-            .geometry
-            .mesh(world.geometry.instance(number as u32).mesh);
-        let is_part = number >= scene.objects.len();
-        let mirrored = is_part && xml::is_mirrored(world, number);
-        if written.insert(file.clone()) {
-            save(&file, &mesh::ply(mesh, mirrored))?;
-        }
-    }
     for (number, material) in world.materials.iter().enumerate() {
         let map = match material {
             Material::Leaf(leaf) => match &leaf.tissue {
@@ -175,10 +163,12 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         save(&absorption_file(palette), table.as_bytes())?;
     }
     let mut spectra = Spectra::default();
-    save(
-        "scene.xml",
-        xml::scene(scene, world, &mut spectra).as_bytes(),
-    )?;
+    let (xml, meshes) = xml::scene(scene, world, &mut spectra);
+    save("scene.xml", xml.as_bytes())?;
+    for file in meshes {
+        let mesh = world.geometry.mesh(file.mesh as u32);
+        save(&file.path(scene, world), &mesh::ply(mesh, file.mirrored))?;
+    }
     for (name, text) in &spectra.files {
         save(&format!("spectra/{name}"), text.as_bytes())?;
     }

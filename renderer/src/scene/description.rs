@@ -350,17 +350,31 @@ pub enum Light {
     },
 }
 
-/// A mesh, leaf or body put into the scene.
+/// Meshes, leaves or bodies put into the scene: one in one place, or any number as instances.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// What it is.
-    pub shape: ObjectShape,
-    /// Local to world, metres, affine and invertible.
+    /// What it is; at least one. Without instances it is the first, and there are no others.
+    pub shapes: Vec<ObjectShape>,
+    /// Local to world, metres, affine and invertible. Of instances, the frame that their places are given in.
     pub to_world: DMat4,
+    /// Where instances stand; `None` is one place, that of `to_world`.
+    pub instances: Option<Vec<InstancePlace>>,
+}
+
+/// Where one instance of an object stands, and which of the object's shapes it is.
+///
+/// 52 bytes, since a scene may have millions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InstancePlace {
+    /// Index into [`Object::shapes`].
+    pub shape: u32,
+    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part, then the
+    /// translation.
+    pub to_world: [f32; 12],
 }
 
 /// What an object is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ObjectShape {
     /// A mesh with a material.
     Mesh {

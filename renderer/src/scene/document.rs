@@ -14,6 +14,7 @@ mod compound;
 mod contents;
 pub(crate) mod context;
 mod film;
+mod instances;
 mod layers;
 mod leaf;
 mod light;
@@ -221,11 +222,11 @@ fn check_shining(
         let Some(Light::Area { object, .. }) = light.value else {
             continue;
         };
-        let shape = objects
-            .get(object)
-            .and_then(|object| object.value.as_ref())
-            .map(|object| object.shape);
-        let problem = if matches!(shape, Some(ObjectShape::Leaf { .. })) {
+        let object_read = objects.get(object).and_then(|object| object.value.as_ref());
+        let shape = object_read.map(|object| object.shapes[0]);
+        let problem = if object_read.is_some_and(|object| object.instances.is_some()) {
+            "has instances, and those do not shine"
+        } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
         } else if matches!(shape, Some(ObjectShape::Solid { .. })) {
             "is a body of solid tissue, and those do not shine"
@@ -252,7 +253,7 @@ fn warn_of_the_unused(root: &Block<'_>, description: &Description) {
     let used = |wanted: fn(&ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
         let objects = description.objects.iter();
         objects
-            .filter_map(|object| wanted(&object.value.shape))
+            .flat_map(|object| object.value.shapes.iter().filter_map(wanted))
             .collect()
     };
     let meshes = used(|shape| match shape {

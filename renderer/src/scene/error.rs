@@ -191,6 +191,16 @@ pub enum SceneError {
         /// What to do about it.
         help: String,
     },
+    /// Columns of a table of instances that are not what its rows need.
+    #[error("the header of \"{path}\" {problem}")]
+    Header {
+        /// The table's path as written.
+        path: String,
+        /// What is wrong with the columns.
+        problem: String,
+        /// What to write instead.
+        help: String,
+    },
     /// Bytes that are not text.
     #[error("\"{path}\" is not UTF-8 text: byte {byte} (line {line}) belongs to no character")]
     NotUtf8 {

@@ -157,7 +157,8 @@ impl Piece<'_> {
                 .elements(help);
             return renderer.render(&[group]);
         };
-        let window = Window::around(&source.text, &at.span);
+        let mut window = Window::around(&source.text, &at.span);
+        window.line += source.first_line - 1;
         let mut snippet = Snippet::source(window.text)
             .line_start(window.line)
             .annotation(AnnotationKind::Primary.span(window.span).label(self.label));

@@ -1,4 +1,7 @@
 //! Texts that a scene is made of, and places in them.
+//!
+//! Of a table with millions of rows only the rows that reports show are kept, each as a text of its own that knows
+//! its line.
 
 use std::ops::Range;
 
@@ -18,6 +21,8 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: String,
+    /// Line of the file in which the text starts, from 1.
+    pub first_line: usize,
 }
 
 /// All texts of a scene; number 0 is the scene file.
@@ -27,9 +32,20 @@ pub struct Sources(Vec<Source>);
 impl Sources {
     /// Takes a text in and gives its number.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> usize {
+        self.add_excerpt(name, text, 1)
+    }
+
+    /// Takes a piece of a text in, which starts in the given line of its file, and gives its number.
+    pub fn add_excerpt(
+        &mut self,
+        name: impl Into<String>,
+        text: impl Into<String>,
+        first_line: usize,
+    ) -> usize {
         self.0.push(Source {
             name: name.into(),
             text: text.into(),
+            first_line,
         });
         self.0.len() - 1
     }

@@ -4,13 +4,14 @@ mod lights;
 mod materials;
 mod meshes;
 mod notes;
+mod placing;
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat4};
+use glam::DAffine3;
 use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
@@ -19,26 +20,31 @@ use self::lights::build_light;
 pub(in crate::scene) use self::materials::build_coat;
 use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
+pub(crate) use self::placing::matrix_of;
+pub use self::placing::{Pieces, WorldObject, WorldObjects};
+use self::placing::{Placed, place};
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
-use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
+use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description, ObjectShape};
+use crate::scene::description::{self, Description};
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
 
 /// Everything that paths meet.
 #[derive(Debug)]
 pub struct World {
-    /// Surfaces; the first instances are the scene's objects, or of each leaf one part. The others are the rest of its parts.
+    /// Surfaces, placed.
     pub geometry: Geometry,
-    /// What each instance is made of and whether it shines.
-    pub objects: Vec<WorldObject>,
+    /// What each instance of the geometry is made of and whether it shines.
+    pub objects: WorldObjects,
+    /// What leaves and bodies consist of.
+    pub pieces: Pieces,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
     /// Whose each material is.
@@ -75,17 +81,6 @@ pub enum MaterialOwner {
     },
     /// That of the body of solid tissue with this number.
     Solid(usize),
-}
-
-/// An instance as paths see it.
-#[derive(Clone, Copy, Debug)]
-pub struct WorldObject {
-    /// Number of the object in the scene.
-    pub object: usize,
-    /// Number of its material.
-    pub material: usize,
-    /// Number of the light that it is, if it shines.
-    pub light: Option<usize>,
 }
 
 /// Why a described scene cannot be built.
@@ -199,13 +194,20 @@ impl World {
             materials.push(Material::Solid(Box::new(material)));
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
-        let (instances, mut objects) = place(scene, &leaves, &solids);
+        let pieces = Pieces { leaves, solids };
+        let Placed {
+            instances,
+            mut objects,
+            first,
+        } = place(scene, &pieces);
         let mut lights = Vec::new();
         for (number, light) in scene.lights.iter().enumerate() {
             if let description::Light::Area { object, .. } = light.value {
-                objects[object].light = Some(number);
+                objects.shine(first[object], number);
             }
-            lights.push(build_light(&light.name, &light.value, &meshes, &instances)?);
+            lights.push(build_light(&light.name, &light.value, &meshes, |object| {
+                &instances[first[object]]
+            })?);
         }
         for material in &mut materials {
             material.tabulate(wavelengths.grid());
@@ -217,6 +219,7 @@ impl World {
         Ok(Self {
             geometry,
             objects,
+            pieces,
             materials,
             owners,
             palettes: known.palettes,
@@ -231,8 +234,8 @@ impl World {
     }
 
     /// The material of an instance.
-    pub fn material_of(&self, object: u32) -> &Material {
-        &self.materials[self.objects[object as usize].material]
+    pub fn material_of(&self, instance: u32) -> &Material {
+        &self.materials[self.objects[instance as usize].material]
     }
 }
 
@@ -265,47 +268,4 @@ fn grow_solids(
     // Of several errors the first in the scene's order, whichever thread was first.
     let grown: Vec<Result<_, _>> = grown.collect();
     grown.into_iter().collect()
-}
-
-/// Instances, and what they are: one of each object, in their order, then the other parts of leaves.
-fn place(
-    scene: &Description,
-    leaves: &[Vec<Piece>],
-    solids: &[Piece],
-) -> (Vec<Instance>, Vec<WorldObject>) {
-    let (mut instances, mut objects) = (Vec::new(), Vec::new());
-    let mut put = |object: usize, mesh: usize, material: usize, to_world: DMat4| {
-        instances.push(Instance {
-            mesh: mesh as u32,
-            to_world: glam::Affine3A::from_mat4(to_world.as_mat4()),
-        });
-        objects.push(WorldObject {
-            object,
-            material,
-            light: None,
-        });
-    };
-    let put_piece =
-        |put: &mut dyn FnMut(usize, usize, usize, DMat4), object: usize, piece: &Piece| {
-            let to_world = scene.objects[object].value.to_world * DMat4::from(piece.to_leaf);
-            put(object, piece.mesh, piece.material, to_world);
-        };
-    let mut rest = Vec::new();
-    for (number, object) in scene.objects.iter().enumerate() {
-        match object.value.shape {
-            ObjectShape::Mesh { mesh, material } => {
-                put(number, mesh, material, object.value.to_world);
-            }
-            ObjectShape::Leaf { leaf } => {
-                let (first, others) = leaves[leaf].split_first().expect("a leaf has a blade");
-                put_piece(&mut put, number, first);
-                rest.extend(others.iter().map(|piece| (number, piece)));
-            }
-            ObjectShape::Solid { solid } => put_piece(&mut put, number, &solids[solid]),
-        }
-    }
-    for (number, piece) in rest {
-        put_piece(&mut put, number, piece);
-    }
-    (instances, objects)
 }

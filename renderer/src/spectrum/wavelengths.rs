@@ -76,7 +76,7 @@ enum Kind {
     /// Colour: wavelengths drawn in proportion to how much the observer sees there.
     Rgb {
         range_nm: [f64; 2],
-        /// Linear sRGB of radiance 1 at each wavelength, over its density and the number of lanes.
+        /// Linear sRGB that radiance 1 at each wavelength stands for, times the number of rows.
         weights: Table,
     },
     /// Bands: one lane a band.
@@ -131,14 +131,13 @@ impl VisibleDistribution {
         }
     }
 
-    /// A wavelength and its density for `u` in [0, 1).
-    fn draw(&self, u: f64) -> (f64, f64) {
+    /// The wavelength, nm, below which a share `u` of the distribution lies, in [0, 1].
+    fn draw(&self, u: f64) -> f64 {
         let below = self.cumulative.partition_point(|&border| border <= u);
         let step = below.clamp(1, self.cumulative.len() - 1) - 1;
         let mass = self.cumulative[step + 1] - self.cumulative[step];
         let within = ((u - self.cumulative[step]) / mass).clamp(0.0, 1.0);
-        let nm = self.first_nm + (step as f64 + within) * self.step_nm;
-        (nm, mass / self.step_nm)
+        self.first_nm + (step as f64 + within) * self.step_nm
     }
 }
 
@@ -162,19 +161,30 @@ impl WavelengthSampler {
     }
 
     fn rgb(range_nm: [f64; 2]) -> Self {
+        /// Places within a share at which the observer is evaluated.
+        const STEPS: usize = 8;
         // 4 lanes are noisier, 16 bring nothing more.
         let lanes = 8;
         let distribution = VisibleDistribution::new(range_nm);
         // Lanes share the distribution between them, and rows a lane's share: so samples of a pixel
         // are stratified over the rows, and the eight wavelengths of each over the whole range.
-        let drawn = |row: usize, lane: usize| {
-            let share = (row as f64 + 0.5) / ROWS as f64;
-            distribution.draw((lane as f64 + share) / lanes as f64)
+        let drawn = |row: f64, lane: usize| {
+            distribution.draw((lane as f64 + row / ROWS as f64) / lanes as f64)
         };
-        let grid = WavelengthGrid::new(lanes, |row, lane| drawn(row, lane).0 as f32);
+        let grid = WavelengthGrid::new(lanes, |row, lane| drawn(row as f64 + 0.5, lane) as f32);
+        // A wavelength stands for all of its share: what the observer sees there is integrated, and
+        // counts as often as there are rows, one of which is drawn.
         let weights = Table::by_place(&grid, |row, lane| {
-            let (nm, density) = drawn(row, lane);
-            seen_at(nm).map(|c| (c / (density * lanes as f64)) as f32)
+            let first = drawn(row as f64, lane);
+            let width = (drawn(row as f64 + 1.0, lane) - first) / STEPS as f64;
+            let mut sum = [0.0; 3];
+            for step in 0..STEPS {
+                let seen = seen_at(first + (step as f64 + 0.5) * width);
+                for (sum, seen) in sum.iter_mut().zip(seen) {
+                    *sum += seen * width;
+                }
+            }
+            sum.map(|seen| (seen * ROWS as f64) as f32)
         });
         Self {
             grid,

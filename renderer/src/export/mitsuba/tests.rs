@@ -1,3 +1,8 @@
+use std::collections::BTreeMap;
+
+use glam::DMat4;
+
+use super::shapes::MeshFile;
 use super::*;
 use crate::scene::load;
 
@@ -73,7 +78,7 @@ fn an_export_holds_all_that_its_xml_names() {
     }
     assert_eq!(
         files, 5,
-        "two meshes, a map, the sun's spectrum, PROSPECT's table: {xml}"
+        "a mesh for each of two materials, a map, the sun's spectrum, PROSPECT's table: {xml}"
     );
     assert!(out.join("lamina.json").is_file());
 }
@@ -176,15 +181,133 @@ position_m = [0, 0, 0.1]
     {
         assert!(out.join(word).is_file(), "{word} is missing");
     }
+    let mut of_both_kinds = [0, 0];
     for number in 0..world.objects.len() {
         let instance = world.geometry.instance(number as u32);
-        let file = xml::mesh_file(&scene, &world, number);
-        let bytes = fs::read(out.join(&file)).expect("its mesh");
+        let file = MeshFile {
+            mesh: instance.mesh as usize,
+            mirrored: instance.to_world.matrix3.determinant() < 0.0,
+        };
+        let bytes = fs::read(out.join(file.path(&scene, &world))).expect("its mesh");
         let mesh = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
         let own = world.geometry.mesh(instance.mesh);
-        let side = if file.contains("mirrored") { -1.0 } else { 1.0 };
+        let side = if file.mirrored { -1.0 } else { 1.0 };
         assert_eq!(mesh.positions()[0].x, side * own.positions()[0].x);
-        assert_eq!(file.contains("mirrored"), xml::is_mirrored(&world, number));
+        of_both_kinds[usize::from(file.mirrored)] += 1;
+    }
+    assert!(
+        of_both_kinds.iter().all(|count| *count > 0),
+        "{of_both_kinds:?}"
+    );
+}
+
+/// The 4 × 4 matrices of a text, by the id of the shape that each belongs to.
+fn matrices(xml: &str) -> BTreeMap<String, DMat4> {
+    let mut found = BTreeMap::new();
+    let mut id = "";
+    for line in xml.lines() {
+        let quoted: Vec<&str> = line.split('"').collect();
+        if line.starts_with("<shape") {
+            // The sun's disk has none.
+            id = quoted.get(3).copied().unwrap_or("");
+        } else if line.trim_start().starts_with("<matrix") {
+            let numbers: Vec<f64> = quoted[1]
+                .split(' ')
+                .map(|number| number.parse().expect("a number"))
+                .collect();
+            let rows: [f64; 16] = numbers.try_into().expect("sixteen numbers");
+            found.insert(id.to_owned(), DMat4::from_cols_array(&rows).transpose());
+        }
+    }
+    found
+}
+
+#[test]
+fn what_stands_in_several_places_is_written_once_and_its_parts_lie_where_they_are_traced() {
+    const LEAF: &str = r#"
+[leaves.trefoil]
+length_mm = 20
+map_size = 16
+[leaves.trefoil.outline.cubic]
+[leaves.trefoil.venation.arcuate]
+[leaves.trefoil.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 40
+carotenoids_ug_per_cm2 = 9
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.006
+[leaves.trefoil.compound.palmate]
+leaflets = 3
+spread_deg = 240
+petiolule = 1
+petiole = 1
+variants = 2
+[objects.clovers]
+leaf = "trefoil"
+instances.file = "places.csv"
+rotate_deg = [0, 0, 30]
+[objects.mirrored]
+leaf = "trefoil"
+matrix = [-1, 0, 0, 0.05,  0, 1, 0, 0,  0, 0, 1, 0.1,  0, 0, 0, 1]
+[objects.panel]
+mesh = "blade"
+material = "plain"
+position_m = [0, 0.3, 0]
+[lights.panel.area]
+object = "panel"
+radiance_w_m2_sr_nm = 1
+"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let places = "x_m y_m z_m rotate_x_deg scale_x scale_y scale_z\n\
+                  0 0 0.1 0 1 1 1\n0.1 0 0 40 1 2 1\n0 0.1 0 0 1 1 0.5\n";
+    fs::write(folder.path().join("places.csv"), places).expect("a file");
+    let (scene, world) = scene_with(LEAF, folder.path());
+    // Two rectangles and the panel; four leaves of three blades with a stalk each, and the petiole.
+    assert_eq!(world.objects.len(), 3 + 4 * 7);
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    assert_eq!(xml.matches("type=\"shapegroup\"").count(), 1, "{xml}");
+    assert_eq!(xml.matches("type=\"instance\"").count(), 3);
+    // The mirror image is another shape that stands once; the panel shines, so it stands alone.
+    assert_eq!(xml.matches("<shape type=\"ply\"").count(), 3 + 7 + 7);
+    let group = xml.find("<shape type=\"shapegroup\"").expect("a group");
+    let emitter = xml.find("<emitter type=\"area\">").expect("a light");
+    let groups_end = group + xml[group..].find("</shape>\n</shape>").expect("its end");
+    assert!(!(group..groups_end).contains(&emitter), "{xml}");
+    // Every vertex of the world, through the files and matrices of the export and as it is traced.
+    let matrices = matrices(&xml);
+    assert!(matrices.values().all(|matrix| matrix.determinant() > 0.0));
+    let same = |id: &str, to_world: DMat4, instance: usize| {
+        let mut shapes = xml.split("<shape ");
+        let shape = shapes.find(|shape| shape.contains(&format!("id=\"{id}\"")));
+        let name = shape
+            .expect(id)
+            .split('"')
+            .find(|word| word.starts_with("meshes/"));
+        let bytes = fs::read(out.join(name.expect("its file"))).expect("its mesh");
+        let exported = crate::geometry::import(&bytes, "ply", 1.0).expect("a mesh");
+        let instance = world.geometry.instance(instance as u32);
+        let traced = world.geometry.mesh(instance.mesh);
+        for (theirs, ours) in exported.positions().iter().zip(traced.positions()) {
+            let theirs = to_world.transform_point3(theirs.as_dvec3());
+            let ours = 1000.0 * instance.to_world.transform_point3(*ours).as_dvec3();
+            // Millimetres; coordinates reach 300 of them.
+            assert!(theirs.distance(ours) < 2e-4, "{id}: {theirs} is not {ours}");
+        }
+    };
+    let alone = ["left", "right", "mirrored", "panel"].map(|name| format!("object-{name}"));
+    let parts = (2..=7).map(|part| format!("object-mirrored.part-{part}"));
+    let alone: Vec<String> = alone.into_iter().chain(parts).collect();
+    for (instance, id) in alone.iter().enumerate() {
+        same(id, matrices[id], instance);
+    }
+    for place in 0..3 {
+        for part in 0..7 {
+            let id = format!("group-leaf-trefoil.part-{}", part + 1);
+            let to_world = matrices[&format!("object-clovers.{}", place + 1)] * matrices[&id];
+            same(&id, to_world, alone.len() + 7 * place + part);
+        }
     }
 }
 
@@ -229,7 +352,7 @@ position_m = [0, 0, 0.1]
     }
     let map = crate::scene::assets::contents_map(&out.join("maps/solid-plum.exr"));
     assert_eq!(map.expect("a contents map").size(), (64, 64));
-    assert!(out.join("meshes/plum.ply").is_file());
+    assert!(out.join("meshes/solid-plum.ply").is_file());
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! The scene description proper.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use glam::{DVec3, Mat4, Vec3};
+use glam::DVec3;
 
 use leafmodel::optics::Contents;
 
@@ -16,6 +17,7 @@ use crate::scene::description::{
 use crate::scene::world::{MaterialOwner, World};
 
 use super::absorption_file;
+use super::shapes::{self, MeshFile};
 use super::spectra::{self, Spectra};
 
 /// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse, either way from the
@@ -27,7 +29,7 @@ const SUN_DISTANCE: f64 = 1e5;
 /// Mitsuba moves the origin of every new ray off its surface by 9e-5 (1 + largest coordinate). In metres that is a
 /// tenth of a millimetre, as much as veins stand out from a leaf, and light would pass under them (0.25 % of the mean
 /// in a close-up). In millimetres it is some micrometres. Radiance does not depend on the unit.
-const UNITS_PER_METRE: f64 = 1000.0;
+pub(super) const UNITS_PER_METRE: f64 = 1000.0;
 
 /// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are numbered from 2.
 pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> String {
@@ -42,28 +44,6 @@ pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> 
     }
 }
 
-/// Where in the export the mesh of an instance lies: under the name of its object, or, if it is a further part of a leaf, under the mesh's
-/// number. Mirror images of those are meshes of their own, since Mitsuba turns normals of mirrored shapes in its own way.
-pub(super) fn mesh_file(scene: &Description, world: &World, instance: usize) -> String {
-    match scene.objects.get(instance) {
-        Some(object) => format!("meshes/{}.ply", object.name),
-        None if is_mirrored(world, instance) => {
-            format!("meshes/part.{}.mirrored.ply", mesh_of(world, instance))
-        }
-        None => format!("meshes/part.{}.ply", mesh_of(world, instance)),
-    }
-}
-
-fn mesh_of(world: &World, instance: usize) -> u32 {
-    world.geometry.instance(instance as u32).mesh
-}
-
-/// Whether an instance is placed as a mirror image.
-pub(super) fn is_mirrored(world: &World, instance: usize) -> bool {
-    let to_world = world.geometry.instance(instance as u32).to_world;
-    to_world.matrix3.determinant() < 0.0
-}
-
 /// Where in the export the picture of an environment light lies.
 pub(super) fn environment_file(light: &str, file: &Path) -> String {
     let ending = file
@@ -73,21 +53,23 @@ pub(super) fn environment_file(light: &str, file: &Path) -> String {
     format!("maps/environment-{light}.{ending}")
 }
 
-/// The text of `scene.xml`; spectra that become files are added to `spectra`.
-pub(super) fn scene(scene: &Description, world: &World, spectra: &mut Spectra) -> String {
+/// The text of `scene.xml`, and the meshes that it names; spectra that become files are added to `spectra`.
+pub(super) fn scene(
+    scene: &Description,
+    world: &World,
+    spectra: &mut Spectra,
+) -> (String, BTreeSet<MeshFile>) {
     let mut xml = String::from("<scene version=\"3.0.0\">\n");
     xml += &integrator(scene);
     xml += &sensor(scene);
     for number in 0..world.materials.len() {
         xml += &bsdf(scene, world, number, spectra);
     }
-    for number in 0..world.objects.len() {
-        xml += &shape(scene, world, number, spectra);
-    }
+    let meshes = shapes::write(&mut xml, scene, world, spectra);
     for light in &scene.lights {
         xml += &emitter(light, world, spectra);
     }
-    xml + "</scene>\n"
+    (xml + "</scene>\n", meshes)
 }
 
 fn integrator(scene: &Description) -> String {
@@ -301,52 +283,6 @@ fn solid_bsdf(id: &str, tissue: &str, optics: &SolidOptics) -> String {
         xml += &number(name, value);
     }
     xml + "</bsdf>\n"
-}
-
-fn shape(scene: &Description, world: &World, number: usize, spectra: &mut Spectra) -> String {
-    let part = world.objects[number];
-    let object = part.object;
-    let instance = world.geometry.instance(number as u32);
-    let flat = world.geometry.mesh(instance.mesh).normals().is_none();
-    let mut to_world = Mat4::from(instance.to_world);
-    let mut id = scene.objects[object].name.clone();
-    if number >= scene.objects.len() {
-        let _ = write!(id, ".{number}");
-        if is_mirrored(world, number) {
-            // The mesh is mirrored already.
-            to_world *= Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
-        }
-    }
-    let mut xml = format!(
-        "<shape type=\"ply\" id=\"object-{id}\">\n  <string name=\"filename\" value=\"{}\"/>\n  \
-         <boolean name=\"face_normals\" value=\"{flat}\"/>\n  <transform name=\"to_world\">\n    \
-         <matrix value=\"{}\"/>\n  </transform>\n  <ref id=\"{}\"/>\n",
-        mesh_file(scene, world, number),
-        row_major(Mat4::from_scale(Vec3::splat(UNITS_PER_METRE as f32)) * to_world),
-        material_id(scene, world, part.material)
-    );
-    for light in &scene.lights {
-        if let Light::Area {
-            object: shining,
-            radiance,
-        } = &light.value
-            && *shining == number
-        {
-            let radiance = spectra.element("radiance", radiance, 1.0);
-            let _ = write!(xml, "  <emitter type=\"area\">\n  {radiance}  </emitter>\n");
-        }
-    }
-    xml + "</shape>\n"
-}
-
-fn row_major(matrix: Mat4) -> String {
-    let values: Vec<String> = matrix
-        .transpose()
-        .to_cols_array()
-        .iter()
-        .map(f32::to_string)
-        .collect();
-    values.join(" ")
 }
 
 fn emitter(light: &Named<Light>, world: &World, spectra: &mut Spectra) -> String {

@@ -26,6 +26,7 @@ impl SceneError {
             Self::FileMissing { .. } => "scene::file_missing",
             Self::NotARegularFile { .. } => "scene::not_a_regular_file",
             Self::BadFile { .. } => "scene::bad_file",
+            Self::Header { .. } => "scene::header",
             Self::NotUtf8 { .. } => "scene::not_utf8",
             Self::UnsupportedFormat { .. } => "scene::unsupported_format",
             Self::Coverage { .. } => "scene::coverage",
@@ -62,6 +63,7 @@ impl SceneError {
             Self::WrongType { help, .. }
             | Self::OutOfRange { help, .. }
             | Self::Impossible { help, .. }
+            | Self::Header { help, .. }
             | Self::BadFile { help, .. } => help.clone(),
             Self::NotFinite { .. } => "write a finite number".to_owned(),
             Self::NotRising { .. } => {
@@ -121,6 +123,7 @@ impl SceneError {
             Self::Syntax { .. } | Self::NotAnOverride { .. } => "here",
             Self::Duplicate { .. } => "the second one",
             Self::UnknownKey { .. } => "unknown key",
+            Self::Header { .. } => "this header",
             Self::UnknownVariant { .. } => "unknown kind",
             Self::MissingKey { .. } => "in this block",
             Self::NotOne { .. } => "this block",

@@ -10,11 +10,12 @@ use crate::scene::assets;
 use crate::scene::description;
 use crate::spectrum::Curve;
 
-pub(super) fn build_light(
+/// A light of the scene; `instance_of` gives the one instance of an object that shines.
+pub(super) fn build_light<'i>(
     name: &str,
     light: &description::Light,
     meshes: &[TriangleMesh],
-    instances: &[Instance],
+    instance_of: impl Fn(usize) -> &'i Instance,
 ) -> Result<Light, WorldError> {
     Ok(match light {
         description::Light::Distant {
@@ -47,7 +48,7 @@ pub(super) fn build_light(
             ))
         }
         description::Light::Area { object, radiance } => {
-            let instance = &instances[*object];
+            let instance = instance_of(*object);
             let mesh = &meshes[instance.mesh as usize];
             let mirrored = instance.to_world.matrix3.determinant() < 0.0;
             let triangles: Vec<_> = mesh

@@ -1,0 +1,234 @@
+//! What stands in the scene: each mesh once, and what stands in several places once, as a group with instances.
+//!
+//! A shape that stands in one place is written as such, with each of its parts. One that stands in several becomes a
+//! `shapegroup` that holds its parts, and an `instance` for each place: Mitsuba then keeps one copy of its triangles.
+//! Shapes that shine are always written alone, since no instance can hold an emitter.
+//!
+//! Mitsuba turns the normals of mirrored shapes in its own way, so no transform of the export mirrors: where one would,
+//! the file holds the mirror image of the mesh.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use glam::{DMat4, DVec3, Mat4};
+
+use crate::scene::description::{Description, Light, Object, ObjectShape};
+use crate::scene::plants::Piece;
+use crate::scene::world::{World, matrix_of};
+
+use super::spectra::Spectra;
+use super::xml::{UNITS_PER_METRE, material_id};
+
+/// A mesh of the world, or its mirror image in x.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct MeshFile {
+    /// Number of the mesh.
+    pub(super) mesh: usize,
+    /// Whether it is the mirror image.
+    pub(super) mirrored: bool,
+}
+
+impl MeshFile {
+    /// Where in the export it lies. Further meshes of a leaf are numbered from 2.
+    pub(super) fn path(self, scene: &Description, world: &World) -> String {
+        let image = if self.mirrored { ".mirrored" } else { "" };
+        if let Some(mesh) = scene.meshes.get(self.mesh) {
+            return format!("meshes/mesh-{}{image}.ply", mesh.name);
+        }
+        for (leaf, pieces) in scene.leaves.iter().zip(&world.pieces.leaves) {
+            // A leaf's meshes have numbers without gaps.
+            let meshes = || pieces.iter().map(|piece| piece.mesh);
+            let (first, last) = (meshes().min(), meshes().max());
+            if let (Some(first), Some(last)) = (first, last)
+                && (first..=last).contains(&self.mesh)
+            {
+                let part = match self.mesh - first {
+                    0 => String::new(),
+                    part => format!(".{}", part + 1),
+                };
+                return format!("meshes/leaf-{}{part}{image}.ply", leaf.name);
+            }
+        }
+        let mut solids = scene.solids.iter().zip(&world.pieces.solids);
+        let solid = solids.find(|(_, piece)| piece.mesh == self.mesh);
+        let name = solid.map_or("", |(solid, _)| &solid.name);
+        format!("meshes/solid-{name}{image}.ply")
+    }
+}
+
+/// A shape, or its mirror image: what a group holds.
+type Kind = (ObjectShape, bool);
+
+/// Writes all shapes, and gives the meshes that they name.
+pub(super) fn write(
+    xml: &mut String,
+    scene: &Description,
+    world: &World,
+    spectra: &mut Spectra,
+) -> BTreeSet<MeshFile> {
+    let mut writer = Writer {
+        xml,
+        scene,
+        world,
+        meshes: BTreeSet::new(),
+    };
+    let mut shining = BTreeMap::new();
+    for light in &scene.lights {
+        if let Light::Area { object, radiance } = &light.value {
+            shining.insert(*object, radiance);
+        }
+    }
+    let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        if !shining.contains_key(&number) {
+            for (_, kind, _) in places(&object.value) {
+                *counts.entry(kind).or_default() += 1;
+            }
+        }
+    }
+    let mut groups = BTreeSet::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        let radiance = shining.get(&number);
+        for (place, kind, to_world) in places(&object.value) {
+            let mut id = format!("object-{}", object.name);
+            if object.value.instances.is_some() {
+                let _ = write!(id, ".{}", place + 1);
+            }
+            if radiance.is_none() && counts[&kind] > 1 {
+                if groups.insert(kind) {
+                    writer.group(kind);
+                }
+                writer.instance(&id, kind, to_world);
+                continue;
+            }
+            let emitter = radiance.map_or_else(String::new, |radiance| {
+                let radiance = spectra.element("radiance", radiance, 1.0);
+                format!("  <emitter type=\"area\">\n  {radiance}  </emitter>\n")
+            });
+            for (part, piece) in world.pieces.of(kind.0).iter().enumerate() {
+                let id = match part {
+                    0 => id.clone(),
+                    part => format!("{id}.part-{}", part + 1),
+                };
+                writer.mesh(&id, piece, to_world, &emitter);
+            }
+        }
+    }
+    writer.meshes
+}
+
+/// An object's places: number, what stands there, local to world.
+fn places(object: &Object) -> impl Iterator<Item = (usize, Kind, DMat4)> {
+    let alone = object
+        .instances
+        .is_none()
+        .then_some((object.shapes[0], object.to_world));
+    let instances = object.instances.iter().flatten();
+    let instances = instances.map(|place| (object.shapes[place.shape as usize], matrix_of(place)));
+    alone
+        .into_iter()
+        .chain(instances)
+        .enumerate()
+        .map(|(number, (shape, to_world))| (number, (shape, mirrors(to_world)), to_world))
+}
+
+fn mirrors(matrix: DMat4) -> bool {
+    // Of an affine matrix this is the determinant of its linear part.
+    matrix.determinant() < 0.0
+}
+
+/// The mirror image in x.
+fn mirror() -> DMat4 {
+    DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0))
+}
+
+struct Writer<'a> {
+    xml: &'a mut String,
+    scene: &'a Description,
+    world: &'a World,
+    meshes: BTreeSet<MeshFile>,
+}
+
+impl Writer<'_> {
+    /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in metres.
+    fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4, emitter: &str) {
+        let mut to_world = to_world * DMat4::from(piece.to_leaf);
+        let file = MeshFile {
+            mesh: piece.mesh,
+            mirrored: mirrors(to_world),
+        };
+        if file.mirrored {
+            to_world *= mirror();
+        }
+        self.meshes.insert(file);
+        let mesh = self.world.geometry.mesh(piece.mesh as u32);
+        let _ = write!(
+            self.xml,
+            "<shape type=\"ply\" id=\"{id}\">\n  <string name=\"filename\" value=\"{}\"/>\n  \
+             <boolean name=\"face_normals\" value=\"{}\"/>\n{}  <ref id=\"{}\"/>\n{emitter}</shape>\n",
+            file.path(self.scene, self.world),
+            mesh.normals().is_none(),
+            transform(DMat4::from_scale(DVec3::splat(UNITS_PER_METRE)) * to_world),
+            material_id(self.scene, self.world, piece.material)
+        );
+    }
+
+    /// All parts of a shape, in millimetres.
+    fn group(&mut self, kind: Kind) {
+        let id = self.group_id(kind);
+        let _ = writeln!(self.xml, "<shape type=\"shapegroup\" id=\"{id}\">");
+        let to_group = if kind.1 { mirror() } else { DMat4::IDENTITY };
+        for (part, piece) in self.world.pieces.of(kind.0).iter().enumerate() {
+            self.mesh(&format!("{id}.part-{}", part + 1), piece, to_group, "");
+        }
+        self.xml.push_str("</shape>\n");
+    }
+
+    fn instance(&mut self, id: &str, kind: Kind, to_world: DMat4) {
+        let to_world = if kind.1 {
+            to_world * mirror()
+        } else {
+            to_world
+        };
+        // Group and world are both in millimetres.
+        let millimetres = DMat4::from_scale(DVec3::splat(UNITS_PER_METRE));
+        let metres = DMat4::from_scale(DVec3::splat(UNITS_PER_METRE.recip()));
+        let group = self.group_id(kind);
+        let _ = write!(
+            self.xml,
+            "<shape type=\"instance\" id=\"{id}\">\n  <ref id=\"{group}\"/>\n{}</shape>\n",
+            transform(millimetres * to_world * metres)
+        );
+    }
+
+    fn group_id(&self, (shape, mirrored): Kind) -> String {
+        let scene = self.scene;
+        let name = match shape {
+            ObjectShape::Mesh { mesh, material } => format!(
+                "mesh-{}.{}",
+                scene.meshes[mesh].name, scene.materials[material].name
+            ),
+            ObjectShape::Leaf { leaf } => format!("leaf-{}", scene.leaves[leaf].name),
+            ObjectShape::Solid { solid } => format!("solid-{}", scene.solids[solid].name),
+        };
+        let image = if mirrored { ".mirrored" } else { "" };
+        format!("group-{name}{image}")
+    }
+}
+
+fn transform(matrix: DMat4) -> String {
+    format!(
+        "  <transform name=\"to_world\">\n    <matrix value=\"{}\"/>\n  </transform>\n",
+        row_major(matrix.as_mat4())
+    )
+}
+
+fn row_major(matrix: Mat4) -> String {
+    let values: Vec<String> = matrix
+        .transpose()
+        .to_cols_array()
+        .iter()
+        .map(f32::to_string)
+        .collect();
+    values.join(" ")
+}

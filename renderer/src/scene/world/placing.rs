@@ -1,0 +1,195 @@
+//! Shapes put at their places: instances of meshes, and what each of them is.
+
+use std::ops::Index;
+
+use glam::{Affine3A, DAffine3, DMat4, DVec3};
+
+use crate::geometry::Instance;
+use crate::scene::description::{Description, InstancePlace, ObjectShape};
+use crate::scene::plants::Piece;
+
+/// What shapes consist of, meshes and materials by their numbers in the world.
+#[derive(Clone, Debug, Default)]
+pub struct Pieces {
+    /// Of each grown leaf its parts; one at least.
+    pub leaves: Vec<Vec<Piece>>,
+    /// Each grown body.
+    pub solids: Vec<Piece>,
+}
+
+impl Pieces {
+    /// The parts of a shape; one at least.
+    pub fn of(&self, shape: ObjectShape) -> Vec<Piece> {
+        match shape {
+            ObjectShape::Mesh { mesh, material } => vec![Piece {
+                mesh,
+                material,
+                to_leaf: DAffine3::IDENTITY,
+            }],
+            ObjectShape::Leaf { leaf } => self.leaves[leaf].clone(),
+            ObjectShape::Solid { solid } => vec![self.solids[solid]],
+        }
+    }
+}
+
+/// An instance as paths see it.
+#[derive(Clone, Copy, Debug)]
+pub struct WorldObject {
+    /// Number of the object in the scene.
+    pub object: usize,
+    /// Number of its material.
+    pub material: usize,
+    /// Number of the light that it is, if it shines.
+    pub light: Option<usize>,
+}
+
+/// What each instance is. All places of an object share an entry for each of its parts, so that an instance costs
+/// eight bytes here.
+#[derive(Clone, Debug, Default)]
+pub struct WorldObjects {
+    parts: Vec<WorldObject>,
+    instances: Vec<Standing>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Standing {
+    /// Which of the parts.
+    part: u32,
+    /// Which of its object's places, from 0.
+    place: u32,
+}
+
+impl WorldObjects {
+    /// How many instances there are.
+    pub fn len(&self) -> usize {
+        self.instances.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.instances.is_empty()
+    }
+
+    /// Which of its object's places an instance belongs to, from 0: the row of the object's file, or 0 if the object
+    /// stands in one place. Parts of a leaf share it.
+    pub fn place_of(&self, instance: u32) -> u32 {
+        self.instances[instance as usize].place
+    }
+
+    /// Lets an instance, the only one of its part, be a light.
+    pub(super) fn shine(&mut self, instance: usize, light: usize) {
+        self.parts[self.instances[instance].part as usize].light = Some(light);
+    }
+
+    fn add_part(&mut self, object: usize, material: usize) -> u32 {
+        self.parts.push(WorldObject {
+            object,
+            material,
+            light: None,
+        });
+        self.parts.len() as u32 - 1
+    }
+}
+
+impl Index<usize> for WorldObjects {
+    type Output = WorldObject;
+
+    fn index(&self, instance: usize) -> &WorldObject {
+        &self.parts[self.instances[instance].part as usize]
+    }
+}
+
+/// Everything at its place.
+#[derive(Debug, Default)]
+pub(super) struct Placed {
+    pub(super) instances: Vec<Instance>,
+    pub(super) objects: WorldObjects,
+    /// Of each object the number of its first instance.
+    pub(super) first: Vec<usize>,
+}
+
+impl Placed {
+    fn put(&mut self, part: u32, place: u32, mesh: usize, to_world: Affine3A) {
+        self.instances.push(Instance {
+            mesh: mesh as u32,
+            to_world,
+        });
+        self.objects.instances.push(Standing { part, place });
+    }
+
+    /// Puts a part of an object that stands in one place.
+    fn put_alone(&mut self, object: usize, piece: &Piece, to_world: DMat4) {
+        let part = self.objects.add_part(object, piece.material);
+        self.put(part, 0, piece.mesh, carried(to_world, piece));
+    }
+}
+
+/// Instances of every shape of the scene.
+///
+/// First come the objects that stand in one place, each with one part, then the other parts of those, then objects
+/// with instances. Equally near hits go to the smaller number, so the order is part of what a picture shows.
+pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
+    let mut placed = Placed {
+        first: vec![0; scene.objects.len()],
+        ..Placed::default()
+    };
+    // Exact unless leaves have several parts.
+    let places = scene.objects.iter();
+    let count = places.map(|object| object.value.instances.as_ref().map_or(1, Vec::len));
+    let count = count.sum();
+    placed.instances.reserve(count);
+    placed.objects.instances.reserve(count);
+    let mut rest = Vec::new();
+    let mut repeated = Vec::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        if let Some(places) = &object.value.instances {
+            repeated.push((number, places));
+            continue;
+        }
+        placed.first[number] = placed.instances.len();
+        let mut parts = pieces.of(object.value.shapes[0]).into_iter();
+        let first = parts.next().expect("a shape has a part");
+        placed.put_alone(number, &first, object.value.to_world);
+        rest.extend(parts.map(|piece| (number, piece)));
+    }
+    for (number, piece) in rest {
+        placed.put_alone(number, &piece, scene.objects[number].value.to_world);
+    }
+    for (number, places) in repeated {
+        placed.first[number] = placed.instances.len();
+        let shapes = &scene.objects[number].value.shapes;
+        let shapes: Vec<Vec<(u32, Piece)>> = shapes
+            .iter()
+            .map(|shape| {
+                let pieces = pieces.of(*shape).into_iter();
+                pieces
+                    .map(|piece| (placed.objects.add_part(number, piece.material), piece))
+                    .collect()
+            })
+            .collect();
+        for (place, at) in places.iter().enumerate() {
+            let to_world = matrix_of(at);
+            for (part, piece) in &shapes[at.shape as usize] {
+                placed.put(*part, place as u32, piece.mesh, carried(to_world, piece));
+            }
+        }
+    }
+    placed
+}
+
+/// From a part's mesh to the world, if `to_world` takes its shape there.
+fn carried(to_world: DMat4, piece: &Piece) -> Affine3A {
+    Affine3A::from_mat4((to_world * DMat4::from(piece.to_leaf)).as_mat4())
+}
+
+/// Local to world of one of an object's places.
+pub(crate) fn matrix_of(place: &InstancePlace) -> DMat4 {
+    let column =
+        |at: usize| DVec3::from_array(std::array::from_fn(|i| f64::from(place.to_world[at + i])));
+    DMat4::from_cols(
+        column(0).extend(0.0),
+        column(3).extend(0.0),
+        column(6).extend(0.0),
+        column(9).extend(1.0),
+    )
+}
