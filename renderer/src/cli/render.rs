@@ -13,6 +13,7 @@ use crate::image::{openexr, portable_network, tone};
 use crate::integrator::develop::develop;
 use crate::integrator::render::{Job, Rendered, render};
 use crate::scene::description::{Description, FilmKind};
+use crate::scene::plant_cache::PlantCache;
 use crate::scene::world::{World, wavelength_sampler};
 use crate::spectrum::Lanes;
 
@@ -51,9 +52,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         .num_threads(threads)
         .build()
         .map_err(Failure::system)?;
-    let world = pool
-        .install(|| World::build(&scene))
-        .map_err(Failure::bad)?;
+    let world = pool.install(|| build_world(&scene, arguments))?;
     for note in &world.notes {
         eprintln!("note: {note}");
     }
@@ -118,6 +117,12 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+fn build_world(scene: &Description, arguments: &RenderArguments) -> Result<World, Failure> {
+    let cache = arguments.cache.as_deref().map(PlantCache::open);
+    let cache = cache.transpose().map_err(Failure::bad)?;
+    World::build_with(scene, cache.as_ref()).map_err(Failure::bad)
 }
 
 /// `stem` with an ending added, whatever dots it has already.
