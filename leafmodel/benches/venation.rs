@@ -3,7 +3,9 @@
 //! One thread. The rows are those of Table 1 of Runions et al. 2005 at 10 units of the table to a
 //! segment, the poplar ten times finer, the broad leaf of the first scene, and a leaf that grows at its
 //! margin, whose sources wait by the hundred before a long front of veins. The poplar by length shows how time grows
-//! with the number of nodes: each row has about ten times the nodes of the one before.
+//! with the number of nodes: each row has about ten times the nodes of the one before. "Slow growth" are leaves that grow little
+//! in a step, so that thousands of sources wait far ahead of the veins; the names of the large ones end in "large", and they take
+//! minutes in all: `cargo bench -p leafmodel --bench venation -- "slow growth"`.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -121,5 +123,71 @@ fn presets(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(venation, rows, presets);
+/// A preset whose growth steps are small against its net.
+fn slow(name: &str, change: impl Fn(&mut AuxinPlan)) -> (Outline, AuxinPlan, u64) {
+    let preset = PRESETS.iter().find(|preset| preset.name == name);
+    let plan = preset.expect("a preset").plan();
+    let outline = plan.grow_outline().expect("a good outline");
+    let mut auxin = plan.venation.auxin().expect("veins by auxin").clone();
+    change(&mut auxin);
+    (outline, auxin, plan.seed)
+}
+
+/// A cottonwood whose net is `length` segments long in the end, half of them at the start.
+fn slow_cottonwood(length: f64, initial: f64, kill_distance: f64) -> impl Fn(&mut AuxinPlan) {
+    move |auxin| {
+        auxin.source_birth_distance = 2.0;
+        auxin.vein_birth_distance = 2.0;
+        auxin.kill_distance = kill_distance;
+        auxin.final_length = length;
+        if let Growth::Isogonic { initial_length, .. } = &mut auxin.growth {
+            *initial_length = initial;
+        }
+    }
+}
+
+/// The poplar at one unit of the paper's table to a segment, with the table's own growth step and darts.
+fn poplar_of_the_table(auxin: &mut AuxinPlan) {
+    auxin.darts_per_area = 200e-6;
+    if let Growth::Isogonic { length_step, .. } = &mut auxin.growth {
+        *length_step = 9.0;
+    }
+}
+
+fn slow_growth(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("slow growth");
+    group.sample_size(10);
+    let cases = [
+        (
+            "cottonwood",
+            slow("cottonwood", slow_cottonwood(560.0, 300.0, 1.0)),
+        ),
+        (
+            "cottonwood, large",
+            slow("cottonwood", slow_cottonwood(1800.0, 900.0, 0.93)),
+        ),
+        (
+            "poplar of the table, large",
+            slow("poplar-x10", poplar_of_the_table),
+        ),
+    ];
+    let patterns = [
+        ("relative", Pattern::Closed(Neighbourhood::Relative)),
+        ("Urquhart", Pattern::Closed(Neighbourhood::Urquhart)),
+        ("open", Pattern::Open),
+    ];
+    for (name, (outline, auxin, seed)) in &cases {
+        for (kind, pattern) in &patterns {
+            let auxin = AuxinPlan {
+                pattern: *pattern,
+                ..auxin.clone()
+            };
+            group.bench_function(format!("{name}, {kind}"), |bencher| {
+                bencher.iter(|| grow(outline, black_box(&auxin), *seed).expect("a good plan"));
+            });
+        }
+    }
+}
+
+criterion_group!(venation, rows, presets, slow_growth);
 criterion_main!(venation);

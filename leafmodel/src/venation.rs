@@ -31,6 +31,7 @@ mod influence;
 mod lamina;
 mod lamina_clock;
 mod length_queue;
+mod lone;
 pub mod network;
 mod open;
 pub(crate) mod order;
@@ -40,6 +41,7 @@ mod point_tree;
 mod probe;
 mod relative_neighbourhood;
 mod simulation;
+mod sources;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod topology;

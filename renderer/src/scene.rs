@@ -11,6 +11,7 @@ mod document;
 pub mod error;
 pub mod load;
 pub(crate) mod nearest;
+pub mod plant_cache;
 pub mod plants;
 pub mod report;
 pub mod source;

@@ -23,6 +23,8 @@ const SHORTEST: f64 = 1.0 / 16.0;
 pub(super) struct SizeField {
     longest: f64,
     veins: VeinGrid,
+    /// Of each vein.
+    bounds: Vec<Bound>,
 }
 
 impl SizeField {
@@ -36,24 +38,61 @@ impl SizeField {
         };
         Self {
             longest,
+            bounds: shaping.iter().map(|s| Bound::new(s, longest)).collect(),
             veins: VeinGrid::new(shaping.to_vec(), reach),
         }
     }
 
     /// Target edge length at a point, mm.
     pub(super) fn at(&self, p: DVec2) -> f64 {
-        self.veins
-            .near(p)
-            .map(|vein| {
-                let away = (vein.distance - PLATEAU * vein.radius).max(0.0);
-                on_axis(self.longest, vein.radius) + GRADING * away
-            })
-            .fold(self.longest, f64::min)
+        let shortest = SHORTEST * self.longest;
+        let mut target = self.longest;
+        for &number in self.veins.members(p) {
+            if target <= shortest {
+                break;
+            }
+            if self.bounds[number as usize].is_too_far(p, target, self.longest) {
+                continue;
+            }
+            let vein = self.veins.nearest(number, p);
+            let away = (vein.distance - PLATEAU * vein.radius).max(0.0);
+            target = target.min(on_axis(self.longest, vein.radius) + GRADING * away);
+        }
+        target
     }
 
     /// The greatest target anywhere, mm.
     pub(super) fn longest(&self) -> f64 {
         self.longest
+    }
+}
+
+/// A bound of what a vein asks for, cheaper than the distance to it.
+#[derive(Debug)]
+struct Bound {
+    middle: DVec2,
+    /// Half the vein's length, and how far its least target holds.
+    reach: f64,
+    /// The least target on its axis.
+    least: f64,
+}
+
+impl Bound {
+    fn new(segment: &VeinSegment, longest: f64) -> Self {
+        let thickest = segment.radius_from.max(segment.radius_to);
+        let thinnest = segment.radius_from.min(segment.radius_to);
+        Self {
+            middle: 0.5 * (segment.from + segment.to),
+            reach: 0.5 * (segment.to - segment.from).length() + PLATEAU * thickest,
+            least: on_axis(longest, thinnest),
+        }
+    }
+
+    /// Whether the vein asks at `p` for no less than `target`, by more than rounding.
+    fn is_too_far(&self, p: DVec2, target: f64, longest: f64) -> bool {
+        let spare = 1e-9 * (longest + self.reach);
+        let near = self.reach + (target - self.least) * (1.0 / GRADING) + spare;
+        (p - self.middle).length_squared() >= near.max(0.0) * near.max(0.0)
     }
 }
 

@@ -92,19 +92,27 @@ impl VeinGrid {
 
     /// The veins that may reach a point, each by its nearest point; in the order of the segments.
     pub(super) fn near(&self, p: DVec2) -> impl Iterator<Item = NearVein> + '_ {
+        let members = self.members(p).iter();
+        members.map(move |&index| self.nearest(index, p))
+    }
+
+    /// The numbers of the veins that may reach a point, ascending.
+    pub(super) fn members(&self, p: DVec2) -> &[u32] {
         let place = ((p - self.origin) / self.cell).floor();
         let inside = place.cmpge(DVec2::ZERO).all()
             && place.x < self.columns as f64
             && place.y < self.rows as f64;
-        let members = if inside {
+        if inside {
             let cell = place.y as usize * self.columns + place.x as usize;
             &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
         } else {
             &[]
-        };
-        members
-            .iter()
-            .map(move |&index| nearest(&self.segments[index as usize], p))
+        }
+    }
+
+    /// The point of a vein that is nearest to `p`.
+    pub(super) fn nearest(&self, number: u32, p: DVec2) -> NearVein {
+        nearest(&self.segments[number as usize], p)
     }
 }
 

@@ -20,7 +20,7 @@ use super::relative_neighbourhood::RelativeNeighbourhood;
 use super::urquhart::UrquhartNeighbourhood;
 
 /// Which nodes are neighbours of a source.
-pub(crate) trait Zone: Sized {
+pub(crate) trait Zone: Send + Sized {
     /// The neighbours of a source at `place` among all nodes.
     fn find(place: DVec2, surroundings: &Surroundings) -> Self;
 
@@ -85,6 +85,10 @@ impl<Z: Zone> Influence for Anastomosis<Z> {
 
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
         self.zone.update(fresh, surroundings);
+    }
+
+    fn is_untouched(&self) -> bool {
+        self.tagged.is_none()
     }
 
     fn each_driven(&self, visit: impl FnMut(u32)) {

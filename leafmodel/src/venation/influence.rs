@@ -23,7 +23,7 @@ pub(crate) enum Fate {
 }
 
 /// A source's relation to the veins around it.
-pub(crate) trait Influence: Sized {
+pub(crate) trait Influence: Send + Sized {
     /// The relation of a new source, number `id`, at `place`.
     fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
 
@@ -33,6 +33,9 @@ pub(crate) trait Influence: Sized {
 
     /// Takes in nodes that have come since the last call.
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
+
+    /// Whether no vein has reached the source yet: what it drives follows from the places of the nodes alone.
+    fn is_untouched(&self) -> bool;
 
     /// Calls `visit` with each node that this source drives.
     fn each_driven(&self, visit: impl FnMut(u32));

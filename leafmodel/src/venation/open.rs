@@ -84,6 +84,10 @@ impl Influence for NearestNode {
         let _ = fresh.visit(&mut self.look(surroundings.seed));
     }
 
+    fn is_untouched(&self) -> bool {
+        true
+    }
+
     fn each_driven(&self, mut visit: impl FnMut(u32)) {
         visit(self.node);
     }

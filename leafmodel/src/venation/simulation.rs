@@ -17,6 +17,7 @@ use super::lamina_clock::LaminaClock;
 use super::network::Ending;
 use super::plan::{AuxinPlan, Growth};
 use super::point_tree::PointTree;
+use super::sources::{Known, Sources};
 use super::veins::{COINCIDENT, Veins};
 
 /// Steps after which a source none of whose nodes can grow is given up, and after which, with
@@ -25,6 +26,9 @@ pub(crate) const PATIENCE: u32 = 3;
 
 /// Below this length the sum of unit vectors has no direction worth following.
 pub(crate) const NO_DIRECTION: f64 = 1e-9;
+
+/// How much farther than the kill distance from all veins, in segments, sources are looked after together.
+const CLEAR: f64 = 1.0;
 
 /// How near to an origin, in segments, veins turn aside at the margin.
 pub(crate) const TURNING: f64 = 12.0;
@@ -48,15 +52,6 @@ enum Outcome {
     OffBlade,
 }
 
-struct Source<I> {
-    place: DVec2,
-    /// Where its tissue started.
-    start: DVec2,
-    id: u32,
-    influence: I,
-    blocked_steps: u32,
-}
-
 /// A venation simulation under way, in the frame of [`super::lamina_clock`].
 pub(crate) struct Simulation<'a, I> {
     plan: &'a AuxinPlan,
@@ -66,7 +61,7 @@ pub(crate) struct Simulation<'a, I> {
     darts: Darts,
     /// The network so far.
     pub(crate) veins: Veins,
-    sources: Vec<Source<I>>,
+    sources: Sources<I>,
     source_tree: PointTree,
     /// How many nodes were there at the start.
     origins: u32,
@@ -84,6 +79,8 @@ pub(crate) struct Simulation<'a, I> {
     darts_in_vain: f64,
     pulls: Vec<DVec2>,
     is_driven: Vec<bool>,
+    /// What the driven nodes of this step came to, by node.
+    outcomes: Vec<Outcome>,
 }
 
 impl<'a, I: Influence> Simulation<'a, I> {
@@ -131,7 +128,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             origins: plan.origins.len().max(1) as u32,
             noticed: veins.count(),
             veins,
-            sources: Vec::new(),
+            sources: Sources::new(),
             source_tree: PointTree::new(low, high),
             lamina,
             sources_born: 0,
@@ -140,6 +137,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             darts_in_vain: 0.0,
             pulls: Vec::new(),
             is_driven: Vec::new(),
+            outcomes: Vec::new(),
         }
     }
 
@@ -215,18 +213,14 @@ impl<'a, I: Influence> Simulation<'a, I> {
             self.carry(age);
         }
         self.veins.subdivide(stage.unit, &self.lamina, self.step);
-        self.notice();
+        self.notice(stage.unit);
         if !self.is_laying_out {
             self.add_sources(age, stage.unit);
         }
         let driven = self.gather_pulls();
-        let outcomes = self.grow_veins(&driven, stage.unit);
-        let grown = outcomes
-            .iter()
-            .filter(|(_, outcome)| matches!(outcome, Outcome::Child(_)))
-            .count();
-        self.tell_sources(&outcomes);
-        self.notice();
+        self.grow_veins(&driven, stage.unit);
+        let grown = self.tell_sources(&driven);
+        self.notice(stage.unit);
         self.judge_sources(stage.unit);
         self.step += 1;
         grown
@@ -245,32 +239,48 @@ impl<'a, I: Influence> Simulation<'a, I> {
             tree: &self.veins.tree,
             seed: self.seed,
         };
-        for source in &mut self.sources {
-            source.place = self.lamina.now_at(source.start);
-            self.source_tree.insert(source.id, source.place);
-            source.influence.place_anew(source.place, &surroundings);
-        }
+        let (lamina, source_tree) = (&self.lamina, &mut self.source_tree);
+        self.sources.carry(
+            |start| lamina.now_at(start),
+            &surroundings,
+            |id, place| source_tree.insert(id, place),
+        );
         self.noticed = self.veins.count();
     }
 
     /// Lets every source take in the nodes since the last time.
-    fn notice(&mut self) {
+    fn notice(&mut self, unit: f64) {
+        let near = self.nearness(unit);
         let fresh = FreshNodes::new(&self.veins.positions, self.noticed);
         if !fresh.is_empty() {
             let surroundings = Surroundings {
                 tree: &self.veins.tree,
                 seed: self.seed,
             };
-            for source in &mut self.sources {
-                source.influence.notice(&fresh, &surroundings);
-            }
+            self.sources.notice(&fresh, near, &surroundings);
         }
         self.noticed = self.veins.count();
+    }
+
+    /// How far from all veins sources may be lone, if any may: far enough not to be used up in this step.
+    fn nearness(&self, unit: f64) -> Option<f64> {
+        let may_be = self.lamina.is_flat() && !self.lamina.moves();
+        may_be.then_some((self.plan.kill_distance + CLEAR) * unit)
     }
 
     /// New sources, where darts hit the blade far enough from sources and veins.
     fn add_sources(&mut self, age: u32, unit: f64) {
         let clear_of_margin = self.clearance(age);
+        let near = self.nearness(unit);
+        self.sources
+            .fit_cells(self.plan.source_birth_distance * unit);
+        if let Some(near) = near {
+            let surroundings = Surroundings {
+                tree: &self.veins.tree,
+                seed: self.seed,
+            };
+            self.sources.reconsider(self.step, near, &surroundings);
+        }
         for dart in self.darts.of_step(age, unit, self.seed, &self.lamina) {
             let unit = unit * self.lamina.enlargement(dart);
             if !self.lamina.contains(dart)
@@ -290,11 +300,11 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 continue;
             }
             self.darts_in_vain = 0.0;
-            self.add_source(dart);
+            self.add_source(dart, near);
         }
     }
 
-    fn add_source(&mut self, place: DVec2) {
+    fn add_source(&mut self, place: DVec2, near: Option<f64>) {
         let id = self.sources_born;
         self.sources_born += 1;
         self.source_tree.insert(id, place);
@@ -302,13 +312,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
             tree: &self.veins.tree,
             seed: self.seed,
         };
-        self.sources.push(Source {
-            place,
-            start: self.lamina.start_of(place),
-            id,
-            influence: I::new(place, id, &surroundings),
-            blocked_steps: 0,
-        });
+        let start = self.lamina.start_of(place);
+        self.sources.push(id, place, start, near, &surroundings);
     }
 
     /// Steps for which the lamina has grown at `step`.
@@ -338,57 +343,61 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.is_driven.resize(count, false);
         let mut driven = Vec::new();
         let (pulls, is_driven) = (&mut self.pulls, &mut self.is_driven);
-        for source in &self.sources {
-            source.influence.each_driven(|node| {
-                let i = node as usize;
-                if !is_driven[i] {
-                    is_driven[i] = true;
-                    driven.push(node);
-                }
-                let way = source.place - self.veins.positions[i];
-                let length = way.length();
-                if length > 0.0 {
-                    pulls[i] += way / length;
-                }
-            });
-        }
+        let positions = &self.veins.positions;
+        self.sources.each_driven(|place, node| {
+            let i = node as usize;
+            if !is_driven[i] {
+                is_driven[i] = true;
+                driven.push(node);
+            }
+            let way = place - positions[i];
+            let length = way.length();
+            if length > 0.0 {
+                pulls[i] += way / length;
+            }
+        });
         driven.sort_unstable();
         driven
     }
 
-    /// Places a child for each driven node, where there is room; gives what came of each node.
-    fn grow_veins(&mut self, driven: &[u32], unit: f64) -> Vec<(u32, Outcome)> {
-        let place_one = |&node: &u32| {
-            let i = node as usize;
-            let pull = std::mem::take(&mut self.pulls[i]);
-            self.is_driven[i] = false;
-            let length = pull.length();
-            if length < NO_DIRECTION {
-                return (node, Outcome::Blocked);
-            }
-            let from = self.veins.positions[i];
-            let unit = unit * self.lamina.enlargement(from);
-            let straight = pull / length * unit;
-            let reach = |way: &DVec2| self.lamina.can_reach(from, from + *way);
-            let way = if reach(&straight) {
-                Some(straight)
-            } else if self.turns(node, unit) {
-                turned(straight).find(reach)
-            } else {
-                None
-            };
-            let Some(way) = way else {
-                return (node, Outcome::OffBlade);
-            };
-            let child = from + way;
-            if self.veins.tree.any_within(child, COINCIDENT * unit) {
-                return (node, Outcome::Blocked);
-            }
-            let id = self.veins.add_node(child, self.step, &self.lamina);
-            self.veins.add_edge(node, id, &self.lamina);
-            (node, Outcome::Child(id))
+    /// Places a child for each driven node, where there is room, and notes what came of each node.
+    fn grow_veins(&mut self, driven: &[u32], unit: f64) {
+        self.outcomes
+            .resize(self.veins.positions.len(), Outcome::Blocked);
+        for &node in driven {
+            self.outcomes[node as usize] = self.grow_one(node, unit);
+        }
+    }
+
+    fn grow_one(&mut self, node: u32, unit: f64) -> Outcome {
+        let i = node as usize;
+        let pull = std::mem::take(&mut self.pulls[i]);
+        self.is_driven[i] = false;
+        let length = pull.length();
+        if length < NO_DIRECTION {
+            return Outcome::Blocked;
+        }
+        let from = self.veins.positions[i];
+        let unit = unit * self.lamina.enlargement(from);
+        let straight = pull / length * unit;
+        let reach = |way: &DVec2| self.lamina.can_reach(from, from + *way);
+        let way = if reach(&straight) {
+            Some(straight)
+        } else if self.turns(node, unit) {
+            turned(straight).find(reach)
+        } else {
+            None
         };
-        driven.iter().map(place_one).collect()
+        let Some(way) = way else {
+            return Outcome::OffBlade;
+        };
+        let child = from + way;
+        if self.veins.tree.any_within(child, COINCIDENT * unit) {
+            return Outcome::Blocked;
+        }
+        let id = self.veins.add_node(child, self.step, &self.lamina);
+        self.veins.add_edge(node, id, &self.lamina);
+        Outcome::Child(id)
     }
 
     /// Whether a vein's tip that would leave the blade turns aside: only as near to where the veins come in, for the base of a
@@ -400,18 +409,16 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.veins.is_tip(node) && origins.iter().any(near)
     }
 
-    /// Hands tags on to children, and counts the steps in which a source moved nothing.
-    fn tell_sources(&mut self, outcomes: &[(u32, Outcome)]) {
-        let outcome_of = |node: u32| {
-            outcomes
-                .binary_search_by_key(&node, |&(node, _)| node)
-                .map_or(Outcome::Blocked, |i| outcomes[i].1)
-        };
+    /// Hands tags on to children, and counts the steps in which a source moved nothing; gives the number of children.
+    fn tell_sources(&mut self, driven: &[u32]) -> usize {
+        let outcomes = &self.outcomes;
+        let outcome_of = |node: u32| outcomes[node as usize];
+        let is_blocked = |node: u32| outcome_of(node) == Outcome::Blocked;
         let mut children = Vec::new();
-        for source in &mut self.sources {
+        let all_blocked = |influence: &mut I| {
             let mut all_blocked = true;
             children.clear();
-            source.influence.each_driven(|node| match outcome_of(node) {
+            influence.each_driven(|node| match outcome_of(node) {
                 Outcome::Child(child) => {
                     all_blocked = false;
                     children.push((node, child));
@@ -420,14 +427,15 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 Outcome::Blocked => {}
             });
             for &(parent, child) in &children {
-                source.influence.inherit(parent, child);
+                influence.inherit(parent, child);
             }
-            source.blocked_steps = if all_blocked {
-                source.blocked_steps + 1
-            } else {
-                0
-            };
-        }
+            all_blocked
+        };
+        let some_are_blocked = driven.iter().any(|&node| is_blocked(node));
+        self.sources
+            .count_blocked(all_blocked, is_blocked, some_are_blocked);
+        let has_child = |node: &&u32| matches!(outcome_of(**node), Outcome::Child(_));
+        driven.iter().filter(has_child).count()
     }
 
     /// Removes used-up sources and joins the veins that have met there.
@@ -436,17 +444,20 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let source_tree = &mut self.source_tree;
         let lamina = &self.lamina;
         let kill_distance = self.plan.kill_distance;
-        self.sources.retain_mut(|source| {
-            let kill = kill_distance * (unit * lamina.enlargement(source.place));
-            let arrivals = match source.influence.judge(kill) {
+        self.sources
+            .give_up_lone(PATIENCE, |id, place| source_tree.remove(id, place));
+        let stays = |known: &mut Known<I>, id: u32, place: DVec2, blocked_steps: u32| {
+            let kill = kill_distance * (unit * lamina.enlargement(place));
+            let arrivals = match known.influence.judge(kill) {
                 Fate::UsedUp(arrivals) => arrivals,
-                Fate::Stays if source.blocked_steps >= PATIENCE => source.influence.give_up(),
+                Fate::Stays if blocked_steps >= PATIENCE => known.influence.give_up(),
                 Fate::Stays => return true,
             };
-            source_tree.remove(source.id, source.place);
-            used_up.push((source.place, arrivals));
+            source_tree.remove(id, place);
+            used_up.push((place, arrivals));
             false
-        });
+        };
+        self.sources.retain_known(stays);
         for (place, arrivals) in used_up {
             self.veins
                 .weld(place, &arrivals, unit, &self.lamina, self.step);

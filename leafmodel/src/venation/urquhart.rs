@@ -35,6 +35,8 @@ pub(crate) struct UrquhartNeighbourhood {
     radius_squared: f64,
     /// Number and squared distance of each neighbour, by number.
     members: Vec<(u32, f64)>,
+    /// Whether the cell has been cut since the members were chosen.
+    is_cut: bool,
 }
 
 impl UrquhartNeighbourhood {
@@ -52,6 +54,7 @@ impl UrquhartNeighbourhood {
             sides: corners.map(side).to_vec(),
             radius_squared: 2.0 * far * far,
             members: Vec::new(),
+            is_cut: true,
         };
         let _ = tree.visit(source, &mut found);
         found.choose();
@@ -103,6 +106,7 @@ impl UrquhartNeighbourhood {
             }];
         }
         self.sides = sides;
+        self.is_cut = true;
         self.radius_squared = self
             .sides
             .iter()
@@ -114,24 +118,29 @@ impl UrquhartNeighbourhood {
         4.0 * self.radius_squared * SLACK
     }
 
-    /// Tests the Delaunay neighbours against each other.
+    /// Tests the Delaunay neighbours against each other, if the cell has been cut.
     pub(crate) fn choose(&mut self) {
+        if !std::mem::take(&mut self.is_cut) {
+            return;
+        }
         let mut delaunay: Vec<(u32, DVec2)> = self.sides.iter().filter_map(|s| s.node).collect();
-        delaunay.sort_unstable_by_key(|&(id, _)| id);
+        // By distance: only nearer ones exclude, and mostly the nearest.
+        let key = |&(id, offset): &(u32, DVec2)| (offset.length_squared().to_bits(), id);
+        delaunay.sort_unstable_by_key(key);
         delaunay.dedup_by_key(|&mut (id, _)| id);
         // Distances as everywhere: squares of differences of positions.
         let excluded = |v: (u32, DVec2)| {
-            delaunay.iter().any(|&u| {
-                u.0 != v.0
-                    && v.1.length_squared()
-                        >= u.1.length_squared().max((v.1 - u.1).length_squared())
-            })
+            let squared = v.1.length_squared();
+            delaunay
+                .iter()
+                .take_while(|u| u.1.length_squared() <= squared)
+                .any(|u| u.0 != v.0 && squared >= (v.1 - u.1).length_squared())
         };
-        self.members = delaunay
-            .iter()
-            .filter(|&&v| !excluded(v))
-            .map(|&(id, offset)| (id, offset.length_squared()))
-            .collect();
+        self.members.clear();
+        let chosen = delaunay.iter().filter(|&&v| !excluded(v));
+        self.members
+            .extend(chosen.map(|&(id, offset)| (id, offset.length_squared())));
+        self.members.sort_unstable_by_key(|&(id, _)| id);
     }
 
     /// Number and squared distance of each neighbour.
@@ -143,7 +152,12 @@ impl UrquhartNeighbourhood {
 /// Meets nodes near enough to cut the cell.
 impl Probe for UrquhartNeighbourhood {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
-        distance_squared(low, high, self.source) <= self.reach_squared()
+        let (low, high) = (low - self.source, high - self.source);
+        // A node cuts off the corners that are nearer to it than to the source.
+        let cuts =
+            |corner: DVec2| distance_squared(low, high, corner) <= corner.length_squared() * SLACK;
+        distance_squared(low, high, DVec2::ZERO) <= self.reach_squared()
+            && self.sides.iter().any(|side| cuts(side.corner))
     }
 
     fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {

@@ -81,6 +81,9 @@ pub struct RenderArguments {
     /// Threads; the default is one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Keep grown leaves in a folder, and take from it those that this program has grown before
+    #[arg(long, value_name = "DIR")]
+    pub cache: Option<PathBuf>,
     /// Write times, memory and speed as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
@@ -220,7 +223,7 @@ mod tests {
 
     #[test]
     fn render_takes_all_its_options() {
-        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 --noise 0.01 --time 1.5 -D x.y=1 -D z=2 \
+        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 --noise 0.01 --time 1.5 -D x.y=1 -D z=2 --cache c \
                     --stats s.json";
         let arguments = parsed(line).expect("the line is right");
         let Some(Command::Render(render)) = arguments.command else {
@@ -232,6 +235,7 @@ mod tests {
             (Some(9), Some(2), Some(7))
         );
         assert_eq!((render.noise, render.time), (Some(0.01), Some(1.5)));
+        assert_eq!(render.cache, Some(PathBuf::from("c")));
     }
 
     #[test]

@@ -14,6 +14,7 @@ use crate::integrator::develop::develop;
 use crate::integrator::render::{Ended, Halt, Job, Rendered, render_until};
 use crate::scene::description::{Description, FilmKind};
 use crate::scene::load::Loaded;
+use crate::scene::plant_cache::PlantCache;
 use crate::scene::world::World;
 use crate::spectrum::wavelengths::seen_at;
 
@@ -41,9 +42,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         .num_threads(threads)
         .build()
         .map_err(Failure::system)?;
-    let world = pool
-        .install(|| World::build(&scene))
-        .map_err(Failure::bad)?;
+    let world = pool.install(|| build_world(&scene, arguments))?;
     for note in &world.notes {
         eprintln!("note: {note}");
     }
@@ -194,6 +193,12 @@ fn ended(ended: Ended) -> &'static str {
         Ended::Time => "time",
         Ended::Interrupted => "interrupt",
     }
+}
+
+fn build_world(scene: &Description, arguments: &RenderArguments) -> Result<World, Failure> {
+    let cache = arguments.cache.as_deref().map(PlantCache::open);
+    let cache = cache.transpose().map_err(Failure::bad)?;
+    World::build_with(scene, cache.as_ref()).map_err(Failure::bad)
 }
 
 /// `stem` with an ending added, whatever dots it has already.

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec2};
+use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::{CompoundError, WholeLeaf};
-use leafmodel::leaf::{Leaf, LeafError};
+use leafmodel::leaf::{Leaf, LeafError, LeafPlan};
+use leafmodel::optics::Contents;
 use leafmodel::optics::solid::ReflectanceTable;
 use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
@@ -16,6 +17,7 @@ use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
 use crate::material::solid::{SolidMaterial, SolidTissue};
 use crate::scene::description;
+use crate::scene::plant_cache::PlantCache;
 use crate::scene::world::build_coat;
 use crate::spectrum::Curve;
 
@@ -31,7 +33,7 @@ pub struct GrownLeaf {
 }
 
 /// A part of a leaf.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// Which of [`GrownLeaf::meshes`].
     pub mesh: usize,
@@ -96,93 +98,148 @@ pub fn grow_solid(
     Ok((mesh, material))
 }
 
-/// Grows a leaf whose pigments are those of `palette`.
+/// What a leaf has grown into, in metres: the numbers that a [`GrownLeaf`] is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LeafParts {
+    /// As [`GrownLeaf::meshes`].
+    pub(super) meshes: Vec<MeshParts>,
+    /// The contents of the different blades.
+    pub(super) maps: Vec<MapParts>,
+    /// What stalks are made of, if there are any.
+    pub(super) stalk: Option<Contents>,
+    /// As [`GrownLeaf::pieces`].
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// The numbers of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MeshParts {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) normals: Vec<Vec3>,
+    /// None for stalks, which are the same everywhere.
+    pub(super) uvs: Option<Vec<Vec2>>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// The numbers of a map of contents.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MapParts {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) texels: Vec<[f32; Contents::COUNT]>,
+}
+
+/// Grows a leaf whose pigments are those of `palette`, or takes it from `cache` if it is there.
 ///
 /// # Errors
 ///
 /// [`PlantError`] if the plan cannot be carried out.
-pub fn grow(leaf: &description::Leaf, palette: &Palette) -> Result<GrownLeaf, PlantError> {
-    let whole = WholeLeaf::grow(&leaf.plan)?;
-    let stalk_contents = whole.stalk_contents(&leaf.plan)?;
+pub fn grow(
+    leaf: &description::Leaf,
+    palette: &Palette,
+    cache: Option<&PlantCache>,
+) -> Result<GrownLeaf, PlantError> {
+    let grow = || LeafParts::grow(&leaf.plan);
+    let parts = match cache {
+        Some(cache) => cache.take_or_grow(&leaf.plan, grow)?,
+        None => grow()?,
+    };
     let ratio = Curve::from_description(&leaf.abaxial_ratio);
     let coats = leaf.coats.map(build_coat);
     let material =
         |tissue| LeafMaterial::new(tissue, palette.clone(), ratio.clone(), coats.clone());
-    let (mut meshes, mut materials) = (Vec::new(), Vec::new());
-    // The mesh of each blade, and that of its stalk.
-    let mut own = Vec::new();
-    let stalk_material = whole.blades.len();
-    for grown in whole.blades {
-        own.push((meshes.len(), grown.petiole.is_some()));
-        meshes.push(blade(&grown)?);
-        if let Some(petiole) = &grown.petiole {
-            meshes.push(stalk(petiole)?);
-        }
-        let map = grown.contents;
-        materials.push(material(LeafTissue::Map(ContentsTexture::new(
-            map.width as usize,
-            map.height as usize,
-            map.texels,
-        ))));
-    }
-    let mut pieces = Vec::new();
-    for placement in &whole.placements {
-        let (mesh, has_stalk) = own[placement.blade];
-        let to_leaf = DAffine3 {
-            translation: placement.to_leaf.translation * 1e-3,
-            ..placement.to_leaf
-        };
-        let piece = |mesh, material| Piece {
-            mesh,
-            material,
-            to_leaf,
-        };
-        pieces.push(piece(mesh, placement.blade));
-        pieces.extend(has_stalk.then(|| piece(mesh + 1, stalk_material)));
-    }
-    if let Some(axes) = &whole.axes {
-        pieces.push(Piece {
-            mesh: meshes.len(),
-            material: stalk_material,
-            to_leaf: DAffine3::IDENTITY,
-        });
-        meshes.push(stalk(axes)?);
-    }
-    if pieces.iter().any(|piece| piece.material == stalk_material) {
-        // The tube's wall is a leaf of that.
-        materials.push(material(LeafTissue::Uniform(stalk_contents)));
-    }
+    let maps = parts.maps.into_iter();
+    let textures = maps.map(|map| ContentsTexture::new(map.width, map.height, map.texels));
+    let tissues = textures
+        .map(LeafTissue::Map)
+        .chain(parts.stalk.map(LeafTissue::Uniform));
+    let meshes = parts.meshes.into_iter().map(|mesh| {
+        TriangleMesh::new(mesh.positions, Some(mesh.normals), mesh.uvs, mesh.triangles)
+    });
     Ok(GrownLeaf {
-        meshes,
-        materials,
-        pieces,
+        meshes: meshes.collect::<Result<_, _>>()?,
+        materials: tissues.map(material).collect(),
+        pieces: parts.pieces,
     })
 }
 
-fn blade(grown: &Leaf) -> Result<TriangleMesh, MeshError> {
+impl LeafParts {
+    pub(super) fn grow(plan: &LeafPlan) -> Result<Self, PlantError> {
+        let whole = WholeLeaf::grow(plan)?;
+        let stalk_contents = whole.stalk_contents(plan)?;
+        let (mut meshes, mut maps) = (Vec::new(), Vec::new());
+        // The mesh of each blade, and that of its stalk.
+        let mut own = Vec::new();
+        let stalk_material = whole.blades.len();
+        for grown in whole.blades {
+            own.push((meshes.len(), grown.petiole.is_some()));
+            meshes.push(blade(&grown));
+            if let Some(petiole) = &grown.petiole {
+                meshes.push(stalk(petiole));
+            }
+            maps.push(MapParts {
+                width: grown.contents.width as usize,
+                height: grown.contents.height as usize,
+                texels: grown.contents.texels,
+            });
+        }
+        let mut pieces = Vec::new();
+        for placement in &whole.placements {
+            let (mesh, has_stalk) = own[placement.blade];
+            let to_leaf = DAffine3 {
+                translation: placement.to_leaf.translation * 1e-3,
+                ..placement.to_leaf
+            };
+            let piece = |mesh, material| Piece {
+                mesh,
+                material,
+                to_leaf,
+            };
+            pieces.push(piece(mesh, placement.blade));
+            pieces.extend(has_stalk.then(|| piece(mesh + 1, stalk_material)));
+        }
+        if let Some(axes) = &whole.axes {
+            pieces.push(Piece {
+                mesh: meshes.len(),
+                material: stalk_material,
+                to_leaf: DAffine3::IDENTITY,
+            });
+            meshes.push(stalk(axes));
+        }
+        // The tube's wall is a leaf of that.
+        let has_stalks = pieces.iter().any(|piece| piece.material == stalk_material);
+        Ok(Self {
+            meshes,
+            maps,
+            stalk: has_stalks.then_some(stalk_contents),
+            pieces,
+        })
+    }
+}
+
+fn blade(grown: &Leaf) -> MeshParts {
     let blade = &grown.mesh;
-    TriangleMesh::new(
-        metres(&blade.positions),
-        Some(directions(&blade.normals)),
-        Some(
+    MeshParts {
+        positions: metres(&blade.positions),
+        normals: directions(&blade.normals),
+        uvs: Some(
             blade
                 .uvs
                 .iter()
                 .map(|uv| Vec2::new(uv.x as f32, uv.y as f32))
                 .collect(),
         ),
-        blade.triangles.clone(),
-    )
+        triangles: blade.triangles.clone(),
+    }
 }
 
-/// Without texture coordinates: the same everywhere.
-fn stalk(tubes: &StalkMesh) -> Result<TriangleMesh, MeshError> {
-    TriangleMesh::new(
-        metres(&tubes.positions),
-        Some(directions(&tubes.normals)),
-        None,
-        tubes.triangles.clone(),
-    )
+fn stalk(tubes: &StalkMesh) -> MeshParts {
+    MeshParts {
+        positions: metres(&tubes.positions),
+        normals: directions(&tubes.normals),
+        uvs: None,
+        triangles: tubes.triangles.clone(),
+    }
 }
 
 fn metres(positions: &[glam::DVec3]) -> Vec<glam::Vec3> {

@@ -33,6 +33,7 @@ use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description};
+use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
 
@@ -140,6 +141,15 @@ impl World {
     ///
     /// [`WorldError`], which names the block of the scene.
     pub fn build(scene: &Description) -> Result<Self, WorldError> {
+        Self::build_with(scene, None)
+    }
+
+    /// As [`World::build`], but takes from `cache` the leaves that are there, and puts there those that are not.
+    ///
+    /// # Errors
+    ///
+    /// As [`World::build`]; a cache that fails only gives a note.
+    pub fn build_with(scene: &Description, cache: Option<&PlantCache>) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
         let mut meshes = Vec::new();
         for mesh in &scene.meshes {
@@ -163,9 +173,10 @@ impl World {
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
         let (grown_leaves, grown_solids) = rayon::join(
-            || grow_leaves(scene, for_leaves),
+            || grow_leaves(scene, for_leaves, cache),
             || grow_solids(scene, for_solids),
         );
+        notes.extend(cache.map(PlantCache::take_notes).unwrap_or_default());
         // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, grown) in grown_leaves?.into_iter().enumerate() {
@@ -243,14 +254,18 @@ impl World {
 fn grow_leaves(
     scene: &Description,
     palettes: Vec<Palette>,
+    cache: Option<&PlantCache>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
-    let grown = scene.leaves.iter().zip(palettes).map(|(leaf, palette)| {
-        plants::grow(&leaf.value, &palette).map_err(|source| WorldError::Plant {
+    let grown = scene.leaves.par_iter().zip(palettes).with_max_len(1);
+    let grown = grown.map(|(leaf, palette)| {
+        plants::grow(&leaf.value, &palette, cache).map_err(|source| WorldError::Plant {
             name: leaf.name.clone(),
             source: Box::new(source),
         })
     });
-    grown.collect()
+    // Of several errors the first in the scene's order, whichever thread was first.
+    let grown: Vec<Result<_, _>> = grown.collect();
+    grown.into_iter().collect()
 }
 
 /// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive index.

@@ -9,6 +9,7 @@ use crate::venation::influence::Influence;
 use crate::venation::lamina_clock::LaminaClock;
 use crate::venation::open::NearestNode;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
+use crate::venation::sources::Sources;
 
 impl<'a, I: Influence> Simulation<'a, I> {
     /// The last round, in which veinlets grow that end freely, by the plan `rest`.
@@ -35,10 +36,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
     /// step.
     pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self) -> bool) {
         self.is_laying_out = true;
-        self.notice();
+        let unit = self.clock.stage(0).unit;
+        self.notice(unit);
+        let near = self.nearness(unit);
         for &place in places {
             if self.lamina.contains(place) {
-                self.add_source(place);
+                self.add_source(place, near);
             }
         }
         // Far more than a vein takes to cross the young leaf.
@@ -50,9 +53,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 break;
             }
         }
-        for source in self.sources.drain(..) {
-            self.source_tree.remove(source.id, source.place);
-        }
+        let source_tree = &mut self.source_tree;
+        self.sources
+            .drain(|id, place| source_tree.remove(id, place));
         self.is_laying_out = false;
         self.first_step = self.step;
     }
@@ -77,7 +80,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             clock: self.clock,
             darts: self.darts,
             veins: self.veins,
-            sources: Vec::new(),
+            sources: Sources::new(),
             source_tree: self.source_tree,
             origins: self.origins,
             first_step: self.first_step,
@@ -89,6 +92,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             darts_in_vain: self.darts_in_vain,
             pulls: self.pulls,
             is_driven: self.is_driven,
+            outcomes: self.outcomes,
         }
     }
 

@@ -1,0 +1,192 @@
+//! Grown leaves kept in a folder, for scenes that are rendered again and again: turntables, other light, other cameras.
+//!
+//! A file holds one leaf, and is named by a digest of its plan. It begins with the whole plan and the program that wrote
+//! it, and ends with a check sum, so that a leaf is only ever taken for what it is.
+//!
+//! - **In**: a plan, and how to grow it.
+//! - **Out**: the leaf's numbers, from the file or grown.
+//! - **Always true**: what comes from a file has the same bits as what would be grown. A file of another plan
+//!   or program, or a damaged one, is not used; its place is taken by a whole new file. So programs that run at once
+//!   read whole files, old or new.
+//! - **Left out**: bodies of solid tissue; limits on how much a folder holds. Its files may be deleted at any time.
+
+mod bytes;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::{self, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::UNIX_EPOCH;
+
+use leafmodel::leaf::LeafPlan;
+use thiserror::Error;
+
+use self::bytes::{parts_from, to_bytes};
+use super::plants::{LeafParts, PlantError};
+use crate::image::atomic;
+
+/// The first bytes of a file.
+const MAGIC: [u8; 16] = *b"lamina leaf  1\n\n";
+
+/// Why there is no cache.
+#[derive(Debug, Error)]
+#[error("--cache {}: the folder cannot be used: {source}; name one that can be written into", folder.display())]
+pub struct CacheError {
+    folder: PathBuf,
+    source: io::Error,
+}
+
+/// Why the leaf in a file is not used.
+#[derive(Debug, Error)]
+enum Refused {
+    /// There is no such file, which is no fault.
+    #[error("it is not there")]
+    Missing,
+    #[error("it cannot be read: {0}")]
+    Unreadable(io::Error),
+    #[error("it is damaged")]
+    Damaged,
+    #[error("it is another plan's, another program's, or no leaf at all")]
+    Foreign,
+}
+
+/// A folder of grown leaves.
+#[derive(Debug)]
+pub struct PlantCache {
+    folder: PathBuf,
+    /// The program, down to its build.
+    program: String,
+    notes: Mutex<Vec<String>>,
+}
+
+impl PlantCache {
+    /// The cache in a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    ///
+    /// [`CacheError`] if it cannot be made.
+    pub fn open(folder: &Path) -> Result<Self, CacheError> {
+        let made = std::fs::create_dir_all(folder);
+        made.map_err(|source| CacheError {
+            folder: folder.to_owned(),
+            source,
+        })?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            program: program(),
+            notes: Mutex::new(Vec::new()),
+        })
+    }
+
+    /// What the person who renders should know since the last call: files that were not used, or could not be written.
+    pub fn take_notes(&self) -> Vec<String> {
+        let mut notes = self.lock_notes();
+        // Leaves grow on several threads.
+        notes.sort();
+        std::mem::take(&mut *notes)
+    }
+
+    fn lock_notes(&self) -> std::sync::MutexGuard<'_, Vec<String>> {
+        // A list of texts is whole whatever happened to the thread that held it.
+        self.notes
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// The leaf of a plan: from its file if that is there and whole, else from `grow`, and then put there.
+    ///
+    /// # Errors
+    ///
+    /// Those of `grow`.
+    pub(super) fn take_or_grow(
+        &self,
+        plan: &LeafPlan,
+        grow: impl FnOnce() -> Result<LeafParts, PlantError>,
+    ) -> Result<LeafParts, PlantError> {
+        // What decides a leaf, all of it, each number with all its digits.
+        let key = format!("{}\n{plan:?}\n", self.program).into_bytes();
+        let path = self.path(plan);
+        match read(&path, &key) {
+            Ok(parts) => return Ok(parts),
+            Err(Refused::Missing) => {}
+            Err(refused) => self.lock_notes().push(format!(
+                "{}: {refused}; the leaf was grown anew",
+                path.display()
+            )),
+        }
+        let parts = grow()?;
+        if let Err(error) = atomic::replace(&path, |file| write(file, &key, &parts)) {
+            self.lock_notes()
+                .push(format!("the leaf is not kept: {error}"));
+        }
+        Ok(parts)
+    }
+
+    /// Where the leaf of a plan is kept.
+    fn path(&self, plan: &LeafPlan) -> PathBuf {
+        let mut digest = DefaultHasher::new();
+        format!("{plan:?}").hash(&mut digest);
+        self.folder.join(format!("{:016x}.leaf", digest.finish()))
+    }
+}
+
+/// Version and build: another build of the same version may grow another leaf.
+fn program() -> String {
+    let build = std::env::current_exe().and_then(std::fs::metadata);
+    let build = build.ok().map(|file| {
+        let changed = file.modified().ok();
+        let changed = changed.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        (file.len(), changed.map_or(0, |since| since.as_nanos()))
+    });
+    format!("lamina {} {build:?}", env!("CARGO_PKG_VERSION"))
+}
+
+fn write(file: &mut impl Write, key: &[u8], parts: &LeafParts) -> io::Result<()> {
+    let leaf = to_bytes(parts);
+    file.write_all(&MAGIC)?;
+    file.write_all(&(key.len() as u64).to_le_bytes())?;
+    file.write_all(key)?;
+    file.write_all(&crc32fast::hash(&leaf).to_le_bytes())?;
+    file.write_all(&leaf)
+}
+
+/// What a failure to read means.
+fn refused(error: io::Error) -> Refused {
+    if error.kind() == io::ErrorKind::NotFound {
+        Refused::Missing
+    } else if error.kind() == io::ErrorKind::UnexpectedEof {
+        Refused::Damaged
+    } else {
+        Refused::Unreadable(error)
+    }
+}
+
+fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
+    // Not opened before that is known: to open a pipe is to wait for whoever writes into it.
+    let found = std::fs::metadata(path).map_err(refused)?;
+    if !found.is_file() {
+        return Err(Refused::Foreign);
+    }
+    let mut file = BufReader::new(File::open(path).map_err(refused)?);
+    // All before the leaf is known beforehand, so nothing of a foreign file decides how much is read.
+    let mut expected = MAGIC.to_vec();
+    expected.extend((key.len() as u64).to_le_bytes());
+    expected.extend(key);
+    let mut start = vec![0; expected.len()];
+    let is_whole = file.read_exact(&mut start);
+    if is_whole.is_ok() && start != expected || !expected.starts_with(&start[..MAGIC.len()]) {
+        return Err(Refused::Foreign);
+    }
+    is_whole.map_err(refused)?;
+    let mut sum = [0; 4];
+    file.read_exact(&mut sum).map_err(refused)?;
+    let mut leaf = Vec::new();
+    file.read_to_end(&mut leaf).map_err(refused)?;
+    if crc32fast::hash(&leaf).to_le_bytes() != sum {
+        return Err(Refused::Damaged);
+    }
+    parts_from(&leaf).ok_or(Refused::Damaged)
+}
