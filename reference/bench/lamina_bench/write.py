@@ -6,7 +6,8 @@ A scene's folder holds
 - `placements.f32`: where the leaf stands, 3 × 4 matrices row by row, little-endian `float32`;
 - `ground.ply`, and `lamp.ply` where there is a lamp (it shines to the side of its normals);
 - `leaf-reflectance.csv`, `leaf-transmittance.csv`: wavelength in nm, value;
-- `scene.json`: the rest, and names of these files.
+- `scene.json`: the rest, and names of these files; `scene.txt`: what of it the bare Embree tracer
+  needs, a name and its numbers a line.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from .scenes import Setting
 FORMAT = 1
 
 
-def write_scene(setting: Setting, folder: Path) -> Path:
+def write_scene(setting: Setting, folder: Path, size: tuple[int, int] = scenes.SIZE) -> Path:
     """Writes a scene's folder; gives its `scene.json`."""
     folder.mkdir(parents=True, exist_ok=True)
     mesh = leaf.blade(*leaf.COARSE)
@@ -42,9 +43,11 @@ def write_scene(setting: Setting, folder: Path) -> Path:
     if setting.lamp:
         corners = setting.lamp.corners().astype(np.float32)
         leaf.write_ply(folder / "lamp.ply", corners, quad)
-    (folder / "scene.toml").write_text(lamina_scene(setting, placements), encoding="utf-8")
+    (folder / "scene.toml").write_text(lamina_scene(setting, placements, size), encoding="utf-8")
+    facts = description(setting, len(mesh[1]), size)
+    (folder / "scene.txt").write_text(plain_facts(facts), encoding="utf-8")
     file = folder / "scene.json"
-    file.write_text(json.dumps(description(setting, len(mesh[1])), indent=1) + "\n", "utf-8")
+    file.write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
     return file
 
 
@@ -56,7 +59,7 @@ def _write_spectra(folder: Path) -> None:
         (folder / f"leaf-{name}.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
 
 
-def description(setting: Setting, triangles: int) -> dict:
+def description(setting: Setting, triangles: int, size: tuple[int, int]) -> dict:
     """What `scene.json` holds."""
     camera = setting.camera
     lights: dict = {
@@ -79,7 +82,7 @@ def description(setting: Setting, triangles: int) -> dict:
         "format": FORMAT,
         "name": setting.name,
         "title": setting.title,
-        "size": list(scenes.SIZE),
+        "size": list(size),
         "camera": {
             "position": camera.position,
             "look_at": camera.look_at,
@@ -102,7 +105,29 @@ def description(setting: Setting, triangles: int) -> dict:
     }
 
 
-def lamina_scene(setting: Setting, placements: np.ndarray) -> str:
+def plain_facts(facts: dict) -> str:
+    """Lines of a name and its numbers."""
+    camera, leaf_facts = facts["camera"], facts["leaf"]
+    lines: dict[str, list] = {
+        "size": facts["size"],
+        "rgb_of_light": [facts["rgb_of_light"]],
+        "leaf_reflectance": leaf_facts["reflectance_rgb"],
+        "leaf_transmittance": leaf_facts["transmittance_rgb"],
+        "ground_reflectance": [facts["ground"]["reflectance"]],
+    }
+    for key, value in camera.items():
+        lines[f"camera_{key}"] = value if isinstance(value, tuple) else [value]
+    for light, keys in facts["lights"].items():
+        for key, value in keys.items():
+            if key != "mesh":
+                lines[f"{light}_{key}"] = np.ravel(value).tolist()
+    return "".join(
+        f"{name} {' '.join(repr(float(value)) for value in values)}\n"
+        for name, values in lines.items()
+    )
+
+
+def lamina_scene(setting: Setting, placements: np.ndarray, size: tuple[int, int]) -> str:
     """The scene file for Lamina. A coat whose index is 1 reflects nothing."""
     camera = setting.camera
     lines = [
@@ -111,7 +136,7 @@ def lamina_scene(setting: Setting, placements: np.ndarray) -> str:
         f'name = "{setting.name}"',
         "",
         "[film.rgb]",
-        f"size = {list(scenes.SIZE)}",
+        f"size = {list(size)}",
         "spp = 64",
         "filter_radius_px = 0",
         "",
@@ -187,7 +212,9 @@ def _lamina_lights(setting: Setting) -> list[str]:
     ]
 
 
-def write_all(folder: Path, names: list[str] | None = None) -> list[Path]:
-    """Writes the named scenes, or all of them."""
+def write_all(
+    folder: Path, names: list[str] | None = None, size: tuple[int, int] = scenes.SIZE
+) -> list[Path]:
+    """Writes the named scenes, or all of them; gives their `scene.json`."""
     wanted = [s for s in scenes.all_settings() if names is None or s.name in names]
-    return [write_scene(setting, folder / setting.name) for setting in wanted]
+    return [write_scene(setting, folder / setting.name, size) for setting in wanted]
