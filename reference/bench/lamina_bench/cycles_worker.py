@@ -5,7 +5,9 @@ transmitter that the other programs render. Adaptive sampling, denoiser, clampin
 that skips weak lights are off; bounces are practically unlimited. All else is Cycles' default.
 
 The time is what Cycles itself writes into its picture: the render without synchronisation, in
-hundredths of a second.
+hundredths of a second. Processor time is that of the whole call; what a picture of one sample a
+pixel takes is nearly all synchronisation, so that the render's own is
+(cpu(N) − cpu(1)) N / (N − 1).
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from . import leaf
-from .job import Job, Picture, Renderer, serve
+from .job import Job, Picture, Renderer, cpu_seconds, serve
 
 MOST_BOUNCES = 1024
 _RENDER_TIME = re.compile(rb"cycles\.[^\0]*\.render_time\0string\0....([0-9:.]+)", re.DOTALL)
@@ -42,21 +44,26 @@ def prepare(job: Job) -> tuple[str, Renderer]:
     put(scene, mesh("ground", job.folder / job.scene["ground"]["mesh"],
                     leaf_material(grey, None)))  # fmt: skip
     lights(scene, job.scene["lights"], white)
-    out = job.folder / "cycles"
+    synchronisation = 0.0
 
     def render(spp: int, seed: int) -> Picture:
         scene.cycles.samples = spp
         scene.cycles.seed = seed
-        file = Path(f"{job.options['scratch']}/{out.name}-{seed}.exr")
+        file = Path(job.options["scratch"], f"cycles-{seed}.exr")
         scene.render.filepath = str(file)
+        before = cpu_seconds()
         bpy.ops.render.render(write_still=True)
+        cpu = cpu_seconds() - before
+        if spp > 1:
+            cpu = (cpu - synchronisation) * spp / (spp - 1)
         picture = read(file, job.scene["size"])
         wall = own_seconds(file)
         file.unlink()
-        return Picture(picture, wall)
+        return Picture(picture, wall, cpu)
 
     # The first render hands the scene over and builds the tree; persistent data keep both.
     render(1, 0)
+    synchronisation = render(1, 0).cpu_s
     return bpy.app.version_string, render
 
 

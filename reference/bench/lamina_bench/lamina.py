@@ -34,9 +34,7 @@ class Run:
     stats: dict
 
 
-def render(
-    program: Path, scene: Path, spp: int, seed: int, overrides: tuple[str, ...] = ()
-) -> Run:
+def render(program: Path, scene: Path, spp: int, seed: int, overrides: tuple[str, ...] = ()) -> Run:
     """Renders one picture; raises with the program's own words if it fails."""
     with tempfile.TemporaryDirectory(prefix="lamina-bench-") as folder:
         stem, stats = Path(folder, "picture"), Path(folder, "stats.json")
@@ -62,6 +60,12 @@ def render(
         usage.ru_utime + usage.ru_stime,
         facts,
     )
+
+
+def version(program: Path) -> str:
+    """What the program says of itself."""
+    done = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True)
+    return done.stdout.split()[-1]
 
 
 def cpu_of_render(cpu: float, cpu_at_one: float, spp: int) -> float:

@@ -146,7 +146,8 @@ def lights(job: Job) -> dict:
         # The gain is the disc's radiance.
         "scene.lights.sun.gain": [
             white * sun["irradiance"] / (math.pi * math.sin(math.radians(half)) ** 2)
-        ] * 3,
+        ]
+        * 3,
         "scene.lights.sky.type": "constantinfinite",
         "scene.lights.sky.gain": [white * facts["sky"]["radiance"]] * 3,
     }

@@ -73,9 +73,7 @@ class Setting:
 def sun_direction() -> NDArray[np.float64]:
     """The unit vector towards the middle of the sun."""
     high, round_z = np.radians(SUN_ELEVATION_DEG), np.radians(SUN_AZIMUTH_DEG)
-    return np.array(
-        [np.cos(high) * np.cos(round_z), np.cos(high) * np.sin(round_z), np.sin(high)]
-    )
+    return np.array([np.cos(high) * np.cos(round_z), np.cos(high) * np.sin(round_z), np.sin(high)])
 
 
 def canopy(count: int, extent: Vector, lowest_m: float, seed: int) -> NDArray[np.float32]:

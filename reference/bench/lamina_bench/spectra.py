@@ -22,9 +22,12 @@ FILE = Path(__file__).resolve().parent / "leaf.csv"
 REFLECTANCE = (0.08, 0.16, 0.05)
 TRANSMITTANCE = (0.05, 0.14, 0.02)
 KNOTS_NM = np.arange(360.0, 831.0, 10.0)
-# Bounds of the curves: they stay positive, and R + T stays below 1.
+# Bounds of the curves, R and T: they stay positive, and R + T stays below 1. At the violet end,
+# which not every program renders, they stay low.
 LEAST = (0.01, 0.005)
-MOST = (0.6, 0.35)
+MOST = (0.55, 0.4)
+VIOLET_NM = 435.0
+MOST_VIOLET = (0.12, 0.10)
 # CIE Y of D65 that has the value 1 at 560 nm, over that of equal energy of value 1: what RGB 1 of
 # a program without wavelengths has to be multiplied by.
 D65_LUMINANCE = 0.9889
@@ -89,7 +92,11 @@ def fit() -> tuple[Array, Array]:
         return 200.0 * (x.reshape(2, count) @ bend.T @ bend).ravel()
 
     x = np.repeat([0.1, 0.08], count)
-    bounds = [(LEAST[0], MOST[0])] * count + [(LEAST[1], MOST[1])] * count
+    bounds = [
+        (LEAST[kind], MOST_VIOLET[kind] if nm < VIOLET_NM else MOST[kind])
+        for kind in (0, 1)
+        for nm in KNOTS_NM
+    ]
     for conditions in (6, 15):
         found = minimize(
             roughness,

@@ -1,0 +1,148 @@
+"""The campaign's figures as a page of Markdown."""
+
+from __future__ import annotations
+
+from . import campaign, statistics
+
+DASH = "–"
+
+
+def page(results: dict) -> str:
+    """The whole page."""
+    machine, plan = results["machine"], results["plan"]
+    lines = [
+        "# Lamina and its peers",
+        "",
+        "Written by `reference/bench/run`; `reference/bench/README.md` says what is measured and "
+        "how.",
+        "",
+        f"{machine['processor']}, {machine['processors']} processors"
+        f" ({', '.join(machine['vectors']) or 'no AVX2'}), {machine['memory_gib']} GiB, "
+        f"{machine['system']}; load {machine['load_before']:.1f} before the start; "
+        f"Lamina at commit {machine['commit']}; {results['date']}.",
+        "",
+        f"{plan['size'][0]} × {plan['size'][1]} pixels, {plan['seeds']} seeds, "
+        f"{' and '.join(str(spp) for spp in plan['ladder'])} samples a pixel; box filter, no "
+        "denoiser, no clamping. Error: mean over pixels and channels of var / (mean² + ε), "
+        f"ε = ({statistics.FLOOR:g} × the picture's mean)². Efficiency: 1 / (error × seconds of "
+        "the render alone); medians.",
+        "",
+    ]
+    if machine["load_before"] > 0.3:
+        lines += [
+            "**The machine was not idle when this was measured: seconds of wall are worth "
+            "little, ratios of processor seconds somewhat more.**",
+            "",
+        ]
+    lines += versions(results["scenes"])
+    for title, key in (
+        (f"Efficiency at {plan['ladder'][-1]} samples a pixel", "top"),
+        (f"Efficiency at the time that Lamina takes for {plan['ladder'][-1]}", "equal_time"),
+    ):
+        lines += ["", f"## {title}", "", *summary(results["scenes"], key, "efficiency")]
+    lines += ["", "The first of both again, by processor seconds over the number of processors:",
+              "", *summary(results["scenes"], "top", "cpu_efficiency")]  # fmt: skip
+    for scene in results["scenes"]:
+        lines += ["", *scene_table(scene)]
+    return "\n".join(lines) + "\n"
+
+
+def versions(scenes: list[dict]) -> list[str]:
+    """A line with the version of each program that ran anywhere."""
+    found: dict[str, str] = {}
+    for scene in scenes:
+        for row in scene["programs"]:
+            if row["version"]:
+                found.setdefault(row["title"], row["version"])
+    return ["Versions: " + ", ".join(f"{name} {version}" for name, version in found.items()) + "."]
+
+
+def chosen(row: dict, key: str) -> dict | None:
+    """The point at the ladder's top, or that of equal time."""
+    if key == "top":
+        return row["points"][-1] if row["points"] else None
+    return row["equal_time"]
+
+
+def summary(scenes: list[dict], key: str, figure: str) -> list[str]:
+    """Scenes by programs, with Lamina over the best peer."""
+    names = list(dict.fromkeys(row["program"] for scene in scenes for row in scene["programs"]))
+    titles = {row["program"]: row["title"] for scene in scenes for row in scene["programs"]}
+    head = ["scene", *(titles[name] for name in names), "Lamina over best peer"]
+    lines = [f"| {' | '.join(head)} |", f"|{' --- |' * len(head)}"]
+    for scene in scenes:
+        values = {}
+        for row in scene["programs"]:
+            at = chosen(row, key)
+            if at is not None and at[figure] is not None:
+                values[row["program"]] = at[figure]
+        peers = [value for name, value in values.items() if name != "lamina"]
+        ratio = DASH
+        if "lamina" in values and peers:
+            ratio = f"**{values['lamina'] / max(peers):.2f}**"
+        cells = [number(values[name]) if name in values else DASH for name in names]
+        lines.append(f"| {scene['title']} | {' | '.join(cells)} | {ratio} |")
+    return lines
+
+
+def scene_table(scene: dict) -> list[str]:
+    """One scene, a row for each program."""
+    lines = [
+        f"## {scene['title']}",
+        "",
+        f"![Error against time](bench-{scene['name']}.svg)",
+        "",
+        "| program | start s | spp | wall s | CPU s | Mpaths/s | error | efficiency | "
+        "at equal time: spp | wall s | error | efficiency | means off by (worst region) |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    notes = []
+    for row in scene["programs"]:
+        top, equal = chosen(row, "top"), row["equal_time"]
+        if row["reason"]:
+            notes.append(f"- {row['title']}: {row['reason']}.")
+        start = DASH if row["start_s"] is None else f"{row['start_s']:.1f}"
+        cells = [row["title"], start, *point_cells(top), *equal_cells(equal), difference(row)]
+        lines.append(f"| {' | '.join(cells)} |")
+    return [*lines, *([""] if notes else []), *notes]
+
+
+def point_cells(at: dict | None) -> list[str]:
+    """Columns of the ladder's top."""
+    if at is None:
+        return [DASH] * 6
+    return [
+        number(at["spp"]), number(at["wall_s"]), number(at["cpu_s"]), number(at["mpaths_per_s"]),
+        number(at["rel_mse"]), number(at["efficiency"]),
+    ]  # fmt: skip
+
+
+def equal_cells(at: dict | None) -> list[str]:
+    """Columns of equal time."""
+    if at is None:
+        return [DASH] * 4
+    return [number(at[key]) for key in ("spp", "wall_s", "rel_mse", "efficiency")]
+
+
+def difference(row: dict) -> str:
+    """The largest relative difference of means, with its standard error."""
+    worst = (0.0, 0.0, "")
+    for region, (off, error) in row["off"].items():
+        for value, width, channel in zip(off, error, "RGB", strict=True):
+            if abs(value) >= abs(worst[0]):
+                worst = (value, width, f"{region} {channel}")
+    if not worst[2]:
+        return DASH
+    text = f"{100 * worst[0]:+.2f} ± {100 * worst[1]:.2f} % ({worst[2]})"
+    bound = f"{100 * campaign.BOUND:g} %"
+    return text if row["agrees"] else f"**{text}: beyond {bound}, so no efficiency**"
+
+
+def number(value: float | None) -> str:
+    """Three significant digits, without an exponent where it can be avoided."""
+    if value is None:
+        return DASH
+    if value >= 100.0:
+        return f"{value:.0f}"
+    text = f"{value:.3g}"
+    return f"{value:.6f}".rstrip("0") if "e" in text and value > 1e-6 else text
