@@ -1,6 +1,7 @@
 // The bare Embree peer: `peer render`, `peer rays`, `peer rates`. Called by lamina_bench/embree.py.
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -40,6 +41,7 @@ bool second(const std::string& word, const char* first, const char* other) {
 }
 
 void render(char** words) {
+    const auto began = std::chrono::steady_clock::now();
     const std::string folder = words[0];
     const Facts facts = read_facts(folder + "/scene.txt");
     World world(folder + "/leaf.ply", folder + "/placements.f32", false);
@@ -47,6 +49,7 @@ void render(char** words) {
     if (facts.count("lamp_radiance")) world.add(read_ply(folder + "/lamp.ply"), Surface::lamp);
     world.commit();
     const Tracer tracer(world, facts);
+    const std::chrono::duration<double> start = std::chrono::steady_clock::now() - began;
     const int spp = whole(words[1], 1), seed = whole(words[2], 0), threads = whole(words[3], 1);
     const double before = cpu_seconds();
     const Rendered rendered = tracer.render(spp, static_cast<unsigned long long>(seed), threads);
@@ -55,8 +58,8 @@ void render(char** words) {
     out.write(reinterpret_cast<const char*>(rendered.rgb.data()),
               static_cast<std::streamsize>(rendered.rgb.size() * sizeof(float)));
     if (!out) throw std::runtime_error(std::string(words[4]) + ": cannot be written");
-    std::printf("{\"wall_s\": %.6f, \"cpu_s\": %.6f, \"rays\": %llu}\n", rendered.seconds, cpu,
-                rendered.rays);
+    std::printf("{\"wall_s\": %.6f, \"cpu_s\": %.6f, \"start_s\": %.6f, \"rays\": %llu}\n",
+                rendered.seconds, cpu, start.count(), rendered.rays);
 }
 
 void rays(char** words) {

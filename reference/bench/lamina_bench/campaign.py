@@ -23,6 +23,10 @@ from .programs import Outcome, Program, run
 from .statistics import Mean
 
 MOST_SPP = 4096
+CLOCKS = {
+    "wall": "seconds of the render alone",
+    "cpu": "processor seconds of the render alone, over the number of processors",
+}
 # Means of regions may differ by this share, beyond three standard errors. Programs that multiply
 # RGB differ from spectral ones from the third scattering on, and Lamina renders from 400 nm, where
 # the blue of the others has 0.3 to 1.6 % more light.
@@ -36,6 +40,9 @@ class Plan:
     ladder: tuple[int, ...]
     seeds: int
     limit_s: float
+    # What seconds are: "wall", or "cpu": processor seconds over the number of processors, which a
+    # machine that others use leaves nearly alone.
+    clock: str = "wall"
 
 
 @dataclass
@@ -46,6 +53,12 @@ class Series:
     wall_s: list[float] = field(default_factory=list)
     cpu_s: list[float] = field(default_factory=list)
     pictures: list[Path] = field(default_factory=list)
+
+    def seconds(self, clock: str) -> float:
+        """Median time of a picture by this clock."""
+        if clock == "cpu":
+            return float(np.median(self.cpu_s)) / (os.cpu_count() or 1)
+        return float(np.median(self.wall_s))
 
     def stack(self) -> NDArray[np.float64]:
         """`[seeds, height, width, 3]`."""
@@ -78,7 +91,7 @@ def measure(
     for seed in range(1, plan.seeds + 1):
         for one in found:
             ask(one, scene, list(plan.ladder), seed, "ladder", plan, folder)
-    budget = top_wall(found[0], plan) if found[0].program.name == "lamina" else None
+    budget = top_seconds(found[0], plan) if found[0].program.name == "lamina" else None
     if budget is not None:
         for seed in range(1, plan.seeds + 1):
             for one in found:
@@ -106,7 +119,9 @@ def ask(
     one.reason = outcome.reason
     if outcome.start:
         one.version = outcome.start["version"]
-        one.start_s.append(outcome.start["start_s"])
+        # Programs that start anew for every picture tell it with the picture.
+        starts = [answer.more["start_s"] for answer in outcome.answers if "start_s" in answer.more]
+        one.start_s += starts or [outcome.start["start_s"]]
     for asked, answer in zip(requests, outcome.answers, strict=False):
         series = one.equal if kind == "equal" else one.series.setdefault(asked.spp, Series())
         series.spp.append(answer.spp)
@@ -115,22 +130,22 @@ def ask(
         series.pictures.append(Path(answer.rgb))
 
 
-def top_wall(one: Measured, plan: Plan) -> float | None:
+def top_seconds(one: Measured, plan: Plan) -> float | None:
     """Median seconds at the ladder's top, if it was reached with every seed."""
     top = one.series.get(plan.ladder[-1])
     if top is None or len(top.wall_s) < plan.seeds:
         return None
-    return float(np.median(top.wall_s))
+    return top.seconds(plan.clock)
 
 
 def affordable(one: Measured, plan: Plan, budget_s: float) -> int | None:
     """Samples a pixel that take a program about the budget."""
-    wall = top_wall(one, plan)
-    if wall is None:
+    seconds = top_seconds(one, plan)
+    if seconds is None or not seconds > 0.0:
         return None
     if one.program.name == "lamina":
         return plan.ladder[-1]
-    return max(1, min(MOST_SPP, round(plan.ladder[-1] * budget_s / wall)))
+    return max(1, min(MOST_SPP, round(plan.ladder[-1] * budget_s / seconds)))
 
 
 def read_regions(program: Path, scene: Path) -> dict[str, NDArray[np.bool_]]:
@@ -216,34 +231,28 @@ def facts(found: list[Measured], plan: Plan, progress: Callable[[str], None] = p
         }
         if truth is not None:
             row["points"] = [
-                point(series, truth, one.agrees)
+                point(series, truth, one.agrees, plan.clock)
                 for _, series in sorted(one.series.items())
                 if len(series.pictures) >= plan.seeds
             ]
             if len(one.equal.pictures) >= plan.seeds:
-                row["equal_time"] = point(one.equal, truth, one.agrees)
+                row["equal_time"] = point(one.equal, truth, one.agrees, plan.clock)
         rows.append(row)
     return rows
 
 
-def point(series: Series, truth: NDArray[np.float64], agrees: bool) -> dict:
+def point(series: Series, truth: NDArray[np.float64], agrees: bool, clock: str) -> dict:
     """One number of samples: times, error, and efficiency unless the means disagree."""
-    wall, cpu = float(np.median(series.wall_s)), float(np.median(series.cpu_s))
     error = statistics.rel_mse(series.stack(), truth)
-    spp = float(np.median(series.spp))
+    spp, seconds = float(np.median(series.spp)), series.seconds(clock)
     return {
         "spp": spp,
-        "wall_s": wall,
-        "cpu_s": cpu,
+        "seconds": seconds,
+        "wall_s": series.seconds("wall"),
+        "cpu_s": float(np.median(series.cpu_s)),
         "all_wall_s": series.wall_s,
         "all_cpu_s": series.cpu_s,
         "rel_mse": error,
-        "mpaths_per_s": 1e-6 * spp * truth.shape[0] * truth.shape[1] / wall,
-        "efficiency": statistics.efficiency(error, wall) if agrees else None,
-        # As if all processors had worked for this render all the time.
-        "cpu_efficiency": (
-            statistics.efficiency(error, cpu / (os.cpu_count() or 1))
-            if agrees and cpu > 0.0
-            else None
-        ),
+        "mpaths_per_s": 1e-6 * spp * truth.shape[0] * truth.shape[1] / seconds,
+        "efficiency": statistics.efficiency(error, seconds) if agrees else None,
     }

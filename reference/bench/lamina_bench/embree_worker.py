@@ -31,7 +31,8 @@ def prepare(job: Job) -> tuple[str, Renderer]:
             raise RuntimeError(done.stderr)
         facts = json.loads(done.stdout)
         rgb = np.fromfile(out, dtype="<f4").reshape(height, width, 3)
-        return Picture(rgb, facts["wall_s"], facts["cpu_s"], more={"rays": facts["rays"]})
+        more = {"rays": facts["rays"], "start_s": facts["start_s"]}
+        return Picture(rgb, facts["wall_s"], facts["cpu_s"], more=more)
 
     return job.options["version"], render
 

@@ -27,7 +27,7 @@ def prepare(job: Job) -> tuple[str, Renderer]:
         if cpu is None:
             cpu = lamina.cpu_of_render(run.cpu_s, start.cpu_s, spp)
         more = {
-            "build_s": run.stats["build_seconds"],
+            "start_s": run.stats["build_seconds"],
             "with_files_s": run.stats["seconds"] - run.stats["build_seconds"],
         }
         return Picture(run.rgb.astype(np.float32), run.wall_s, cpu, more=more)

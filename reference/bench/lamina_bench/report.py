@@ -24,14 +24,14 @@ def page(results: dict) -> str:
         f"{plan['size'][0]} × {plan['size'][1]} pixels, {plan['seeds']} seeds, "
         f"{' and '.join(str(spp) for spp in plan['ladder'])} samples a pixel; box filter, no "
         "denoiser, no clamping. Error: mean over pixels and channels of var / (mean² + ε), "
-        f"ε = ({statistics.FLOOR:g} × the picture's mean)². Efficiency: 1 / (error × seconds of "
-        "the render alone); medians.",
+        f"ε = ({statistics.FLOOR:g} × the picture's mean)². Efficiency: 1 / (error × seconds), "
+        f"where seconds are {campaign.CLOCKS[plan['clock']]}; medians.",
         "",
     ]
     if machine["load_before"] > 0.3:
         lines += [
-            "**The machine was not idle when this was measured: seconds of wall are worth "
-            "little, ratios of processor seconds somewhat more.**",
+            "**The machine was not idle when this was measured: wall seconds are worth little, "
+            "processor seconds somewhat more.**",
             "",
         ]
     lines += versions(results["scenes"])
@@ -39,9 +39,7 @@ def page(results: dict) -> str:
         (f"Efficiency at {plan['ladder'][-1]} samples a pixel", "top"),
         (f"Efficiency at the time that Lamina takes for {plan['ladder'][-1]}", "equal_time"),
     ):
-        lines += ["", f"## {title}", "", *summary(results["scenes"], key, "efficiency")]
-    lines += ["", "The first of both again, by processor seconds over the number of processors:",
-              "", *summary(results["scenes"], "top", "cpu_efficiency")]  # fmt: skip
+        lines += ["", f"## {title}", "", *summary(results["scenes"], key)]
     for scene in results["scenes"]:
         lines += ["", *scene_table(scene)]
     return "\n".join(lines) + "\n"
@@ -64,7 +62,7 @@ def chosen(row: dict, key: str) -> dict | None:
     return row["equal_time"]
 
 
-def summary(scenes: list[dict], key: str, figure: str) -> list[str]:
+def summary(scenes: list[dict], key: str) -> list[str]:
     """Scenes by programs, with Lamina over the best peer."""
     names = list(dict.fromkeys(row["program"] for scene in scenes for row in scene["programs"]))
     titles = {row["program"]: row["title"] for scene in scenes for row in scene["programs"]}
@@ -74,8 +72,8 @@ def summary(scenes: list[dict], key: str, figure: str) -> list[str]:
         values = {}
         for row in scene["programs"]:
             at = chosen(row, key)
-            if at is not None and at[figure] is not None:
-                values[row["program"]] = at[figure]
+            if at is not None and at["efficiency"] is not None:
+                values[row["program"]] = at["efficiency"]
         peers = [value for name, value in values.items() if name != "lamina"]
         ratio = DASH
         if "lamina" in values and peers:

@@ -67,6 +67,13 @@ def arguments() -> argparse.Namespace:
         default=900.0,
         help="seconds after which a program is stopped on a scene (900)",
     )
+    parser.add_argument(
+        "--clock",
+        choices=("wall", "cpu"),
+        default="wall",
+        help="what seconds are: wall, or processor seconds over the number of processors, for a "
+        "machine that is not idle (wall)",
+    )
     parser.add_argument("--lamina", type=Path, default=ROOT / "target" / "release" / "lamina")
     parser.add_argument("--results", type=Path, default=None,
                         help="where the table goes: reference/results if everything is run, "
@@ -90,13 +97,18 @@ def main() -> int:
     """Runs the campaign; 1 if Lamina's means disagree with the others' anywhere."""
     options = arguments()
     about = machine.facts(ROOT)
-    plan = campaign.Plan(tuple(options.spp), options.seeds, options.limit)
+    plan = campaign.Plan(tuple(options.spp), options.seeds, options.limit, options.clock)
     size = (options.size, options.size)
     chosen = [one for one in programs(options.lamina) if one.name in options.programs]
     results: dict = {
         "date": datetime.now(UTC).strftime("%Y-%m-%d"),
         "machine": about,
-        "plan": {"size": size, "ladder": plan.ladder, "seeds": plan.seeds},
+        "plan": {
+            "size": size,
+            "ladder": plan.ladder,
+            "seeds": plan.seeds,
+            "clock": plan.clock,
+        },
         "scenes": [],
     }
     for one in chosen:
@@ -116,7 +128,7 @@ def main() -> int:
         results["scenes"].append({"name": folder.name, "title": title, "programs": rows})
         lines = [(row["title"].replace(" (Eradiate's build)", ""), points_of(row)) for row in rows]
         chart = options.results / f"bench-{folder.name}.svg"
-        chart.write_text(svg.plot(title, lines), encoding="utf-8")
+        chart.write_text(svg.plot(title, lines, campaign.CLOCKS[plan.clock]), encoding="utf-8")
         # Written after every scene: a run that is stopped leaves what it has measured.
         (options.results / "bench.json").write_text(
             json.dumps(results, indent=1) + "\n", encoding="utf-8"
@@ -135,7 +147,7 @@ def points_of(row: dict) -> list[tuple[float, float]]:
     if not row["agrees"]:
         return []
     points = [*row["points"], *([row["equal_time"]] if row["equal_time"] else [])]
-    return [(at["wall_s"], at["rel_mse"]) for at in points if at["wall_s"] > 0.0]
+    return [(at["seconds"], at["rel_mse"]) for at in points]
 
 
 if __name__ == "__main__":

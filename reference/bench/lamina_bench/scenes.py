@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from . import leaf
+
 Vector = tuple[float, float, float]
 
 SIZE = (512, 512)
@@ -68,6 +70,8 @@ class Setting:
     ground_side_m: float
     # `None` is sun and sky.
     lamp: Lamp | None
+    # Of the leaf, along and across.
+    quads: tuple[int, int] = leaf.COARSE
 
 
 def sun_direction() -> NDArray[np.float64]:

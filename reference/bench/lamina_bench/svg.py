@@ -46,8 +46,8 @@ def span(values: list[float]) -> tuple[float, float]:
     return low / 1.4, high * 1.4
 
 
-def plot(title: str, lines: list[tuple[str, list[Point]]]) -> str:
-    """A chart of `(name, [(seconds, error), …])`; names of lines without points are left out."""
+def plot(title: str, lines: list[tuple[str, list[Point]]], time: str) -> str:
+    """A chart of `(name, [(seconds, error), …])`; lines without points are left out."""
     lines = [(name, sorted(points)) for name, points in lines if points]
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
@@ -82,7 +82,7 @@ def plot(title: str, lines: list[tuple[str, list[Point]]]) -> str:
     )
     out.append(
         f'<text x="{(LEFT + right) / 2}" y="{HEIGHT - 16}" text-anchor="middle">'
-        "seconds of the render alone</text>"
+        f"{escape(time)}</text>"
     )
     middle = (TOP + bottom) / 2
     out.append(

@@ -27,7 +27,7 @@ FORMAT = 1
 def write_scene(setting: Setting, folder: Path, size: tuple[int, int] = scenes.SIZE) -> Path:
     """Writes a scene's folder; gives its `scene.json`."""
     folder.mkdir(parents=True, exist_ok=True)
-    mesh = leaf.blade(*leaf.COARSE)
+    mesh = leaf.blade(*setting.quads)
     if setting.flat:
         mesh = leaf.flattened(*mesh, setting.placements)
     leaf.write_ply(folder / "leaf.ply", *mesh)
@@ -216,5 +216,6 @@ def write_all(
     folder: Path, names: list[str] | None = None, size: tuple[int, int] = scenes.SIZE
 ) -> list[Path]:
     """Writes the named scenes, or all of them; gives their `scene.json`."""
-    wanted = [s for s in scenes.all_settings() if names is None or s.name in names]
-    return [write_scene(setting, folder / setting.name, size) for setting in wanted]
+    known = {setting.name: setting for setting in scenes.all_settings()}
+    wanted = list(known) if names is None else names
+    return [write_scene(known[name], folder / name, size) for name in wanted]
