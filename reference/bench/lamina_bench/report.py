@@ -1,10 +1,19 @@
-"""The campaign's figures as a page of Markdown."""
+"""The campaign's figures as a page of Markdown.
+
+`python -m lamina_bench.report bench.json` writes the page anew from figures that are there.
+"""
 
 from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
 
 from . import campaign, statistics
 
 DASH = "–"
+# The bare tracer is a yardstick of speed, not a program that anybody would use instead.
+NOT_PEERS = ("lamina", "embree")
 
 
 def page(results: dict) -> str:
@@ -35,6 +44,8 @@ def page(results: dict) -> str:
             "",
         ]
     lines += versions(results["scenes"])
+    lines += ["", "## Where Lamina stands", "",
+              *standing(results["scenes"], plan["ladder"][-1])]  # fmt: skip
     for title, key in (
         (f"Efficiency at {plan['ladder'][-1]} samples a pixel", "top"),
         (f"Efficiency at the time that Lamina takes for {plan['ladder'][-1]}", "equal_time"),
@@ -62,24 +73,57 @@ def chosen(row: dict, key: str) -> dict | None:
     return row["equal_time"]
 
 
+def figure(row: dict | None, key: str, name: str) -> float | None:
+    """A figure of a program at the ladder's top or at equal time, if there is one."""
+    at = chosen(row, key) if row else None
+    return at[name] if at else None
+
+
+def ratio(ours: float | None, theirs: float | None) -> str:
+    """Lamina's figure over another's."""
+    return f"{ours / theirs:.2f}" if ours and theirs else DASH
+
+
+def standing(scenes: list[dict], top: int) -> list[str]:
+    """Where Lamina stands: against the best peer, the other spectral one, and bare tracing."""
+    lines = [
+        f"| scene | best peer | Lamina over it, {top} spp | Lamina over the best at equal time | "
+        "Lamina over Mitsuba llvm_ad_spectral | paths per second over the bare tracer |",
+        f"|{' --- |' * 6}",
+    ]
+    for scene in scenes:
+        rows = {row["program"]: row for row in scene["programs"]}
+        ours = rows.get("lamina")
+        cells = []
+        for key in ("top", "equal_time"):
+            peers = {
+                row["title"]: value
+                for name, row in rows.items()
+                if name not in NOT_PEERS and (value := figure(row, key, "efficiency"))
+            }
+            best = max(peers, key=peers.__getitem__, default=None)
+            if key == "top":
+                cells.append(best or DASH)
+            value = ratio(figure(ours, key, "efficiency"), peers.get(best))
+            cells.append(f"**{value}**")
+        spectral = figure(rows.get("mitsuba-spectral"), "top", "efficiency")
+        cells.append(ratio(figure(ours, "top", "efficiency"), spectral))
+        bare = figure(rows.get("embree"), "top", "mpaths_per_s")
+        cells.append(ratio(figure(ours, "top", "mpaths_per_s"), bare))
+        lines.append(f"| {scene['title']} | {' | '.join(cells)} |")
+    return lines
+
+
 def summary(scenes: list[dict], key: str) -> list[str]:
-    """Scenes by programs, with Lamina over the best peer."""
+    """Efficiency, scenes by programs."""
     names = list(dict.fromkeys(row["program"] for scene in scenes for row in scene["programs"]))
     titles = {row["program"]: row["title"] for scene in scenes for row in scene["programs"]}
-    head = ["scene", *(titles[name] for name in names), "Lamina over best peer"]
+    head = ["scene", *(titles[name] for name in names)]
     lines = [f"| {' | '.join(head)} |", f"|{' --- |' * len(head)}"]
     for scene in scenes:
-        values = {}
-        for row in scene["programs"]:
-            at = chosen(row, key)
-            if at is not None and at["efficiency"] is not None:
-                values[row["program"]] = at["efficiency"]
-        peers = [value for name, value in values.items() if name != "lamina"]
-        ratio = DASH
-        if "lamina" in values and peers:
-            ratio = f"**{values['lamina'] / max(peers):.2f}**"
-        cells = [number(values[name]) if name in values else DASH for name in names]
-        lines.append(f"| {scene['title']} | {' | '.join(cells)} | {ratio} |")
+        rows = {row["program"]: row for row in scene["programs"]}
+        cells = [number(figure(rows.get(name), key, "efficiency")) for name in names]
+        lines.append(f"| {scene['title']} | {' | '.join(cells)} |")
     return lines
 
 
@@ -144,3 +188,14 @@ def number(value: float | None) -> str:
         return f"{value:.0f}"
     text = f"{value:.3g}"
     return f"{value:.6f}".rstrip("0") if "e" in text and value > 1e-6 else text
+
+
+def main() -> None:
+    """Writes `bench.md` beside the named `bench.json`."""
+    file = Path(sys.argv[1])
+    results = json.loads(file.read_text(encoding="utf-8"))
+    file.with_suffix(".md").write_text(page(results), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
