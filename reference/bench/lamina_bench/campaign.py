@@ -29,7 +29,7 @@ CLOCKS = {
 }
 # Means of regions may differ by this share, beyond three standard errors. Programs that multiply
 # RGB differ from spectral ones from the third scattering on, and Lamina renders from 400 nm, where
-# the blue of the others has 0.3 to 1.6 % more light.
+# the blue of the others has 0.4 to 1.6 % more light.
 BOUND = 0.02
 
 
