@@ -27,6 +27,7 @@ from lamina_bench import (
     lamina,
     leaf,
     programs,
+    rates,
     report,
     scenes,
     spectra,
@@ -280,6 +281,36 @@ def test_a_program_whose_means_are_off_gets_no_efficiency() -> None:
     stands = report.standing([scene], 16)[-1].split(" | ")
     assert stands[1] == "Cycles" and abs(float(stands[2].strip("*")) - 1.0) < 0.2, stands
     json.dumps(rows)
+
+
+def test_rates_of_programs_that_hit_something_else_are_not_printed() -> None:
+    embree = {"mrays_per_s": 9.0, "mrays_per_cpu_s": 2.0, "rays": 100_000, "hits": 50_000}
+    answers = {
+        "Lamina": {**embree, "mrays_per_cpu_s": 3.0, "hits": 50_009},
+        "Embree": embree,
+        "Embree, robust": embree,
+    }
+    # Processor time is compared if all tell it; nine rays of 100,000 are within the agreement.
+    assert rates.row("a", "b", answers).endswith("| 3.00 | 2.00 | 2.00 | **1.50** |")
+    del answers["Embree"]["mrays_per_cpu_s"]
+    assert rates.row("a", "b", answers).endswith("| 9.00 | 9.00 | 9.00 | **1.00** |")
+    answers["Lamina"]["hits"] = 50_011
+    assert rates.row("a", "b", answers).endswith("| **hits 50011: differs** | 9.00 | 9.00 | – |")
+
+
+def test_programs_that_cannot_be_had_are_told_with_the_reason() -> None:
+    cycles = programs.programs(PROGRAM)[1]
+    kept = environments.FOLDER, environments.PYTHON
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            environments.FOLDER, environments.PYTHON = Path(folder), "no-such-python"
+            outcome = programs.run(cycles, Path("scene.json"), [], Path(folder), 1.0)
+        finally:
+            environments.FOLDER, environments.PYTHON = kept
+    assert outcome.reason is not None and "apt-get install python3.11" in outcome.reason
+    gone = programs.programs(Path("/no/such/lamina"))[0]
+    outcome = programs.run(gone, Path("scene.json"), [], Path("/nowhere"), 1.0)
+    assert outcome.reason is not None and "cargo build --release" in outcome.reason
 
 
 def test_charts_are_logarithmic_and_leave_empty_lines_out() -> None:

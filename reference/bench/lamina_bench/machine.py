@@ -7,6 +7,9 @@ import platform
 import subprocess
 from pathlib import Path
 
+# Load of a machine that does nothing else.
+IDLE = 0.3
+
 
 def _line(file: str, key: str) -> str:
     """The value of the first line of a `key : value` file, or nothing."""
@@ -41,3 +44,14 @@ def facts(root: Path) -> dict:
         "load_before": os.getloadavg()[0],
         "commit": commit(root),
     }
+
+
+def warning(about: dict) -> list[str]:
+    """Lines of Markdown that say so if others used the machine too."""
+    if about["load_before"] <= IDLE:
+        return []
+    return [
+        "**The machine was not idle when this was measured: wall seconds are worth little, "
+        "processor seconds somewhat more.**",
+        "",
+    ]

@@ -88,9 +88,11 @@ def measure(folder: Path, options: argparse.Namespace, tracer: Path) -> dict:
                 if name != "Lamina":
                     words.append("robust" if "robust" in name else "fast")
                 try:
-                    answers.setdefault(name, []).append(ask([*command, *words, "1"]))
+                    answer = ask([*command, *words, "1"])
                 except Unavailable as reason:
                     missing[name] = str(reason)
+                    continue
+                answers.setdefault(name, []).append(answer)
         found[rays] = {
             name: {
                 **{
@@ -141,6 +143,7 @@ def page(results: dict) -> str:
         f"{results['date']}. Millions of rays per second of the thread's processor time, or of "
         f"wall where a program does not tell the former; medians of {results['rounds']} rounds.",
         "",
+        *machine.warning(about),
         "| geometry, rays | rays | hits | Lamina | Embree | Embree, robust | Lamina over Embree |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]

@@ -9,7 +9,7 @@ import json
 import sys
 from pathlib import Path
 
-from . import campaign, statistics
+from . import campaign, machine, statistics
 
 DASH = "–"
 # The bare tracer is a yardstick of speed, not a program that anybody would use instead.
@@ -18,17 +18,17 @@ NOT_PEERS = ("lamina", "embree")
 
 def page(results: dict) -> str:
     """The whole page."""
-    machine, plan = results["machine"], results["plan"]
+    about, plan = results["machine"], results["plan"]
     lines = [
         "# Lamina and its peers",
         "",
         "Written by `reference/bench/run`; `reference/bench/README.md` says what is measured and "
         "how.",
         "",
-        f"{machine['processor']}, {machine['processors']} processors"
-        f" ({', '.join(machine['vectors']) or 'no AVX2'}), {machine['memory_gib']} GiB, "
-        f"{machine['system']}; load {machine['load_before']:.1f} before the start; "
-        f"Lamina at commit {machine['commit']}; {results['date']}.",
+        f"{about['processor']}, {about['processors']} processors"
+        f" ({', '.join(about['vectors']) or 'no AVX2'}), {about['memory_gib']} GiB, "
+        f"{about['system']}; load {about['load_before']:.1f} before the start; "
+        f"Lamina at commit {about['commit']}; {results['date']}.",
         "",
         f"{plan['size'][0]} × {plan['size'][1]} pixels, {plan['seeds']} seeds, "
         f"{' and '.join(str(spp) for spp in plan['ladder'])} samples a pixel; box filter, no "
@@ -37,12 +37,7 @@ def page(results: dict) -> str:
         f"where seconds are {campaign.CLOCKS[plan['clock']]}; medians.",
         "",
     ]
-    if machine["load_before"] > 0.3:
-        lines += [
-            "**The machine was not idle when this was measured: wall seconds are worth little, "
-            "processor seconds somewhat more.**",
-            "",
-        ]
+    lines += machine.warning(about)
     lines += versions(results["scenes"])
     lines += ["", "## Where Lamina stands", "",
               *standing(results["scenes"], plan["ladder"][-1])]  # fmt: skip
