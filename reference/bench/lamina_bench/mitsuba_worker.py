@@ -5,7 +5,8 @@ one is written here in Python. The LLVM variants compile it into their kernel, s
 nothing; in a scalar variant every call would go through the interpreter. Eradiate's build of
 Mitsuba has `bilambertian` in C++, which its `scalar_spectral` uses here.
 
-Sampler, roulette and choice of lights are Mitsuba's defaults. The sun is a disc far away.
+Roulette and choice of lights are Mitsuba's defaults, and so is the sampler (independent numbers)
+unless the job names another. The sun is a disc far away.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ import numpy as np
 from . import spectra
 from .job import Job, Picture, Renderer, cpu_seconds, serve
 
-# Path samples a kernel launch: bounds the memory of a pass.
-LAUNCH = 1 << 22
+# Path samples a kernel launch: bounds the memory of a pass. One launch renders 64 samples of
+# 512 × 512 pixels; a sampler that stratifies does so within a launch.
+LAUNCH = 1 << 24
 SUN_DISTANCE_M = 2000.0
 
 
@@ -101,6 +103,7 @@ def describe(mi: object, job: Job, leaf_type: str) -> dict:
             "near_clip": 1e-3,
             "far_clip": 1e4,
             "to_world": transform().look_at(camera["position"], camera["look_at"], camera["up"]),
+            "sampler": {"type": job.options.get("sampler", "independent")},
             "film": {
                 "type": "hdrfilm",
                 "width": facts["size"][0],

@@ -14,6 +14,8 @@ from .environments import Unavailable
 
 # Version of Embree in the wheel; the wheel's own number has a suffix.
 EMBREE = "Embree 4.4.0"
+# Ends the names of programs whose sampler is not their default, but a better one of theirs.
+TUNED = "-jitter"
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,8 @@ def programs(lamina: Path) -> list[Program]:
             raise Unavailable(f"{lamina} is missing: cargo build --release")
         return environments.own_python(), {"program": str(lamina.resolve())}
 
-    def of_mitsuba(variant: str) -> Callable[[], tuple[Path, dict]]:
-        return lambda: (environments.own_python(), {"variant": variant})
+    def of_mitsuba(variant: str, sampler: str) -> Callable[[], tuple[Path, dict]]:
+        return lambda: (environments.own_python(), {"variant": variant, "sampler": sampler})
 
     def of_tracer() -> tuple[Path, dict]:
         return environments.own_python(), {
@@ -51,9 +53,13 @@ def programs(lamina: Path) -> list[Program]:
         Program("cycles", "Cycles", "cycles_worker", False,
                 lambda: (environments.python_of("cycles"), {})),
         Program("mitsuba-rgb", "Mitsuba llvm_ad_rgb", "mitsuba_worker", False,
-                of_mitsuba("llvm_ad_rgb")),
+                of_mitsuba("llvm_ad_rgb", "independent")),
         Program("mitsuba-spectral", "Mitsuba llvm_ad_spectral", "mitsuba_worker", True,
-                of_mitsuba("llvm_ad_spectral")),
+                of_mitsuba("llvm_ad_spectral", "independent")),
+        Program(f"mitsuba-rgb{TUNED}", "Mitsuba llvm_ad_rgb, multijitter", "mitsuba_worker", False,
+                of_mitsuba("llvm_ad_rgb", "multijitter")),
+        Program(f"mitsuba-spectral{TUNED}", "Mitsuba llvm_ad_spectral, multijitter",
+                "mitsuba_worker", True, of_mitsuba("llvm_ad_spectral", "multijitter")),
         Program("mitsuba-scalar", "Mitsuba scalar_spectral (Eradiate's build)", "mitsuba_worker",
                 True, lambda: (environments.python_of("mitsuba-eradiate"),
                                {"variant": "scalar_spectral"})),

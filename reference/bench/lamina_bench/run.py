@@ -23,6 +23,8 @@ RESULTS = ROOT / "reference" / "results"
 LADDER = (4, 16, 64)
 QUICK_LADDER = (4, 16)
 QUICK_SIZE = 128
+# Smaller pictures have no pixel that shows nothing but leaf.
+LEAST_SIZE = 32
 
 
 def arguments() -> argparse.Namespace:
@@ -86,6 +88,10 @@ def arguments() -> argparse.Namespace:
     options.spp = sorted(set(options.spp or (QUICK_LADDER if options.quick else LADDER)))
     if options.seeds < campaign.statistics.LEAST_SEEDS:
         parser.error(f"--seeds {options.seeds}: at least {campaign.statistics.LEAST_SEEDS}")
+    if options.size < LEAST_SIZE:
+        parser.error(f"--size {options.size}: at least {LEAST_SIZE}")
+    if not options.limit > 0.0:
+        parser.error(f"--limit {options.limit}: above 0")
     if options.spp[0] < 2:
         parser.error(f"--spp {options.spp[0]}: at least 2")
     if not options.lamina.exists():

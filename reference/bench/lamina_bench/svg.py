@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from html import escape
 
-WIDTH, HEIGHT = 760, 480
-LEFT, RIGHT, TOP, BOTTOM = 78, 220, 44, 58
+WIDTH, HEIGHT = 840, 480
+LEFT, RIGHT, TOP, BOTTOM = 78, 300, 44, 58
 # Colours that are told apart by people with any of the common kinds of colour blindness (Okabe and
 # Ito), and a mark of its own for each line.
-COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#009e73", "#cc79a7", "#e69f00")
+COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#7f7f7f",
+           "#8c510a")  # fmt: skip
 Point = tuple[float, float]
 
 
 def marker(kind: int, x: float, y: float, colour: str) -> str:
-    """One of seven marks."""
+    """One of nine marks."""
     shapes = (
         [(0, -5), (5, 0), (0, 5), (-5, 0)],
         [(-4, -4), (4, -4), (4, 4), (-4, 4)],
@@ -22,10 +23,13 @@ def marker(kind: int, x: float, y: float, colour: str) -> str:
         [(0, 5), (5, -4), (-5, -4)],
         [(-5, 0), (-1.5, -1.5), (0, -5), (1.5, -1.5), (5, 0), (1.5, 1.5), (0, 5), (-1.5, 1.5)],
         [(-4, -5), (4, 5), (4, -5), (-4, 5)],
+        [(-6, -2), (6, -2), (6, 2), (-6, 2)],
+        [(-2, -6), (2, -6), (2, 6), (-2, 6)],
     )
-    if kind % 7 == 6:
+    kind %= len(shapes) + 1
+    if kind == len(shapes):
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{colour}"/>'
-    corners = " ".join(f"{x + dx:.1f},{y + dy:.1f}" for dx, dy in shapes[kind % 7])
+    corners = " ".join(f"{x + dx:.1f},{y + dy:.1f}" for dx, dy in shapes[kind])
     return f'<polygon points="{corners}" fill="{colour}"/>'
 
 
