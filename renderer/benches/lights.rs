@@ -185,8 +185,9 @@ fn measure(text: &str) -> Measured {
         seconds += time / SEEDS as f64;
         rays += rendered.rays;
         let sums = sums.iter_mut().zip(&mut squares);
-        for ((sum, square), pixel) in sums.zip(rendered.film.pixels()) {
-            let value = (0..4).map(|band| pixel.mean(band)).sum::<f64>() / 4.0;
+        let values =
+            (rendered.film).map(|pixel| (0..4).map(|band| pixel.mean(band)).sum::<f64>() / 4.0);
+        for ((sum, square), value) in sums.zip(values) {
             *sum += value;
             *square += value * value;
         }

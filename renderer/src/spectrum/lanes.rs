@@ -34,7 +34,7 @@ impl<const N: usize> Lanes<N> {
     pub fn sum(self) -> f32 {
         let mut values = self.0;
         let mut count = N;
-        while count > 1 && count % 2 == 0 {
+        while count > 1 && count.is_multiple_of(2) {
             count /= 2;
             for i in 0..count {
                 values[i] += values[i + count];
