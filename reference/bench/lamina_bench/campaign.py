@@ -149,17 +149,19 @@ def affordable(one: Measured, plan: Plan, budget_s: float) -> int | None:
 
 
 def read_regions(program: Path, scene: Path) -> dict[str, NDArray[np.bool_]]:
-    """Picture, leaf and ground; the latter two without pixels at the border of two objects."""
-    numbers = lamina.render(program, scene, 1, 0).objects
-    inner = np.zeros(numbers.shape, dtype=bool)
-    middle = numbers[1:-1, 1:-1]
-    inner[1:-1, 1:-1] = np.all(
-        [numbers[1 + dy : numbers.shape[0] - 1 + dy, 1 + dx : numbers.shape[1] - 1 + dx] == middle
-         for dy in (-1, 0, 1) for dx in (-1, 0, 1)],
-        axis=0,
-    )  # fmt: skip
+    """Picture, leaf and ground; the latter two without pixels at the border of both."""
     # Objects are numbered from 1 in the order of their names: the ground comes first.
-    ground = numbers == 1
+    ground = lamina.render(program, scene, 1, 0).objects == 1
+    height, width = ground.shape
+    inner = np.zeros_like(ground)
+    inner[1:-1, 1:-1] = np.all(
+        [
+            ground[1 + dy : height - 1 + dy, 1 + dx : width - 1 + dx] == ground[1:-1, 1:-1]
+            for dy in (-1, 0, 1)
+            for dx in (-1, 0, 1)
+        ],
+        axis=0,
+    )
     regions = {"picture": np.ones_like(ground), "leaf": inner & ~ground, "ground": inner & ground}
     return {name: region for name, region in regions.items() if region.any()}
 

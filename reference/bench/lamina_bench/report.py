@@ -108,7 +108,13 @@ def standing(scenes: list[dict], top: int) -> list[str]:
             for key in ("top", "equal_time"):
                 best = best_peer(rows, key, tuned)
                 if key == "top":
-                    cells.append(best[0] if best else DASH)
+                    missing = any(
+                        figure(row, key, "efficiency") is None
+                        for name, row in rows.items()
+                        if name not in NOT_PEERS
+                    )
+                    among = " (of those that finished)" if missing else ""
+                    cells.append(best[0] + among if best else DASH)
                 value = ratio(figure(ours, key, "efficiency"), best[1] if best else None)
                 cells.append(f"**{value}**")
         spectral = figure(rows.get("mitsuba-spectral"), "top", "efficiency")
