@@ -6,6 +6,7 @@ use std::time::Duration;
 use renderer::image::openexr;
 use renderer::integrator::develop::develop;
 use renderer::integrator::render::{Ended, Halt, Job, Rendered, render_until};
+use renderer::simd::Level;
 use support::picture::world_of;
 
 const SCENE: &str = "
@@ -76,6 +77,35 @@ fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
     for threads in [2, 3, 8] {
         let (_, bytes) = rendered(threads, 20, Halt::default());
         assert!(one == bytes, "{threads} threads");
+    }
+}
+
+/// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators or spectra do; then
+/// the test prints the new one, and the commit says why.
+const LIGHT: u64 = 0x40e9_3c59_beaa_13a2;
+
+#[test]
+fn every_level_of_instructions_gives_the_same_committed_light() {
+    for level in Level::all() {
+        let (_, mut world) = world_of(SCENE);
+        world.geometry = world.geometry.at_level(level);
+        let job = Job {
+            width: 40,
+            height: 30,
+            spp: 20,
+            seed: 5,
+        };
+        let go_on = AtomicBool::new(false);
+        let rendered =
+            render_until(&world, &job, &Halt::default(), &go_on, &|_| ()).expect("it fits");
+        let means = (0..3).flat_map(|channel| rendered.film.mean(channel));
+        // The 64-bit FNV-1a hash.
+        let hash = means
+            .flat_map(|mean| mean.to_bits().to_le_bytes())
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            });
+        assert_eq!(hash, LIGHT, "{}: {hash:#018x}", level.name());
     }
 }
 

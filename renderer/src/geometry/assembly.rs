@@ -10,7 +10,7 @@ use super::mesh::TriangleMesh;
 use super::ray::Ray;
 use super::surface::SurfacePoint;
 use super::triangle::TriangleBlock;
-use super::wide_tree::WideTree;
+use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::Level;
 use search::{AnyHit, NearestHit, Search};
 
@@ -204,14 +204,13 @@ impl TracedMesh {
         };
         let count = mesh.triangles().len() as u32;
         let boxes: Vec<_> = (0..count)
+            .into_par_iter()
             .map(|triangle| Bounds::around(corners(triangle)))
             .collect();
         let (tree, leaves) = WideTree::build(&boxes, 8);
         let blocks = leaves
-            .iter()
-            .map(|leaf| {
-                TriangleBlock::new(&leaf.iter().map(|&id| (id, corners(id))).collect::<Vec<_>>())
-            })
+            .par_iter()
+            .map(|leaf| TriangleBlock::new(leaf.as_slice().iter().map(|&id| (id, corners(id)))))
             .collect();
         Self {
             mesh,
@@ -270,9 +269,9 @@ impl Geometry {
         }
         let (tree, leaves) = WideTree::build(&boxes, 1);
         let carriers = leaves
-            .into_iter()
-            .flatten()
-            .map(|instance| placements[instance as usize].carrier)
+            .iter()
+            .flat_map(LeafItems::as_slice)
+            .map(|&instance| placements[instance as usize].carrier)
             .collect();
         Ok(Self {
             meshes,

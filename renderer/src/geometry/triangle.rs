@@ -101,14 +101,17 @@ pub(super) struct TriangleHit {
 
 impl TriangleBlock {
     /// Packs at most eight triangles with their numbers.
-    pub(super) fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
-        assert!(triangles.len() <= LANES, "a block has eight lanes");
+    ///
+    /// # Panics
+    ///
+    /// If there are more.
+    pub(super) fn new(triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Self {
         let mut block = Self {
             vertices: [[Row([f32::NAN; LANES]); 3]; 3],
             ids: [u32::MAX; LANES],
         };
-        for (lane, (id, corners)) in triangles.iter().enumerate() {
-            block.ids[lane] = *id;
+        for (lane, (id, corners)) in triangles.into_iter().enumerate() {
+            block.ids[lane] = id;
             for (vertex, corner) in corners.iter().enumerate() {
                 for axis in 0..3 {
                     block.vertices[vertex][axis].0[lane] = corner[axis];

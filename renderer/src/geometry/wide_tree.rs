@@ -57,6 +57,20 @@ pub(super) struct WideTree {
     bounds: Bounds,
 }
 
+/// The boxes of one leaf, in rising order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeafItems {
+    items: [u32; LANES],
+    count: u32,
+}
+
+impl LeafItems {
+    /// Their numbers.
+    pub(super) fn as_slice(&self) -> &[u32] {
+        &self.items[..self.count as usize]
+    }
+}
+
 /// A node of the binary tree that a [`WideTree`] is made from. The root is node 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum BinaryNode {
@@ -76,8 +90,8 @@ struct Summary {
 impl WideTree {
     /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
     ///
-    /// Boxes must be finite and fewer than 2³⁰.
-    pub(super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<Vec<u32>>) {
+    /// Boxes must be finite and fewer than 2³⁰, leaves of at most eight.
+    pub(super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<LeafItems>) {
         if boxes.is_empty() {
             let tree = Self {
                 nodes: Vec::new(),
@@ -95,7 +109,7 @@ impl WideTree {
         binary: &[BinaryNode],
         boxes: &[Bounds],
         leaf_size: u32,
-    ) -> Option<(Self, Vec<Vec<u32>>)> {
+    ) -> Option<(Self, Vec<LeafItems>)> {
         let summaries = summarise(binary, boxes);
         let is_leaf = |node: u32| summaries[node as usize].count <= leaf_size;
         let mut nodes = vec![WideNode::empty()];
@@ -106,22 +120,37 @@ impl WideTree {
             if level > MAX_DEPTH {
                 return None;
             }
-            let mut children = vec![root];
-            while children.len() < LANES {
-                let mut widest: Option<(usize, f32)> = None;
-                for (i, &child) in children.iter().enumerate() {
-                    let area = summaries[child as usize].bounds.half_area();
-                    if !is_leaf(child) && widest.is_none_or(|(_, most)| area > most) {
-                        widest = Some((i, area));
+            let (mut children, mut areas) = ([root; LANES], [0.0; LANES]);
+            // A leaf is never opened.
+            let area = |node: u32| {
+                if is_leaf(node) {
+                    f32::NEG_INFINITY
+                } else {
+                    summaries[node as usize].bounds.half_area()
+                }
+            };
+            areas[0] = area(root);
+            let mut count = 1;
+            while count < LANES {
+                let mut widest = 0;
+                for i in 1..count {
+                    if areas[i] > areas[widest] {
+                        widest = i;
                     }
                 }
-                let Some((i, _)) = widest else { break };
-                if let BinaryNode::Inner([left, right]) = binary[children[i] as usize] {
-                    children[i] = left;
-                    children.insert(i + 1, right);
+                let BinaryNode::Inner([left, right]) = binary[children[widest] as usize] else {
+                    break;
+                };
+                if areas[widest] == f32::NEG_INFINITY {
+                    break;
                 }
+                children.copy_within(widest + 1..count, widest + 2);
+                areas.copy_within(widest + 1..count, widest + 2);
+                (children[widest], children[widest + 1]) = (left, right);
+                (areas[widest], areas[widest + 1]) = (area(left), area(right));
+                count += 1;
             }
-            for (lane, &child) in children.iter().enumerate() {
+            for (lane, &child) in children[..count].iter().enumerate() {
                 let code = if is_leaf(child) {
                     leaves.push(members(binary, child));
                     LEAF | (leaves.len() - 1) as u32
@@ -246,18 +275,29 @@ fn summarise(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Summary> {
     summaries
 }
 
-/// The boxes below a binary node, in rising order.
-fn members(binary: &[BinaryNode], root: u32) -> Vec<u32> {
-    let mut members = Vec::new();
-    let mut open = vec![root];
+/// The boxes below a binary node, at most eight, in rising order.
+fn members(binary: &[BinaryNode], root: u32) -> LeafItems {
+    let mut leaf = LeafItems {
+        items: [0; LANES],
+        count: 0,
+    };
+    // Of nodes with at most eight leaves below them no more than eight are open at a time.
+    let mut open = Stack::<u32, LANES>::new();
+    open.push(root);
     while let Some(node) = open.pop() {
         match binary[node as usize] {
-            BinaryNode::Leaf(item) => members.push(item),
-            BinaryNode::Inner(children) => open.extend(children),
+            BinaryNode::Leaf(item) => {
+                leaf.items[leaf.count as usize] = item;
+                leaf.count += 1;
+            }
+            BinaryNode::Inner([left, right]) => {
+                open.push(left);
+                open.push(right);
+            }
         }
     }
-    members.sort_unstable();
-    members
+    leaf.items[..leaf.count as usize].sort_unstable();
+    leaf
 }
 
 #[cfg(test)]
@@ -278,7 +318,7 @@ mod tests {
     }
 
     /// Visits every node and checks that it lies in the box that its parent has for it; gives the levels.
-    fn check(tree: &WideTree, leaves: &[Vec<u32>], boxes: &[Bounds]) -> usize {
+    fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
         let mut open = vec![(0_u32, tree.bounds, 1)];
         let mut levels = 0;
         let mut seen = vec![0; boxes.len()];
@@ -306,7 +346,7 @@ mod tests {
                     open.push((code, child, level + 1));
                     continue;
                 }
-                let members = &leaves[(code & !LEAF) as usize];
+                let members = leaves[(code & !LEAF) as usize].as_slice();
                 let around = members
                     .iter()
                     .fold(Bounds::EMPTY, |all, &item| all.union(boxes[item as usize]));
@@ -336,7 +376,7 @@ mod tests {
         ] {
             let boxes = boxes(count);
             let (tree, leaves) = WideTree::build(&boxes, leaf_size);
-            assert!(leaves.iter().all(|leaf| leaf.len() <= leaf_size as usize));
+            assert!(leaves.iter().all(|leaf| leaf.count <= leaf_size));
             check(&tree, &leaves, &boxes);
         }
     }

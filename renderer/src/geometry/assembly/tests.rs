@@ -6,6 +6,8 @@ use super::super::testing::{Numbers, alone, blade, fixed, placed, ray_through, s
 use super::super::triangle::ShearRay;
 use super::super::{Instance, Ray, TriangleMesh};
 use super::{Geometry, GeometryError, Hit};
+use crate::simd::Level;
+use rayon::prelude::*;
 
 /// The nearest hit found by testing every triangle of every instance with the tracer's own test: no tree at all.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
@@ -124,6 +126,100 @@ fn the_trees_find_what_testing_every_triangle_finds() {
         }
     }
     assert!(found > 1000, "only {found} of 3000 rays hit anything");
+}
+
+#[test]
+fn every_level_of_instructions_finds_the_same_bits() {
+    let mut numbers = Numbers::new(11);
+    let meshes = vec![
+        soup(31, 300, 1.0, Vec3::ZERO),
+        blade(20, 9, 1.0, 1.0, Vec3::ZERO),
+    ];
+    let instances: Vec<_> = (0..20).map(|i| (i % 2, numbers.affine(2.0))).collect();
+    let geometry = placed(meshes, &instances);
+    let levels: Vec<_> = Level::all()
+        .into_iter()
+        .map(|level| geometry.clone().at_level(level))
+        .collect();
+    let mut found = 0;
+    for _ in 0..4000 {
+        let ray = ray_through(&mut numbers, &geometry);
+        let hits = levels.iter().map(|geometry| {
+            let hit = geometry.intersect(&ray);
+            assert_eq!(hit.is_some(), geometry.occluded(&ray));
+            hit.map(|hit| {
+                let floats = [hit.t, hit.b1, hit.b2].map(f32::to_bits);
+                (hit.instance, hit.triangle, floats)
+            })
+        });
+        let hits: Vec<_> = hits.collect();
+        assert!(hits.iter().all(|hit| *hit == hits[0]), "{ray:?}: {hits:?}");
+        found += usize::from(hits[0].is_some());
+    }
+    assert!(found > 500, "only {found} of 4000 rays hit anything");
+}
+
+#[test]
+#[ignore = "slow: 10⁸ rays, 40 s on two cores"]
+fn no_ray_of_a_hundred_million_leaves_a_closed_curved_leaf() {
+    // Two curved blades that share their margin, 5 cm long: a closed surface around the rays' origins.
+    let (side, length) = (60_u32, 0.05);
+    let count = side + 1;
+    let mut positions = Vec::new();
+    for face in [1.0, -1.0] {
+        for j in 0..count {
+            for i in 0..count {
+                let (u, v) = (i as f32 / side as f32, j as f32 / side as f32);
+                let bulge = 16.0 * u * (1.0 - u) * v * (1.0 - v);
+                let bend = 0.004 * libm::cosf(5.0 * v) + 0.003 * u * u;
+                let at = Vec3::new((u - 0.5) * 0.6, v - 0.5, 0.0) * length;
+                positions.push(at + Vec3::Z * (bend + face * 0.002 * bulge));
+            }
+        }
+    }
+    // On the margin both faces use the first one's vertices.
+    let vertex = |face: u32, i: u32, j: u32| {
+        let inner = i > 0 && j > 0 && i < side && j < side;
+        if inner {
+            face * count * count + j * count + i
+        } else {
+            j * count + i
+        }
+    };
+    let mut triangles = Vec::new();
+    for (face, i, j) in
+        (0..2).flat_map(|face| (0..side).flat_map(move |i| (0..side).map(move |j| (face, i, j))))
+    {
+        let [a, b, c, d] =
+            [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| vertex(face, i, j));
+        // The corners' diagonals turn so that no face lies in the margin alone, where the faces would coincide.
+        let across = (i == 0) == (j == 0) && (i + 1 == side) == (j + 1 == side);
+        let across = across || (i == 0 && j == 0) || (i + 1 == side && j + 1 == side);
+        if across {
+            triangles.extend([[a, b, c], [a, c, d]]);
+        } else {
+            triangles.extend([[a, b, d], [b, c, d]]);
+        }
+    }
+    let mesh = TriangleMesh::new(positions, None, None, triangles).expect("a closed leaf");
+    assert_eq!(mesh.dropped().total(), 0);
+    let geometry = alone(mesh);
+    let escaped: u32 = (0..1000_u64)
+        .into_par_iter()
+        .map(|chunk| {
+            let mut numbers = Numbers::new(chunk);
+            let mut escaped = 0;
+            for _ in 0..100_000 {
+                let (u, v) = (0.2 + 0.6 * numbers.unit(), 0.2 + 0.6 * numbers.unit());
+                let bend = 0.004 * libm::cosf(5.0 * v) + 0.003 * u * u;
+                let origin = Vec3::new((u - 0.5) * 0.6, v - 0.5, 0.0) * length + Vec3::Z * bend;
+                let ray = Ray::new(origin, numbers.direction());
+                escaped += u32::from(geometry.intersect(&ray).is_none());
+            }
+            escaped
+        })
+        .sum();
+    assert_eq!(escaped, 0, "rays left a closed leaf");
 }
 
 #[test]
