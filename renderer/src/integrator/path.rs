@@ -13,7 +13,8 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
-/// Sets of four random numbers before the first vertex: film and wavelength, lens.
+/// Sets of four random numbers before the first vertex: place on the film with that on the lens, and wavelength; without a
+/// lens the first set holds both.
 pub const CAMERA_SETS: u32 = 2;
 /// Sets of four random numbers that a vertex owns, used or not: the bounce, and light that is chosen.
 const VERTEX_SETS: u32 = 2;
