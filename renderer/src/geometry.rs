@@ -13,6 +13,7 @@
 
 mod bounds;
 mod bvh;
+mod hilbert;
 mod median;
 mod scramble;
 mod slab;

@@ -1,6 +1,6 @@
 //! Meshes, placed by instances: what rays are traced against.
 
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3, Vec3A};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -73,6 +73,10 @@ pub enum GeometryError {
     },
 }
 
+/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the boxes have 0.8 of the area with
+/// 8, 0.63 with 64 and 0.6 with 128, and fewer of them are entered in vain.
+const HULL_BOXES: usize = 128;
+
 /// Instances and tree nodes share 32 bits.
 const MOST_INSTANCES: usize = 1 << 29;
 
@@ -84,6 +88,8 @@ struct TracedMesh {
     center: Vec3,
     tree: WideTree,
     blocks: Vec<TriangleBlock>,
+    /// Boxes that hold the mesh closer than the tree's own box does once they are turned.
+    hull: Vec<Bounds>,
 }
 
 /// An instance with what is computed from it. "Local" is the frame in which its mesh is traced.
@@ -115,10 +121,19 @@ struct Carrier {
 impl Carrier {
     /// The ray in the local frame, with the same `t`.
     #[inline(always)]
-    fn carry(&self, ray: &Ray) -> (Vec3, Vec3) {
+    fn carry(&self, ray: &Ray) -> (Vec3A, Vec3A) {
+        let [x, y, z] = [
+            Vec3A::from(self.linear.x_axis),
+            Vec3A::from(self.linear.y_axis),
+            Vec3A::from(self.linear.z_axis),
+        ];
+        let (o, d) = (ray.origin, ray.direction);
         (
-            self.linear * ray.origin + self.offset,
-            self.linear * ray.direction,
+            x * Vec3A::splat(o.x)
+                + y * Vec3A::splat(o.y)
+                + z * Vec3A::splat(o.z)
+                + Vec3A::from(self.offset),
+            x * Vec3A::splat(d.x) + y * Vec3A::splat(d.y) + z * Vec3A::splat(d.z),
         )
     }
 }
@@ -179,11 +194,9 @@ impl Placement {
             + self.carrier.offset.abs().as_dvec3()
     }
 
-    fn world_bounds(&self, local: &Bounds) -> Bounds {
-        local.transformed(&DAffine3 {
-            matrix3: self.linear,
-            translation: self.offset,
-        })
+    /// A box around the mesh in the world.
+    fn world_bounds(&self, mesh: &TracedMesh) -> Bounds {
+        Bounds::around_transformed(&mesh.hull, &self.linear, self.offset)
     }
 }
 
@@ -213,6 +226,7 @@ impl TracedMesh {
             .map(|leaf| TriangleBlock::new(leaf.as_slice().iter().map(|&id| (id, corners(id)))))
             .collect();
         Self {
+            hull: tree.hull(HULL_BOXES),
             mesh,
             center,
             tree,
@@ -254,10 +268,8 @@ impl Geometry {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let boxes: Vec<_> = placements
-            .iter()
-            .map(|placement| {
-                placement.world_bounds(meshes[placement.instance.mesh as usize].tree.bounds())
-            })
+            .par_iter()
+            .map(|placement| placement.world_bounds(&meshes[placement.instance.mesh as usize]))
             .collect();
         for (number, bounds) in boxes.iter().enumerate() {
             if !bounds.min.is_finite() || !bounds.max.is_finite() {

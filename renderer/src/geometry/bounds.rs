@@ -1,6 +1,6 @@
 //! Axis-aligned boxes.
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 /// An axis-aligned box, `min ≤ max`, or [`Bounds::EMPTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,19 +46,20 @@ impl Bounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// A box around the image of this one, rounded outwards and widened by a few roundings of its coordinates.
-    pub(super) fn transformed(self, to_world: &DAffine3) -> Self {
+    /// A box around the images of some boxes, rounded outwards and widened by a few roundings of its coordinates.
+    pub(super) fn around_transformed(boxes: &[Self], linear: &DMat3, offset: DVec3) -> Self {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corner in 0..8_u32 {
-            let pick =
-                |axis: u32, low: f32, high: f32| if corner >> axis & 1 == 0 { low } else { high };
-            let point = to_world.transform_point3(DVec3::new(
-                f64::from(pick(0, self.min.x, self.max.x)),
-                f64::from(pick(1, self.min.y, self.max.y)),
-                f64::from(pick(2, self.min.z, self.max.z)),
-            ));
-            min = min.min(point);
-            max = max.max(point);
+        let stretch = DMat3::from_cols(
+            linear.x_axis.abs(),
+            linear.y_axis.abs(),
+            linear.z_axis.abs(),
+        );
+        for bounds in boxes {
+            let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+            let center = *linear * ((low + high) * 0.5) + offset;
+            let reach = stretch * ((high - low) * 0.5);
+            min = min.min(center - reach);
+            max = max.max(center + reach);
         }
         // The ray is carried into the mesh's frame in f32: what it meets there may lie this far outside here.
         let pad = (max.abs().max(min.abs())) * 2.0_f64.powi(-21);

@@ -1,6 +1,6 @@
 //! Does a ray meet a box? Conservative: a box is never missed whose triangles the triangle test would accept.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 use super::bounds::Bounds;
 use crate::simd::{Eight, Row};
@@ -25,6 +25,30 @@ const PLANES: [[Plane; 2]; 3] = [
     [Plane::MinY, Plane::MaxY],
     [Plane::MinZ, Plane::MaxZ],
 ];
+
+/// Planes that a ray meets first, by the axes (a bit each) along which it runs down.
+const NEAR_PLANES: [[Plane; 3]; 8] = {
+    let mut planes = [[Plane::MinX; 3]; 8];
+    let mut down = 0;
+    while down < 8 {
+        let mut axis = 0;
+        while axis < 3 {
+            planes[down][axis] = PLANES[axis][down >> axis & 1];
+            axis += 1;
+        }
+        down += 1;
+    }
+    planes
+};
+
+/// The axis along which a direction reaches farthest, which the triangle test shears along. Without a branch, since
+/// rays go everywhere.
+#[inline(always)]
+pub(super) fn longest(direction: Vec3A) -> usize {
+    let [x, y, z] = direction.abs().to_array();
+    let not_x = usize::from(!(x > y && x > z));
+    not_x * (1 + usize::from(y <= z))
+}
 
 /// How far the sheared triangle test may see a vertex from where it is, relative to its distances from the origin
 /// across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an error below (2 |x| + 4 |z|) · 2⁻²⁴
@@ -66,40 +90,22 @@ pub(super) fn less(a: f32, b: f32) -> f32 {
 
 impl SlabRay {
     /// Prepares a ray for boxes inside `bounds`. The direction is finite and not zero.
-    #[inline]
-    pub(super) fn new(origin: Vec3, direction: Vec3, t_min: f32, bounds: &Bounds) -> Self {
-        let reach = (bounds.min - origin).abs().max((bounds.max - origin).abs());
-        let size = direction.abs();
-        // The axis that the triangle test shears along.
-        let along = if size.x > size.y && size.x > size.z {
-            reach.x
-        } else if size.y > size.z {
-            reach.y
-        } else {
-            reach.z
-        };
-        let error = (reach + along) * SHEAR_ERROR;
+    #[inline(always)]
+    pub(super) fn new(origin: Vec3A, direction: Vec3A, t_min: f32, bounds: &Bounds) -> Self {
+        let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
+        let reach = (low - origin).abs().max((high - origin).abs());
+        let along = reach.to_array()[longest(direction)];
+        let error = (reach + Vec3A::splat(along)) * SHEAR_ERROR;
         let inverse = direction.recip();
-        let mut near_plane = [Plane::MinX; 3];
-        let mut far_plane = [Plane::MinX; 3];
-        let mut near_origin = [0.0; 3];
-        let mut far_origin = [0.0; 3];
-        for axis in 0..3 {
-            // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
-            let down = inverse[axis].is_sign_negative();
-            let [low, high] = PLANES[axis];
-            near_plane[axis] = if down { high } else { low };
-            far_plane[axis] = if down { low } else { high };
-            let shift = if down { -error[axis] } else { error[axis] };
-            near_origin[axis] = origin[axis] + shift;
-            far_origin[axis] = origin[axis] - shift;
-        }
+        // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
+        let down = inverse.is_negative_bitmask() as usize;
+        let shift = error.copysign(inverse);
         Self {
-            near_origin,
-            far_origin,
+            near_origin: (origin + shift).to_array(),
+            far_origin: (origin - shift).to_array(),
             inverse: inverse.to_array(),
-            near_plane,
-            far_plane,
+            near_plane: NEAR_PLANES[down & 7],
+            far_plane: NEAR_PLANES[!down & 7],
             t_min: greater(t_min, 0.0),
         }
     }

@@ -1,8 +1,8 @@
 //! Does a ray meet a triangle? Watertight, eight triangles at a time.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
-use super::slab::SlabRay;
+use super::slab::{SlabRay, longest};
 use crate::simd::{Eight, LANES, Row};
 
 /// Eight triangles by vertex, axis and lane; lanes that are not used hold NaN, which no ray meets.
@@ -32,30 +32,31 @@ pub(super) struct ShearRay {
 
 impl ShearRay {
     /// Prepares a ray; the direction is finite and not zero.
-    #[inline]
-    pub(super) fn new(origin: Vec3, direction: Vec3, t_min: f32) -> Self {
-        let size = direction.abs();
-        let [x, y, z] = if size.x > size.y && size.x > size.z {
-            [Axis::Y, Axis::Z, Axis::X]
-        } else if size.y > size.z {
-            [Axis::Z, Axis::X, Axis::Y]
-        } else {
-            [Axis::X, Axis::Y, Axis::Z]
-        };
-        let along = direction[z as usize];
-        let axes = if along < 0.0 { [y, x, z] } else { [x, y, z] };
+    #[inline(always)]
+    pub(super) fn new(origin: Vec3A, direction: Vec3A, t_min: f32) -> Self {
+        let z = longest(direction);
+        let along = direction.to_array()[z];
+        let axes = AXES[z][usize::from(along < 0.0)];
+        let shear = (direction / Vec3A::splat(along)).to_array();
         Self {
             origin: origin.to_array(),
             axes,
             shear: [
-                direction[axes[0] as usize] / along,
-                direction[axes[1] as usize] / along,
+                shear[axes[0] as usize],
+                shear[axes[1] as usize],
                 1.0 / along,
             ],
             t_min,
         }
     }
 }
+
+/// Two axes across a ray and one along it, by the axis along and by whether the ray runs down it.
+const AXES: [[[Axis; 3]; 2]; 3] = [
+    [[Axis::Y, Axis::Z, Axis::X], [Axis::Z, Axis::Y, Axis::X]],
+    [[Axis::Z, Axis::X, Axis::Y], [Axis::X, Axis::Z, Axis::Y]],
+    [[Axis::X, Axis::Y, Axis::Z], [Axis::Y, Axis::X, Axis::Z]],
+];
 
 /// What the projection of eight corners needs in every lane. No closures here or below: they are compiled as functions
 /// of their own, without the instructions of the level, before they are inlined.

@@ -1,10 +1,16 @@
 //! A tree of boxes with eight children a node, and the walk of a ray through it.
 
+use glam::Vec3;
+
 use super::bounds::Bounds;
-use super::bvh;
-use super::median;
 use super::slab::{BoxPlanes, SlabRay};
 use crate::simd::{Eight, LANES, Row, Stack};
+
+mod build;
+mod cut;
+mod pack;
+
+pub(super) use build::BinaryNode;
 
 /// Levels of nodes that a tree may have; deeper ones are built anew by halving.
 const MAX_DEPTH: usize = 18;
@@ -39,6 +45,22 @@ impl WideNode {
         }
         self.children[lane] = child;
     }
+
+    /// Boxes and codes of the children that are there.
+    fn present(&self) -> impl Iterator<Item = (Bounds, u32)> + '_ {
+        let boxes = (0..LANES).map(|lane| {
+            let corner = |first: usize| {
+                Vec3::from_array([0, 1, 2].map(|axis| self.planes[first + axis].0[lane]))
+            };
+            Bounds {
+                min: corner(0),
+                max: corner(3),
+            }
+        });
+        boxes
+            .zip(self.children)
+            .filter(|(bounds, _)| !bounds.is_empty())
+    }
 }
 
 /// What is done at the leaves of a tree.
@@ -71,104 +93,32 @@ impl LeafItems {
     }
 }
 
-/// A node of the binary tree that a [`WideTree`] is made from. The root is node 0.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum BinaryNode {
-    /// One box of the input.
-    Leaf(u32),
-    /// Two nodes.
-    Inner([u32; 2]),
-}
-
-/// What the collapse has to know of a binary node.
-#[derive(Clone, Copy, Debug)]
-struct Summary {
-    bounds: Bounds,
-    count: u32,
-}
-
 impl WideTree {
-    /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
-    ///
-    /// Boxes must be finite and fewer than 2³⁰, leaves of at most eight.
-    pub(super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<LeafItems>) {
-        if boxes.is_empty() {
-            let tree = Self {
-                nodes: Vec::new(),
-                bounds: Bounds::EMPTY,
-            };
-            return (tree, Vec::new());
-        }
-        Self::collapse(&bvh::binary_tree(boxes), boxes, leaf_size)
-            .or_else(|| Self::collapse(&median::binary_tree(boxes), boxes, leaf_size))
-            .expect("halving gives at most 30 binary levels, three of which make one level here")
-    }
-
-    /// Opens the widest binary nodes first until eight children are there; `None` if the tree gets too deep.
-    fn collapse(
-        binary: &[BinaryNode],
-        boxes: &[Bounds],
-        leaf_size: u32,
-    ) -> Option<(Self, Vec<LeafItems>)> {
-        let summaries = summarise(binary, boxes);
-        let is_leaf = |node: u32| summaries[node as usize].count <= leaf_size;
-        let mut nodes = vec![WideNode::empty()];
-        let mut leaves = Vec::new();
-        // (binary node, wide node, level)
-        let mut open = vec![(0_u32, 0_usize, 1_usize)];
-        while let Some((root, place, level)) = open.pop() {
-            if level > MAX_DEPTH {
-                return None;
-            }
-            let (mut children, mut areas) = ([root; LANES], [0.0; LANES]);
-            // A leaf is never opened.
-            let area = |node: u32| {
-                if is_leaf(node) {
-                    f32::NEG_INFINITY
-                } else {
-                    summaries[node as usize].bounds.half_area()
-                }
-            };
-            areas[0] = area(root);
-            let mut count = 1;
-            while count < LANES {
-                let mut widest = 0;
-                for i in 1..count {
-                    if areas[i] > areas[widest] {
-                        widest = i;
-                    }
-                }
-                let BinaryNode::Inner([left, right]) = binary[children[widest] as usize] else {
-                    break;
-                };
-                if areas[widest] == f32::NEG_INFINITY {
-                    break;
-                }
-                children.copy_within(widest + 1..count, widest + 2);
-                areas.copy_within(widest + 1..count, widest + 2);
-                (children[widest], children[widest + 1]) = (left, right);
-                (areas[widest], areas[widest + 1]) = (area(left), area(right));
-                count += 1;
-            }
-            for (lane, &child) in children[..count].iter().enumerate() {
-                let code = if is_leaf(child) {
-                    leaves.push(members(binary, child));
-                    LEAF | (leaves.len() - 1) as u32
-                } else {
-                    nodes.push(WideNode::empty());
-                    open.push((child, nodes.len() - 1, level + 1));
-                    (nodes.len() - 1) as u32
-                };
-                nodes[place].set(lane, &summaries[child as usize].bounds, code);
-            }
-        }
-        let bounds = summaries[0].bounds;
-        Some((Self { nodes, bounds }, leaves))
-    }
-
     /// The box around everything.
     pub(super) fn bounds(&self) -> &Bounds {
         &self.bounds
+    }
+
+    /// Boxes, at most `most` (≥ 1) of them, that together hold everything: those of the lowest nodes that get by with so few.
+    pub(super) fn hull(&self, most: usize) -> Vec<Bounds> {
+        // (box, code of the node or leaf)
+        let mut hull = vec![(self.bounds, if self.nodes.is_empty() { LEAF } else { 0 })];
+        loop {
+            let widest = (0..hull.len())
+                .filter(|&place| hull[place].1 & LEAF == 0)
+                .max_by(|&a, &b| {
+                    let area = |place: usize| hull[place].0.half_area();
+                    area(a).total_cmp(&area(b))
+                });
+            let Some(widest) = widest else { break };
+            let node = &self.nodes[hull[widest].1 as usize];
+            if hull.len() - 1 + node.present().count() > most {
+                break;
+            }
+            hull.swap_remove(widest);
+            hull.extend(node.present());
+        }
+        hull.into_iter().map(|(bounds, _)| bounds).collect()
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
@@ -199,28 +149,23 @@ impl WideTree {
                 if met != 0 {
                     let enters = e.store(enters);
                     let base = stack.height();
-                    loop {
-                        let lane = met.trailing_zeros() as usize % LANES;
-                        met &= met - 1;
-                        (enter, child) = (enters.0[lane], node.children[lane]);
-                        if met == 0 && stack.height() == base {
-                            break;
-                        }
-                        if child & LEAF == 0 {
-                            e.prefetch(&self.nodes, child as usize);
-                        } else {
-                            visitor.fetch(child & !LEAF);
-                        }
+                    let lane = take_lane(&mut met);
+                    (enter, child) = (enters.0[lane], node.children[lane]);
+                    if met != 0 {
+                        self.ask_for(e, child, visitor);
+                    }
+                    // One child goes on at once, the others wait on the stack.
+                    while met != 0 {
+                        let lane = take_lane(&mut met);
+                        let mut other = (enters.0[lane], node.children[lane]);
+                        self.ask_for(e, other.1, visitor);
                         if NEAREST_FIRST {
-                            stack.push_in_order(base, (enter, child));
-                        } else {
-                            stack.push((enter, child));
-                        }
-                        if met == 0 {
-                            if let Some(next) = stack.pop() {
-                                (enter, child) = next;
+                            if other.0 < enter {
+                                (other, (enter, child)) = ((enter, child), other);
                             }
-                            break;
+                            stack.push_in_order(base, other);
+                        } else {
+                            stack.push(other);
                         }
                     }
                     continue;
@@ -240,170 +185,25 @@ impl WideTree {
             }
         }
     }
-}
 
-/// Bounds and size of every binary node, from the boxes themselves: a builder may have worked with others.
-fn summarise(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Summary> {
-    let nothing = Summary {
-        bounds: Bounds::EMPTY,
-        count: 0,
-    };
-    let mut summaries = vec![nothing; binary.len()];
-    let mut order = Vec::with_capacity(binary.len());
-    let mut open = vec![0_u32];
-    while let Some(node) = open.pop() {
-        order.push(node);
-        if let BinaryNode::Inner(children) = binary[node as usize] {
-            open.extend(children);
+    /// Asks for the memory of a child that is likely to be visited soon.
+    #[inline(always)]
+    fn ask_for<E: Eight>(&self, e: E, child: u32, visitor: &impl Visitor) {
+        if child & LEAF == 0 {
+            e.prefetch(&self.nodes, child as usize);
+        } else {
+            visitor.fetch(child & !LEAF);
         }
     }
-    for &node in order.iter().rev() {
-        summaries[node as usize] = match binary[node as usize] {
-            BinaryNode::Leaf(item) => Summary {
-                bounds: boxes[item as usize],
-                count: 1,
-            },
-            BinaryNode::Inner(children) => {
-                let [left, right] = children.map(|child| summaries[child as usize]);
-                Summary {
-                    bounds: left.bounds.union(right.bounds),
-                    count: left.count + right.count,
-                }
-            }
-        };
-    }
-    summaries
 }
 
-/// The boxes below a binary node, at most eight, in rising order.
-fn members(binary: &[BinaryNode], root: u32) -> LeafItems {
-    let mut leaf = LeafItems {
-        items: [0; LANES],
-        count: 0,
-    };
-    // Of nodes with at most eight leaves below them no more than eight are open at a time.
-    let mut open = Stack::<u32, LANES>::new();
-    open.push(root);
-    while let Some(node) = open.pop() {
-        match binary[node as usize] {
-            BinaryNode::Leaf(item) => {
-                leaf.items[leaf.count as usize] = item;
-                leaf.count += 1;
-            }
-            BinaryNode::Inner([left, right]) => {
-                open.push(left);
-                open.push(right);
-            }
-        }
-    }
-    leaf.items[..leaf.count as usize].sort_unstable();
-    leaf
+/// The lowest lane of a mask that is not empty, which is taken out of it.
+#[inline(always)]
+fn take_lane(mask: &mut u32) -> usize {
+    let lane = mask.trailing_zeros() as usize % LANES;
+    *mask &= *mask - 1;
+    lane
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::super::testing::Numbers;
-    use super::*;
-
-    fn boxes(count: usize) -> Vec<Bounds> {
-        let mut numbers = Numbers::new(count as u64);
-        (0..count)
-            .map(|_| {
-                let at = numbers.cube();
-                Bounds::around([at, at + numbers.cube() * 0.1])
-            })
-            .collect()
-    }
-
-    /// Visits every node and checks that it lies in the box that its parent has for it; gives the levels.
-    fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
-        let mut open = vec![(0_u32, tree.bounds, 1)];
-        let mut levels = 0;
-        let mut seen = vec![0; boxes.len()];
-        while let Some((node, bounds, level)) = open.pop() {
-            levels = levels.max(level);
-            let node = &tree.nodes[node as usize];
-            for lane in 0..LANES {
-                let corner = |first: usize| {
-                    Vec3::from_array([0, 1, 2].map(|axis| node.planes[first + axis].0[lane]))
-                };
-                let child = Bounds {
-                    min: corner(0),
-                    max: corner(3),
-                };
-                if child.is_empty() {
-                    continue;
-                }
-                assert_eq!(
-                    bounds.union(child),
-                    bounds,
-                    "a child reaches out of its parent"
-                );
-                let code = node.children[lane];
-                if code & LEAF == 0 {
-                    open.push((code, child, level + 1));
-                    continue;
-                }
-                let members = leaves[(code & !LEAF) as usize].as_slice();
-                let around = members
-                    .iter()
-                    .fold(Bounds::EMPTY, |all, &item| all.union(boxes[item as usize]));
-                assert_eq!(around, child, "a leaf's box is not that of its members");
-                for &item in members {
-                    seen[item as usize] += 1;
-                }
-            }
-        }
-        assert!(
-            seen.iter().all(|&times| times == 1),
-            "not every box is in one leaf"
-        );
-        levels
-    }
-
-    #[test]
-    fn every_box_is_in_one_leaf_and_every_node_in_its_parent() {
-        for (count, leaf_size) in [
-            (1, 8),
-            (2, 1),
-            (8, 8),
-            (9, 8),
-            (100, 1),
-            (5000, 8),
-            (5000, 1),
-        ] {
-            let boxes = boxes(count);
-            let (tree, leaves) = WideTree::build(&boxes, leaf_size);
-            assert!(leaves.iter().all(|leaf| leaf.count <= leaf_size));
-            check(&tree, &leaves, &boxes);
-        }
-    }
-
-    #[test]
-    fn a_tree_too_deep_for_the_stack_is_not_taken_and_halving_is_shallow() {
-        let boxes = boxes(5000);
-        // A binary tree that is one long chain.
-        let mut chain = Vec::new();
-        for item in 0..4999_u32 {
-            chain.push(BinaryNode::Inner([2 * item + 1, 2 * item + 2]));
-            chain.push(BinaryNode::Leaf(item));
-        }
-        chain.push(BinaryNode::Leaf(4999));
-        assert!(WideTree::collapse(&chain, &boxes, 8).is_none());
-        let (tree, leaves) = WideTree::collapse(&median::binary_tree(&boxes), &boxes, 8)
-            .expect("halves are shallow");
-        assert!(
-            check(&tree, &leaves, &boxes) <= 5,
-            "5000 boxes, 8 a leaf, 8 a node"
-        );
-    }
-
-    #[test]
-    fn builds_are_the_same_every_time() {
-        let boxes = boxes(3000);
-        let ((one, _), (other, _)) = (WideTree::build(&boxes, 8), WideTree::build(&boxes, 8));
-        assert_eq!(format!("{one:?}"), format!("{other:?}"));
-    }
-}
+mod tests;

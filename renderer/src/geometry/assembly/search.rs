@@ -1,11 +1,11 @@
 //! A ray's way through the two levels of trees.
 //!
-//! Everything here is inlined into one function for each level of instructions and each kind of search. There are no
+//! Each of the two walks is inlined into one function for each level of instructions and each kind of search. There are no
 //! closures: they would be compiled on their own first, without those instructions.
 
 use std::marker::PhantomData;
 
-use glam::Vec3;
+use glam::Vec3A;
 
 use super::super::ray::Ray;
 use super::super::slab::SlabRay;
@@ -107,7 +107,7 @@ impl<F: Found> Task for Search<'_, F> {
         let mut found = F::default();
         if ray.is_proper() {
             let bounds = geometry.tree.bounds();
-            let slab = SlabRay::new(ray.origin, ray.direction, ray.t_min, bounds);
+            let slab = SlabRay::new(ray.origin.into(), ray.direction.into(), ray.t_min, bounds);
             let mut instances = Instances {
                 e,
                 geometry,
@@ -143,26 +143,60 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
         let carrier = &self.geometry.carriers[leaf as usize];
         let (origin, direction) = carrier.carry(self.ray);
         // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest number.
-        if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
+        if !origin.is_finite() || !direction.is_finite() || direction == Vec3A::ZERO {
             return limit;
         }
-        let mesh = &self.geometry.meshes[carrier.mesh as usize];
-        let slab = SlabRay::new(origin, direction, self.ray.t_min, mesh.tree.bounds());
-        let shear = ShearRay::new(origin, direction, self.ray.t_min);
-        let mut triangles = Triangles {
-            e: self.e,
-            mesh,
+        self.geometry.level.run(InMesh {
+            mesh: &self.geometry.meshes[carrier.mesh as usize],
             carrier,
+            origin,
+            direction,
+            t_min: self.ray.t_min,
             enter,
-            slab: &slab,
-            shear: &shear,
             found: &mut *self.found,
             limit,
+        })
+    }
+}
+
+/// The search in one mesh: a function of its own, which keeps more of the walk in registers.
+struct InMesh<'a, F> {
+    mesh: &'a TracedMesh,
+    carrier: &'a Carrier,
+    /// The ray in the mesh's frame.
+    origin: Vec3A,
+    direction: Vec3A,
+    t_min: f32,
+    /// Where the ray enters the instance's box.
+    enter: f32,
+    found: &'a mut F,
+    limit: f32,
+}
+
+impl<F: Found> Task for InMesh<'_, F> {
+    /// The new limit.
+    type Output = f32;
+
+    #[inline(always)]
+    fn run<E: Eight>(self, e: E) -> f32 {
+        let (origin, direction, t_min) = (self.origin, self.direction, self.t_min);
+        let tree = &self.mesh.tree;
+        let slab = SlabRay::new(origin, direction, t_min, tree.bounds());
+        let shear = ShearRay::new(origin, direction, t_min);
+        let mut triangles = Triangles {
+            e,
+            mesh: self.mesh,
+            carrier: self.carrier,
+            enter: self.enter,
+            slab: &slab,
+            shear: &shear,
+            found: self.found,
+            limit: self.limit,
         };
         if F::NEAREST_FIRST {
-            (mesh.tree).walk::<true, E>(self.e, &slab, limit, &mut triangles);
+            tree.walk::<true, E>(e, &slab, self.limit, &mut triangles);
         } else {
-            (mesh.tree).walk::<false, E>(self.e, &slab, limit, &mut triangles);
+            tree.walk::<false, E>(e, &slab, self.limit, &mut triangles);
         }
         triangles.limit
     }

@@ -12,10 +12,15 @@ use rayon::prelude::*;
 /// The nearest hit found by testing every triangle of every instance with the tracer's own test: no tree at all.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
-    let world = SlabRay::new(ray.origin, ray.direction, ray.t_min, geometry.tree.bounds());
+    let world = SlabRay::new(
+        ray.origin.into(),
+        ray.direction.into(),
+        ray.t_min,
+        geometry.tree.bounds(),
+    );
     for (instance, placement) in (0_u32..).zip(&geometry.placements) {
         let mesh = &geometry.meshes[placement.instance.mesh as usize];
-        let bounds = placement.world_bounds(mesh.tree.bounds());
+        let bounds = placement.world_bounds(mesh);
         let Some(enter) = world.one(bounds.min.to_array(), bounds.max.to_array()) else {
             continue;
         };

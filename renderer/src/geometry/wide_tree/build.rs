@@ -1,0 +1,103 @@
+//! How a wide tree comes from boxes: neighbours packed into leaves, a binary tree over the leaves, and that cut into
+//! nodes of eight.
+
+use super::super::bounds::Bounds;
+use super::super::{bvh, median};
+use super::cut::{Cheapest, Cut, ThreeLevels};
+use super::pack;
+use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
+
+/// A node of the binary tree that a [`WideTree`] is made from. The root is node 0.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) enum BinaryNode {
+    /// One box of the input.
+    Leaf(u32),
+    /// Two nodes.
+    Inner([u32; 2]),
+}
+
+impl WideTree {
+    /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
+    ///
+    /// Boxes must be finite and fewer than 2³⁰, leaves of at most eight.
+    pub(in super::super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<LeafItems>) {
+        if boxes.is_empty() {
+            let tree = Self {
+                nodes: Vec::new(),
+                bounds: Bounds::EMPTY,
+            };
+            return (tree, Vec::new());
+        }
+        let packed = pack::leaves(boxes, leaf_size);
+        let bounds: Vec<_> = packed
+            .iter()
+            .map(|leaf| leaf.as_slice().iter().map(|&item| boxes[item as usize]))
+            .map(|members| members.fold(Bounds::EMPTY, Bounds::union))
+            .collect();
+        let (tree, order) = Self::over_leaves::<Cheapest>(&bvh::binary_tree(&bounds), &bounds)
+            .or_else(|| Self::over_leaves::<ThreeLevels>(&median::binary_tree(&bounds), &bounds))
+            .expect("halving gives at most 30 binary levels, three of which make one level here");
+        let leaves = order.into_iter().map(|leaf| packed[leaf as usize]);
+        (tree, leaves.collect())
+    }
+
+    /// Makes wide nodes of the cuts of a binary tree over the leaves' boxes, and gives the leaves in the order in which
+    /// nodes name them; `None` if the tree gets too deep.
+    pub(super) fn over_leaves<C: Cut>(
+        binary: &[BinaryNode],
+        boxes: &[Bounds],
+    ) -> Option<(Self, Vec<u32>)> {
+        let bounds = bounds_of(binary, boxes);
+        let cuts = C::new(binary, &bounds);
+        let mut nodes = vec![WideNode::empty()];
+        let mut order = Vec::with_capacity(boxes.len());
+        // (binary node, wide node, level)
+        let mut open = vec![(0_u32, 0_usize, 1_usize)];
+        while let Some((root, place, level)) = open.pop() {
+            if level > MAX_DEPTH {
+                return None;
+            }
+            for (lane, &child) in cuts.children(binary, root).as_slice().iter().enumerate() {
+                let code = if let BinaryNode::Leaf(leaf) = binary[child as usize] {
+                    order.push(leaf);
+                    LEAF | (order.len() - 1) as u32
+                } else {
+                    nodes.push(WideNode::empty());
+                    open.push((child, nodes.len() - 1, level + 1));
+                    (nodes.len() - 1) as u32
+                };
+                nodes[place].set(lane, &bounds[child as usize], code);
+            }
+        }
+        let bounds = bounds[0];
+        Some((Self { nodes, bounds }, order))
+    }
+}
+
+/// Bounds of every binary node, from the boxes themselves: a builder may have worked with others.
+fn bounds_of(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Bounds> {
+    let mut bounds = vec![Bounds::EMPTY; binary.len()];
+    for node in upwards(binary) {
+        bounds[node as usize] = match binary[node as usize] {
+            BinaryNode::Leaf(item) => boxes[item as usize],
+            BinaryNode::Inner(children) => {
+                let [left, right] = children.map(|child| bounds[child as usize]);
+                left.union(right)
+            }
+        };
+    }
+    bounds
+}
+
+/// The nodes of a binary tree, children before their parents.
+pub(super) fn upwards(binary: &[BinaryNode]) -> impl Iterator<Item = u32> + use<> {
+    let mut order = Vec::with_capacity(binary.len());
+    let mut open = vec![0_u32];
+    while let Some(node) = open.pop() {
+        order.push(node);
+        if let BinaryNode::Inner(children) = binary[node as usize] {
+            open.extend(children);
+        }
+    }
+    order.into_iter().rev()
+}
