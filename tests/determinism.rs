@@ -49,12 +49,16 @@ radiance_w_m2_sr_nm = { d65 = 0.05 }
 
 /// A picture of the scene on so many threads, and its file.
 fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
+    rendered_of(SCENE, threads, spp, halt)
+}
+
+fn rendered_of(scene: &str, threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("threads");
     pool.install(|| {
-        let (scene, world) = world_of(SCENE);
+        let (scene, world) = world_of(scene);
         let job = Job {
             width: 40,
             height: 30,
@@ -80,9 +84,38 @@ fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
     }
 }
 
+#[test]
+fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_a_given_one_is_kept() {
+    // One sample: only the trial counts.
+    let first_pass = Halt {
+        noise: None,
+        time: Some(Duration::ZERO),
+    };
+    let (one, bytes) = rendered(1, 600, first_pass);
+    for threads in [2, 3] {
+        let (other, same) = rendered(threads, 600, first_pass);
+        assert_eq!(other.effort, one.effort, "{threads} threads");
+        assert!(bytes == same, "{threads} threads");
+    }
+    let text = SCENE.to_owned() + "[integrator]\nroulette_below = 0.3\nbranches = 7\n";
+    let (_, world) = world_of(&text);
+    let job = Job {
+        width: 40,
+        height: 30,
+        spp: 600,
+        seed: 5,
+    };
+    let go_on = AtomicBool::new(false);
+    let given = render_until(&world, &job, &first_pass, &go_on, &|_| ()).expect("it fits");
+    assert_eq!(
+        (given.effort.roulette_below, given.effort.branches),
+        (0.3, 7)
+    );
+}
+
 /// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators or spectra do; then
 /// the test prints the new one, and the commit says why.
-const LIGHT: u64 = 0x40e9_3c59_beaa_13a2;
+const LIGHT: u64 = 0xa51d_3107_37c7_07a5;
 
 #[test]
 fn every_level_of_instructions_gives_the_same_committed_light() {
@@ -160,13 +193,14 @@ fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
             noise,
             time: Some(Duration::from_millis(300)),
         };
-        let (stopped, bytes) = rendered(2, 1 << 20, halt);
+        let text = SCENE.to_owned() + "[integrator]\nroulette_below = 0.1\nbranches = 2\n";
+        let (stopped, bytes) = rendered_of(&text, 2, 1 << 20, halt);
         // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done for 0.2 at once.
         let [_, most] = stopped.film.drawn_range();
         if noise.is_none() {
             assert_eq!(stopped.ended, Ended::Time);
         }
-        let (_, again) = rendered(1, most, Halt { noise, time: None });
+        let (_, again) = rendered_of(&text, 1, most, Halt { noise, time: None });
         assert!(bytes == again, "{most} samples, noise {noise:?}");
     }
 }

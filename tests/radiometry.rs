@@ -179,6 +179,39 @@ fn roulette_leaves_the_mean_as_it_is() {
 }
 
 #[test]
+fn branches_leave_the_mean_as_it_is() {
+    // All is lossless under a sky of 1, so whatever way light takes between ball and floor, 1 arrives.
+    let blocks = "
+[materials.white.diffuse]
+reflectance = 1
+[meshes.floor.rectangle]
+width_m = 1
+height_m = 1
+[meshes.ball.sphere]
+radius_m = 0.05
+segments = 64
+[objects.floor]
+mesh = \"floor\"
+material = \"white\"
+[objects.ball]
+mesh = \"ball\"
+material = \"white\"
+position_m = [0, 0, 0.05]
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+";
+    let camera = "position_m = [0, -0.5, 0.1]\nlook_at_m = [0, 0, 0.03]\nvertical_fov_deg = 12";
+    for integrator in [
+        "branches = 1\nroulette_below = 1",
+        "branches = 2\nroulette_below = 0.9",
+        "branches = 5\nroulette_below = 0.7",
+    ] {
+        let text = scene(camera, integrator, blocks);
+        assert_agrees(integrator, mean_and_error(&text, 0, 8), 1.0);
+    }
+}
+
+#[test]
 fn a_lossless_leaf_in_a_white_furnace_cannot_be_seen() {
     for alpha in [0.1, 0.3, 0.8] {
         let blocks = format!(

@@ -1,6 +1,7 @@
 //! Following light: one path, and all the paths of a picture.
 
 pub mod develop;
+pub mod effort;
 pub mod features;
 pub mod mis;
 pub mod noise;

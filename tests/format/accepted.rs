@@ -51,7 +51,7 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
     );
     assert_eq!(
         (scene.integrator.max_depth, scene.integrator.roulette_below),
-        (None, 0.1)
+        (None, None)
     );
     assert_eq!((scene.camera.up, scene.camera.lens_radius), (DVec3::Z, 0.0));
     assert_near(scene.camera.focus_distance, 1.25_f64.sqrt());
@@ -73,8 +73,9 @@ fn film_and_camera_are_in_si_units() {
     assert_near(scene.camera.focus_distance, 2.0);
     assert_eq!(
         (scene.integrator.max_depth, scene.integrator.roulette_below),
-        (Some(12), 0.0)
+        (Some(12), Some(0.0))
     );
+    assert_eq!(scene.integrator.branches, Some(3));
 }
 
 #[test]

@@ -160,6 +160,8 @@ fn report(
         "noise": rendered.noise.and_then(|noise| noise.reached),
         "ended": ended(rendered.ended),
         "rays": rendered.rays,
+        "roulette_below": rendered.effort.roulette_below,
+        "branches": rendered.effort.branches,
         "paths": film.drawn(),
         "mrays_per_s": times.millions_per_second(rendered.rays),
         "mpaths_per_s": times.millions_per_second(film.drawn()),

@@ -6,6 +6,7 @@ use crate::bsdf::{Scattered, View};
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::effort::Effort;
 use crate::integrator::mis;
 use crate::light::selection::Choice;
 use crate::light::{Light, Receiver};
@@ -45,15 +46,41 @@ pub struct FirstHit<const N: usize> {
     pub object: u32,
 }
 
+/// A path through a place in a pixel that the stream draws, and its wavelengths.
+pub fn of_pixel<const N: usize>(
+    world: &World,
+    effort: Effort,
+    x: u32,
+    y: u32,
+    stream: &mut Stream,
+) -> (Wavelengths<N>, PathResult<N>) {
+    // Place and lens are stratified together, since blur is in both; without a lens one set does.
+    let [film_x, film_y, third, lens_y] = stream.next4();
+    let wavelength = if world.camera.has_lens() {
+        stream.next4()[0]
+    } else {
+        third
+    };
+    let lens_x = third;
+    let wavelengths = world.wavelengths.draw::<N>(wavelength);
+    let offset = world.filter.sample(Vec2::new(film_x, film_y));
+    let place = Vec2::new(x as f32, y as f32) + offset;
+    let ray = world.camera.ray(place, Vec2::new(lens_x, lens_y));
+    let found = trace(world, effort, ray, &wavelengths, stream);
+    (wavelengths, found)
+}
+
 /// Radiance that arrives along `ray`, whose direction is a unit vector.
 ///
 /// At every vertex each sun and one other light are sampled and weighed against the bounce by the power heuristic. Roulette
-/// is played below the scene's threshold only and leaves the mean as it is; its survival probability is the throughput
-/// over that threshold.
+/// is played below the effort's threshold only and leaves the mean as it is; its survival probability is the throughput
+/// over that threshold. Where none of the lights that are sampled reaches the first vertex, what light there is comes by the
+/// bounce: there several paths go on, as many as the effort says.
 pub fn trace<const N: usize>(
     world: &World,
-    mut ray: Ray,
-    wavelengths: Wavelengths<N>,
+    effort: Effort,
+    ray: Ray,
+    wavelengths: &Wavelengths<N>,
     stream: &mut Stream,
 ) -> PathResult<N> {
     let mut result = PathResult {
@@ -61,98 +88,125 @@ pub fn trace<const N: usize>(
         first: None,
         rays: 0,
     };
-    let mut throughput = Lanes::<N>::ONE;
-    let mut bounce = Bounce {
-        pdf: f32::INFINITY,
-        from: Receiver {
-            position: ray.origin,
-            normal: ray.direction,
+    let from_camera = Leg {
+        throughput: Lanes::ONE,
+        bounce: Bounce {
+            pdf: f32::INFINITY,
+            from: Receiver {
+                position: ray.origin,
+                normal: ray.direction,
+            },
         },
+        ray,
     };
-    for depth in 0_u32.. {
-        result.rays += 1;
-        let Some(hit) = world.geometry.intersect(&ray) else {
-            result.radiance +=
-                throughput * from_infinity(world, ray.direction, &bounce, &wavelengths);
-            break;
-        };
-        let surface = world.geometry.surface(&ray, &hit);
-        if let Some(number) = world.objects[surface.instance as usize].light {
-            let found = emission(world, number, &ray, &surface, &bounce, &wavelengths);
-            result.radiance += throughput * found;
-        }
-        let bsdf = world
-            .material_of(surface.instance)
-            .bsdf(surface.uv, &wavelengths);
-        let frame = Frame::new(surface.shading_normal, surface.tangent);
-        let wo = frame.to_local(-ray.direction);
-        if depth == 0 {
-            let facing = if wo.z < 0.0 {
-                -surface.shading_normal
-            } else {
-                surface.shading_normal
+    let paths = Paths {
+        world,
+        effort,
+        wavelengths,
+    };
+    paths.follow(from_camera, 0, stream, &mut result);
+    result
+}
+
+/// A ray of a path and how it came to be.
+struct Leg<const N: usize> {
+    ray: Ray,
+    /// What radiance along the ray is multiplied by on its way to the camera.
+    throughput: Lanes<N>,
+    bounce: Bounce,
+}
+
+/// What all legs of a path share.
+struct Paths<'a, const N: usize> {
+    world: &'a World,
+    effort: Effort,
+    wavelengths: &'a Wavelengths<N>,
+}
+
+impl<const N: usize> Paths<'_, N> {
+    /// Adds what a path finds from a leg on, whose ray leaves vertex number `depth`, the camera being 0.
+    fn follow(&self, mut leg: Leg<N>, from: u32, stream: &mut Stream, result: &mut PathResult<N>) {
+        let (world, wavelengths) = (self.world, self.wavelengths);
+        for depth in from.. {
+            result.rays += 1;
+            let Leg {
+                ray,
+                throughput,
+                bounce,
+            } = &leg;
+            let Some(hit) = world.geometry.intersect(ray) else {
+                result.radiance +=
+                    *throughput * from_infinity(world, ray.direction, bounce, wavelengths);
+                return;
             };
-            result.first = Some(FirstHit {
-                distance: (surface.position - ray.origin).length(),
-                position: surface.position,
-                normal: facing,
-                albedo: bsdf.albedo(),
-                object: world.objects[surface.instance as usize].object as u32,
-            });
-        }
-        if world.integrator.max_depth.is_some_and(|most| depth >= most) {
-            break;
-        }
-        let Some(view) = bsdf.seen_from(wo) else {
-            break;
-        };
-        stream.seek(CAMERA_SETS + depth * VERTEX_SETS);
-        let [lobe, bounce_x, bounce_y, roulette] = stream.next4();
-        let receiver = Receiver {
-            position: surface.position,
-            normal: surface.shading_normal,
-        };
-        if !bsdf.is_specular() {
+            let surface = world.geometry.surface(ray, &hit);
+            if let Some(number) = world.objects[surface.instance as usize].light {
+                let found = emission(world, number, ray, &surface, bounce, wavelengths);
+                result.radiance += *throughput * found;
+            }
+            let bsdf = world
+                .material_of(surface.instance)
+                .bsdf(surface.uv, wavelengths);
+            let frame = Frame::new(surface.shading_normal, surface.tangent);
+            let wo = frame.to_local(-ray.direction);
+            if depth == 0 {
+                let facing = if wo.z < 0.0 {
+                    -surface.shading_normal
+                } else {
+                    surface.shading_normal
+                };
+                result.first = Some(FirstHit {
+                    distance: (surface.position - ray.origin).length(),
+                    position: surface.position,
+                    normal: facing,
+                    albedo: bsdf.albedo(),
+                    object: world.objects[surface.instance as usize].object as u32,
+                });
+            }
+            if world.integrator.max_depth.is_some_and(|most| depth >= most) {
+                return;
+            }
+            let Some(view) = bsdf.seen_from(wo) else {
+                return;
+            };
+            let set = CAMERA_SETS + depth * VERTEX_SETS;
+            stream.seek(set);
+            let numbers = stream.next4();
             let vertex = Vertex {
                 surface: &surface,
                 frame: &frame,
                 view: &view,
-                receiver,
-                throughput,
+                receiver: Receiver {
+                    position: surface.position,
+                    normal: surface.shading_normal,
+                },
+                throughput: *throughput,
                 gathered: result.radiance,
             };
-            let (light, rays) =
-                sampled_light(world, &vertex, &wavelengths, [bounce_x, bounce_y], stream);
-            result.radiance += light;
-            result.rays += rays;
-        }
-        let Some(sample) = view.sample(lobe, Vec2::new(bounce_x, bounce_y)) else {
-            break;
-        };
-        throughput *= sample.weight;
-        let brightest = throughput.max_lane();
-        if brightest <= 0.0 {
-            break;
-        }
-        let threshold = world.integrator.roulette_below as f32;
-        if brightest < threshold {
-            let survival = brightest / threshold;
-            if roulette >= survival {
-                break;
+            let specular = bsdf.is_specular();
+            if !specular {
+                let [_, x, y, _] = numbers;
+                let (light, rays) = sampled_light(world, &vertex, wavelengths, [x, y], stream);
+                result.radiance += light;
+                result.rays += rays;
             }
-            throughput *= 1.0 / survival;
+            if depth == 0 && self.effort.branches > 1 && !specular && result.radiance.is_zero() {
+                for number in 0..self.effort.branches {
+                    let mut stream = stream.branch(number);
+                    stream.seek(set);
+                    let share = 1.0 / self.effort.branches as f32;
+                    if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
+                        self.follow(leg, 1, &mut stream, result);
+                    }
+                }
+                return;
+            }
+            let Some(next) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) else {
+                return;
+            };
+            leg = next;
         }
-        bounce = Bounce {
-            pdf: if sample.specular {
-                f32::INFINITY
-            } else {
-                sample.pdf
-            },
-            from: receiver,
-        };
-        ray = surface.spawn(frame.to_world(sample.wi));
     }
-    result
 }
 
 /// How a ray came to be.
@@ -173,6 +227,39 @@ struct Vertex<'a, const N: usize> {
     throughput: Lanes<N>,
     /// Radiance that the path found before.
     gathered: Lanes<N>,
+}
+
+impl<const N: usize> Vertex<'_, N> {
+    /// The leg that leaves by a random bounce with a share of the throughput, unless roulette below a threshold ends the path.
+    fn bounce(&self, numbers: [f32; 4], share: f32, roulette_below: f32) -> Option<Leg<N>> {
+        let [lobe, x, y, roulette] = numbers;
+        let sample = self.view.sample(lobe, Vec2::new(x, y))?;
+        let mut throughput = self.throughput * sample.weight * share;
+        let brightest = throughput.max_lane();
+        if brightest <= 0.0 {
+            return None;
+        }
+        if brightest < roulette_below {
+            let survival = brightest / roulette_below;
+            if roulette >= survival {
+                return None;
+            }
+            throughput *= 1.0 / survival;
+        }
+        let pdf = if sample.specular {
+            f32::INFINITY
+        } else {
+            sample.pdf
+        };
+        Some(Leg {
+            ray: self.surface.spawn(self.frame.to_world(sample.wi)),
+            throughput,
+            bounce: Bounce {
+                pdf,
+                from: self.receiver,
+            },
+        })
+    }
 }
 
 /// What the lights that are sampled at a vertex send on to the camera; also the number of rays it took.

@@ -3,9 +3,8 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use glam::Vec2;
-
 use crate::film::{Film, FilmError, PixelSums};
+use crate::integrator::effort::{self, Effort};
 use crate::integrator::features::{self, Layout, MOST_CHANNELS};
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::path;
@@ -56,7 +55,9 @@ pub struct Rendered {
     pub film: Film,
     /// What its channels are.
     pub layout: Layout,
-    /// Rays traced, shadow rays included.
+    /// How much work paths took on.
+    pub effort: Effort,
+    /// Rays traced, shadow rays included, without those of the trial that chose the effort.
     pub rays: u64,
     /// Why no more was rendered.
     pub ended: Ended,
@@ -103,7 +104,7 @@ pub fn render(
 ///
 /// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet begun in this pass are left
 /// as they are, and what was rendered is returned. A render that ends by time has the bits of one whose job has as many
-/// samples as the pixels with most.
+/// samples as the pixels with most, and whose scene names the effort that was chosen here.
 ///
 /// # Errors
 ///
@@ -121,11 +122,13 @@ pub fn render_until(
     let mut watch = halt
         .noise
         .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.albedo));
+    let effort = effort::choose(world, job, layout, stop);
     let pass = PassOfPaths {
         world,
         job,
         layout,
         white: features::white(&world.wavelengths),
+        effort,
         stop,
         progress,
         rays: AtomicU64::new(0),
@@ -175,6 +178,7 @@ pub fn render_until(
         }),
         film,
         layout,
+        effort,
         rays: pass.rays.into_inner(),
         ended,
     })
@@ -201,6 +205,7 @@ struct PassOfPaths<'a> {
     job: &'a Job,
     layout: Layout,
     white: Spectrum,
+    effort: Effort,
     stop: &'a AtomicBool,
     progress: &'a (dyn Fn(Progress) + Sync),
     rays: AtomicU64,
@@ -234,6 +239,7 @@ impl PassOfPaths<'_> {
                     job: self.job,
                     layout: self.layout,
                     white: &self.white,
+                    effort: self.effort,
                     x,
                     y,
                 };
@@ -260,6 +266,7 @@ struct Samples<'a> {
     job: &'a Job,
     layout: Layout,
     white: &'a Spectrum,
+    effort: Effort,
     x: u32,
     y: u32,
 }
@@ -272,19 +279,8 @@ impl Samples<'_> {
         let values = &mut values[..self.layout.beauty];
         for sample in first..end {
             let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
-            // Place and lens are stratified together, since blur is in both; without a lens one set does.
-            let [film_x, film_y, third, lens_y] = stream.next4();
-            let wavelength = if self.world.camera.has_lens() {
-                stream.next4()[0]
-            } else {
-                third
-            };
-            let lens_x = third;
-            let wavelengths = self.world.wavelengths.draw::<N>(wavelength);
-            let offset = self.world.filter.sample(Vec2::new(film_x, film_y));
-            let place = Vec2::new(self.x as f32, self.y as f32) + offset;
-            let ray = self.world.camera.ray(place, Vec2::new(lens_x, lens_y));
-            let found = path::trace(self.world, ray, wavelengths, &mut stream);
+            let (wavelengths, found) =
+                path::of_pixel::<N>(self.world, self.effort, self.x, self.y, &mut stream);
             rays += u64::from(found.rays);
             let sampler = &self.world.wavelengths;
             sampler.film_values(&wavelengths, &found.radiance, values);

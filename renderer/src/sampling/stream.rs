@@ -38,6 +38,18 @@ impl Stream {
         sobol_burley::sample_4d(self.index, 0, seed)
     }
 
+    /// The stream of a path that goes on beside others from one vertex: the same as this one for the first, number 0, else with
+    /// sets of its own.
+    #[must_use]
+    pub fn branch(&self, number: u32) -> Self {
+        let pixel = if number == 0 {
+            self.pixel
+        } else {
+            mix(self.pixel ^ number.wrapping_mul(0xc2b2_ae35))
+        };
+        Self { pixel, ..*self }
+    }
+
     /// Goes to set number `set`, so that what one event leaves unused does not shift the next one's numbers.
     pub fn seek(&mut self, set: u32) {
         self.set = set;

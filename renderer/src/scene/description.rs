@@ -156,8 +156,10 @@ pub struct Camera {
 pub struct Integrator {
     /// Most scattering events of a path; `None` is no limit.
     pub max_depth: Option<u32>,
-    /// Russian roulette starts below this throughput; 0 switches it off.
-    pub roulette_below: f64,
+    /// Russian roulette starts below this throughput; 0 switches it off, `None` leaves it to a trial.
+    pub roulette_below: Option<f64>,
+    /// Paths that go on from the first vertex where no sampled light reaches it; `None` leaves it to a trial.
+    pub branches: Option<u32>,
 }
 
 /// What a surface is made of.

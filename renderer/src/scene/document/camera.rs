@@ -61,19 +61,20 @@ pub(crate) fn read_camera(parent: &Block<'_>) -> Option<Camera> {
 
 /// Reads `[integrator]`, which may be left out.
 pub(crate) fn read_integrator(parent: &Block<'_>) -> Integrator {
-    const ROULETTE_BELOW: f64 = 0.1;
     let Some(block) = parent.optional_block("integrator") else {
         return Integrator {
             max_depth: None,
-            roulette_below: ROULETTE_BELOW,
+            roulette_below: None,
+            branches: None,
         };
     };
     let max_depth = block.optional_integer("max_depth", 1, 100_000);
-    let roulette_below =
-        block.number_or("roulette_below", Limits::closed(0.0, 1.0), ROULETTE_BELOW);
+    let roulette_below = block.optional_number("roulette_below", Limits::closed(0.0, 1.0));
+    let branches = block.optional_integer("branches", 1, 64);
     block.finish();
     Integrator {
         max_depth: max_depth.map(|depth| depth as u32),
         roulette_below,
+        branches: branches.map(|branches| branches as u32),
     }
 }
