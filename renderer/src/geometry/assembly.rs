@@ -11,7 +11,7 @@ use super::ray::Ray;
 use super::surface::SurfacePoint;
 use super::triangle::TriangleBlock;
 use super::wide_tree::{LeafItems, WideTree};
-use crate::simd::Level;
+use crate::simd::{LANES, Level};
 use search::{AnyHit, NearestHit, Search};
 
 mod search;
@@ -40,6 +40,8 @@ pub struct Hit {
     pub b1: f32,
     /// Weight of the triangle's third vertex.
     pub b2: f32,
+    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the cache there.
+    place: u32,
 }
 
 /// Why meshes and instances were refused.
@@ -317,7 +319,9 @@ impl Geometry {
     pub fn surface(&self, _ray: &Ray, hit: &Hit) -> SurfacePoint {
         let placement = &self.placements[hit.instance as usize];
         let mesh = &self.meshes[placement.instance.mesh as usize];
-        SurfacePoint::at(hit, &mesh.mesh, mesh.center, placement)
+        let block = &mesh.blocks[hit.place as usize / LANES];
+        let corners = block.corners(hit.place as usize % LANES);
+        SurfacePoint::at(hit, corners, &mesh.mesh, placement)
     }
 
     /// Smallest and largest coordinates of all instances' boxes, m; twice the origin if there are none.

@@ -63,17 +63,18 @@ impl SurfacePoint {
         self.position + self.geometric_normal * (side * self.position_error)
     }
 
-    /// The surface at a hit. `center` is the origin of the frame in which the placement's mesh is traced.
-    pub(super) fn at(hit: &Hit, mesh: &TriangleMesh, center: Vec3, placement: &Placement) -> Self {
+    /// The surface at a hit of a triangle with these corners, in the frame in which the placement's mesh is traced.
+    pub(super) fn at(
+        hit: &Hit,
+        corners: [Vec3; 3],
+        mesh: &TriangleMesh,
+        placement: &Placement,
+    ) -> Self {
         let weights = {
             let (b1, b2) = (f64::from(hit.b1), f64::from(hit.b2));
             [1.0 - b1 - b2, b1, b2]
         };
-        let vertices = mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
-        let corners = mesh
-            .corners(hit.triangle)
-            .map(|corner| corner.as_dvec3() - center.as_dvec3());
-        let [a, b, c] = corners;
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
         let local = a * weights[0] + b * weights[1] + c * weights[2];
         let world = placement.linear * local + placement.offset;
 
@@ -103,8 +104,9 @@ impl SurfacePoint {
         let weights = weights.map(|weight| weight as f32);
         let geometric = geometric.as_vec3();
         let mut normal = geometric;
+        let vertices = || mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
         if let Some(normals) = mesh.normals() {
-            let [na, nb, nc] = vertices.map(|vertex| normals[vertex]);
+            let [na, nb, nc] = vertices().map(|vertex| normals[vertex]);
             let interpolated = na * weights[0] + nb * weights[1] + nc * weights[2];
             if let Some(unit) = (placement.normals_f32 * interpolated).try_normalize() {
                 // The winding says which side is which; normals given for the other side mean the same surface.
@@ -119,7 +121,7 @@ impl SurfacePoint {
         let mut uv = Vec2::new(weights[1], weights[2]);
         let mut tangent = None;
         if let Some(uvs) = mesh.uvs() {
-            let uvs = vertices.map(|vertex| uvs[vertex]);
+            let uvs = vertices().map(|vertex| uvs[vertex]);
             uv = uvs[0] * weights[0] + uvs[1] * weights[1] + uvs[2] * weights[2];
             let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
             tangent = along_v(edges, uvs, &placement.linear_f32, normal);

@@ -127,6 +127,11 @@ impl TriangleBlock {
         self.ids[lane]
     }
 
+    /// Corners of the triangle in a lane.
+    pub(super) fn corners(&self, lane: usize) -> [Vec3; 3] {
+        [0, 1, 2].map(|vertex| Vec3::from_array(self.corner(vertex, lane)))
+    }
+
     fn corner(&self, vertex: usize, lane: usize) -> [f32; 3] {
         self.vertices[vertex].each_ref().map(|axis| axis.0[lane])
     }

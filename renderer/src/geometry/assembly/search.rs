@@ -12,7 +12,7 @@ use super::super::slab::SlabRay;
 use super::super::triangle::ShearRay;
 use super::super::wide_tree::Visitor;
 use super::{Carrier, Geometry, Hit, TracedMesh};
-use crate::simd::{Eight, Task};
+use crate::simd::{Eight, LANES, Task};
 
 /// What is looked for.
 pub(super) trait Found: Default {
@@ -237,6 +237,7 @@ impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
                     triangle: block.id(lane),
                     b1: hit.b1,
                     b2: hit.b2,
+                    place: leaf * LANES as u32 + lane as u32,
                 };
                 limit = self.found.hit(hit, limit);
             }

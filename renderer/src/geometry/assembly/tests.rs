@@ -27,7 +27,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
         let (origin, direction) = placement.carrier.carry(ray);
         let slab = SlabRay::new(origin, direction, ray.t_min, mesh.tree.bounds());
         let shear = ShearRay::new(origin, direction, ray.t_min);
-        for block in &mesh.blocks {
+        for (number, block) in (0..).zip(&mesh.blocks) {
             for lane in 0..8 {
                 if let Some(hit) = block.hit(lane, &shear, &slab) {
                     let (t, triangle) = (hit.t.max(enter), block.id(lane));
@@ -38,6 +38,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
                             triangle,
                             b1: hit.b1,
                             b2: hit.b2,
+                            place: number * 8 + lane as u32,
                         });
                     }
                 }
