@@ -1,5 +1,11 @@
 //! Owen-scrambled Sobol points, padded four dimensions at a time.
 
+use std::sync::LazyLock;
+
+use sobol_burley::parts::{
+    Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev,
+};
+
 /// The random numbers of one sample of one pixel.
 ///
 /// Each call takes the next four dimensions: a Sobol set of its own scramble, well spread over the samples of the
@@ -35,7 +41,7 @@ impl Stream {
     pub fn next4(&mut self) -> [f32; 4] {
         let seed = mix(self.pixel ^ self.set.wrapping_mul(0x85eb_ca6b));
         self.set += 1;
-        sobol_burley::sample_4d(self.index, 0, seed)
+        four(self.index, seed)
     }
 
     /// The stream of a path that goes on beside others from one vertex: the same as this one for the first, number 0, else with
@@ -54,6 +60,26 @@ impl Stream {
     pub fn seek(&mut self, set: u32) {
         self.set = set;
     }
+}
+
+/// Sobol's first four dimensions, bits reversed, of indices that have bits in their first or in their second byte alone.
+static SOBOL: LazyLock<[[[u32; 4]; 256]; 2]> = LazyLock::new(|| {
+    let of = |byte: u32, shift: u32| sobol_int4_rev(byte << shift, 0).into();
+    [24, 16].map(|shift| std::array::from_fn(|byte| of(byte as u32, shift)))
+});
+
+/// The numbers of `sobol_burley::sample_4d(index, 0, seed)`, whose loop over the bits of the index is replaced by two
+/// look-ups: a Sobol point is linear in them.
+fn four(index: u32, seed: u32) -> [f32; 4] {
+    let shuffled = owen_scramble_rev(index.reverse_bits(), hash(seed ^ 0x79c6_8e4a));
+    let [first, second] = &*SOBOL;
+    let [high, low, ..] = shuffled.to_be_bytes();
+    let point = Int4::from(first[usize::from(high)]) ^ Int4::from(second[usize::from(low)]);
+    let scrambles = Int4::from([0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8])
+        ^ Int4::from([seed.wrapping_mul(0x9c8f_2d3b); 4]);
+    owen_scramble_int4_rev(point, hash_int4(scrambles))
+        .reverse_bits()
+        .to_f32_norm()
 }
 
 /// A bijective 32-bit mixer with good avalanche (constants of Wellons' hash prospector, "lowbias32").
@@ -90,6 +116,18 @@ mod tests {
             Stream::new(7, 3, 4, 5 + 65_536).next4(),
             Stream::new(7, 3, 4, 5).next4()
         );
+    }
+
+    #[test]
+    fn points_are_those_of_the_library() {
+        for index in (0..1 << PERIOD_BITS).step_by(7) {
+            let seed = mix(index);
+            assert_eq!(
+                four(index, seed),
+                sobol_burley::sample_4d(index, 0, seed),
+                "point {index}, seed {seed}"
+            );
+        }
     }
 
     #[test]
