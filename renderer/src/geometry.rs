@@ -15,6 +15,7 @@ mod bounds;
 mod bvh;
 mod hilbert;
 mod median;
+mod memory;
 mod scramble;
 mod slab;
 mod triangle;

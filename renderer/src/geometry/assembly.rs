@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::bounds::Bounds;
 use super::instance::Instance;
+use super::memory;
 use super::mesh::TriangleMesh;
 use super::ray::Ray;
 use super::surface::SurfacePoint;
@@ -223,10 +224,11 @@ impl TracedMesh {
             .map(|triangle| Bounds::around(corners(triangle)))
             .collect();
         let (tree, leaves) = WideTree::build(&boxes, 8);
-        let blocks = leaves
+        let mut blocks = memory::room_for(leaves.len());
+        leaves
             .par_iter()
             .map(|leaf| TriangleBlock::new(leaf.as_slice().iter().map(|&id| (id, corners(id)))))
-            .collect();
+            .collect_into_vec(&mut blocks);
         Self {
             hull: tree.hull(HULL_BOXES),
             mesh,

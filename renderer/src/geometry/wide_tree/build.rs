@@ -2,7 +2,7 @@
 //! nodes of eight.
 
 use super::super::bounds::Bounds;
-use super::super::{bvh, median};
+use super::super::{bvh, median, memory};
 use super::cut::{Cheapest, Cut, ThreeLevels};
 use super::pack;
 use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
@@ -69,8 +69,12 @@ impl WideTree {
                 nodes[place].set(lane, &bounds[child as usize], code);
             }
         }
-        let bounds = bounds[0];
-        Some((Self { nodes, bounds }, order))
+        let mut tree = Self {
+            nodes: memory::room_for(nodes.len()),
+            bounds: bounds[0],
+        };
+        tree.nodes.append(&mut nodes);
+        Some((tree, order))
     }
 }
 

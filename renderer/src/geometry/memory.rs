@@ -1,0 +1,48 @@
+//! Memory for large arrays that are read here and there.
+#![cfg_attr(
+    target_os = "linux",
+    allow(unsafe_code, reason = "a hint to the kernel about memory of our own")
+)]
+
+/// An empty vector with room for so many values, in pages of 2 MiB where the system gives such: with small ones each
+/// look into a large tree also looks for where its page lies.
+pub(super) fn room_for<T>(count: usize) -> Vec<T> {
+    let room = Vec::with_capacity(count);
+    ask_for_huge_pages(&room);
+    room
+}
+
+/// Bytes of a huge page.
+#[cfg(target_os = "linux")]
+const HUGE_PAGE: usize = 1 << 21;
+
+#[cfg(target_os = "linux")]
+fn ask_for_huge_pages<T>(room: &Vec<T>) {
+    let start = (room.as_ptr() as usize).next_multiple_of(HUGE_PAGE);
+    let end = room.as_ptr() as usize + room.capacity() * size_of::<T>();
+    if let Some(bytes) = end.checked_sub(start).filter(|&bytes| bytes >= HUGE_PAGE) {
+        // SAFETY: the range lies within the vector's memory, and the advice changes neither what is in it nor whose it
+        // is. A refusal is of no consequence.
+        unsafe {
+            libc::madvise(start as *mut libc::c_void, bytes, libc::MADV_HUGEPAGE);
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn ask_for_huge_pages<T>(_: &Vec<T>) {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_is_room_and_it_holds_what_is_put_in() {
+        for count in [0, 1, 1000, 3_000_000] {
+            let mut room: Vec<u32> = room_for(count as usize);
+            assert!(room.is_empty() && room.capacity() >= count as usize);
+            room.extend(0..count);
+            assert!(room.iter().copied().eq(0..count));
+        }
+    }
+}
