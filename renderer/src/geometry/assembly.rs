@@ -76,8 +76,8 @@ pub enum GeometryError {
     },
 }
 
-/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the boxes have 0.8 of the area with
-/// 8, 0.63 with 64 and 0.6 with 128, and fewer of them are entered in vain.
+/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the boxes have 0.81 of the area with
+/// 8 and 0.63 with 64, and fewer of them are entered in vain; with 256 rays are no more than 3 % faster than with 64.
 const HULL_BOXES: usize = 128;
 
 /// Instances and tree nodes share 32 bits.

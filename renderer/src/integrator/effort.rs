@@ -48,7 +48,7 @@ const SHARE: u64 = 32;
 /// Pixels of a trial; fewer cannot tell the candidates apart, more are not needed.
 const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
 
-/// Work of a path beside its rays (camera, film), in rays: measured on one leaf close up.
+/// Work of a path beside its rays (camera, film), in rays: an estimate, not measured.
 const WORK_OF_A_PATH: f64 = 1.0;
 
 const fn effort(roulette_below: f32, branches: u32) -> Effort {

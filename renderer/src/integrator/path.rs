@@ -124,7 +124,7 @@ struct Paths<'a, const N: usize> {
 }
 
 impl<const N: usize> Paths<'_, N> {
-    /// Adds what a path finds from a leg on, whose ray leaves vertex number `depth`, the camera being 0.
+    /// Adds what a path finds from a leg on, whose ray was scattered `from` times before.
     fn follow(&self, mut leg: Leg<N>, from: u32, stream: &mut Stream, result: &mut PathResult<N>) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from.. {
