@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use renderer::image::openexr;
 use renderer::integrator::develop::develop;
+use renderer::integrator::effort::Effort;
 use renderer::integrator::render::{Ended, Halt, Job, Rendered, render_until};
 use renderer::simd::Level;
 use support::picture::world_of;
@@ -97,7 +98,8 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_a_given_one_is_kep
         assert_eq!(other.effort, one.effort, "{threads} threads");
         assert!(bytes == same, "{threads} threads");
     }
-    let text = SCENE.to_owned() + "[integrator]\nroulette_below = 0.3\nbranches = 7\n";
+    let text =
+        SCENE.to_owned() + "[integrator]\nroulette_below = 0.3\nbranches = 7\nlight_samples = 3\n";
     let (_, world) = world_of(&text);
     let job = Job {
         width: 40,
@@ -107,15 +109,17 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_a_given_one_is_kep
     };
     let go_on = AtomicBool::new(false);
     let given = render_until(&world, &job, &first_pass, &go_on, &|_| ()).expect("it fits");
-    assert_eq!(
-        (given.effort.roulette_below, given.effort.branches),
-        (0.3, 7)
-    );
+    let Effort {
+        roulette_below,
+        branches,
+        light_samples,
+    } = given.effort;
+    assert_eq!((roulette_below, branches, light_samples), (0.3, 7, 3));
 }
 
 /// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators or spectra do; then
 /// the test prints the new one, and the commit says why.
-const LIGHT: u64 = 0xa51d_3107_37c7_07a5;
+const LIGHT: u64 = 0x81ee_3da7_22bd_69ac;
 
 #[test]
 fn every_level_of_instructions_gives_the_same_committed_light() {
@@ -193,7 +197,8 @@ fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
             noise,
             time: Some(Duration::from_millis(300)),
         };
-        let text = SCENE.to_owned() + "[integrator]\nroulette_below = 0.1\nbranches = 2\n";
+        let text = SCENE.to_owned()
+            + "[integrator]\nroulette_below = 0.1\nbranches = 2\nlight_samples = 2\n";
         let (stopped, bytes) = rendered_of(&text, 2, 1 << 20, halt);
         // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done for 0.2 at once.
         let [_, most] = stopped.film.drawn_range();

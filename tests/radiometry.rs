@@ -106,13 +106,16 @@ radiance_w_m2_sr_nm = 3
 "
     );
     let camera = "position_m = [0.6, 0, 0.1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 0.2";
-    let text = scene(camera, "", &blocks);
     // Four quarters of a rectangle above the corner of each (Howell's catalogue, differential element to parallel rectangle).
     let a = 0.5 / 0.5_f64;
     let root = (1.0 + a * a).sqrt();
     let quarter = 1.0 / (2.0 * PI) * 2.0 * (a / root) * (a / root).atan();
     let irradiance = PI * 3.0 * 4.0 * quarter;
-    assert_agrees("lamp", mean_and_error(&text, 0, 16), 0.25 / PI * irradiance);
+    for samples in ["light_samples = 1", "light_samples = 5"] {
+        let text = scene(camera, samples, &blocks);
+        let found = mean_and_error(&text, 0, 16);
+        assert_agrees(samples, found, 0.25 / PI * irradiance);
+    }
 }
 
 #[test]

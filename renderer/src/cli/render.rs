@@ -162,6 +162,7 @@ fn report(
         "rays": rendered.rays,
         "roulette_below": rendered.effort.roulette_below,
         "branches": rendered.effort.branches,
+        "light_samples": rendered.effort.light_samples,
         "paths": film.drawn(),
         "mrays_per_s": times.millions_per_second(rendered.rays),
         "mpaths_per_s": times.millions_per_second(film.drawn()),

@@ -1,8 +1,9 @@
-//! How much work goes into what comes after a path's first vertex, chosen by measurement.
+//! How much work goes into a path's first vertex and what comes after it, chosen by measurement.
 //!
 //! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is most of the noise, under a
-//! lamp among ten thousand leaves it is next to none of it, and most of the time. So a few candidates are tried on a
-//! sample of the pixels, before the picture and apart from it, and the one with the least error × work is taken.
+//! lamp among ten thousand leaves it is next to none of it, and most of the time; there the shadows are most of the noise. So a
+//! few candidates are tried on a sample of the pixels, before the picture and apart from it, and the one with the least
+//! error × work is taken: first of the numbers of light samples, then, with that number, of the rest.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -14,27 +15,29 @@ use crate::integrator::render::Job;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 
-/// What a path does after its first vertex.
+/// What a path does at its first vertex and after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Throughput below which roulette is played; 0 switches it off.
     pub roulette_below: f32,
     /// Paths that go on from the first vertex where no sampled light reached it, ≥ 1.
     pub branches: u32,
+    /// Light samples at the first vertex, apart from those of suns, ≥ 1.
+    pub light_samples: u32,
 }
 
-/// What is tried, from the most work to the least.
-const CANDIDATES: [Effort; 6] = [
-    effort(0.05, 4),
-    effort(0.1, 3),
-    effort(0.15, 2),
-    effort(0.25, 1),
-    effort(0.5, 1),
-    effort(1.0, 1),
-];
+/// Numbers of light samples that are tried, with the pair of `WITHOUT_TRIAL`.
+const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
+
+/// Thresholds of roulette with numbers of branches that are tried, from the most work to the least.
+const PAIRS: [(f32, u32); 6] = [(0.03, 4), (0.06, 3), (0.1, 2), (0.2, 1), (0.4, 1), (1.0, 1)];
 
 /// For pictures too small to try anything.
-const WITHOUT_TRIAL: Effort = effort(0.1, 2);
+const WITHOUT_TRIAL: Effort = Effort {
+    roulette_below: 0.1,
+    branches: 2,
+    light_samples: 2,
+};
 
 /// Samples that a trial takes of a pixel: enough for their even spread to show.
 const SAMPLES: u32 = 16;
@@ -43,20 +46,13 @@ const SAMPLES: u32 = 16;
 const ESTIMATES: u64 = 2;
 
 /// Trials take one path for so many of the picture.
-const SHARE: u64 = 32;
+const SHARE: u64 = 16;
 
 /// Pixels of a trial; fewer cannot tell the candidates apart, more are not needed.
 const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
 
 /// Work of a path beside its rays (camera, film), in rays: an estimate, not measured.
 const WORK_OF_A_PATH: f64 = 1.0;
-
-const fn effort(roulette_below: f32, branches: u32) -> Effort {
-    Effort {
-        roulette_below,
-        branches,
-    }
-}
 
 /// The effort for a picture: what the scene says, else what a trial finds best. The same for any number of threads.
 pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool) -> Effort {
@@ -67,31 +63,51 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
                 .roulette_below
                 .map_or(candidate.roulette_below, |given| given as f32),
             branches: integrator.branches.unwrap_or(candidate.branches),
+            light_samples: integrator.light_samples.unwrap_or(candidate.light_samples),
         }
     };
-    let mut candidates = CANDIDATES.map(given).to_vec();
-    candidates.dedup();
+    let without_trial = given(WITHOUT_TRIAL);
+    let choices = |candidates: Vec<Effort>| {
+        let mut candidates: Vec<_> = candidates.into_iter().map(given).collect();
+        candidates.dedup();
+        candidates
+    };
+    let by_light_samples = if world.selection.is_empty() {
+        vec![without_trial]
+    } else {
+        let of = |&light_samples| Effort {
+            light_samples,
+            ..WITHOUT_TRIAL
+        };
+        choices(LIGHT_SAMPLES.iter().map(of).collect())
+    };
+    let by_pair = |best: Effort| {
+        let of = |&(roulette_below, branches)| Effort {
+            roulette_below,
+            branches,
+            ..best
+        };
+        choices(PAIRS.iter().map(of).collect())
+    };
+    let tried = by_light_samples.len() + by_pair(without_trial).len();
     let paths = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
-    let of_a_pixel = candidates.len() as u64 * ESTIMATES * u64::from(SAMPLES);
+    let of_a_pixel = tried as u64 * ESTIMATES * u64::from(SAMPLES);
     let pixels = (paths / SHARE / of_a_pixel).min(*PIXELS.end());
-    if candidates.len() == 1 || pixels < *PIXELS.start() {
-        return given(WITHOUT_TRIAL);
+    if pixels < *PIXELS.start() {
+        return without_trial;
     }
     let trial = Trial {
         world,
         job,
         layout,
-        candidates: &candidates,
+        pixels: pixels as u32,
+        stop,
     };
-    let tried: Vec<_> = (0..pixels as u32)
-        .into_par_iter()
-        .map(|number| (!stop.load(Ordering::Relaxed)).then(|| trial.pixel(number)))
-        .collect();
     // Broken off: what is chosen does not matter any more.
-    let Some(tried) = tried.into_iter().collect::<Option<Vec<_>>>() else {
-        return given(WITHOUT_TRIAL);
-    };
-    candidates[least(&costs(&tried, candidates.len()))]
+    trial
+        .best(&by_light_samples)
+        .and_then(|best| trial.best(&by_pair(best)))
+        .unwrap_or(without_trial)
 }
 
 /// What one candidate did in one pixel.
@@ -105,13 +121,28 @@ struct Trial<'a> {
     world: &'a World,
     job: &'a Job,
     layout: Layout,
-    candidates: &'a [Effort],
+    pixels: u32,
+    stop: &'a AtomicBool,
 }
 
 impl Trial<'_> {
+    /// The candidate with the least error × work, of at least one; `None` if the trial was broken off.
+    fn best(&self, candidates: &[Effort]) -> Option<Effort> {
+        if let [only] = candidates {
+            return Some(*only);
+        }
+        let tried: Option<Vec<_>> = (0..self.pixels)
+            .into_par_iter()
+            .map(|number| {
+                (!self.stop.load(Ordering::Relaxed)).then(|| self.pixel(number, candidates))
+            })
+            .collect();
+        Some(candidates[least(&costs(&tried?, candidates.len()))])
+    }
+
     /// What each candidate does in the pixel of a number. All of them draw the same random numbers, so that what they have
     /// in common is not between them.
-    fn pixel(&self, number: u32) -> Vec<Outcome> {
+    fn pixel(&self, number: u32, candidates: &[Effort]) -> Vec<Outcome> {
         let [x, y, ..] = Stream::new(self.job.seed, u32::MAX, u32::MAX, number).next4();
         let pixel = [
             ((x * self.job.width as f32) as u32).min(self.job.width - 1),
@@ -123,7 +154,7 @@ impl Trial<'_> {
             16 => self.outcome::<16>(pixel, effort),
             _ => self.outcome::<32>(pixel, effort),
         };
-        self.candidates.iter().map(of).collect()
+        candidates.iter().map(of).collect()
     }
 
     fn outcome<const N: usize>(&self, [x, y]: [u32; 2], effort: Effort) -> Outcome {

@@ -72,7 +72,7 @@ pub fn of_pixel<const N: usize>(
 
 /// Radiance that arrives along `ray`, whose direction is a unit vector.
 ///
-/// At every vertex each sun and one other light are sampled and weighed against the bounce by the power heuristic. Roulette
+/// At every vertex each sun and one other light, at the first as many as the effort says, are sampled and weighed against the bounce by the power heuristic. Roulette
 /// is played below the effort's threshold only and leaves the mean as it is; its survival probability is the throughput
 /// over that threshold. Where none of the lights that are sampled reaches the first vertex, what light there is comes by the
 /// bounce: there several paths go on, as many as the effort says.
@@ -96,6 +96,7 @@ pub fn trace<const N: usize>(
                 position: ray.origin,
                 normal: ray.direction,
             },
+            light_samples: 0,
         },
         ray,
     };
@@ -173,12 +174,18 @@ impl<const N: usize> Paths<'_, N> {
             stream.seek(set);
             let numbers = stream.next4();
             let vertex = Vertex {
+                paths: self,
                 surface: &surface,
                 frame: &frame,
                 view: &view,
                 receiver: Receiver {
                     position: surface.position,
                     normal: surface.shading_normal,
+                },
+                light_samples: if depth == 0 {
+                    self.effort.light_samples
+                } else {
+                    1
                 },
                 throughput: *throughput,
                 gathered: result.radiance,
@@ -192,7 +199,7 @@ impl<const N: usize> Paths<'_, N> {
             }
             if depth == 0 && self.effort.branches > 1 && !specular && result.radiance.is_zero() {
                 for number in 0..self.effort.branches {
-                    let mut stream = stream.branch(number);
+                    let mut stream = stream.part(number, self.effort.branches);
                     stream.seek(set);
                     let share = 1.0 / self.effort.branches as f32;
                     if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
@@ -215,14 +222,19 @@ struct Bounce {
     pdf: f32,
     /// Where it left; matters only if the density is finite.
     from: Receiver,
+    /// How many of the lights were chosen there.
+    light_samples: u32,
 }
 
 /// A surface point being lit.
 struct Vertex<'a, const N: usize> {
+    paths: &'a Paths<'a, N>,
     surface: &'a SurfacePoint,
     frame: &'a Frame,
     view: &'a View<'a, N>,
     receiver: Receiver,
+    /// How many of the lights are chosen and sampled.
+    light_samples: u32,
     /// What radiance from here is multiplied by on its way to the camera.
     throughput: Lanes<N>,
     /// Radiance that the path found before.
@@ -235,12 +247,15 @@ impl<const N: usize> Vertex<'_, N> {
         let [lobe, x, y, roulette] = numbers;
         let sample = self.view.sample(lobe, Vec2::new(x, y))?;
         let mut throughput = self.throughput * sample.weight * share;
-        let brightest = throughput.max_lane();
-        if brightest <= 0.0 {
+        let Paths {
+            world, wavelengths, ..
+        } = self.paths;
+        let brightness = world.wavelengths.brightness(wavelengths, &throughput);
+        if brightness <= 0.0 {
             return None;
         }
-        if brightest < roulette_below {
-            let survival = brightest / roulette_below;
+        if brightness < roulette_below {
+            let survival = brightness / roulette_below;
             if roulette >= survival {
                 return None;
             }
@@ -257,6 +272,7 @@ impl<const N: usize> Vertex<'_, N> {
             bounce: Bounce {
                 pdf,
                 from: self.receiver,
+                light_samples: self.light_samples,
             },
         })
     }
@@ -268,7 +284,7 @@ fn sampled_light<const N: usize>(
     vertex: &Vertex<'_, N>,
     wavelengths: &Wavelengths<N>,
     [x, y]: [f32; 2],
-    stream: &mut Stream,
+    stream: &Stream,
 ) -> (Lanes<N>, u32) {
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
     for &number in &world.selection.always {
@@ -280,11 +296,18 @@ fn sampled_light<const N: usize>(
         rays += traced;
     }
     if !world.selection.is_empty() {
-        let [which, x, y, coin] = stream.next4();
-        if let Some(choice) = world.selection.choose(&vertex.receiver, which) {
-            let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], Some(coin));
-            sum += light;
-            rays += traced;
+        for number in 0..vertex.light_samples {
+            let [which, x, y, coin] = stream.part(number, vertex.light_samples).next4();
+            if let Some(choice) = world.selection.choose(&vertex.receiver, which) {
+                let choice = Choice {
+                    expected: choice.expected * vertex.light_samples as f32,
+                    ..choice
+                };
+                let (light, traced) =
+                    direct(world, &choice, vertex, wavelengths, [x, y], Some(coin));
+                sum += light;
+                rays += traced;
+            }
         }
     }
     (sum, rays)
@@ -301,10 +324,11 @@ fn from_infinity<const N: usize>(
     for &number in &world.selection.at_infinity {
         let light = &world.lights[number];
         if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
-            let chance = world
+            let chosen = bounce.light_samples as f32;
+            let samples = world
                 .selection
-                .probability_of_infinite(number, &bounce.from);
-            sum += radiance * mis::power(bounce.pdf, pdf * chance);
+                .samples_of_infinite(number, &bounce.from, chosen);
+            sum += radiance * mis::power(bounce.pdf, pdf * samples);
         }
     }
     sum
@@ -330,9 +354,10 @@ fn emission<const N: usize>(
         return radiance;
     }
     let light_pdf = light.patch_of(surface.triangle).map_or(0.0, |part| {
-        world
-            .selection
-            .probability_of_part(number, part, &bounce.from)
+        bounce.light_samples as f32
+            * world
+                .selection
+                .probability_of_part(number, part, &bounce.from)
             * light.pdf(part, &bounce.from, surface.position)
     });
     radiance * mis::power(bounce.pdf, light_pdf)
@@ -364,7 +389,7 @@ fn direct<const N: usize>(
     if scattered.is_zero() || sample.radiance.is_zero() {
         return (Lanes::ZERO, 0);
     }
-    let light_pdf = sample.pdf * choice.probability;
+    let light_pdf = sample.pdf * choice.expected;
     let weight = mis::power(light_pdf, pdf) / light_pdf;
     let mut added = vertex.throughput * scattered * sample.radiance * weight;
     // Unbiased: what was gathered before does not depend on this sample.

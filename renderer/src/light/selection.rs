@@ -44,8 +44,8 @@ pub struct Choice {
     pub light: usize,
     /// Which part of it: a patch of an area, 0 of the others.
     pub part: usize,
-    /// Probability of the choice.
-    pub probability: f32,
+    /// How many samples this part may expect: the probability of the choice times the number of choices.
+    pub expected: f32,
 }
 
 impl Choice {
@@ -54,7 +54,7 @@ impl Choice {
         Self {
             light,
             part: 0,
-            probability: 1.0,
+            expected: 1.0,
         }
     }
 }
@@ -118,7 +118,7 @@ impl LightSelection {
             return Some(Choice {
                 light: pictures.lights[place],
                 part: 0,
-                probability: share * pictures.by_irradiance.probability(place),
+                expected: share * pictures.by_irradiance.probability(place),
             });
         }
         let patches = self.patches.as_ref()?;
@@ -132,12 +132,13 @@ impl LightSelection {
         Some(Choice {
             light: light as usize,
             part: part as usize,
-            probability: (1.0 - share) * probability,
+            expected: (1.0 - share) * probability,
         })
     }
 
-    /// Probability that a light at infinity is sampled at `receiver`; 0 if it is left to the bounces.
-    pub fn probability_of_infinite(&self, light: usize, receiver: &Receiver) -> f32 {
+    /// How many samples a light at infinity may expect at `receiver`, if so many lights are chosen there; 0 if it is left to the
+    /// bounces.
+    pub fn samples_of_infinite(&self, light: usize, receiver: &Receiver, chosen: f32) -> f32 {
         if self.always.contains(&light) {
             return 1.0;
         }
@@ -146,11 +147,11 @@ impl LightSelection {
         };
         let place = pictures.lights.iter().position(|&number| number == light);
         place.map_or(0.0, |place| {
-            self.share_of_pictures(receiver) * pictures.by_irradiance.probability(place)
+            chosen * self.share_of_pictures(receiver) * pictures.by_irradiance.probability(place)
         })
     }
 
-    /// Probability that a part of an area is sampled at `receiver`.
+    /// Probability that a part of an area is what is chosen at `receiver`.
     pub fn probability_of_part(&self, light: usize, part: usize, receiver: &Receiver) -> f32 {
         let Some(patches) = &self.patches else {
             return 0.0;

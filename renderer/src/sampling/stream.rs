@@ -20,6 +20,8 @@ pub struct Stream {
 
 /// Samples after which the underlying sequence is exhausted and reseeded.
 const PERIOD_BITS: u32 = 16;
+/// The last index of that sequence.
+const LAST_INDEX: u32 = (1 << PERIOD_BITS) - 1;
 
 impl Stream {
     /// The stream of sample number `sample` of pixel (`x`, `y`).
@@ -32,7 +34,7 @@ impl Stream {
         }
         Self {
             pixel,
-            index: sample & ((1 << PERIOD_BITS) - 1),
+            index: sample & LAST_INDEX,
             set: 0,
         }
     }
@@ -44,16 +46,22 @@ impl Stream {
         four(self.index, seed)
     }
 
-    /// The stream of a path that goes on beside others from one vertex: the same as this one for the first, number 0, else with
-    /// sets of its own.
+    /// Stream number `number` of `of` that take the place of this one: those of all samples of a pixel together are as well spread as
+    /// those of `of` times as many samples.
     #[must_use]
-    pub fn branch(&self, number: u32) -> Self {
-        let pixel = if number == 0 {
+    pub fn part(&self, number: u32, of: u32) -> Self {
+        let index = self.index * of + number;
+        let period = index >> PERIOD_BITS;
+        let pixel = if period == 0 {
             self.pixel
         } else {
-            mix(self.pixel ^ number.wrapping_mul(0xc2b2_ae35))
+            mix(self.pixel ^ period.wrapping_mul(0xc2b2_ae35))
         };
-        Self { pixel, ..*self }
+        Self {
+            pixel,
+            index: index & LAST_INDEX,
+            set: self.set,
+        }
     }
 
     /// Goes to set number `set`, so that what one event leaves unused does not shift the next one's numbers.
@@ -143,6 +151,31 @@ mod tests {
                 assert_eq!(strata, [1; 16], "set {set}, dimension {dimension}");
             }
         }
+    }
+
+    #[test]
+    fn four_parts_of_sixteen_samples_fall_into_sixty_four_strata() {
+        for dimension in 0..4 {
+            let mut strata = [0; 64];
+            for (sample, number) in
+                (0..16).flat_map(|sample| (0..4).map(move |part| (sample, part)))
+            {
+                let mut stream = Stream::new(1, 2, 3, sample).part(number, 4);
+                strata[(stream.next4()[dimension] * 64.0) as usize] += 1;
+            }
+            assert_eq!(strata, [1; 64], "dimension {dimension}");
+        }
+    }
+
+    #[test]
+    fn the_only_part_is_the_stream_and_parts_beyond_the_period_are_new() {
+        let whole = Stream::new(1, 2, 3, LAST_INDEX);
+        assert_eq!(whole.part(0, 1).next4(), whole.clone().next4());
+        let first = Stream::new(1, 2, 3, 0).part(0, 2).next4();
+        let beyond = Stream::new(1, 2, 3, 1 << (PERIOD_BITS - 1))
+            .part(0, 2)
+            .next4();
+        assert_ne!(first, beyond);
     }
 
     #[test]

@@ -152,7 +152,7 @@ pub struct Camera {
 }
 
 /// How light is followed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Integrator {
     /// Most scattering events of a path; `None` is no limit.
     pub max_depth: Option<u32>,
@@ -160,6 +160,8 @@ pub struct Integrator {
     pub roulette_below: Option<f64>,
     /// Paths that go on from the first vertex where no sampled light reaches it; `None` leaves it to a trial.
     pub branches: Option<u32>,
+    /// Light samples at the first vertex; `None` leaves it to a trial.
+    pub light_samples: Option<u32>,
 }
 
 /// What a surface is made of.

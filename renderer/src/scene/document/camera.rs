@@ -62,19 +62,17 @@ pub(crate) fn read_camera(parent: &Block<'_>) -> Option<Camera> {
 /// Reads `[integrator]`, which may be left out.
 pub(crate) fn read_integrator(parent: &Block<'_>) -> Integrator {
     let Some(block) = parent.optional_block("integrator") else {
-        return Integrator {
-            max_depth: None,
-            roulette_below: None,
-            branches: None,
-        };
+        return Integrator::default();
     };
     let max_depth = block.optional_integer("max_depth", 1, 100_000);
     let roulette_below = block.optional_number("roulette_below", Limits::closed(0.0, 1.0));
     let branches = block.optional_integer("branches", 1, 64);
+    let light_samples = block.optional_integer("light_samples", 1, 64);
     block.finish();
     Integrator {
         max_depth: max_depth.map(|depth| depth as u32),
         roulette_below,
         branches: branches.map(|branches| branches as u32),
+        light_samples: light_samples.map(|samples| samples as u32),
     }
 }
