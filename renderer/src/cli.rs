@@ -54,7 +54,7 @@ impl Failure {
 
 impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Self {
-        let report = errors.render(std::io::stderr().is_terminal());
+        let report = errors.render(colour());
         Self::BadInput(format!("{report}\n"))
     }
 }
@@ -97,6 +97,17 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
+/// Whether stderr is a terminal that can colour letters and write over a line.
+fn on_a_screen() -> bool {
+    let is_dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
+    std::io::stderr().is_terminal() && !is_dumb
+}
+
+/// Whether reports have colours: on a screen, unless somebody wants none (no-color.org).
+fn colour() -> bool {
+    on_a_screen() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
 /// A result for stdout: a path, a table.
 fn say(text: impl std::fmt::Display) {
     // Who closes the pipe early (`lamina info x.exr | head`) has seen enough.
@@ -106,7 +117,7 @@ fn say(text: impl std::fmt::Display) {
 /// Loads a scene and tells its warnings.
 fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     let loaded = load::load(&arguments.scene, &arguments.overrides)?;
-    let colour = std::io::stderr().is_terminal();
+    let colour = colour();
     for warning in &loaded.warnings {
         eprint!("{}", warning.render(colour));
     }

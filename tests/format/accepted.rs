@@ -80,6 +80,18 @@ fn film_and_camera_are_in_si_units() {
 }
 
 #[test]
+fn a_word_in_an_override_needs_no_quotes_and_a_whole_block_may_have_a_name_like_another() {
+    let overrides = [
+        "picture.tone=filmic",
+        "objects.flor.mesh=floor",
+        "objects.flor.material=grey",
+    ];
+    let scene = accept(&text_of("minimal.toml"), "minimal.toml", &overrides).description;
+    assert_eq!(scene.picture.tone, Tone::Filmic);
+    assert_eq!(scene.objects.len(), 2);
+}
+
+#[test]
 fn a_spectral_film_has_its_bands_and_no_filter() {
     let film = "film={spectral={size=[2,1],spp=1,bands_nm=[450,650.5],band_width_nm=0}}";
     let scene = accept(&text_of("minimal.toml"), "minimal.toml", &[film]).description;

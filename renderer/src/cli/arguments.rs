@@ -16,6 +16,28 @@ Check a scene file:     lamina check SCENE.toml
 All commands:           lamina help
 The guide starts at:    docs/src/guide.md";
 
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  lamina render scenes/first-leaf/scene.toml --spp 16 --out draft
+  lamina render scenes/first-leaf/scene.toml -D picture.tone=linear -D leaves.aspen.seed=3
+  lamina render scenes/first-leaf/scene.toml --spp 4096 --noise 0.01 --time 600";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  lamina check scenes/first-leaf/scene.toml
+  lamina check scenes/first-leaf/scene.toml -D leaves.aspen.length_mm=120";
+
+const OPTICS_EXAMPLES: &str = "\
+Examples:
+  lamina optics --cab 45 --car 10 --cw 0.011 --cm 0.006 --out leaf.csv
+  lamina optics --preset birch-yellow --colour";
+
+const GROW_EXAMPLES: &str = "\
+Examples:
+  lamina grow poplar --out poplar.png poplar.graphml
+  lamina grow birch --set seed=7 --out birch.ply --measure birch.json
+  lamina grow scenes/first-leaf/scene.toml#aspen --frames 24 --out aspen.png";
+
 /// An offline spectral renderer of leaves.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "lamina", version, about, long_about = None)]
@@ -29,10 +51,13 @@ pub struct Arguments {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to STEM.exr and STEM.png
+    #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
     /// Report every error of a scene file
+    #[command(after_help = CHECK_EXAMPLES)]
     Check(SceneArguments),
     /// Write reflectance and transmittance of a leaf by PROSPECT-D
+    #[command(after_help = OPTICS_EXAMPLES)]
     Optics(OpticsArguments),
     /// Hand a scene to another renderer
     #[command(subcommand)]
@@ -42,6 +67,7 @@ pub enum Command {
     /// Print what an EXR file holds
     Info(InfoArguments),
     /// Grow a leaf and write its veins, its blade, its contents and measures
+    #[command(after_help = GROW_EXAMPLES)]
     Grow(GrowArguments),
 }
 
@@ -62,7 +88,7 @@ pub struct RenderArguments {
     /// Scene and overrides.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Stem of the files that are written; the default is the scene's name in this folder
+    /// Stem of the files that are written, with or without `.exr` or `.png`; the default is the scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
     /// Samples a pixel, instead of the scene's
@@ -194,6 +220,14 @@ pub struct GrowArguments {
     /// Pixels along the longer side of a png
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
     pub size: u32,
+}
+
+impl GrowArguments {
+    /// Whether a file of any kind is asked for.
+    pub fn writes_anything(&self) -> bool {
+        let files = [&self.measure, &self.fields, &self.contents, &self.stats];
+        !self.out.is_empty() || files.into_iter().any(Option::is_some)
+    }
 }
 
 /// The file, and the leaf in it if one is named behind `#`.

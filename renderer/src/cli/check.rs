@@ -19,14 +19,20 @@ pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
         String::new()
     };
     say(format!(
-        "{}: {} objects{parts}, {} lights, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
+        "{}: {}{parts}, {}, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
         arguments.scene.display(),
-        count,
-        world.lights.len(),
+        counted(count, "object"),
+        counted(world.lights.len(), "light"),
         size.x,
         size.y,
         size.z,
         world.geometry.memory_bytes() as f64 / f64::from(1 << 20)
     ));
     Ok(())
+}
+
+/// A number of things, in words.
+fn counted(count: usize, thing: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {thing}{plural}")
 }

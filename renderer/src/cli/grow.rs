@@ -46,7 +46,10 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
         return Ok(());
     }
     if arguments.about {
-        return about::tell(arguments.leaf.as_deref().unwrap_or_default());
+        about::tell(arguments.leaf.as_deref().unwrap_or_default())?;
+        if !arguments.writes_anything() {
+            return Ok(());
+        }
     }
     let started = Instant::now();
     let chosen = choice::choose(arguments)?;

@@ -39,7 +39,13 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     {
         return Err(Failure::written_twice(one));
     }
-    for file in files.into_iter().flatten() {
+    if let Some(file) = arguments.out.as_ref().filter(|file| !is_stdout(file)) {
+        check_ending(file, "csv", "--out writes a table")?;
+    }
+    if let Some(Some(file)) = &arguments.colour {
+        check_ending(file, "json", "--colour writes JSON")?;
+    }
+    for file in files.into_iter().flatten().filter(|file| !is_stdout(file)) {
         check_writable(file)?;
     }
     let Chosen { contents, .. } = chosen;
@@ -52,8 +58,10 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.about {
         say(chosen.about());
     }
-    if let Some(file) = &arguments.out {
-        write(file, table(&contents).as_bytes())?;
+    match &arguments.out {
+        Some(file) if is_stdout(file) => say(table(&contents).trim_end()),
+        Some(file) => write(file, table(&contents).as_bytes())?,
+        None => {}
     }
     if let Some(file) = &arguments.colour {
         let colours = colour::Colours::of(&contents);
@@ -70,6 +78,25 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         chosen.line()
     );
     Ok(())
+}
+
+/// Whether a file's name stands for the standard output.
+fn is_stdout(file: &Path) -> bool {
+    file.as_os_str() == "-"
+}
+
+/// Fails if a file's name promises something else than is written.
+fn check_ending(file: &Path, ending: &str, what: &str) -> Result<(), Failure> {
+    if file
+        .extension()
+        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
+    {
+        return Ok(());
+    }
+    let file = file.display();
+    Err(Failure::bad(format!(
+        "{file}: {what}: let its name end in .{ending}"
+    )))
 }
 
 /// R and T at every nanometre of PROSPECT-D's table.

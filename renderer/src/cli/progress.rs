@@ -1,11 +1,11 @@
 //! How far a render is, for a person or for a log.
 
-use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::on_a_screen;
 use crate::integrator::render::Progress;
 
 /// A bar on a terminal, a line every ten seconds elsewhere.
@@ -21,7 +21,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 impl Reporter {
     pub(super) fn new(time: Option<Duration>) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        let bar = on_a_screen().then(|| {
             let style = ProgressStyle::with_template(
                 "{bar:40} {percent}% of {len} paths, {elapsed_precise} gone, {eta} to go {msg}",
             )

@@ -102,10 +102,10 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 
 /// The picture files, once it is known that they can be written and are no input.
 fn outputs(arguments: &RenderArguments, loaded: &Loaded) -> Result<[PathBuf; 2], Failure> {
-    let stem = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(&loaded.description.name));
+    let stem = match &arguments.out {
+        Some(out) => stem_of(out)?,
+        None => PathBuf::from(&loaded.description.name),
+    };
     let outputs = ["exr", "png"].map(|ending| with_ending(&stem, ending));
     check_writable(&outputs[0])?;
     for output in &outputs {
@@ -202,6 +202,24 @@ fn build_world(scene: &Description, arguments: &RenderArguments) -> Result<World
     let cache = arguments.cache.as_deref().map(PlantCache::open);
     let cache = cache.transpose().map_err(Failure::bad)?;
     World::build_with(scene, cache.as_ref()).map_err(Failure::bad)
+}
+
+/// The stem that `--out` names, which may have the ending of either picture.
+fn stem_of(out: &Path) -> Result<PathBuf, Failure> {
+    let text = out.as_os_str().as_encoded_bytes();
+    if out.file_name().is_none() || text.ends_with(b"/") {
+        return Err(Failure::bad(format!(
+            "{} is a folder: name the pictures in it, for example --out {}",
+            out.display(),
+            out.join("leaf").display()
+        )));
+    }
+    let is_ending = |ending: &std::ffi::OsStr| ending == "png" || ending == "exr";
+    Ok(if out.extension().is_some_and(is_ending) {
+        out.with_extension("")
+    } else {
+        out.to_owned()
+    })
 }
 
 /// `stem` with an ending added, whatever dots it has already.

@@ -46,7 +46,7 @@ impl EnvironmentLight {
                 weights.push(sum * sin);
             }
         }
-        let (weights, cells_across) = coarsened(weights, width);
+        let (weights, cells_across) = coarsened(&weights, width);
         Self {
             distribution: Piecewise2d::new(&weights, cells_across),
             width,
@@ -161,9 +161,9 @@ const COARSENING: f64 = 0.01;
 
 /// Weights of cells of 1, 2, 4, … texels square, as large as cost next to no noise, and how many there are across: what is drawn
 /// from a small table stays in the caches.
-fn coarsened(weights: Vec<f32>, width: usize) -> (Vec<f32>, usize) {
+fn coarsened(weights: &[f32], width: usize) -> (Vec<f32>, usize) {
     let total: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
-    let (mut coarsest, mut across) = (weights.clone(), width);
+    let (mut coarsest, mut across) = (weights.to_vec(), width);
     let mut texels = 1;
     while across.is_multiple_of(2) && (coarsest.len() / across).is_multiple_of(2) {
         texels *= 2;
@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn cells_are_larger_than_texels_where_the_sky_is_smooth_and_not_where_it_is_not() {
         let weights: Vec<f32> = (0..32 * 64).map(|i| 3.0 + (i % 64) as f32 / 64.0).collect();
-        let (cells, across) = coarsened(weights.clone(), 64);
+        let (cells, across) = coarsened(&weights, 64);
         assert!(
             across <= 8 && cells.len() == across * across / 2,
             "{across}"
@@ -221,10 +221,10 @@ mod tests {
         assert!((coarse / fine - 1.0).abs() < 1e-5, "{coarse}, not {fine}");
         let mut with_a_sun = weights;
         with_a_sun[999] = 1e5;
-        assert_eq!(coarsened(with_a_sun.clone(), 64), (with_a_sun, 64));
+        assert_eq!(coarsened(&with_a_sun, 64), (with_a_sun, 64));
         // Nothing to halve, nothing to draw.
-        assert_eq!(coarsened(vec![1.0; 15], 5), (vec![1.0; 15], 5));
-        assert_eq!(coarsened(vec![0.0; 16], 4).1, 1);
+        assert_eq!(coarsened(&[1.0; 15], 5), (vec![1.0; 15], 5));
+        assert_eq!(coarsened(&[0.0; 16], 4).1, 1);
     }
 
     fn sky() -> EnvironmentLight {

@@ -4,7 +4,8 @@
 ///
 /// Near is an edit distance (insertions, deletions, replacements, swaps of neighbours; letters'
 /// case left out) of at most a third of the longer name, or one name being the start of the
-/// other: a key without its unit is the commonest slip. The first of equally near ones wins.
+/// other: a key without its unit is the commonest slip. Four letters or more may also be the start of a name, up to a `-`
+/// or `_`, with one slip: `brich` is `birch-yellow`. The first of equally near ones wins.
 pub(crate) fn nearest<'c>(
     written: &str,
     candidates: impl IntoIterator<Item = &'c str>,
@@ -24,6 +25,13 @@ pub(crate) fn nearest<'c>(
         let allowed = (written.len().max(other.len()) / 3).max(1);
         // A shared start counts as one slip, however long the unit that is missing.
         let distance = if starts { distance.min(1) } else { distance };
+        let first_word = other.iter().position(|letter| ['-', '_'].contains(letter));
+        let distance = match first_word {
+            Some(end) if written.len() >= 4 && edit_distance(&written, &other[..end]) == 1 => {
+                distance.min(2)
+            }
+            _ => distance,
+        };
         if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
         }
@@ -65,6 +73,9 @@ mod tests {
         assert_eq!(nearest("vertical_fov", keys), Some("vertical_fov_deg"));
         assert_eq!(nearest("Position_M", keys), Some("position_m"));
         assert_eq!(nearest("colour", keys), None);
+        let presets = ["birch-yellow", "oak-yellow-brown"];
+        assert_eq!(nearest("brich", presets), Some("birch-yellow"));
+        assert_eq!(nearest("bri", presets), None);
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub struct OpticsArguments {
     /// Dry matter, g/cm² [default: 0.009]
     #[arg(long, value_parser = at_least_zero)]
     pub cm: Option<f64>,
-    /// Table to write: `wavelength_nm,R,T`
+    /// Table to write: `wavelength_nm,R,T`; `-` is the standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
     /// Print the colours of R and T under D65 (XYZ by CIE 1931 2°, sRGB), or write them as JSON

@@ -46,6 +46,8 @@ pub(crate) struct Context {
     pub(crate) inputs: RefCell<Vec<PathBuf>>,
     /// If what the keys are is asked for: every key of every block, see [`KnownKey`].
     pub(crate) survey: RefCell<Option<Vec<KnownKey>>>,
+    /// Blocks that overrides add, with names like others': errors if what they add is not whole.
+    pub(crate) perhaps_misspelt: RefCell<Vec<LocatedError>>,
     errors: RefCell<Vec<LocatedError>>,
     error_count: Cell<usize>,
     remarks: RefCell<Vec<Remark>>,
@@ -60,6 +62,7 @@ impl Context {
             sources: RefCell::new(sources),
             inputs: RefCell::default(),
             survey: RefCell::default(),
+            perhaps_misspelt: RefCell::default(),
             errors: RefCell::default(),
             error_count: Cell::new(0),
             remarks: RefCell::default(),
@@ -111,10 +114,15 @@ impl Context {
 
     /// Hands out the texts, the errors and the warnings.
     pub(crate) fn into_parts(self) -> (Sources, Vec<LocatedError>, Vec<Remark>) {
-        (
-            self.sources.into_inner(),
-            self.errors.into_inner(),
-            self.remarks.into_inner(),
-        )
+        let mut errors = self.errors.into_inner();
+        for misspelt in self.perhaps_misspelt.into_inner() {
+            let count = errors.len();
+            errors.retain(|error| error.at != misspelt.at);
+            // Whoever adds a whole block means it.
+            if errors.len() < count {
+                errors.push(misspelt);
+            }
+        }
+        (self.sources.into_inner(), errors, self.remarks.into_inner())
     }
 }

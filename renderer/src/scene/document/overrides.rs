@@ -2,14 +2,20 @@
 
 use toml::de::DeTable;
 
-use super::context::{Context, QUOTED};
+use super::context::{Context, ENOUGH, QUOTED};
 use super::tree::{Entry, Node, Table};
-use crate::scene::error::SceneError;
+use super::values::listed;
+use crate::scene::error::{LocatedError, SceneError};
+use crate::scene::nearest::nearest;
 use crate::scene::source::{Place, escaped};
 
 /// Puts one override into a file's tree. Errors point into the override's own text, which reports show under the
 /// name of its `flag`.
+///
+/// A word may go without its quotes, which a shell takes away.
 pub(crate) fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str) {
+    let quoted = with_quotes(text);
+    let text = quoted.as_deref().unwrap_or(text);
     let source = cx.sources.borrow_mut().add(flag, text);
     let whole = Place {
         source,
@@ -58,6 +64,7 @@ pub(crate) fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str) {
         match into_rest_of_path(text, key_end, node) {
             Ok(rest) => table = rest,
             Err(node) => {
+                note_new_name(cx, tree, &path);
                 if let Err(at) = tree.set(&path, node) {
                     let error = SceneError::NotAnOverride {
                         problem: format!(
@@ -70,6 +77,62 @@ pub(crate) fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str) {
                 return;
             }
         }
+    }
+}
+
+/// The override with quotes around its value, if that makes a word of what else is no TOML.
+fn with_quotes(text: &str) -> Option<String> {
+    let is_toml = |text: &str| DeTable::parse_recoverable(text).1.is_empty();
+    let (key, value) = text.split_once('=')?;
+    let value = value.trim();
+    let is_plain = !value.is_empty()
+        && !value.contains([
+            '"', '\'', '\\', '[', ']', '{', '}', ',', '=', '#', '\n', '\r',
+        ]);
+    if !is_plain || is_toml(text) {
+        return None;
+    }
+    let quoted = format!("{key}=\"{value}\"");
+    is_toml(&quoted).then_some(quoted)
+}
+
+/// Notes a name in the second place of a path, `leaves.NAME`, that is not in the file and like one that is.
+fn note_new_name(cx: &Context, tree: &Table, path: &[(String, Place)]) {
+    let [(section, _), (name, at), _, ..] = path else {
+        return;
+    };
+    let Some(names) = tree.get(section).and_then(|entry| entry.node.table()) else {
+        return;
+    };
+    let names = || names.0.iter().take(ENOUGH).map(|entry| entry.key.as_str());
+    if names().any(|known| known == name) {
+        return;
+    }
+    let Some(meant) = nearest(name, names()) else {
+        return;
+    };
+    let error = SceneError::UnknownName {
+        kind: kind_of(section),
+        name: escaped(name, QUOTED),
+        nearest: Some(escaped(meant, QUOTED)),
+        known: listed(names()),
+    };
+    let at = Some(at.clone());
+    cx.perhaps_misspelt
+        .borrow_mut()
+        .push(LocatedError { error, at });
+}
+
+/// What one block of a section is.
+fn kind_of(section: &str) -> &'static str {
+    match section {
+        "leaves" => "leaf",
+        "meshes" => "mesh",
+        "materials" => "material",
+        "objects" => "object",
+        "lights" => "light",
+        "solids" => "solid",
+        _ => "block",
     }
 }
 
