@@ -88,8 +88,8 @@ enum Kind {
 /// Density over a range of wavelengths in proportion to sech²(a (λ − λ₀)), drawn by inversion.
 ///
 /// \[radziszewski2009\] gave it this form. Its numbers are those at which eight wavelengths see the colours of leaves with the least
-/// scatter: R, T, R T and T² of nineteen presets under four lights. Following the observer instead (x̄ + ȳ + z̄) is thirty
-/// times worse, because red then rests on few wavelengths beyond 640 nm, where light that has passed several leaves is brightest.
+/// scatter: R, T, R T and T² of nineteen presets under four lights. Following the observer instead (x̄ + ȳ + z̄) gives thirty
+/// times the variance.
 #[derive(Clone, Debug)]
 struct WideDistribution {
     /// tanh(a (λ − λ₀)) at both ends of the range.
