@@ -11,11 +11,13 @@ import contextlib
 import csv
 import io
 import itertools
+import json
 import math
 import re
 import subprocess
 import sys
 import tempfile
+import tomllib
 import traceback
 from pathlib import Path
 from time import perf_counter
@@ -27,6 +29,7 @@ from lamina_reference import variant
 VARIANT = variant.choose()
 
 import drjit as dr
+import jsonschema_rs
 import mitsuba as mi
 import numpy as np
 
@@ -533,6 +536,51 @@ def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
     assert same.passed, same.failures
     caught = compare.compare(wrong, right, NAMES)
     assert not caught.checks()["mean"] and not caught.checks()["regions"], caught.bands
+
+
+# Broken scenes that a schema cannot tell from good ones: numbers that do not go together, names
+# and files that are not there, curves that cross themselves.
+BEYOND_A_SCHEMA = """
+    area_light bands camera_at_itself camera_upside compound_bipinnate compound_overlap
+    compound_pair compound_palmate compound_palmate_round coverage dark_light energy
+    file_missing growth_arrival growth_steps instances_flood instances_rows matrix
+    mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
+    outline_growth_crossing outline_growth_crossing_axis outline_svg_crossing
+    outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
+    path_outside senescence_auxin solid_mesh solid_mosaic table_file unknown_name unsorted
+    venation_cells venation_origin venation_origins_meet venation_transport_fine
+    venation_young wrong_file
+""".split()
+
+
+def scene_schema() -> jsonschema_rs.Validator:
+    """The schema that is committed."""
+    text = (ROOT / "scenes" / "scene.schema.json").read_text()
+    return jsonschema_rs.validator_for(json.loads(text))
+
+
+def test_every_scene_of_the_repository_is_valid_by_the_schema() -> None:
+    """An editor that goes by the schema finds no fault with them."""
+    schema = scene_schema()
+    scenes = sorted((ROOT / "scenes").glob("*/*.toml"))
+    assert len(scenes) >= 20, scenes
+    for scene in scenes:
+        errors = list(schema.iter_errors(tomllib.loads(scene.read_text())))
+        assert not errors, f"{scene}: {errors[0].message} at {errors[0].instance_path}"
+
+
+def test_broken_scenes_are_refused_by_the_schema_as_far_as_one_can_tell() -> None:
+    """Unknown keys, wrong types, ranges, missing keys and kinds."""
+    schema = scene_schema()
+    refused, passed = [], []
+    for scene in sorted((ROOT / "tests" / "format" / "broken").glob("*.toml")):
+        try:
+            tree = tomllib.loads(scene.read_text())
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError):
+            continue
+        (passed if schema.is_valid(tree) else refused).append(scene.stem)
+    assert sorted(passed) == sorted(BEYOND_A_SCHEMA), set(passed) ^ set(BEYOND_A_SCHEMA)
+    assert len(refused) >= 40, refused
 
 
 def main() -> int:

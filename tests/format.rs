@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use leafmodel::document::report::DocumentErrors;
 use renderer::scene::load::{Loaded, load, parse};
-use renderer::scene::report::SceneErrors;
 use tempfile::TempDir;
 
 #[path = "format/accepted.rs"]
@@ -17,6 +17,8 @@ mod leaves;
 mod mutations;
 #[path = "format/refused.rs"]
 mod refused;
+#[path = "format/schema.rs"]
+mod schema;
 #[path = "format/tissues.rs"]
 mod tissues;
 
@@ -121,7 +123,7 @@ fn npy(descr: &str, shape: &str, rows: &[u8]) -> Vec<u8> {
     [header.concat().as_slice(), rows].concat()
 }
 
-fn parse_text(text: &str, name: &str, overrides: &[&str]) -> Result<Loaded, SceneErrors> {
+fn parse_text(text: &str, name: &str, overrides: &[&str]) -> Result<Loaded, DocumentErrors> {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     parse(text, name, folder().path(), &overrides)
 }
@@ -130,14 +132,14 @@ fn accept(text: &str, name: &str, overrides: &[&str]) -> Loaded {
     parse_text(text, name, overrides).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-fn refuse(text: &str, name: &str, overrides: &[&str]) -> SceneErrors {
+fn refuse(text: &str, name: &str, overrides: &[&str]) -> DocumentErrors {
     match parse_text(text, name, overrides) {
         Ok(_) => panic!("{name} was accepted"),
         Err(errors) => errors,
     }
 }
 
-fn codes(errors: &SceneErrors) -> Vec<&'static str> {
+fn codes(errors: &DocumentErrors) -> Vec<&'static str> {
     let errors = errors.errors().iter();
     errors.map(|located| located.error.code()).collect()
 }

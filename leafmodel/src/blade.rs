@@ -59,6 +59,20 @@ pub struct BladeForm {
 }
 
 impl BladeForm {
+    /// A blade of which nothing is said.
+    pub fn nearly_flat(length_mm: f64) -> Self {
+        Self {
+            fold: 0.0,
+            curl: 0.0,
+            ruffle: 0.0,
+            ruffle_waves: 3.0,
+            relief: 0.5,
+            thickness_mm: 0.2,
+            max_edge_mm: length_mm / 80.0,
+            meshed_vein_radius_mm: 0.1,
+        }
+    }
+
     /// Checks every field.
     ///
     /// # Errors

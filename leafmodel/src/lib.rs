@@ -5,11 +5,13 @@
 
 pub mod blade;
 pub mod compound;
+pub mod document;
 pub mod export;
 pub mod leaf;
 pub mod measure;
 pub mod mosaic;
 pub mod optics;
+pub mod plan_file;
 pub mod shape;
 pub mod solid;
 pub mod species;

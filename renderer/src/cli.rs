@@ -13,6 +13,7 @@ mod optics;
 mod pictures;
 mod progress;
 mod render;
+mod schema;
 mod stats;
 
 use std::ffi::OsString;
@@ -23,8 +24,8 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::scene::load::{self, Loaded};
-use crate::scene::report::SceneErrors;
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
+use leafmodel::document::report::DocumentErrors;
 
 /// Why a command did not do what it was asked to.
 #[derive(Debug)]
@@ -52,8 +53,8 @@ impl Failure {
     }
 }
 
-impl From<SceneErrors> for Failure {
-    fn from(errors: SceneErrors) -> Self {
+impl From<DocumentErrors> for Failure {
+    fn from(errors: DocumentErrors) -> Self {
         let report = errors.render(colour());
         Self::BadInput(format!("{report}\n"))
     }
@@ -82,6 +83,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
+        Command::Schema(schema) => schema::run(schema),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,14 +5,11 @@
 //! - **Always true**: a scene is accepted whole or refused with every error that it has, each at
 //!   its place; no file outside the scene's folder is touched.
 
+mod angle;
 pub mod assets;
+mod blocks;
 pub mod description;
-mod document;
-pub mod error;
 pub mod load;
-pub(crate) mod nearest;
 pub mod plant_cache;
 pub mod plants;
-pub mod report;
-pub mod source;
 pub mod world;

@@ -301,7 +301,7 @@ fn what_nothing_uses_is_a_warning() {
     let messages: Vec<&str> = loaded
         .warnings
         .iter()
-        .map(renderer::scene::report::Warning::message)
+        .map(leafmodel::document::report::Warning::message)
         .collect();
     assert_eq!(
         messages,

@@ -1,4 +1,4 @@
-//! The book's examples load, and its tables name every key.
+//! The examples of the book load.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::{accept, text_of};
 
 /// Every page of the book.
-fn pages() -> Vec<(PathBuf, String)> {
+pub(super) fn pages() -> Vec<(PathBuf, String)> {
     let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src")];
     let mut pages = Vec::new();
     while let Some(folder) = folders.pop() {
@@ -70,29 +70,4 @@ fn every_example_of_the_book_is_a_scene() {
         }
     }
     assert!(count >= 10, "only {count} examples were found");
-}
-
-#[test]
-fn the_tables_of_the_book_name_every_key() {
-    let book: String = pages()
-        .into_iter()
-        .filter(|(path, _)| {
-            path.components().any(|part| part.as_os_str() == "format")
-                || path.ends_with("format.md")
-        })
-        .flat_map(|(_, page)| {
-            page.lines()
-                .filter(|line| line.starts_with('|'))
-                .map(str::to_owned)
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    let whole = text_of("whole.toml");
-    let keys = whole
-        .lines()
-        .filter_map(|line| Some(line.split_once(" = ")?.0));
-    let missing: Vec<&str> = keys
-        .filter(|key| !book.contains(&format!("`{key}`")))
-        .collect();
-    assert!(missing.is_empty(), "no table of the book has {missing:?}");
 }

@@ -146,7 +146,9 @@ fn betalains_and_anthocyanins_in_one_leaf_are_a_warning() {
         let scene = text_of("minimal.toml") + leaf + text;
         let loaded = accept(&scene, "minimal.toml", &[]);
         let codes = loaded.warnings.iter();
-        codes.map(renderer::scene::report::Warning::code).collect()
+        codes
+            .map(leafmodel::document::report::Warning::code)
+            .collect()
     };
     assert_eq!(codes(""), ["scene::unused"]);
     let both = codes("anthocyanins_ug_per_cm2 = 2\n");
@@ -168,7 +170,7 @@ fn betalains_and_anthocyanins_in_cells_of_one_body_are_a_warning() {
         let codes = loaded
             .warnings
             .iter()
-            .map(renderer::scene::report::Warning::code);
+            .map(leafmodel::document::report::Warning::code);
         codes
             .filter(|code| *code == "scene::betalains_and_anthocyanins")
             .count()

@@ -23,6 +23,37 @@ pub struct Tissue {
     pub mottle_scale_mm: f64,
 }
 
+/// Factors on the contents over a fully developed vein: pale, watery, dense (our choice within the ranges that
+/// `docs/src/format/leaf.md` names).
+const VEIN_FACTORS: Contents = Contents {
+    structure: 1.3,
+    chlorophyll: 0.1,
+    carotenoids: 0.12,
+    anthocyanins: 1.0,
+    betacyanins: 1.0,
+    betaxanthins: 1.0,
+    brown: 1.0,
+    water: 2.0,
+    dry_matter: 2.5,
+};
+
+impl Tissue {
+    /// Size of patches where nothing is said, mm.
+    pub const MOTTLE_SCALE_MM: f64 = 1.0;
+
+    /// Tissue of which only the contents are said: usual veins, no mottle.
+    pub fn of(lamina: Contents) -> Self {
+        Self {
+            lamina,
+            vein_factors: VEIN_FACTORS,
+            full_vein_radius_mm: 0.06,
+            sheath_width_mm: 0.1,
+            mottle: 0.0,
+            mottle_scale_mm: Self::MOTTLE_SCALE_MM,
+        }
+    }
+}
+
 /// A number of a tissue, or of what it is painted with, outside the range in which the model holds.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("{field} is {value}, it must be {range}")]

@@ -38,6 +38,11 @@ Examples:
   lamina grow birch --set seed=7 --out birch.ply --measure birch.json
   lamina grow scenes/first-leaf/scene.toml#aspen --frames 24 --out aspen.png";
 
+const SCHEMA_EXAMPLES: &str = "\
+Examples:
+  lamina schema --out scene.schema.json
+  lamina schema --pages docs/src/format/*.md";
+
 /// An offline spectral renderer of leaves.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "lamina", version, about, long_about = None)]
@@ -69,6 +74,9 @@ pub enum Command {
     /// Grow a leaf and write its veins, its blade, its contents and measures
     #[command(after_help = GROW_EXAMPLES)]
     Grow(GrowArguments),
+    /// Write what a scene file may hold, as a JSON Schema
+    #[command(after_help = SCHEMA_EXAMPLES)]
+    Schema(SchemaArguments),
 }
 
 /// A scene file with overrides.
@@ -168,6 +176,17 @@ pub struct InfoArguments {
     pub picture: PathBuf,
 }
 
+/// `lamina schema`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct SchemaArguments {
+    /// File to write; the default is stdout
+    #[arg(long, value_name = "FILE.json")]
+    pub out: Option<PathBuf>,
+    /// Write the tables of keys into these pages instead, each behind its marker `<!-- keys: BLOCK -->`
+    #[arg(long, value_name = "FILE.md", num_args = 1.., conflicts_with = "out")]
+    pub pages: Vec<PathBuf>,
+}
+
 /// `lamina grow`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct GrowArguments {
@@ -192,6 +211,9 @@ pub struct GrowArguments {
     /// Files to write, their kind by their ending: svg, png, json, graphml, geojson (veins), ply, obj (blade), toml (plan)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub out: Vec<PathBuf>,
+    /// Write every number of the plan into a toml, not only what differs from the preset
+    #[arg(long)]
+    pub full: bool,
     /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,

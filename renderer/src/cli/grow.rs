@@ -17,9 +17,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use leafmodel::compound::{CompoundLeaf, FlatLeaf, StalkKind, WholeLeaf, leaflet_plans};
+use leafmodel::document::written::Extent;
 use leafmodel::export::{self, SvgStyle};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
 use leafmodel::measure::measure;
+use leafmodel::plan_file::{leaf_beside_preset, leaf_to_toml};
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::venation::VenationError;
@@ -27,6 +29,7 @@ use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
 
 use self::blade_files::Parts;
+use self::choice::Chosen;
 use self::frames::Page;
 use self::outputs::{Kind, Outputs};
 use crate::cli::arguments::GrowArguments;
@@ -34,7 +37,6 @@ use crate::cli::interrupt::stop_on_interrupt;
 use crate::cli::{Failure, say, stats};
 use crate::export::drawing::{Style, draw_within};
 use crate::image::{atomic, portable_network};
-use crate::scene::load::leaf_to_toml;
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -56,25 +58,16 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     let outputs = Outputs::planned(arguments)?;
     // What the plan cannot give is told before anything is written.
     if arguments.fields.is_some() {
-        fields::check(&chosen.value.plan)?;
+        fields::check(&chosen.plan)?;
     }
     if arguments.frames.is_some() {
-        frames::check(&chosen.value.plan)?;
+        frames::check(&chosen.plan)?;
     }
     if arguments.ages.is_some() {
-        ages::check(&chosen.value.plan)?;
+        ages::check(&chosen.plan)?;
     }
     let stop = stop_on_interrupt()?;
-    let work = || {
-        carry_out(
-            arguments,
-            &chosen.name,
-            &chosen.value.plan,
-            &outputs,
-            &stop,
-            started,
-        )
-    };
+    let work = || carry_out(arguments, &chosen, &outputs, &stop, started);
     match arguments.threads {
         None => work(),
         Some(threads) => rayon::ThreadPoolBuilder::new()
@@ -87,15 +80,13 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
 
 fn carry_out(
     arguments: &GrowArguments,
-    name: &str,
-    plan: &LeafPlan,
+    chosen: &Chosen,
     outputs: &Outputs,
     stop: &AtomicBool,
     started: Instant,
 ) -> Result<(), Failure> {
-    for (path, _) in outputs.whole.iter().filter(|(_, kind)| *kind == Kind::Toml) {
-        finish(path, leaf_to_toml(name, plan).as_bytes(), stop)?;
-    }
+    let (name, plan) = (chosen.name.as_str(), &chosen.plan);
+    write_plans(arguments, chosen, outputs, stop)?;
     if !outputs.veins {
         return Ok(());
     }
@@ -192,6 +183,27 @@ fn carry_out(
         all_veins.loops(),
         all_veins.steps(),
     );
+    Ok(())
+}
+
+/// The plan as files: what differs from the preset, or all of it.
+fn write_plans(
+    arguments: &GrowArguments,
+    chosen: &Chosen,
+    outputs: &Outputs,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let (name, plan) = (chosen.name.as_str(), &chosen.plan);
+    let text = match chosen.preset {
+        _ if arguments.full => leaf_to_toml(name, plan, Extent::All),
+        Some(preset) => leaf_beside_preset(name, plan, preset),
+        None => leaf_to_toml(name, plan, Extent::Changed),
+    };
+    for (path, kind) in &outputs.whole {
+        if *kind == Kind::Toml {
+            finish(path, text.as_bytes(), stop)?;
+        }
+    }
     Ok(())
 }
 

@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::image::{ImageError, openexr, portable_network};
+use leafmodel::document::assets::{Assets, Raster, Triangles};
 use leafmodel::optics::Contents;
+
+use crate::geometry;
+use crate::image::{ImageError, openexr, portable_network};
 
 use crate::material::contents_texture::{CHANNELS, ContentsTexture};
 
@@ -257,4 +260,52 @@ pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
         width: picture.width as usize,
         texels,
     })
+}
+
+/// Decodes what leaves and bodies name.
+#[derive(Debug)]
+pub struct Decoder;
+
+/// The one decoder.
+pub static DECODER: Decoder = Decoder;
+
+impl Assets for Decoder {
+    fn grey(&self, file: &Path, channel: Option<&str>) -> Result<Raster, String> {
+        mask(file, channel).map(|(width, values)| Raster { width, values })
+    }
+
+    fn weights(&self, file: &Path) -> Result<Raster, String> {
+        let picture =
+            portable_network::read_weights(file, false).map_err(|error| error.to_string())?;
+        let values = picture.layers.into_iter().flat_map(|layer| layer.data);
+        Ok(Raster {
+            width: picture.width as usize,
+            values: values.collect(),
+        })
+    }
+
+    fn contents(&self, file: &Path) -> Result<Raster, String> {
+        let map = contents_map(file).map_err(|error| error.without_path(file))?;
+        Ok(Raster {
+            width: map.size().0,
+            values: map.texels().as_flattened().to_vec(),
+        })
+    }
+
+    fn mesh(&self, file: &Path, scale: f64) -> Result<Triangles, (String, &'static str)> {
+        let bytes =
+            read(file).map_err(|error| (error.without_path(file), "make the file readable"))?;
+        let extension = file.extension().and_then(|ending| ending.to_str());
+        let mesh = geometry::import(&bytes, extension.unwrap_or(""), scale as f32)
+            .map_err(|error| (error.to_string(), "save the mesh anew as PLY or OBJ"))?;
+        let dropped = mesh.dropped();
+        Ok(Triangles {
+            positions: mesh.positions().iter().map(|p| p.as_dvec3()).collect(),
+            faces: mesh.triangles().to_vec(),
+            normals: mesh
+                .normals()
+                .map(|normals| normals.iter().map(|normal| normal.as_dvec3()).collect()),
+            dropped: (dropped.total() > 0).then(|| dropped.to_string()),
+        })
+    }
 }

@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use glam::{DMat4, DVec3};
+pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Pigments;
 use leafmodel::solid::SolidPlan;
@@ -38,15 +39,6 @@ pub struct Description {
     pub objects: Vec<Named<Object>>,
 }
 
-/// A block with the name it has in the file.
-#[derive(Clone, Debug)]
-pub struct Named<T> {
-    /// Name in the scene file.
-    pub name: String,
-    /// The block.
-    pub value: T,
-}
-
 /// A spectrum as written. What it means (reflectance, radiance …) is said where it is used.
 #[derive(Clone, Debug)]
 pub enum Spectrum {
@@ -71,6 +63,29 @@ pub enum Spectrum {
         /// Value at 560 nm.
         scale: f64,
     },
+}
+
+impl Description {
+    /// A scene with nothing in it.
+    pub(crate) fn empty(name: &str, source: String) -> Self {
+        Self {
+            name: name.to_owned(),
+            source,
+            film: Film::usual(),
+            picture: Picture {
+                exposure_ev: 0.0,
+                tone: Tone::Linear,
+            },
+            camera: Camera::usual(),
+            integrator: Integrator::default(),
+            materials: Vec::new(),
+            meshes: Vec::new(),
+            leaves: Vec::new(),
+            solids: Vec::new(),
+            lights: Vec::new(),
+            objects: Vec::new(),
+        }
+    }
 }
 
 /// What is recorded, and how well.

@@ -1,18 +1,28 @@
 //! Which leaf is to be grown: a preset or one of a file.
 
+use leafmodel::leaf::LeafPlan;
+use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
 
 use crate::cli::Failure;
 use crate::cli::arguments::{GrowArguments, file_and_leaf};
-use crate::scene::description::{Leaf, Named};
-use crate::scene::load::{LeafFile, LeafNotChosen, load_one_leaf};
-use crate::scene::nearest::nearest;
+use crate::scene::assets::DECODER;
+use leafmodel::document::nearest::nearest;
+
+/// A leaf that is to be grown.
+pub(super) struct Chosen {
+    pub(super) name: String,
+    pub(super) plan: LeafPlan,
+    /// The preset that it was made from, if it was.
+    pub(super) preset: Option<&'static str>,
+}
 
 /// The leaf with all its settings.
-pub(super) fn choose(arguments: &GrowArguments) -> Result<Named<Leaf>, Failure> {
+pub(super) fn choose(arguments: &GrowArguments) -> Result<Chosen, Failure> {
     let wanted = arguments.leaf.as_deref().unwrap_or_default();
-    let read = |file| load_one_leaf(file, &arguments.overrides, &arguments.set);
-    let mut chosen = if let Some(preset) = species::find(wanted) {
+    let read = |file| load_one_leaf(file, Some(&DECODER), &arguments.overrides, &arguments.set);
+    let preset = species::find(wanted);
+    let chosen = if let Some(preset) = preset {
         let plan = preset.plan();
         read(LeafFile::Plan {
             name: preset.name,
@@ -26,9 +36,13 @@ pub(super) fn choose(arguments: &GrowArguments) -> Result<Named<Leaf>, Failure> 
         }
         read(LeafFile::File { path: &path, leaf })
     }?;
-    let plan = &mut chosen.value.plan;
+    let mut plan = chosen.value;
     plan.seed = arguments.seed.unwrap_or(plan.seed);
-    Ok(chosen)
+    Ok(Chosen {
+        name: chosen.name,
+        plan,
+        preset: preset.map(|preset| preset.name),
+    })
 }
 
 /// Whether it looks like the name of a preset rather than a file's.

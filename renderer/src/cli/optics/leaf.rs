@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::cli::Failure;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::columns::in_columns;
-use crate::scene::nearest::nearest;
+use leafmodel::document::nearest::nearest;
 
 /// A leaf of which nothing is said.
 const DEFAULT: Contents = Contents {

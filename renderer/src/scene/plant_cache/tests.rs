@@ -1,11 +1,12 @@
 use std::cell::Cell;
 
 use leafmodel::compound::WholeLeaf;
+use leafmodel::document::written::Extent;
 use leafmodel::species::find;
 
 use super::*;
 use crate::material::palette::Palette;
-use crate::scene::load::{leaf_to_toml, parse_leaves};
+use crate::scene::load::parse_leaves;
 use crate::scene::plants;
 
 /// Small leaves with all that a file may hold: one blade alone, one with a stalk, several on axes.
@@ -60,7 +61,7 @@ fn a_scene_has_the_same_meshes_and_maps_with_and_without_a_cache() {
     let folder = tempfile::tempdir().expect("a folder");
     let cache = PlantCache::open(folder.path()).expect("it can be used");
     for plan in plans() {
-        let text = leaf_to_toml("a", &plan);
+        let text = leafmodel::plan_file::leaf_to_toml("a", &plan, Extent::Changed);
         let leaves = parse_leaves(&text, "a.toml", folder.path(), &[]).expect("it reads back");
         let grow = |cache| {
             let grown = plants::grow(&leaves[0].value, &Palette::default(), cache);

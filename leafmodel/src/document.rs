@@ -1,0 +1,33 @@
+//! Files of blocks and keys: TOML whose every key is declared once.
+//!
+//! A block is declared by one function that names its keys, each with its type, unit, range,
+//! meaning and the place of its value ([`keys::Keys`]). Everything else follows from that one
+//! function: reading with all errors at their places, writing, and the schema that editors and
+//! the book are made from ([`schema`]).
+//!
+//! - **In**: the text of a file, and overrides `key=value`.
+//! - **Out**: the values, or a report of everything that is wrong ([`report::DocumentErrors`]).
+//! - **Always true**: numbers are finite and in range; no file outside the document's folder is
+//!   touched.
+//! - **Left out**: what the blocks mean. Leaves are in [`crate::plan_file`], scenes in the renderer.
+
+pub mod assets;
+pub mod context;
+pub mod coverage;
+pub mod error;
+pub mod keys;
+pub mod limits;
+pub mod names;
+pub mod nearest;
+pub mod opened;
+pub mod overrides;
+pub mod path;
+pub mod reader;
+pub mod report;
+pub mod schema;
+pub mod source;
+pub mod tree;
+pub mod value_kind;
+pub mod values;
+pub mod write;
+pub mod written;

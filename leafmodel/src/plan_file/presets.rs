@@ -1,0 +1,83 @@
+//! `preset`: the name of a leaf, or of a colour, whose numbers hold where a file says nothing else.
+
+use crate::document::context::{Context, QUOTED};
+use crate::document::error::DocumentError;
+use crate::document::keys::Keys;
+use crate::document::nearest::nearest;
+use crate::document::schema::Type;
+use crate::document::source::escaped;
+use crate::document::tree::{Node, Value};
+use crate::document::value_kind::Kind;
+use crate::document::values::{listed, text_at};
+use crate::leaf::LeafPlan;
+use crate::optics::{Contents, presets};
+use crate::species;
+
+/// One of many things by name.
+struct Chosen<T: 'static> {
+    kind: &'static str,
+    all: &'static [T],
+    name_of: fn(&T) -> &'static str,
+}
+
+impl<T> Kind for Chosen<T> {
+    type Of = &'static T;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<&'static T> {
+        let (written, at) = text_at(cx, node, key)?;
+        let found = self.all.iter().find(|one| (self.name_of)(one) == written);
+        if found.is_none() {
+            let names = || self.all.iter().map(|one| (self.name_of)(one));
+            let error = DocumentError::UnknownName {
+                kind: self.kind,
+                name: escaped(written, QUOTED),
+                nearest: nearest(written, names()).map(str::to_owned),
+                known: listed(names()),
+            };
+            cx.error(at, error);
+        }
+        found
+    }
+
+    fn write(&self, value: &&'static T) -> Value {
+        Value::Text((self.name_of)(value).to_owned())
+    }
+
+    fn describe(&self) -> Type {
+        let names = self.all.iter().map(|one| (self.name_of)(one).to_owned());
+        Type::Name(names.collect(), self.kind)
+    }
+}
+
+/// The key `preset` of a leaf. Where it is there the plan is that of the species, and no other key is required.
+pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
+    let chosen = Chosen {
+        kind: "preset",
+        all: species::PRESETS,
+        name_of: |preset| preset.name,
+    };
+    let mut preset = None;
+    let about = "A leaf whose numbers hold where nothing else is said: see `lamina grow --list`.";
+    keys.optional("preset", &mut preset, chosen, about);
+    if let Some(preset) = preset {
+        *plan = preset.plan();
+        keys.set_base(preset.name);
+    }
+}
+
+/// The key `preset` of contents. Where it is there they are that colour's, and no other key is required.
+pub fn colour_preset(contents: &mut Contents, keys: &mut Keys<'_>) {
+    let chosen = Chosen {
+        kind: "preset",
+        all: &presets::ALL,
+        name_of: |preset| preset.name,
+    };
+    let mut preset = None;
+    let about =
+        "A colour whose contents hold where nothing else is said: see `lamina optics --list`.";
+    keys.optional("preset", &mut preset, chosen, about);
+    if let Some(preset) = preset {
+        *contents = preset.contents;
+        keys.set_base(preset.name);
+    }
+}

@@ -1,0 +1,131 @@
+//! Tissue, form and stalks by chance.
+
+use super::*;
+
+pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
+    let contents = (1.0..4.0, prop::array::uniform8(0.0..1.0)).prop_map(|(structure, rest)| {
+        let [a, b, c, d, e, f, g, h] = rest;
+        Contents::from_array([structure, a * 80.0, b * 20.0, c, d, e, f, g, h])
+    });
+    let tissue = (
+        contents,
+        prop::option::of(prop::array::uniform8(0.0..2.0)),
+        0.0..1.0_f64,
+    )
+        .prop_map(|(lamina, factors, mottle)| {
+            let mut tissue = Tissue::of(lamina);
+            if let Some([a, b, c, d, e, f, g, h]) = factors {
+                tissue.vein_factors = Contents::from_array([1.3, a, b, c, d, e, f, g, h]);
+                tissue.mottle = mottle;
+                tissue.sheath_width_mm = 0.1 + mottle;
+            }
+            tissue
+        });
+    let form = (
+        -80.0..80.0_f64,
+        -355.0..355.0_f64,
+        0.0..0.5,
+        0.5..2.0,
+        any::<bool>(),
+    )
+        .prop_map(|(fold, curl, ruffle, relief, plain)| {
+            let default = BladeForm::nearly_flat(80.0);
+            if plain {
+                return default;
+            }
+            BladeForm {
+                fold: fold.to_radians(),
+                curl: curl.to_radians(),
+                ruffle,
+                relief,
+                max_edge_mm: relief,
+                ..default
+            }
+        });
+    (tissue, form)
+}
+
+pub(super) fn feather() -> impl Strategy<Value = Feather> {
+    (
+        (
+            1_u32..4,
+            any::<bool>(),
+            4.0..30.0,
+            prop_oneof![Just(0.0), 0.1..0.9],
+        ),
+        prop::array::uniform2(50.0..110.0_f64),
+        prop_oneof![Just([1.0; 3]), prop::array::uniform3(0.1..1.0)],
+        prop_oneof![Just(0.0), -100.0..100.0_f64],
+    )
+        .prop_map(
+            |((pairs, terminal, rachis, alternation), angles, sizes, turn)| Feather {
+                pairs,
+                terminal,
+                rachis,
+                alternation,
+                angles: angles.map(f64::to_radians),
+                sizes,
+                turn: turn.to_radians(),
+            },
+        )
+}
+
+/// Nothing, a petiole, or the one or other compound leaf.
+pub(super) fn petiole_or_compound()
+-> impl Strategy<Value = (Option<PetiolePlan>, Option<CompoundForm>)> {
+    let petiole = (0.0..3.0, prop::option::of(0.01..2.0), -90.0..90.0_f64);
+    let petiole = petiole.prop_map(|(length, radius_mm, curl)| PetiolePlan {
+        length,
+        radius_mm,
+        curl: curl.to_radians(),
+    });
+    let palmate = (
+        2_u32..5,
+        200.0..320.0_f64,
+        prop_oneof![Just([1.0; 2]), Just([0.5, 0.9])],
+    );
+    let arrangement = prop_oneof![
+        feather().prop_map(Arrangement::Pinnate),
+        palmate.prop_map(|(leaflets, spread, sizes)| Arrangement::Palmate {
+            leaflets,
+            spread: spread.to_radians(),
+            sizes,
+        }),
+        (feather(), feather(), 1.0..3.0).prop_map(|(pinnae, leaflets, stalk)| {
+            Arrangement::Bipinnate {
+                pinnae,
+                leaflets,
+                stalk,
+            }
+        }),
+    ];
+    let bends = prop_oneof![
+        Just([0.0; 3]),
+        (-300.0..300.0_f64, -70.0..70.0_f64, 0.0..50.0_f64).prop_map(|(a, b, c)| [a, b, c]),
+    ];
+    let stalks = (
+        0.0..5.0,
+        prop_oneof![Just(0.05), 0.1..2.0],
+        prop_oneof![Just(0.4), 0.1..2.0],
+    );
+    let compound = (arrangement, bends, stalks, 1_u32..5).prop_map(
+        |(arrangement, bends, (petiole, petiolule, stalk_radius_mm), variants)| {
+            let [curl, fold, tilt] = bends.map(f64::to_radians);
+            CompoundForm {
+                arrangement,
+                petiole,
+                petiolule,
+                stalk_radius_mm,
+                variants,
+                curl,
+                fold,
+                tilt,
+            }
+        },
+    );
+    prop_oneof![
+        Just((None, None)),
+        petiole.prop_map(|petiole| (Some(petiole), None)),
+        compound.prop_map(|compound| (None, Some(compound))),
+    ]
+}

@@ -1,0 +1,183 @@
+//! Outlines by chance.
+
+use super::*;
+
+pub(super) fn cubic() -> impl Strategy<Value = Contour> {
+    (20.0..110.0, 0.1..0.8, 20.0..110.0, 0.1..0.8).prop_map(
+        |(angle1_deg, length1, angle2_deg, length2)| {
+            Contour::Cubic(CubicMargin {
+                angle1_deg,
+                length1,
+                angle2_deg,
+                length2,
+            })
+        },
+    )
+}
+
+pub(super) fn transport() -> impl Strategy<Value = Contour> {
+    let ladder = prop_oneof![
+        Just(Ladder::Events),
+        Just(Ladder::Equal(80)),
+        (1_u32..30).prop_map(Ladder::Equal),
+    ];
+    let numbers = (
+        0.55..0.9,
+        0.1..2.0,
+        1.5..3.0,
+        prop_oneof![Just(1.0), 0.5..2.0],
+    );
+    let light = (any::<bool>(), prop_oneof![Just(0.0), 0.1..0.5], 1.0..9.0);
+    (numbers, ladder, light, 5000_usize..20_001).prop_map(
+        |((alpha, beta, epsilon, cell), ladder, (mirrored, noise, noise_cells), most_cells)| {
+            Contour::Transport(TransportPlan {
+                alpha,
+                beta,
+                epsilon,
+                cell,
+                ladder,
+                mirrored,
+                noise,
+                noise_cells,
+                most_cells,
+            })
+        },
+    )
+}
+
+pub(super) fn half_form() -> impl Strategy<Value = HalfForm> {
+    let peak = (1.0..2.0, 0.1..0.9, 0.5..9.0).prop_map(|(rate_ratio, widest_at, falloff)| {
+        LateralGrowth::Peak {
+            rate_ratio,
+            widest_at,
+            falloff,
+        }
+    });
+    let knots = prop::collection::vec(-0.01..0.09, 1..4);
+    let curve = knots.prop_map(|rates| {
+        let knot = |(i, rate)| [f64::from(i) / 3.0, rate];
+        let knots = (0..).zip(rates).map(knot).collect();
+        LateralGrowth::Curve(RateCurve::new(knots).expect("good rates"))
+    });
+    let decay = prop_oneof![Just(0.0), 0.0..0.01];
+    let exponent = prop_oneof![Just(2.0), 0.5..3.0];
+    let bend = prop_oneof![Just(0.0), -1.0..1.0];
+    let lateral = prop_oneof![peak, curve];
+    (lateral, decay, exponent, 0_usize..4, bend).prop_map(
+        |(lateral, lobe_decay, lobe_exponent, veins, bend)| {
+            let vein = |i: usize| VeinRow {
+                position: (i as f64 + 0.5) / 4.0,
+                slope: 0.6,
+                bend,
+            };
+            HalfForm {
+                lateral,
+                lobe_decay,
+                lobe_exponent,
+                veins: (0..veins).map(vein).collect(),
+            }
+        },
+    )
+}
+
+/// An axis of a symmetrical leaf or an unlike one, without axes on it.
+pub(super) fn bare_axis() -> impl Strategy<Value = Axis> {
+    let left = prop::option::of((half_form(), any::<bool>()));
+    let rows = prop_oneof![Just(150_usize), 3_usize..300];
+    (rows, half_form(), left).prop_map(|(rows, right, left)| Axis {
+        rows,
+        left: left.map(|(left, alike)| if alike { right.clone() } else { left }),
+        right,
+        axes: Vec::new(),
+    })
+}
+
+pub(super) fn growth_form() -> impl Strategy<Value = GrowthForm> {
+    let rate = prop_oneof![Just(0.1), 0.01..1.0];
+    let position = prop_oneof![Just(0.0), 0.0..0.6];
+    let place = (position, -170_i32..170, any::<bool>(), 0.2..1.0);
+    let secondary =
+        (place, bare_axis(), 0_usize..4).prop_map(|(place, axis, alike)| (place, axis, alike));
+    let axes = prop::collection::vec(secondary, 0..3);
+    (rate, bare_axis(), axes, any::<bool>()).prop_map(|(axial_rate, midrib, axes, nested)| {
+        let mut form = GrowthForm { axial_rate, midrib };
+        for ((position, angle_deg, paired, length), mut axis, alike) in axes {
+            // Some have much of their parent's.
+            if alike > 0 {
+                axis.right = form.midrib.right.clone();
+            }
+            if alike > 1 {
+                axis.rows = form.midrib.rows;
+            }
+            if alike > 2 {
+                axis.right.veins.clear();
+            }
+            let secondary = SecondaryAxis {
+                position,
+                angle: f64::from(angle_deg).to_radians(),
+                paired,
+                length,
+                axis,
+            };
+            match form.midrib.axes.last_mut().filter(|_| nested) {
+                Some(last) => last.axis.axes.push(secondary),
+                None => form.midrib.axes.push(secondary),
+            }
+        }
+        form
+    })
+}
+
+pub(super) fn contour() -> impl Strategy<Value = Contour> {
+    let grown = growth_form().prop_map(Contour::GrowthAlgorithm);
+    let drawn = (
+        prop::collection::vec((0.05..0.5, any::<bool>()), 1..6),
+        any::<bool>(),
+    )
+        .prop_map(|(widths, mirrored)| {
+            let step = 1.0 / (widths.len() + 1) as f64;
+            let point = |place, corner| ControlPoint { place, corner };
+            let heights = (1..).map(|i| f64::from(i) * step);
+            let right = widths
+                .iter()
+                .zip(heights)
+                .map(|(&(x, corner), y)| point([x, y], corner));
+            let ends = [point([0.0, 0.0], false), point([0.0, 1.0], true)];
+            let mut points: Vec<ControlPoint> = std::iter::once(ends[0])
+                .chain(right)
+                .chain([ends[1]])
+                .collect();
+            if !mirrored {
+                points.push(point([-0.3, 0.5], false));
+            }
+            Contour::Curve(ContourCurve { points, mirrored })
+        });
+    let traced = (any::<bool>(), any::<bool>()).prop_map(|(named, turned)| {
+        let id = named.then_some("kite");
+        let mut contour = SvgContour::parse("leaf.svg", SVG, id).expect("a good file");
+        if turned {
+            contour.base = contour.points[1];
+        }
+        Contour::Svg(contour)
+    });
+    prop_oneof![grown, drawn, traced, cubic(), transport()]
+}
+
+pub(super) fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
+    let share = || prop_oneof![Just(0.0), 0.0..1.0];
+    let wave = (
+        1_u32..20,
+        0.0001..0.005,
+        prop_oneof![Just(0.0), -1.0..1.0],
+        share(),
+        share(),
+    )
+        .prop_map(|(per_side, height, lean, fade_base, fade_apex)| ToothWave {
+            per_side,
+            height,
+            lean,
+            fade_base,
+            fade_apex,
+        });
+    prop::collection::vec(wave, 0..3)
+}

@@ -1,0 +1,228 @@
+//! The blocks of a scene file, each declared once: see [`leafmodel::document`].
+//!
+//! - **In**: the tree of a file, overrides already put in.
+//! - **Out**: a [`Description`] with names resolved and units in SI, or every error of the file; the
+//!   same declarations as a schema.
+//! - **Always true**: a description is given only if there is no error; numbers in it are finite
+//!   and in range, indices are valid, files lie in the scene's folder.
+
+mod camera;
+mod film;
+mod instances;
+mod leaf;
+mod light;
+mod material;
+mod mesh;
+mod object;
+mod references;
+mod solid;
+mod spectrum;
+mod table_file;
+
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use leafmodel::document::context::Context;
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::{Keys, NamedList};
+use leafmodel::document::names::{Named, Names, require_name};
+use leafmodel::document::reader::Block;
+use leafmodel::document::schema::BlockSchema;
+use leafmodel::document::source::Place;
+use leafmodel::document::tree::Table;
+use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
+use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
+
+pub(crate) use self::solid::solid;
+use super::description::{Description, Leaf, Light, Material, Mesh, Object, Solid, Spectrum};
+
+/// All keys at the top of a scene file.
+const SECTIONS: [&str; 13] = [
+    "format",
+    "name",
+    "extrapolate",
+    "film",
+    "picture",
+    "camera",
+    "integrator",
+    "materials",
+    "meshes",
+    "leaves",
+    "solids",
+    "lights",
+    "objects",
+];
+
+/// Reads a whole file. Errors are left in the context; without one there is a description.
+pub(crate) fn read(
+    cx: &Context,
+    tree: &Table,
+    default_name: &str,
+    text: String,
+) -> Option<Description> {
+    let mut description = Description::empty(default_name, text);
+    let root = root(cx, tree);
+    Keys::read(root, None, |keys| {
+        if let Some(root) = keys.reader() {
+            let names = references::SECTIONS.map(|section| {
+                let names = Names::of(root, section, &SECTIONS);
+                (section, Rc::new(names))
+            });
+            cx.sections.borrow_mut().extend(names);
+        }
+        scene(&mut description, keys);
+    });
+    (cx.error_count() == 0).then_some(description)
+}
+
+/// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
+pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>> {
+    // What else a scene has is left to whoever renders it.
+    let others: Vec<&'static str> = SECTIONS
+        .into_iter()
+        .filter(|section| !["format", "extrapolate", "leaves"].contains(section))
+        .collect();
+    read_leaves(cx, tree, &others, leaf::leaf)
+}
+
+/// What a scene file may hold.
+pub(crate) fn schema() -> BlockSchema {
+    Keys::describe(|keys| scene(&mut Description::empty("", String::new()), keys))
+}
+
+fn root<'a>(cx: &'a Context, tree: &'a Table) -> Block<'a> {
+    let start = Place {
+        source: 0,
+        span: 0..0,
+    };
+    Block::new(cx, tree, String::new(), start)
+}
+
+/// The keys of a scene.
+fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
+    plan_file::format(keys);
+    let mut name = None;
+    let about = "What the scene is called, and its pictures; left out, as the folder or file is.";
+    keys.optional("name", &mut name, Text("a name"), about);
+    if let (Some(name), Some(root)) = (name, keys.reader()) {
+        let at = root.node("name").map_or(&root.at, |node| &node.at);
+        require_name(root.cx, &name, at);
+        scene.name = name;
+    }
+    let mut extrapolate = false;
+    keys.key("extrapolate", &mut extrapolate, Flag, EXTRAPOLATE);
+    if let Some(root) = keys.reader() {
+        root.cx.extrapolate.set(extrapolate);
+    }
+    // The film comes first: it says which wavelengths spectra must cover.
+    let about = "What is recorded, and how well.";
+    keys.required_block("film", about, &["rgb", "spectral"], |keys| {
+        film::film(&mut scene.film, keys);
+    });
+    let about = "How the PNG is made from the film.";
+    keys.block("picture", about, |keys| {
+        film::picture(&mut scene.picture, keys);
+    });
+    let about = "Where the scene is seen from.";
+    keys.required_block("camera", about, &["perspective"], |keys| {
+        camera::camera(&mut scene.camera, keys);
+    });
+    let about = "How light is followed.";
+    keys.block("integrator", about, |keys| {
+        camera::integrator(&mut scene.integrator, keys);
+    });
+    sections(scene, keys);
+    if keys.reader().is_some() {
+        references::check(scene, keys);
+    }
+}
+
+/// The blocks with names.
+fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
+    let about = "What surfaces are made of.";
+    let new = || Material::Diffuse {
+        reflectance: Spectrum::Constant(0.0),
+    };
+    section(
+        keys,
+        "materials",
+        &mut scene.materials,
+        &new,
+        about,
+        material::material,
+    );
+    let about = "Shapes as triangles.";
+    section(
+        keys,
+        "meshes",
+        &mut scene.meshes,
+        &Mesh::unit_sphere,
+        about,
+        mesh::mesh,
+    );
+    let about = "Leaves that are grown.";
+    let new = || Leaf::from(plan_file::usual_leaf(100.0));
+    section(keys, "leaves", &mut scene.leaves, &new, about, leaf::leaf);
+    let about = "Bodies of solid tissue.";
+    section(
+        keys,
+        "solids",
+        &mut scene.solids,
+        &Solid::usual,
+        about,
+        solid,
+    );
+    let about = "Lights; there is one at least.";
+    let new = || Light::Constant {
+        radiance: Spectrum::Constant(0.0),
+    };
+    section(keys, "lights", &mut scene.lights, &new, about, light::light);
+    let about = "What stands in the scene; there is one at least.";
+    section(
+        keys,
+        "objects",
+        &mut scene.objects,
+        &Object::nowhere,
+        about,
+        object::object,
+    );
+}
+
+fn section<T>(
+    keys: &mut Keys<'_>,
+    name: &'static str,
+    blocks: &mut Vec<Named<T>>,
+    new: &dyn Fn() -> T,
+    about: &'static str,
+    declare: impl Fn(&mut T, &mut Keys<'_>),
+) {
+    let list = NamedList {
+        required: false,
+        new: &|name: &str| Named {
+            name: name.to_owned(),
+            value: new(),
+        },
+        name_of: |block: &Named<T>| &block.name,
+    };
+    keys.named(name, blocks, &list, about, |block, keys| {
+        declare(&mut block.value, keys);
+    });
+}
+
+/// Reports an error at a key of the block that is read, or at the block where the key is left out.
+fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
+    keys.report(&[key], error);
+}
+
+/// A key with the path of a file that must be there.
+fn file(
+    keys: &mut Keys<'_>,
+    key: &'static str,
+    file: &mut PathBuf,
+    path: FilePath,
+    about: &'static str,
+) {
+    let mut named = NamedFile::default();
+    keys.required(key, &mut named, path, about);
+    *file = named.file;
+}

@@ -1,0 +1,265 @@
+//! `[film.rgb]`, `[film.spectral]` and `[picture]`.
+
+use leafmodel::document::context::Context;
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::{Keys, Variant};
+use leafmodel::document::limits::Limits;
+use leafmodel::document::schema::Type;
+use leafmodel::document::tree::{Node, Value};
+use leafmodel::document::value_kind::{Integer, Kind, Number, Word};
+use leafmodel::document::values::{
+    integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
+};
+
+use crate::scene::description::{Band, Film, FilmKind, Picture, Tone};
+
+/// Wavelengths that the renderer knows, nm.
+const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
+/// Most pixels along one side; both sides at most give 2^28 pixels.
+const MOST_PIXELS: u64 = 16384;
+/// Most samples a pixel.
+const MOST_SAMPLES: u64 = 65536 * 16;
+const MOST_BANDS: usize = 32;
+
+const KINDS: [Variant<Film>; 2] = [
+    Variant {
+        name: "rgb",
+        about: "Colour.",
+        new: || Film {
+            filter_radius: 1.5,
+            ..Film::usual()
+        },
+        is: |film| matches!(film.kind, FilmKind::Rgb { .. }),
+        declare: |film, keys| {
+            sampling(film, keys);
+            if let FilmKind::Rgb { range_nm } = &mut film.kind {
+                let about = "Wavelengths that paths carry, first and last. The default is where \
+                    PROSPECT-D has data and the observer sees nearly everything.";
+                keys.key("range_nm", range_nm, Range, about);
+            }
+            tell_range(film, keys);
+        },
+    },
+    Variant {
+        name: "spectral",
+        about: "Mean radiance in bands of wavelengths.",
+        new: || Film {
+            filter_radius: 0.0,
+            kind: FilmKind::Spectral { bands: Vec::new() },
+            ..Film::usual()
+        },
+        is: |film| matches!(film.kind, FilmKind::Spectral { .. }),
+        declare: |film, keys| {
+            sampling(film, keys);
+            if let FilmKind::Spectral { bands } = &mut film.kind {
+                let mut width_nm = bands.first().map_or(10.0, |band| band.width_nm);
+                let limits = Number(Limits::closed(0.0, 200.0));
+                let about = "Full width of every band; 0 is a single wavelength.";
+                keys.key("band_width_nm", &mut width_nm, limits, about);
+                let about = "Middles of the bands. The whole band must lie within 360 to 2500 \
+                    nm.";
+                keys.required("bands_nm", bands, Bands { width_nm }, about);
+            }
+            tell_range(film, keys);
+        },
+    },
+];
+
+impl Film {
+    /// A film of which nothing is said.
+    pub(in crate::scene) fn usual() -> Self {
+        Self {
+            width: 1,
+            height: 1,
+            spp: 1,
+            noise: None,
+            seed: 0,
+            filter_radius: 1.5,
+            kind: FilmKind::Rgb {
+                range_nm: [400.0, 780.0],
+            },
+        }
+    }
+}
+
+/// The keys of `[film]`.
+pub(super) fn film(film: &mut Film, keys: &mut Keys<'_>) {
+    keys.kind(film, &KINDS);
+}
+
+fn sampling(film: &mut Film, keys: &mut Keys<'_>) {
+    let mut size = [film.width, film.height];
+    keys.required("size", &mut size, Pixels, "Pixels across and down.");
+    [film.width, film.height] = size;
+    let count = Integer::within(1, MOST_SAMPLES);
+    let about = "Samples a pixel; with `noise` the most.";
+    keys.required("spp", &mut film.spp, count, about);
+    let mut noise = film.noise.unwrap_or(0.0);
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "Relative error at which a part of the picture has enough samples: 0.01 is one \
+        percent (adaptive sampling); 0 gives every pixel `spp` samples.";
+    keys.key("noise", &mut noise, limits, about);
+    film.noise = (noise > 0.0).then_some(noise);
+    let seed = Integer::within(0, u64::MAX);
+    keys.key(
+        "seed",
+        &mut film.seed,
+        seed,
+        "Seed of every random number; same file, same seed, \
+        same bytes.",
+    );
+    let limits = Number(Limits::closed(0.0, 8.0));
+    let about = "Radius of the Gaussian reconstruction filter; 0 is a box of one pixel, which \
+        keeps pixels independent of each other.";
+    keys.key("filter_radius_px", &mut film.filter_radius, limits, about);
+}
+
+/// Tells all that follow which wavelengths the film needs.
+fn tell_range(film: &Film, keys: &Keys<'_>) {
+    let Some(block) = keys.reader() else {
+        return;
+    };
+    let range = match &film.kind {
+        FilmKind::Rgb { range_nm } => Some(*range_nm),
+        FilmKind::Spectral { bands } if bands.is_empty() => None,
+        FilmKind::Spectral { bands } => {
+            let ends = bands.iter().map(|band| {
+                let half = band.width_nm / 2.0;
+                [band.center_nm - half, band.center_nm + half]
+            });
+            ends.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
+        }
+    };
+    block.cx.range_nm.set(range);
+}
+
+/// Pixels across and down.
+#[derive(Clone, Copy, Debug)]
+struct Pixels;
+
+impl Kind for Pixels {
+    type Of = [u32; 2];
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<[u32; 2]> {
+        let size = integers_at::<2>(cx, node, key, 1, MOST_PIXELS)?;
+        Some(size.map(|pixels| pixels as u32))
+    }
+
+    fn write(&self, value: &[u32; 2]) -> Value {
+        list(value.map(|pixels| Value::Integer(pixels.into())))
+    }
+
+    fn describe(&self) -> Type {
+        let pixels = Type::Integer {
+            least: 1,
+            most: MOST_PIXELS,
+        };
+        let list = Type::Tuple(vec![pixels; 2]);
+        Type::AnyOf(vec![list], "pixels across and down, as in [640, 480]")
+    }
+}
+
+/// Two wavelengths, the first below the second.
+#[derive(Clone, Copy, Debug)]
+struct Range;
+
+impl Kind for Range {
+    type Of = [f64; 2];
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<[f64; 2]> {
+        let range: [f64; 2] = numbers_at(cx, node, key, WAVELENGTHS_NM)?;
+        if range[0] < range[1] {
+            return Some(range);
+        }
+        let error = DocumentError::NotRising {
+            key: key.to_owned(),
+            before: range[0],
+            after: range[1],
+        };
+        cx.error(&node.at, error);
+        None
+    }
+
+    fn write(&self, value: &[f64; 2]) -> Value {
+        list(value.map(number))
+    }
+
+    fn describe(&self) -> Type {
+        Type::Tuple(vec![Type::Number(WAVELENGTHS_NM); 2])
+    }
+}
+
+/// Middles of bands that rise; the whole of each must lie where there are data.
+#[derive(Clone, Copy, Debug)]
+struct Bands {
+    width_nm: f64,
+}
+
+impl Bands {
+    const WANTED: &str = "a list of 1 to 32 numbers";
+
+    fn limits(self) -> Limits {
+        let [(low, _), (high, _)] = WAVELENGTHS_NM.ends();
+        Limits::closed(low + self.width_nm / 2.0, high - self.width_nm / 2.0)
+    }
+}
+
+impl Kind for Bands {
+    type Of = Vec<Band>;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Vec<Band>> {
+        let Value::List(nodes) = &node.value else {
+            wrong_type(cx, node, key, Self::WANTED);
+            return None;
+        };
+        if nodes.is_empty() || nodes.len() > MOST_BANDS {
+            wrong_length(cx, &node.at, key, "a list", nodes.len(), Self::WANTED);
+            return None;
+        }
+        let errors = cx.error_count();
+        let mut bands: Vec<Band> = Vec::with_capacity(nodes.len());
+        for node in nodes {
+            let Some(center_nm) = number_at(cx, node, key, self.limits()) else {
+                continue;
+            };
+            if let Some(last) = bands.last().filter(|last| last.center_nm >= center_nm) {
+                let error = DocumentError::NotRising {
+                    key: key.to_owned(),
+                    before: last.center_nm,
+                    after: center_nm,
+                };
+                cx.error(&node.at, error);
+                break;
+            }
+            bands.push(Band {
+                center_nm,
+                width_nm: self.width_nm,
+            });
+        }
+        (cx.error_count() == errors).then_some(bands)
+    }
+
+    fn write(&self, bands: &Vec<Band>) -> Value {
+        list(bands.iter().map(|band| number(band.center_nm)))
+    }
+
+    fn describe(&self) -> Type {
+        Type::List {
+            of: Box::new(Type::Number(WAVELENGTHS_NM)),
+            least: 1,
+            most: MOST_BANDS,
+            wanted: "the middles of 1 to 32 bands, rising",
+        }
+    }
+}
+
+/// The keys of `[picture]`.
+pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
+    let limits = Number(Limits::closed(-30.0, 30.0));
+    let about = "Radiance is multiplied by 2 to this power.";
+    keys.key("exposure_ev", &mut picture.exposure_ev, limits, about);
+    let words = [("linear", Tone::Linear), ("filmic", Tone::Filmic)];
+    let about = "Curve before the sRGB encoding: none, so that colours can be measured in the \
+        PNG; or highlights that roll off as on film.";
+    keys.key("tone", &mut picture.tone, Word(&words), about);
+}

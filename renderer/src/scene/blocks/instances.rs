@@ -1,0 +1,222 @@
+//! `[objects.NAME.instances]`: a file with a row for each place at which an object stands.
+//!
+//! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both name their columns alike
+//!   ([`columns`]).
+//! - **Out**: places in the world, 52 bytes each, in the file's order; or errors, each with row, column, value and
+//!   what is allowed.
+//! - **Always true**: numbers are finite and in range, shapes are among the object's.
+//! - **Left out**: what the rows mean together. Instances may overlap.
+//!
+//! Rows are read on all threads. Of those that are wrong the first [`MOST_TOLD`] are told and the others counted, so
+//! that a report of a million rows is as short and as quick as one of ten.
+
+mod columns;
+mod npy;
+mod row_error;
+mod text;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use glam::DMat4;
+
+use self::row_error::RowError;
+use crate::scene::description::InstancePlace;
+use leafmodel::document::context::{Context, QUOTED};
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::source::{Place, escaped};
+use leafmodel::document::value_kind::{FilePath, NamedFile};
+
+/// Most wrong rows of a file that are told one by one.
+const MOST_TOLD: usize = 20;
+
+/// Most rows of a file: up to here the picture's 32-bit layers can number them.
+const MOST_ROWS: usize = 1 << 24;
+
+/// The names of an object's shapes, in the order in which the object lists them.
+type ShapeNames = [String];
+
+/// What is known of a file while its rows are read.
+#[derive(Debug)]
+struct Table<'a> {
+    /// The path as written, safe to print.
+    name: String,
+    shapes: &'a ShapeNames,
+    /// Of each name its place in the list; `None` if it is there more than once.
+    numbers: BTreeMap<&'a str, Option<u32>>,
+    /// Local to world of the frame in which the rows are given.
+    frame: DMat4,
+}
+
+/// A row with something wrong.
+#[derive(Debug)]
+struct WrongRow {
+    /// Its line, or of an array its number; from 1.
+    line: usize,
+    /// The row as a report shows it.
+    shown: String,
+    /// What is wrong, each with bytes of `shown`.
+    errors: Vec<(std::ops::Range<usize>, RowError)>,
+}
+
+/// What was made of some rows of a file.
+#[derive(Debug, Default)]
+struct Rows {
+    places: Vec<InstancePlace>,
+    /// The first wrong ones.
+    wrong: Vec<WrongRow>,
+    wrong_count: usize,
+}
+
+impl Rows {
+    /// Keeps what a row gave; `told` says what to show of a wrong one.
+    fn push(
+        &mut self,
+        row: Result<InstancePlace, Vec<RowError>>,
+        told: impl FnOnce(Vec<RowError>) -> WrongRow,
+    ) {
+        match row {
+            Ok(place) => self.places.push(place),
+            Err(errors) => {
+                self.wrong_count += 1;
+                if self.wrong.len() < MOST_TOLD {
+                    self.wrong.push(told(errors));
+                }
+            }
+        }
+    }
+
+    /// Rows of pieces of the file, in their order.
+    fn joined(pieces: Vec<Self>) -> Self {
+        let mut all = Self::default();
+        all.places
+            .reserve_exact(pieces.iter().map(|piece| piece.places.len()).sum());
+        for piece in pieces {
+            all.places.extend_from_slice(&piece.places);
+            all.wrong_count += piece.wrong_count;
+            let room = MOST_TOLD - all.wrong.len();
+            all.wrong.extend(piece.wrong.into_iter().take(room));
+        }
+        all
+    }
+}
+
+/// The keys of the block. `shapes` are those that rows choose from, `frame` takes rows' coordinates to the
+/// world; without either the file is only looked up.
+pub(super) fn instances(
+    places: &mut Vec<InstancePlace>,
+    keys: &mut Keys<'_>,
+    shapes: Option<&ShapeNames>,
+    frame: Option<DMat4>,
+) {
+    const PATH: FilePath = FilePath::of(
+        "the path of a CSV or NPY file with a row a place",
+        &["csv", "tsv", "txt", "npy"],
+        2 << 30,
+    );
+    let mut named = NamedFile::default();
+    keys.needed("file", &mut named, PATH, "The file.");
+    let (Some(block), true) = (keys.reader(), keys.is_sound()) else {
+        return;
+    };
+    let at = block.node("file").map_or(&block.at, |node| &node.at);
+    if let (Some(shapes), Some(frame)) = (shapes, frame) {
+        let table = Table::new(escaped(&named.written, 2 * QUOTED), shapes, frame);
+        let rows = read_rows(block.cx, &table, &named.file, at);
+        if let Some(rows) = rows
+            && table.report(block.cx, at, &rows).is_some()
+        {
+            *places = rows.places;
+        }
+    }
+}
+
+fn read_rows(cx: &Context, table: &Table<'_>, file: &Path, at: &Place) -> Option<Rows> {
+    let bytes = match fs::read(file) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            table.refuse(
+                cx,
+                at,
+                format!("cannot be read: {error}"),
+                "make the file readable",
+            );
+            return None;
+        }
+    };
+    let is_array = file
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("npy"));
+    if is_array {
+        npy::read(cx, table, at, &bytes)
+    } else {
+        text::read(cx, table, at, &bytes)
+    }
+}
+
+impl<'a> Table<'a> {
+    fn new(name: String, shapes: &'a ShapeNames, frame: DMat4) -> Self {
+        let mut numbers = BTreeMap::new();
+        for (number, shape) in shapes.iter().map(String::as_str).enumerate() {
+            let number = Some(number as u32);
+            let known = numbers.entry(shape).or_insert(number);
+            if *known != number {
+                *known = None;
+            }
+        }
+        Self {
+            name,
+            shapes,
+            numbers,
+            frame,
+        }
+    }
+
+    /// Reports what is wrong with the file as a whole, where the scene names it.
+    fn refuse(&self, cx: &Context, at: &Place, problem: String, help: &str) {
+        let error = DocumentError::BadFile {
+            path: self.name.clone(),
+            problem,
+            help: help.to_owned(),
+        };
+        cx.error(at, error);
+    }
+
+    /// Whether a file may have as many rows; reports it otherwise.
+    fn bear(&self, cx: &Context, at: &Place, rows: usize) -> bool {
+        if rows == 0 {
+            let help = "add a row for each place, or take the block out";
+            self.refuse(cx, at, "has a header and no rows".to_owned(), help);
+        } else if rows > MOST_ROWS {
+            let problem = format!("has {rows} rows, more than the {MOST_ROWS} that are read");
+            self.refuse(cx, at, problem, "spread them over several objects");
+        }
+        (1..=MOST_ROWS).contains(&rows)
+    }
+
+    /// Reports wrong rows; `None` if there are any.
+    fn report(&self, cx: &Context, at: &Place, rows: &Rows) -> Option<()> {
+        for row in &rows.wrong {
+            let shown = row.shown.clone();
+            let source = cx
+                .sources
+                .borrow_mut()
+                .add_excerpt(self.name.clone(), shown, row.line);
+            for (span, error) in &row.errors {
+                let place = Place {
+                    source,
+                    span: span.clone(),
+                };
+                cx.error(&place, error.told(self));
+            }
+        }
+        let untold = rows.wrong_count - rows.wrong.len();
+        if untold > 0 {
+            let problem = format!("has {untold} more wrong rows after those that are shown");
+            self.refuse(cx, at, problem, "mend the program that wrote the file");
+        }
+        (rows.wrong_count == 0).then_some(())
+    }
+}

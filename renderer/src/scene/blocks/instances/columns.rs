@@ -1,0 +1,272 @@
+//! The columns that a table of instances may have, and what their numbers mean together.
+
+use glam::{DMat3, DMat4, DQuat, DVec3};
+
+use super::Table;
+use super::row_error::RowError;
+use crate::scene::blocks::camera::COORDINATES_M;
+use crate::scene::blocks::object::{ANGLES_DEG, SCALES, turn};
+use crate::scene::description::InstancePlace;
+use leafmodel::document::context::{ENOUGH, QUOTED};
+use leafmodel::document::limits::Limits;
+use leafmodel::document::nearest::nearest;
+use leafmodel::document::source::escaped;
+
+/// Names of the columns, in the order in which a [`Row`] keeps their numbers.
+pub(super) const NAMES: [&str; COUNT] = [
+    "x_m",
+    "y_m",
+    "z_m",
+    "rotate_x_deg",
+    "rotate_y_deg",
+    "rotate_z_deg",
+    "quaternion_w",
+    "quaternion_x",
+    "quaternion_y",
+    "quaternion_z",
+    "scale",
+    "scale_x",
+    "scale_y",
+    "scale_z",
+    "shape",
+];
+
+/// How many columns there are.
+pub(super) const COUNT: usize = 15;
+const POSITION: usize = 0;
+const ROTATION: usize = 3;
+pub(super) const QUATERNION: usize = 6;
+const SCALE: usize = 10;
+const AXES: usize = 11;
+/// Which of the object's shapes a row is.
+pub(super) const SHAPE: usize = 14;
+
+/// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do not.
+const UNIT_TOLERANCE: f64 = 0.01;
+
+/// What a column's numbers may be; shapes are looked up instead.
+pub(super) fn limits(column: usize) -> Limits {
+    match column {
+        POSITION..ROTATION => COORDINATES_M,
+        ROTATION..QUATERNION => ANGLES_DEG,
+        QUATERNION..SCALE => Limits::closed(-1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE),
+        _ => SCALES,
+    }
+}
+
+/// Which columns a file has, in its order.
+#[derive(Debug)]
+pub(super) struct Header {
+    /// Of each field its column.
+    pub(super) columns: Vec<usize>,
+}
+
+/// What is wrong with a header.
+#[derive(Debug, PartialEq)]
+pub(super) struct HeaderError {
+    /// Number of the field, if it is one.
+    pub(super) field: Option<usize>,
+    /// Completes "the header …".
+    pub(super) problem: String,
+    /// What to write instead.
+    pub(super) help: String,
+}
+
+impl Header {
+    /// Looks the names of a header up.
+    pub(super) fn of(names: &[&str], shapes: usize) -> Result<Self, Vec<HeaderError>> {
+        let mut errors = Vec::new();
+        let mut wrong = |field: Option<usize>, problem: String, help: String| {
+            errors.push(HeaderError {
+                field,
+                problem,
+                help,
+            });
+        };
+        // Of each field its column, if it is one.
+        let mut found: Vec<Option<usize>> = Vec::new();
+        let mut misspelt = Vec::new();
+        for (field, name) in names.iter().take(ENOUGH).enumerate() {
+            let column = NAMES.iter().position(|known| known == name);
+            let is_second = column.is_some() && found.contains(&column);
+            found.push(column);
+            if column.is_none() {
+                let meant = nearest(name, NAMES);
+                misspelt.extend(meant);
+                let problem = format!("names `{}`, which is no column", escaped(name, QUOTED));
+                let help = meant.map_or_else(
+                    || format!("columns: {}", NAMES.join(", ")),
+                    |meant| format!("did you mean `{meant}`?"),
+                );
+                wrong(Some(field), problem, help);
+            }
+            if is_second {
+                let problem = format!("names `{name}` twice");
+                wrong(Some(field), problem, "keep one of the two".to_owned());
+            }
+        }
+        let columns: Vec<usize> = found.iter().copied().flatten().collect();
+        let has = |column: usize| columns.contains(&column) || misspelt.contains(&NAMES[column]);
+        let mut needed: Vec<usize> = (POSITION..ROTATION).collect();
+        for group in [ROTATION..QUATERNION, QUATERNION..SCALE, AXES..SHAPE] {
+            // An angle that is left out is 0; a part of a quaternion or an axis has no such default.
+            if group.start != ROTATION && group.clone().any(has) {
+                needed.extend(group);
+            }
+        }
+        if shapes > 1 {
+            needed.push(SHAPE);
+        }
+        for column in needed.into_iter().filter(|column| !has(*column)) {
+            let why = if column == SHAPE {
+                format!(", which says which of the object's {shapes} shapes a row is")
+            } else {
+                String::new()
+            };
+            let problem = format!("lacks `{}`{why}", NAMES[column]);
+            wrong(None, problem, format!("add a column `{}`", NAMES[column]));
+        }
+        for (one, other) in [
+            (ROTATION..QUATERNION, QUATERNION..SCALE),
+            (SCALE..AXES, AXES..SHAPE),
+        ] {
+            let first = |mut group: std::ops::Range<usize>| group.find(|c| columns.contains(c));
+            if let (Some(one), Some(other)) = (first(one), first(other)) {
+                let problem = format!(
+                    "names `{}` and `{}`, which exclude each other",
+                    NAMES[one], NAMES[other]
+                );
+                let field = found.iter().position(|column| *column == Some(other));
+                wrong(field, problem, "keep one of the two".to_owned());
+            }
+        }
+        if errors.is_empty() {
+            Ok(Self { columns })
+        } else {
+            Err(errors)
+        }
+    }
+}
+
+/// The numbers of a row, by column.
+#[derive(Debug)]
+pub(super) struct Row {
+    numbers: [f64; COUNT],
+    shape: u32,
+    has_quaternion: bool,
+    errors: Vec<RowError>,
+}
+
+impl Row {
+    /// A row of a file with this header, before its fields are read.
+    pub(super) fn of(header: &Header) -> Self {
+        let mut numbers = [0.0; COUNT];
+        numbers[SCALE] = 1.0;
+        numbers[AXES..SHAPE].fill(1.0);
+        Self {
+            numbers,
+            shape: 0,
+            has_quaternion: header.columns.contains(&QUATERNION),
+            errors: Vec::new(),
+        }
+    }
+
+    /// Takes what is wrong with the row beside its numbers.
+    pub(super) fn fail(&mut self, error: RowError) {
+        self.errors.push(error);
+    }
+
+    /// Takes the number of a column; `field` is how it is written.
+    pub(super) fn number(&mut self, column: usize, value: f64, field: impl Fn() -> String) {
+        if !value.is_finite() {
+            let field = field();
+            self.fail(RowError::NotFinite { column, field });
+        } else if !limits(column).contain(value) {
+            let field = field();
+            self.fail(RowError::Outside {
+                column,
+                field,
+                value,
+            });
+        }
+        self.numbers[column] = value;
+    }
+
+    /// Takes which shape a row is, by its number.
+    pub(super) fn shape(&mut self, table: &Table<'_>, number: f64, field: impl Fn() -> String) {
+        let is_one = number >= 0.0 && number < table.shapes.len() as f64 && number.fract() == 0.0;
+        if is_one {
+            self.shape = number as u32;
+        } else {
+            self.fail(RowError::NoSuchShape { field: field() });
+        }
+    }
+
+    /// The place that the row stands for: scaled, then turned, then moved, as objects are, then carried by the
+    /// object's own frame.
+    pub(super) fn place(mut self, table: &Table<'_>) -> Result<InstancePlace, Vec<RowError>> {
+        let three = |at: usize| DVec3::from_slice(&self.numbers[at..at + 3]);
+        let linear = if self.has_quaternion {
+            let [w, x, y, z] = std::array::from_fn(|i| self.numbers[QUATERNION + i]);
+            let quaternion = DQuat::from_xyzw(x, y, z, w);
+            let length = quaternion.length();
+            // A number that is wrong has been told already.
+            if self.errors.is_empty() && (length - 1.0).abs() > UNIT_TOLERANCE {
+                self.errors.push(RowError::NotUnit { length });
+            }
+            DMat3::from_quat(quaternion.normalize())
+        } else {
+            turn(three(ROTATION).to_array())
+        };
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        let linear = linear * DMat3::from_diagonal(three(AXES) * self.numbers[SCALE]);
+        let local = DMat4::from_translation(three(POSITION)) * DMat4::from_mat3(linear);
+        let world = table.frame * local;
+        let columns = [world.x_axis, world.y_axis, world.z_axis, world.w_axis];
+        let to_world = std::array::from_fn(|i| columns[i / 3][i % 3] as f32);
+        Ok(InstancePlace {
+            shape: self.shape,
+            to_world,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problems(names: &[&str], shapes: usize) -> Vec<String> {
+        let errors = Header::of(names, shapes).err().unwrap_or_default();
+        errors.into_iter().map(|error| error.problem).collect()
+    }
+
+    #[test]
+    fn a_header_needs_positions_whole_groups_and_one_of_each_kind() {
+        assert!(problems(&["z_m", "x_m", "y_m", "rotate_z_deg", "scale"], 1).is_empty());
+        assert_eq!(problems(&["x_m", "y_m"], 1), ["lacks `z_m`"]);
+        let shapes = problems(&["x_m", "y_m", "z_m"], 3);
+        assert!(shapes[0].starts_with("lacks `shape`"), "{shapes:?}");
+        let half = ["x_m", "y_m", "z_m", "quaternion_w", "quaternion_x"];
+        assert_eq!(
+            problems(&half, 1),
+            ["lacks `quaternion_y`", "lacks `quaternion_z`"]
+        );
+        let twice = ["x_m", "y_m", "z_m", "x_m", "scale", "scale_x"];
+        assert_eq!(
+            problems(&twice, 1),
+            [
+                "names `x_m` twice",
+                "lacks `scale_y`",
+                "lacks `scale_z`",
+                "names `scale` and `scale_x`, which exclude each other"
+            ]
+        );
+        // What is misspelt is not told as missing too.
+        assert_eq!(
+            problems(&["x_mm", "y_m", "z_m"], 1),
+            ["names `x_mm`, which is no column"]
+        );
+    }
+}

@@ -1,0 +1,328 @@
+//! The header of a `NumPy` file: which fields a row has, how many rows there are, and where they begin.
+//!
+//! It is a Python literal, of which only what `np.save` writes is understood.
+
+use leafmodel::document::context::{ENOUGH, QUOTED};
+use leafmodel::document::source::escaped;
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+/// Longest header that is read, bytes.
+const MOST_HEADER: usize = 1 << 16;
+
+/// How a field's numbers are stored, little-endian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Number {
+    F32,
+    F64,
+    Signed(usize),
+    Unsigned(usize),
+}
+
+impl Number {
+    /// What `NumPy` calls a type, such as `<f4`.
+    fn of(code: &str) -> Option<Self> {
+        let (order, rest) = code.split_at_checked(1)?;
+        let (kind, size) = rest.split_at_checked(1)?;
+        let size: usize = size.parse().ok()?;
+        // A single byte has no order.
+        if order != "<" && !(order == "|" && size == 1) {
+            return None;
+        }
+        match (kind, size) {
+            ("f", 4) => Some(Self::F32),
+            ("f", 8) => Some(Self::F64),
+            ("i", 1 | 2 | 4 | 8) => Some(Self::Signed(size)),
+            ("u", 1 | 2 | 4 | 8) => Some(Self::Unsigned(size)),
+            _ => None,
+        }
+    }
+
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::F32 => 4,
+            Self::F64 => 8,
+            Self::Signed(size) | Self::Unsigned(size) => size,
+        }
+    }
+
+    /// The number in these bytes, of which there are [`Number::size`].
+    pub(super) fn read(self, bytes: &[u8]) -> f64 {
+        let mut word = [0; 8];
+        word[..bytes.len()].copy_from_slice(bytes);
+        let unsigned = u64::from_le_bytes(word);
+        match self {
+            Self::F32 => f64::from(f32::from_bits(unsigned as u32)),
+            Self::F64 => f64::from_bits(unsigned),
+            Self::Signed(size) => {
+                let unused = 64 - 8 * size as u32;
+                ((unsigned << unused).cast_signed() >> unused) as f64
+            }
+            Self::Unsigned(_) => unsigned as f64,
+        }
+    }
+}
+
+/// A field of the array: where in a row, and how stored.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Field {
+    pub(super) name: String,
+    pub(super) start: usize,
+    pub(super) number: Number,
+}
+
+/// What a header says.
+#[derive(Debug, PartialEq)]
+pub(super) struct Array {
+    pub(super) fields: Vec<Field>,
+    /// Bytes of a row.
+    pub(super) stride: usize,
+    pub(super) rows: usize,
+    /// Where the rows begin.
+    pub(super) start: usize,
+}
+
+impl Array {
+    /// What the file's header says, or what is wrong with it.
+    pub(super) fn of(bytes: &[u8]) -> Result<Self, String> {
+        let cut = || "ends within its header".to_owned();
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            return Err("does not begin as a NumPy file does".to_owned());
+        };
+        let (&version, rest) = rest.split_first().ok_or_else(cut)?;
+        let rest = rest.get(1..).ok_or_else(cut)?;
+        let width = match version {
+            1 => 2,
+            2 | 3 => 4,
+            _ => {
+                return Err(format!(
+                    "has version {version} of NumPy's format, read are 1 to 3"
+                ));
+            }
+        };
+        let (length, rest) = rest.split_at_checked(width).ok_or_else(cut)?;
+        let length = Number::Unsigned(width).read(length) as usize;
+        if length > MOST_HEADER {
+            return Err(format!(
+                "has a header of {length} bytes, more than the {MOST_HEADER} that are read"
+            ));
+        }
+        let text = rest.get(..length).ok_or_else(cut)?;
+        let start = bytes.len() - rest.len() + length;
+        let text =
+            std::str::from_utf8(text).map_err(|_| "has a header that is no text".to_owned())?;
+        Self::from_literal(text, start)
+    }
+
+    /// From the dictionary in the header.
+    fn from_literal(text: &str, start: usize) -> Result<Self, String> {
+        let mut words = Words { rest: text };
+        let (mut fields, mut rows) = (None, None);
+        words.take("{")?;
+        while !words.take_if("}") {
+            let key = words.text()?;
+            words.take(":")?;
+            match key {
+                "descr" => fields = Some(words.fields()?),
+                // Of one dimension both orders are the same.
+                "fortran_order" if words.take_if("False") => {}
+                "fortran_order" => words.take("True")?,
+                "shape" => rows = Some(words.one_length()?),
+                other => return Err(format!("has a header with `{}`", escaped(other, QUOTED))),
+            }
+            if !words.take_if(",") {
+                words.take("}")?;
+                break;
+            }
+        }
+        let (fields, stride) = fields.ok_or("has a header without `descr`")?;
+        let rows = rows.ok_or("has a header without `shape`")?;
+        Ok(Self {
+            fields,
+            stride,
+            rows,
+            start,
+        })
+    }
+}
+
+/// What is left of a Python literal.
+struct Words<'t> {
+    rest: &'t str,
+}
+
+impl<'t> Words<'t> {
+    fn take_if(&mut self, word: &str) -> bool {
+        self.rest = self.rest.trim_start();
+        let rest = self.rest.strip_prefix(word);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn take(&mut self, word: &str) -> Result<(), String> {
+        if self.take_if(word) {
+            return Ok(());
+        }
+        let found = escaped(self.rest, QUOTED);
+        Err(format!(
+            "has a header with `{found}` where `{word}` is wanted"
+        ))
+    }
+
+    /// Text in quotes.
+    fn text(&mut self) -> Result<&'t str, String> {
+        let quote = if self.take_if("\"") {
+            '"'
+        } else {
+            self.take("'")?;
+            '\''
+        };
+        let end = self.rest.split_once(quote);
+        let (text, rest) = end.ok_or("has a header with an open quote")?;
+        self.rest = rest;
+        Ok(text)
+    }
+
+    fn integer(&mut self) -> Result<usize, String> {
+        self.rest = self.rest.trim_start();
+        let digits = self.rest.bytes().take_while(u8::is_ascii_digit).count();
+        let (number, rest) = self.rest.split_at(digits);
+        self.rest = rest;
+        let shown = escaped(rest, QUOTED);
+        let number = number.parse();
+        number.map_err(|_| format!("has a header with `{shown}` where a length is wanted"))
+    }
+
+    /// The shape of an array of one dimension: `(3,)`.
+    fn one_length(&mut self) -> Result<usize, String> {
+        let several = "has another number of dimensions than 1".to_owned();
+        self.take("(")?;
+        if self.take_if(")") {
+            return Err(several);
+        }
+        let length = self.integer()?;
+        self.take(",")?;
+        if self.take_if(")") {
+            Ok(length)
+        } else {
+            Err(several)
+        }
+    }
+
+    /// `[('x_m', '<f4'), …]`, and bytes of a row.
+    fn fields(&mut self) -> Result<(Vec<Field>, usize), String> {
+        if !self.take_if("[") {
+            return Err(format!(
+                "is an array of `{}`, without names for its columns",
+                escaped(self.text()?, QUOTED)
+            ));
+        }
+        let mut fields = Vec::new();
+        let mut start = 0;
+        while !self.take_if("]") {
+            self.take("(")?;
+            let name = self.text()?;
+            self.take(",")?;
+            let code = self.text()?;
+            if self.take_if(",") {
+                let name = escaped(name, QUOTED);
+                return Err(format!("has a field `{name}` of several numbers"));
+            }
+            self.take(")")?;
+            // Gaps of aligned rows have no name: '|V4' is four bytes of nothing.
+            let gap = code
+                .strip_prefix("|V")
+                .and_then(|size| size.parse::<u16>().ok());
+            if let (Some(gap), true) = (gap, name.is_empty()) {
+                start += usize::from(gap);
+            } else {
+                let number = Number::of(code).ok_or_else(|| {
+                    format!(
+                        "has a field `{}` of type `{}`; read are little-endian floats of 4 or 8 bytes and integers",
+                        escaped(name, QUOTED),
+                        escaped(code, QUOTED)
+                    )
+                })?;
+                fields.push(Field {
+                    name: name.to_owned(),
+                    start,
+                    number,
+                });
+                start += number.size();
+            }
+            if fields.len() > ENOUGH {
+                return Err(format!("has more than {ENOUGH} fields"));
+            }
+            if !self.take_if(",") {
+                self.take("]")?;
+                break;
+            }
+        }
+        Ok((fields, start))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(literal: &str) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend([1, 0]);
+        bytes.extend((literal.len() as u16).to_le_bytes());
+        bytes.extend(literal.as_bytes());
+        bytes
+    }
+
+    #[test]
+    fn a_header_as_numpy_writes_it_is_understood() {
+        // Written by numpy 2: np.save of a record array, aligned, then padded to 64 bytes.
+        let literal = "{'descr': [('x_m', '<f4'), ('shape', '|u1'), ('', '|V3'), ('y_m', '<f8'), ('n', '<i2')], \
+                       'fortran_order': False, 'shape': (12,), }   \n";
+        let array = Array::of(&file(literal)).expect("a good header");
+        assert_eq!((array.rows, array.stride), (12, 18));
+        assert_eq!(array.start, 10 + literal.len());
+        let starts: Vec<usize> = array.fields.iter().map(|field| field.start).collect();
+        assert_eq!(starts, [0, 4, 8, 16]);
+    }
+
+    #[test]
+    fn numbers_are_those_that_were_stored() {
+        let read = |code: &str, bytes: &[u8]| Number::of(code).expect(code).read(bytes);
+        assert_eq!(read("<f4", &1.5_f32.to_le_bytes()), 1.5);
+        assert_eq!(read("<f8", &(-0.1_f64).to_le_bytes()), -0.1);
+        assert_eq!(read("<i2", &(-3_i16).to_le_bytes()), -3.0);
+        assert_eq!(read("|i1", &(-128_i8).to_le_bytes()), -128.0);
+        assert_eq!(read("<i8", &(-5_i64).to_le_bytes()), -5.0);
+        assert_eq!(read("<u4", &u32::MAX.to_le_bytes()), f64::from(u32::MAX));
+        assert!(read("<f4", &f32::NAN.to_le_bytes()).is_nan());
+    }
+
+    #[test]
+    fn what_is_no_structured_little_endian_array_of_rows_is_refused_with_its_reason() {
+        let of = |fields: &str, shape: &str| {
+            let literal =
+                format!("{{'descr': {fields}, 'fortran_order': False, 'shape': {shape}, }}");
+            Array::of(&file(&literal)).expect_err("it is refused")
+        };
+        for (fields, shape, said) in [
+            ("'<f4'", "(3, 4)", "without names"),
+            ("[('x_m', '>f4')]", "(3,)", "little-endian"),
+            ("[('x_m', '|S4')]", "(3,)", "`|S4`"),
+            ("[('x_m', '<f4', (3,))]", "(3,)", "several numbers"),
+            ("[('x_m', '<f4')]", "(3, 4)", "dimensions"),
+            ("[('x_m', '<f4')]", "()", "dimensions"),
+            ("[('x_m', '<f4')]", "(99999999999999999999,)", "length"),
+            ("[('x_m', [('y_m', '<f4')])]", "(3,)", "wanted"),
+            ("[('x_m", "(3,)", "where"),
+        ] {
+            let problem = of(fields, shape);
+            assert!(problem.contains(said), "{fields} {shape}: {problem}");
+        }
+        for length in 0..100 {
+            let whole =
+                file("{'descr': [('x_m', '<f4')], 'fortran_order': False, 'shape': (3,), }");
+            let cut = &whole[..length.min(whole.len() - 1)];
+            assert!(Array::of(cut).is_err(), "{length} bytes");
+        }
+    }
+}

@@ -1,0 +1,361 @@
+//! Tables of instances as text: a header with the columns' names, then a row a line.
+//!
+//! Fields are parted by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are left out.
+
+use rayon::prelude::*;
+
+use super::columns::{Header, HeaderError, Row, SHAPE};
+use super::row_error::RowError;
+use super::{Rows, Table, WrongRow};
+use crate::scene::description::InstancePlace;
+use leafmodel::document::context::{Context, QUOTED};
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::source::{Place, escaped, line_of_byte};
+
+/// What parts the fields of a line.
+const SEPARATORS: [char; 5] = [',', ';', ' ', '\t', '\r'];
+
+/// Bytes of a piece that one thread reads at a time.
+const PIECE: usize = 1 << 20;
+
+/// Longest line that may be a row, bytes.
+const LONGEST: usize = 1 << 14;
+
+/// Reads the rows; `None` if the file has no rows that can be read, which is then reported.
+pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text),
+        Err(error) => {
+            let byte = error.valid_up_to();
+            let error = DocumentError::NotUtf8 {
+                path: table.name.clone(),
+                byte,
+                line: line_of_byte(bytes, byte),
+            };
+            cx.error(at, error);
+            return None;
+        }
+    };
+    let mut rest = text;
+    let mut line_number = 0;
+    let line = loop {
+        let (line, below) = rest.split_once('\n').unwrap_or((rest, ""));
+        line_number += 1;
+        if fields(line).next().is_some() {
+            rest = below;
+            break line;
+        }
+        if below.is_empty() {
+            table.refuse(cx, at, "is empty".to_owned(), "write a header and rows");
+            return None;
+        }
+        rest = below;
+    };
+    if line.len() > LONGEST {
+        let problem = format!("has a header of {} bytes", line.len());
+        table.refuse(cx, at, problem, "end header and rows with line feeds");
+        return None;
+    }
+    let header = read_header(cx, table, line, line_number)?;
+    // Lines, not rows: comments and empty ones count here, which is near enough for a bound.
+    let lines = rest.bytes().filter(|byte| *byte == b'\n').count();
+    if !table.bear(cx, at, lines.max(1)) {
+        return None;
+    }
+    let pieces: Vec<(Rows, usize)> = pieces(rest)
+        .into_par_iter()
+        .map(|piece| read_piece(table, &header, piece))
+        .collect();
+    let mut above = line_number;
+    let mut rows = Vec::with_capacity(pieces.len());
+    for (mut piece, lines) in pieces {
+        piece.wrong.iter_mut().for_each(|row| row.line += above);
+        above += lines;
+        rows.push(piece);
+    }
+    let rows = Rows::joined(rows);
+    table
+        .bear(cx, at, rows.places.len() + rows.wrong_count)
+        .then_some(rows)
+}
+
+/// The text in pieces of whole lines.
+fn pieces(text: &str) -> Vec<&str> {
+    let mut pieces = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let bytes = rest.as_bytes();
+        let end = bytes.iter().skip(PIECE).position(|byte| *byte == b'\n');
+        let (piece, below) = rest.split_at(end.map_or(rest.len(), |end| PIECE + end + 1));
+        pieces.push(piece);
+        rest = below;
+    }
+    pieces
+}
+
+/// The fields of a line before its comment.
+fn fields(line: &str) -> impl Iterator<Item = &str> {
+    let line = line.split_once('#').map_or(line, |(fields, _)| fields);
+    line.split(SEPARATORS).filter(|field| !field.is_empty())
+}
+
+fn read_header(cx: &Context, table: &Table<'_>, line: &str, number: usize) -> Option<Header> {
+    let names: Vec<&str> = fields(line).collect();
+    let errors = if names[0].parse::<f64>().is_ok() {
+        vec![HeaderError {
+            field: Some(0),
+            problem: format!("is missing: the table begins with `{}`", shown(names[0])),
+            help: "begin with a line of the columns' names, such as `x_m, y_m, z_m, rotate_z_deg, scale`"
+                .to_owned(),
+        }]
+    } else {
+        match Header::of(&names, table.shapes.len()) {
+            Ok(header) => return Some(header),
+            Err(errors) => errors,
+        }
+    };
+    let source = cx
+        .sources
+        .borrow_mut()
+        .add_excerpt(table.name.clone(), line, number);
+    let all = span(line, names[0]).start..span(line, names[names.len() - 1]).end;
+    for error in errors {
+        let span = error
+            .field
+            .map_or_else(|| all.clone(), |field| span(line, names[field]));
+        let error = DocumentError::Header {
+            path: table.name.clone(),
+            problem: error.problem,
+            help: error.help,
+        };
+        cx.error(&Place { source, span }, error);
+    }
+    None
+}
+
+/// The rows of some lines, lines counted from 1, and how many lines there are.
+fn read_piece(table: &Table<'_>, header: &Header, piece: &str) -> (Rows, usize) {
+    let mut rows = Rows::default();
+    let mut lines = 0;
+    for line in piece.lines() {
+        lines += 1;
+        if line.len() > LONGEST {
+            let bytes = line.len();
+            let error = RowError::TooLong { bytes };
+            rows.push(Err(vec![error]), |errors| too_long(line, lines, errors));
+        } else if fields(line).next().is_some() {
+            rows.push(read_row(table, header, line), |errors| {
+                wrong_row(header, line, lines, errors)
+            });
+        }
+    }
+    (rows, lines)
+}
+
+fn read_row(
+    table: &Table<'_>,
+    header: &Header,
+    line: &str,
+) -> Result<InstancePlace, Vec<RowError>> {
+    let mut row = Row::of(header);
+    let mut found = 0;
+    for field in fields(line) {
+        found += 1;
+        let Some(&column) = header.columns.get(found - 1) else {
+            continue;
+        };
+        if column == SHAPE {
+            read_shape(table, &mut row, field);
+            continue;
+        }
+        match field.parse() {
+            Ok(value) => row.number(column, value, || shown(field)),
+            Err(_) => row.fail(RowError::NotANumber {
+                column,
+                field: shown(field),
+            }),
+        }
+    }
+    let wanted = header.columns.len();
+    if found != wanted {
+        // Which field is which is not known.
+        return Err(vec![RowError::Fields { found, wanted }]);
+    }
+    row.place(table)
+}
+
+/// A shape by its name, or by its place in the object's list.
+fn read_shape(table: &Table<'_>, row: &mut Row, field: &str) {
+    match table.numbers.get(field) {
+        Some(Some(number)) => row.shape(table, f64::from(*number), || shown(field)),
+        Some(None) => row.fail(RowError::AmbiguousShape {
+            field: shown(field),
+        }),
+        None => {
+            let number = field.parse().unwrap_or(f64::NAN);
+            row.shape(table, number, || shown(field));
+        }
+    }
+}
+
+fn shown(field: &str) -> String {
+    escaped(field, QUOTED)
+}
+
+/// Where a piece of a line lies in it.
+fn span(line: &str, piece: &str) -> std::ops::Range<usize> {
+    let start = piece.as_ptr() as usize - line.as_ptr() as usize;
+    start..start + piece.len()
+}
+
+/// A line of which only the beginning is shown.
+fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
+    let shown: String = line.chars().take(QUOTED).collect();
+    let whole = 0..shown.len();
+    WrongRow {
+        line: number,
+        errors: errors
+            .into_iter()
+            .map(|error| (whole.clone(), error))
+            .collect(),
+        shown,
+    }
+}
+
+fn wrong_row(header: &Header, line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
+    let all: Vec<&str> = fields(line).collect();
+    let whole = span(line, all[0]).start..span(line, all[all.len() - 1]).end;
+    let place = |error: &RowError| {
+        let column = error.column()?;
+        let field = header.columns.iter().position(|known| *known == column)?;
+        all.get(field).map(|field| span(line, field))
+    };
+    WrongRow {
+        line: number,
+        shown: line.to_owned(),
+        errors: errors
+            .into_iter()
+            .map(|error| (place(&error).unwrap_or_else(|| whole.clone()), error))
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat4, DVec3};
+
+    use super::*;
+    use leafmodel::document::error::DocumentError;
+    use leafmodel::document::source::Sources;
+
+    /// The rows of a table for the shapes `a`, `b` and twice `c`, or the errors with their lines.
+    fn read_all(text: &str) -> Result<Vec<InstancePlace>, Vec<(usize, DocumentError)>> {
+        let cx = Context::new(Sources::default(), std::path::PathBuf::new());
+        let frame = DMat4::from_translation(DVec3::new(0.0, 0.0, 1.0));
+        let names = ["a", "b", "c", "c"].map(str::to_owned);
+        let table = Table::new("t.csv".to_owned(), &names, frame);
+        let at = Place {
+            source: usize::MAX,
+            span: 0..0,
+        };
+        let rows = read(&cx, &table, &at, text.as_bytes());
+        let rows = rows.and_then(|rows| {
+            table.report(&cx, &at, &rows)?;
+            Some(rows.places)
+        });
+        let (sources, errors, _) = cx.into_parts();
+        let line = |source| sources.get(source).map_or(0, |source| source.first_line);
+        let errors = errors.into_iter().map(|located| {
+            let source = located.at.map_or(usize::MAX, |at| at.source);
+            (line(source), located.error)
+        });
+        rows.ok_or_else(|| errors.collect())
+    }
+
+    #[test]
+    fn a_row_is_scaled_then_turned_then_moved_then_carried_by_the_object() {
+        let text = "\u{feff}# made up\n\nx_m,y_m,z_m;rotate_z_deg\tscale_x scale_y scale_z,shape\r\n\
+                    1, 2, 3, 90, 2, 3, 4, b # a leaf\r\n\n0,0,0,0,1,1,1,0";
+        let places = read_all(text).expect("two good rows");
+        // x = (2, 0, 0) turns to y, y = (0, 3, 0) to −x.
+        let expected = [0.0, 2.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 4.0, 1.0, 2.0, 4.0];
+        assert_eq!(places[0].to_world, expected);
+        assert_eq!((places[0].shape, places[1].shape), (1, 0));
+        assert_eq!(places.len(), 2);
+    }
+
+    #[test]
+    fn a_quaternion_turns_as_its_angles_do() {
+        let angles = read_all("x_m y_m z_m rotate_x_deg shape\n0 0 0 60 a\n");
+        // Half of 60° about x.
+        let text = "x_m y_m z_m quaternion_w quaternion_x quaternion_y quaternion_z shape\n\
+                    0 0 0 0.8660254037844387 0.5 0 0 a\n";
+        let quaternion = read_all(text).expect("a rotation");
+        for (a, b) in angles.expect("a turn")[0]
+            .to_world
+            .iter()
+            .zip(quaternion[0].to_world)
+        {
+            assert!((a - b).abs() < 1e-6, "{a} is not {b}");
+        }
+        let long = text.replace("0.866", "1.0");
+        assert_eq!(
+            read_all(&long).expect_err("no rotation")[0].1.code(),
+            "scene::impossible"
+        );
+    }
+
+    #[test]
+    fn rows_keep_their_order_and_their_lines_over_pieces() {
+        let mut text = "x_m y_m z_m shape\n".to_owned();
+        let count = 3 * PIECE / 40;
+        for row in 0..count {
+            text += &format!("{row:>30} 0 0 a # row {row:>8}\n");
+        }
+        let places = read_all(&text).expect("good rows");
+        assert!(text.len() > 3 * PIECE && places.len() == count);
+        for (row, place) in places.iter().enumerate() {
+            assert_eq!(place.to_world[9], row as f32);
+        }
+        // Line numbers count the header, and go on over pieces.
+        let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");
+        let errors = read_all(&broken).expect_err("one is no number");
+        assert_eq!(errors.len(), 1);
+        assert_eq!(errors[0].0, count, "{:?}", errors[0].1);
+    }
+
+    #[test]
+    fn of_many_wrong_rows_the_first_are_told_and_the_others_counted() {
+        let text = "x_m y_m z_m shape\n".to_owned() + &"nan 0 inf d\n".repeat(100_000);
+        let errors = read_all(&text).expect_err("all are wrong");
+        assert_eq!(errors.len(), 20 * 3 + 1);
+        let last = errors[60].1.to_string();
+        assert!(last.contains("99980 more wrong rows"), "{last}");
+    }
+
+    #[test]
+    fn tables_without_header_or_rows_are_refused() {
+        let code = |text: &str| read_all(text).expect_err("refused")[0].1.code();
+        assert_eq!(code(""), "scene::bad_file");
+        assert_eq!(code("# nothing\n\n"), "scene::bad_file");
+        assert_eq!(code("x_m y_m z_m shape\n"), "scene::bad_file");
+        assert_eq!(code("x_m y_m z_m shape\n# none\n"), "scene::bad_file");
+        assert_eq!(code("0 0 0 a\n"), "scene::header");
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0\n"), "scene::bad_file");
+        assert_eq!(
+            code("x_m y_m z_m shape\n0 0 0 0.5\n"),
+            "scene::out_of_range"
+        );
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0 -1\n"), "scene::out_of_range");
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0 4\n"), "scene::out_of_range");
+        // A name that is there twice says nothing; its places in the list do.
+        assert_eq!(code("x_m y_m z_m shape\n0 0 0 c\n"), "scene::impossible");
+        assert!(read_all("x_m y_m z_m shape\n0 0 0 2\n0 0 0 3\n").is_ok());
+        let long = "0 ".repeat(LONGEST);
+        assert_eq!(code(&long), "scene::bad_file");
+        assert_eq!(
+            code(&format!("x_m y_m z_m shape\n{long}\n")),
+            "scene::bad_file"
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! `[leaves.NAME]`: a leaf that is grown, and the surface that grown leaves share with materials.
+
+use leafmodel::document::keys::Keys;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::value_kind::Number;
+use leafmodel::leaf::LeafPlan;
+use leafmodel::plan_file::{self, require_prospect};
+
+use super::spectrum::SpectrumOf;
+use crate::scene::description::{Coat, Leaf, Spectrum};
+
+/// Refractive index of a coat.
+const COAT_ETA: f64 = 1.45;
+/// GGX roughness of the adaxial and the abaxial coat: satin above, matt below.
+const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
+/// Measured abaxial over adaxial reflectance, mean of 19 groups of broad leaves (Noda et al.).
+const ABAXIAL_RATIO: [(f64, f64); 4] = [(450.0, 1.74), (550.0, 1.55), (680.0, 1.65), (800.0, 0.97)];
+
+impl From<LeafPlan> for Leaf {
+    /// A leaf with the usual surface.
+    fn from(plan: LeafPlan) -> Self {
+        Self {
+            plan,
+            // It goes on with its end values in any scene.
+            abaxial_ratio: Spectrum::Table {
+                points: ABAXIAL_RATIO.to_vec(),
+                extrapolate: true,
+            },
+            coats: COAT_ALPHA.map(|alpha| Coat {
+                eta: COAT_ETA,
+                alpha_across: alpha,
+                alpha_along: alpha,
+            }),
+            extrapolate: false,
+        }
+    }
+}
+
+/// The keys of one of `[leaves]`.
+pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
+    require_prospect(keys);
+    if let Some(block) = keys.reader() {
+        leaf.extrapolate = block.cx.extrapolate.get();
+    }
+    plan_file::leaf_preset(&mut leaf.plan, keys);
+    plan_file::leaf(&mut leaf.plan, keys);
+    surface(&mut leaf.abaxial_ratio, &mut leaf.coats, keys);
+}
+
+/// The keys of a leaf's surface.
+pub(super) fn surface(ratio: &mut Spectrum, coats: &mut [Coat; 2], keys: &mut Keys<'_>) {
+    let about = "Abaxial over adaxial reflectance. The default is measured, the mean of 19 groups of \
+            broad leaves (Noda et al.).";
+    keys.key("abaxial_ratio", ratio, SpectrumOf::Ratio, about);
+    let [adaxial, abaxial] = coats;
+    let about = "Coat of the adaxial face.";
+    keys.block("adaxial", about, |keys| coat(adaxial, keys));
+    let about = "Coat of the abaxial face.";
+    keys.block("abaxial", about, |keys| coat(abaxial, keys));
+}
+
+/// The keys of the coat of one face.
+fn coat(coat: &mut Coat, keys: &mut Keys<'_>) {
+    const ALPHA: Number = Number(Limits::closed(0.02, 1.0));
+    let limits = Number(Limits::closed(1.0, 2.5));
+    keys.key(
+        "eta",
+        &mut coat.eta,
+        limits,
+        "Refractive index; 1.35 to 1.5 in leaves.",
+    );
+    keys.exclude("alpha", "alpha_across");
+    keys.exclude("alpha", "alpha_along");
+    let mut alpha = coat.alpha_across;
+    keys.key(
+        "alpha",
+        &mut alpha,
+        ALPHA,
+        "GGX roughness in all directions. Glossy 0.1 to 0.2, satin 0.25 to 0.4, matt 0.45 to 0.6 \
+            (our estimates; so are the defaults).",
+    );
+    if alpha != coat.alpha_across {
+        (coat.alpha_across, coat.alpha_along) = (alpha, alpha);
+    }
+    let about = "GGX roughness across the midrib, in place of `alpha`.";
+    keys.key("alpha_across", &mut coat.alpha_across, ALPHA, about);
+    let about = "GGX roughness along the midrib, in place of `alpha`.";
+    keys.key("alpha_along", &mut coat.alpha_along, ALPHA, about);
+}

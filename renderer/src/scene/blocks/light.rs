@@ -1,0 +1,200 @@
+//! `[lights.NAME.…]`: distant, constant, environment, area.
+
+use glam::DVec3;
+use leafmodel::document::context::QUOTED;
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::{Keys, Variant};
+use leafmodel::document::limits::Limits;
+use leafmodel::document::names::NameIn;
+use leafmodel::document::source::escaped;
+use leafmodel::document::value_kind::{Degrees, FilePath, Number, Vector};
+
+use super::camera::COORDINATES_M;
+use super::report;
+use super::spectrum::SpectrumOf;
+use crate::scene::angle::sin_cos_deg;
+use crate::scene::description::{Light, Spectrum};
+
+/// Largest picture that is read, bytes.
+const MOST_PICTURE_BYTES: u64 = 4 << 30;
+const DARK: Spectrum = Spectrum::Constant(0.0);
+
+/// The keys of one of `[lights]`.
+pub(super) fn light(light: &mut Light, keys: &mut Keys<'_>) {
+    keys.kind(light, &KINDS);
+}
+
+const KINDS: [Variant<Light>; 4] = [
+    Variant {
+        name: "distant",
+        about: "A disc at infinity, like the sun.",
+        new: || Light::Distant {
+            towards: DVec3::Z,
+            angular_diameter: 0.53_f64.to_radians(),
+            irradiance: DARK,
+        },
+        is: |light| matches!(light, Light::Distant { .. }),
+        declare: |light, keys| {
+            if let Light::Distant {
+                towards,
+                angular_diameter,
+                irradiance,
+            } = light
+            {
+                let about = "On a surface that faces the light; the sun at the ground has about \
+                    1.5 at 560 nm.";
+                keys.required(
+                    "irradiance_w_m2_nm",
+                    irradiance,
+                    SpectrumOf::Emission,
+                    about,
+                );
+                let limits = Degrees(Limits::closed(0.01, 90.0));
+                let about = "Angle that the disc fills; the default is the sun's. Larger gives \
+                    softer shadows.";
+                keys.key("angular_diameter_deg", angular_diameter, limits, about);
+                direction(towards, keys);
+                refuse_darkness(irradiance, keys);
+            }
+        },
+    },
+    Variant {
+        name: "constant",
+        about: "The same radiance from everywhere.",
+        new: || Light::Constant { radiance: DARK },
+        is: |light| matches!(light, Light::Constant { .. }),
+        declare: |light, keys| {
+            if let Light::Constant { radiance } = light {
+                let about = "Its radiance.";
+                keys.required("radiance_w_m2_sr_nm", radiance, SpectrumOf::Emission, about);
+                refuse_darkness(radiance, keys);
+            }
+        },
+    },
+    Variant {
+        name: "environment",
+        about: "A latitude–longitude picture at infinity, up is +z.",
+        new: || Light::Environment {
+            file: std::path::PathBuf::new(),
+            scale: 1.0,
+            rotation: 0.0,
+            white: Spectrum::D65 { scale: 1.0 },
+        },
+        is: |light| matches!(light, Light::Environment { .. }),
+        declare: |light, keys| {
+            if let Light::Environment {
+                file,
+                scale,
+                rotation,
+                white,
+            } = light
+            {
+                const PATH: FilePath = FilePath::of(
+                    "the path of an EXR or PNG picture",
+                    &["exr", "png"],
+                    MOST_PICTURE_BYTES,
+                );
+                super::file(keys, "path", file, PATH, "The picture.");
+                let limits = Number(Limits::above(0.0, 1e12));
+                keys.key("scale", scale, limits, "Factor on the picture.");
+                let limits = Degrees(Limits::closed(-360.0, 360.0));
+                keys.key("rotation_deg", rotation, limits, "Turn about +z.");
+                let about = "What RGB 1 1 1 stands for.";
+                keys.key("white_w_m2_sr_nm", white, SpectrumOf::Emission, about);
+                refuse_darkness(white, keys);
+            }
+        },
+    },
+    Variant {
+        name: "area",
+        about: "An object whose surface shines to the side of its normal.",
+        new: || Light::Area {
+            // None yet.
+            object: usize::MAX,
+            radiance: DARK,
+        },
+        is: |light| matches!(light, Light::Area { .. }),
+        declare: |light, keys| {
+            if let Light::Area { object, radiance } = light {
+                const OBJECT: NameIn = NameIn("objects", "the name of an object that shines");
+                keys.required(
+                    "object",
+                    object,
+                    OBJECT,
+                    "An object with a mesh, in one place, \
+                    with no other area light.",
+                );
+                let about = "Its radiance.";
+                keys.required("radiance_w_m2_sr_nm", radiance, SpectrumOf::Emission, about);
+                refuse_darkness(radiance, keys);
+            }
+        },
+    },
+];
+
+/// `towards`, or `elevation_deg` and `azimuth_deg`.
+fn direction(towards: &mut DVec3, keys: &mut Keys<'_>) {
+    let mut vector = None;
+    let about = "Direction towards the light, of any length, instead of the two angles.";
+    keys.optional("towards", &mut vector, Vector(COORDINATES_M), about);
+    keys.exclude("towards", "elevation_deg");
+    keys.exclude("towards", "azimuth_deg");
+    if keys.reader().is_some() && keys.has("towards") {
+        match vector.map(DVec3::try_normalize) {
+            Some(Some(direction)) => *towards = direction,
+            Some(None) => {
+                let error = DocumentError::BadView {
+                    problem: "`towards` is zero, so the light comes from nowhere",
+                    help: "write a direction, for example `towards = [0, 0, 1]`",
+                };
+                report(keys, "towards", error);
+            }
+            None => {}
+        }
+        return;
+    }
+    let (mut elevation, mut azimuth) = (90.0, 0.0);
+    let limits = Number(Limits::closed(-90.0, 90.0));
+    let about = "Height above the horizon.";
+    keys.needed("elevation_deg", &mut elevation, limits, about);
+    let limits = Number(Limits::closed(-360.0, 360.0));
+    let about = "Direction along the ground, from +x towards +y.";
+    keys.key("azimuth_deg", &mut azimuth, limits, about);
+    keys.group(&["towards", "elevation_deg"]);
+    let (up, along) = sin_cos_deg(elevation);
+    let (sin, cos) = sin_cos_deg(azimuth);
+    *towards = DVec3::new(along * cos, along * sin, up);
+}
+
+/// Reports a light that shines at no wavelength of the film.
+fn refuse_darkness(spectrum: &Spectrum, keys: &Keys<'_>) {
+    let Some(block) = keys.reader().filter(|_| keys.is_sound()) else {
+        return;
+    };
+    if is_dark(spectrum, block.cx.range_nm.get()) {
+        let name = block.path.rsplit('.').nth(1).unwrap_or("");
+        let name = escaped(name, QUOTED);
+        block.cx.error(&block.at, DocumentError::DarkLight { name });
+    }
+}
+
+/// Whether a spectrum is 0 at every wavelength of the film.
+fn is_dark(spectrum: &Spectrum, range_nm: Option<[f64; 2]>) -> bool {
+    match spectrum {
+        Spectrum::Constant(value) => *value == 0.0,
+        Spectrum::Table { points, .. } => {
+            let [low, high] = range_nm.unwrap_or([0.0, f64::INFINITY]);
+            // Dark between two rows only if both are 0: those around the range count too.
+            let first = points
+                .partition_point(|(nm, _)| *nm <= low)
+                .saturating_sub(1);
+            let last = points
+                .partition_point(|(nm, _)| *nm < high)
+                .min(points.len() - 1);
+            points[first.min(last)..=last]
+                .iter()
+                .all(|(_, value)| *value == 0.0)
+        }
+        Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => false,
+    }
+}

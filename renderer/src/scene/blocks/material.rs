@@ -1,0 +1,295 @@
+//! `[materials.NAME.…]`: diffuse, dielectric, leaf, solid.
+
+use std::path::PathBuf;
+
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::{Keys, Variant};
+use leafmodel::document::limits::Limits;
+use leafmodel::document::value_kind::{FilePath, Number};
+use leafmodel::optics::{Contents, Pigments};
+use leafmodel::plan_file::{self, NOTHING, held_contents, require_prospect};
+
+use super::leaf::surface;
+use super::solid::optics;
+use super::spectrum::SpectrumOf;
+use crate::scene::description::{Leaf, LeafTissue, Material, SolidOptics, SolidTissue, Spectrum};
+
+/// Largest map of contents that is read, bytes.
+const MOST_MAP_BYTES: u64 = 4 << 30;
+
+/// The keys of one of `[materials]`.
+pub(super) fn material(material: &mut Material, keys: &mut Keys<'_>) {
+    keys.kind(material, &KINDS);
+}
+
+const KINDS: [Variant<Material>; 4] = [
+    Variant {
+        name: "diffuse",
+        about: "Lambertian.",
+        new: || Material::Diffuse {
+            reflectance: Spectrum::Constant(0.0),
+        },
+        is: |material| matches!(material, Material::Diffuse { .. }),
+        declare: |material, keys| {
+            if let Material::Diffuse { reflectance } = material {
+                keys.required(
+                    "reflectance",
+                    reflectance,
+                    SpectrumOf::Share,
+                    "Share of light that is reflected.",
+                );
+            }
+        },
+    },
+    Variant {
+        name: "dielectric",
+        about: "A smooth or rough (GGX) boundary of a transparent medium.",
+        new: || Material::Dielectric {
+            eta: 1.5,
+            roughness: 0.0,
+        },
+        is: |material| matches!(material, Material::Dielectric { .. }),
+        declare: |material, keys| {
+            if let Material::Dielectric { eta, roughness } = material {
+                let limits = Number(Limits::closed(0.25, 4.0));
+                keys.key(
+                    "eta",
+                    eta,
+                    limits,
+                    "Refractive index inside over outside; the normal \
+                    points outside.",
+                );
+                let limits = Number(Limits::closed(0.0, 1.0));
+                let about = "GGX roughness; 0 is smooth.";
+                keys.key("roughness", roughness, limits, about);
+            }
+        },
+    },
+    Variant {
+        name: "leaf",
+        about: "A leaf of uniform contents, of a map of contents, or of measured spectra.",
+        new: || {
+            let Leaf {
+                abaxial_ratio,
+                coats,
+                ..
+            } = Leaf::from(plan_file::usual_leaf(100.0));
+            Material::Leaf {
+                tissue: LeafTissue::Contents {
+                    contents: NOTHING,
+                    extrapolate: false,
+                },
+                pigments: Box::default(),
+                abaxial_ratio,
+                coats,
+            }
+        },
+        is: |material| matches!(material, Material::Leaf { .. }),
+        declare: |material, keys| {
+            if let Material::Leaf {
+                tissue,
+                pigments,
+                abaxial_ratio,
+                coats,
+            } = material
+            {
+                leaf_tissue(tissue, keys);
+                keys.exclude("measured", "pigments");
+                pigments_block(pigments, keys);
+                surface(abaxial_ratio, coats, keys);
+            }
+        },
+    },
+    Variant {
+        name: "solid",
+        about: "Solid tissue of uniform contents or of a map of contents.",
+        new: || Material::Solid {
+            tissue: SolidTissue::Contents {
+                contents: NOTHING,
+                extrapolate: false,
+            },
+            pigments: Box::default(),
+            optics: SolidOptics::usual(),
+        },
+        is: |material| matches!(material, Material::Solid { .. }),
+        declare: |material, keys| {
+            if let Material::Solid {
+                tissue,
+                pigments,
+                optics: solid,
+            } = material
+            {
+                solid_tissue(tissue, keys);
+                pigments_block(pigments, keys);
+                optics(solid, keys);
+            }
+        },
+    },
+];
+
+const HELD: &str = "What it holds.";
+const MAP: &str = "A map of what it holds.";
+
+fn pigments_block(pigments: &mut Pigments, keys: &mut Keys<'_>) {
+    let about = "Which substances its pigments are.";
+    keys.block("pigments", about, |keys| {
+        plan_file::pigments(pigments, keys);
+    });
+}
+
+fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
+    let extrapolate = keys
+        .reader()
+        .is_some_and(|block| block.cx.extrapolate.get());
+    // A colour by name needs no contents, but may have some that differ.
+    let mut contents = match tissue {
+        LeafTissue::Contents { contents, .. } => *contents,
+        LeafTissue::Map { .. } | LeafTissue::Measured { .. } => NOTHING,
+    };
+    plan_file::colour_preset(&mut contents, keys);
+    if keys.base().is_some() {
+        for other in ["map", "measured"] {
+            keys.exclude("preset", other);
+        }
+        let about = "What of the preset's contents is different.";
+        keys.block("contents", about, |keys| {
+            plan_file::contents(&mut contents, keys);
+        });
+        require_prospect(keys);
+        *tissue = LeafTissue::Contents {
+            contents,
+            extrapolate,
+        };
+        return;
+    }
+    for kind in keys.one_of(&["contents", "map", "measured"], Some("contents")) {
+        match kind {
+            "contents" => keys.required_block("contents", HELD, &[], |keys| {
+                require_prospect(keys);
+                plan_file::contents(&mut contents, keys);
+                *tissue = LeafTissue::Contents {
+                    contents,
+                    extrapolate,
+                };
+            }),
+            "map" => keys.required_block("map", MAP, &[], |keys| {
+                let file = map_file(keys);
+                *tissue = LeafTissue::Map { file, extrapolate };
+            }),
+            _ => {
+                let about = "Measured spectra of a leaf.";
+                keys.required_block("measured", about, &[], |keys| *tissue = measured(keys));
+            }
+        }
+    }
+}
+
+fn solid_tissue(tissue: &mut SolidTissue, keys: &mut Keys<'_>) {
+    let extrapolate = keys
+        .reader()
+        .is_some_and(|block| block.cx.extrapolate.get());
+    for kind in keys.one_of(&["contents", "map"], Some("contents")) {
+        if kind == "contents" {
+            keys.required_block("contents", HELD, &[], |keys| {
+                require_prospect(keys);
+                let mut contents: Contents = NOTHING;
+                held_contents(&mut contents, keys);
+                *tissue = SolidTissue::Contents {
+                    contents,
+                    extrapolate,
+                };
+            });
+        } else {
+            keys.required_block("map", MAP, &[], |keys| {
+                let file = map_file(keys);
+                *tissue = SolidTissue::Map { file, extrapolate };
+            });
+        }
+    }
+}
+
+fn map_file(keys: &mut Keys<'_>) -> PathBuf {
+    const PATH: FilePath =
+        FilePath::of("the path of an EXR with contents", &["exr"], MOST_MAP_BYTES);
+    require_prospect(keys);
+    let mut file = PathBuf::new();
+    super::file(
+        keys,
+        "file",
+        &mut file,
+        PATH,
+        "Channels `structure`, `chlorophyll`, \
+        `carotenoids`, `anthocyanins`, `brown`, `water`, `dry_matter`, in the units above, over \
+        uv; the first row of the picture is v = 0.",
+    );
+    file
+}
+
+fn measured(keys: &mut Keys<'_>) -> LeafTissue {
+    let mut reflectance = Spectrum::Constant(0.0);
+    let mut transmittance = Spectrum::Constant(0.0);
+    let share = SpectrumOf::Share;
+    let about = "Directional–hemispherical, coat included.";
+    keys.required("reflectance", &mut reflectance, share, about);
+    keys.required(
+        "transmittance",
+        &mut transmittance,
+        share,
+        "The same. R + T must not exceed 1 \
+        at any wavelength.",
+    );
+    if keys.is_sound() {
+        require_energy(keys, &reflectance, &transmittance);
+    }
+    LeafTissue::Measured {
+        reflectance,
+        transmittance,
+    }
+}
+
+/// Reports where more light leaves than arrives: R + T is linear between the rows of both
+/// tables, so it is greatest at one of them.
+fn require_energy(keys: &Keys<'_>, reflectance: &Spectrum, transmittance: &Spectrum) {
+    // Sums of decimals such as 0.1 + 0.9 round to just above 1.
+    const ROUNDING: f64 = 1e-9;
+    let mut wavelengths: Vec<f64> = vec![550.0];
+    for spectrum in [reflectance, transmittance] {
+        if let Spectrum::Table { points, .. } = spectrum {
+            wavelengths.extend(points.iter().map(|(nm, _)| *nm));
+        }
+    }
+    let mut greatest = (0.0, 0.0);
+    for nm in wavelengths {
+        let sum = share_at(reflectance, nm) + share_at(transmittance, nm);
+        if sum > greatest.1 {
+            greatest = (nm, sum);
+        }
+    }
+    if greatest.1 > 1.0 + ROUNDING {
+        let error = DocumentError::EnergyNotConserved {
+            wavelength_nm: greatest.0,
+            sum: greatest.1,
+        };
+        keys.report(&[], error);
+    }
+}
+
+/// Value of a constant or table at a wavelength, with the end values outside.
+fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
+    match spectrum {
+        Spectrum::Constant(value) => *value,
+        Spectrum::Table { points, .. } => {
+            let above = points.partition_point(|(other, _)| *other < nm);
+            match (
+                above.checked_sub(1).and_then(|below| points.get(below)),
+                points.get(above),
+            ) {
+                (Some((x0, y0)), Some((x1, y1))) => y0 + (y1 - y0) * (nm - x0) / (x1 - x0),
+                (Some((_, value)), None) | (None, Some((_, value))) => *value,
+                (None, None) => 0.0,
+            }
+        }
+        // No share of light is read from these.
+        Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
+    }
+}

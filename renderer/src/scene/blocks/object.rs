@@ -1,0 +1,278 @@
+//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, and where it stands, once or many times.
+
+use glam::{DMat3, DMat4, DVec3};
+use leafmodel::document::context::{Context, ENOUGH};
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::schema::Type;
+use leafmodel::document::tree::{Node, Value};
+use leafmodel::document::value_kind::{Kind, Number, Numbers, Vector};
+use leafmodel::document::values::{list, listed, text_at, wrong_length, wrong_type};
+
+use super::camera::COORDINATES_M;
+use super::instances::instances;
+use super::report;
+use crate::scene::angle::sin_cos_deg;
+use crate::scene::description::{Object, ObjectShape};
+
+/// Angles of a turn, degrees.
+pub(super) const ANGLES_DEG: Limits = Limits::closed(-3600.0, 3600.0);
+/// Factors on a shape.
+pub(super) const SCALES: Limits = Limits::above(0.0, 1e6);
+
+impl Object {
+    /// An object of which nothing is said.
+    pub(super) fn nowhere() -> Self {
+        Self {
+            shapes: Vec::new(),
+            to_world: DMat4::IDENTITY,
+            instances: None,
+        }
+    }
+}
+
+/// The keys of one of `[objects]`.
+pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
+    let names = shapes(object, keys);
+    placement(object, keys);
+    let shapes = keys.is_sound().then_some(names.as_slice());
+    let frame = keys.is_sound().then_some(object.to_world);
+    let about = "Where the object stands, if in more than one place.";
+    keys.optional_block(
+        "instances",
+        &mut object.instances,
+        Vec::new,
+        about,
+        |places, keys| {
+            instances(places, keys, shapes, frame);
+        },
+    );
+    if object.instances.is_none() && names.len() > 1 && keys.is_sound() {
+        let problem = format!(
+            "names {} shapes ({}) and stands in one place",
+            names.len(),
+            listed(names.iter().map(String::as_str))
+        );
+        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"`";
+        let error = DocumentError::Impossible {
+            key: keys
+                .reader()
+                .map_or_else(String::new, |block| block.path.clone()),
+            problem,
+            help: help.to_owned(),
+        };
+        keys.report(&[], error);
+    }
+}
+
+/// What the object is; gives the names of its shapes.
+fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
+    let mut named: Vec<(usize, String)> = Vec::new();
+    let mut chosen = keys.one_of(&["mesh", "leaf", "solid"], None);
+    if keys.reader().is_some() && chosen.is_empty() {
+        // Which keys belong here cannot be said without knowing the shape.
+        keys.leave(&["material"]);
+    }
+    for kind in chosen.drain(..) {
+        match kind {
+            "mesh" => {
+                let mut materials = Vec::new();
+                let kind = NamesIn("meshes", "the name of a mesh");
+                let about = "Shape.";
+                keys.needed("mesh", &mut named, kind, about);
+                let kind = NamesIn("materials", "the name of a material");
+                let about = "What it is made of.";
+                keys.needed("material", &mut materials, kind, about);
+                mesh_shapes(object, keys, &named, &materials);
+            }
+            "solid" => {
+                keys.exclude("solid", "material");
+                let kind = NamesIn("solids", "the name of a body of solid tissue");
+                let about = "That body instead, in the frame of its shape.";
+                keys.needed("solid", &mut named, kind, about);
+                let solids = named.iter().map(|(solid, _)| *solid);
+                object.shapes = solids.map(|solid| ObjectShape::Solid { solid }).collect();
+            }
+            _ => {
+                keys.exclude("leaf", "material");
+                let kind = NamesIn("leaves", "the name of a leaf");
+                let about = "A grown leaf instead: base at the origin, midrib along +y, adaxial \
+                    side +z; of a compound leaf the whole, with the foot of its petiole at the \
+                    origin.";
+                keys.needed("leaf", &mut named, kind, about);
+                let leaves = named.iter().map(|(leaf, _)| *leaf);
+                object.shapes = leaves.map(|leaf| ObjectShape::Leaf { leaf }).collect();
+            }
+        }
+    }
+    named.into_iter().map(|(_, name)| name).collect()
+}
+
+/// Each mesh with its material.
+fn mesh_shapes(
+    object: &mut Object,
+    keys: &Keys<'_>,
+    meshes: &[(usize, String)],
+    materials: &[(usize, String)],
+) {
+    if !keys.is_sound() || meshes.is_empty() || materials.is_empty() {
+        return;
+    }
+    if materials.len() != 1 && materials.len() != meshes.len() {
+        let wanted = format!("one name, or {}: one for each mesh", meshes.len());
+        if let Some(block) = keys.reader() {
+            let at = block.node("material").map_or(&block.at, |node| &node.at);
+            wrong_length(block.cx, at, "material", "a list", materials.len(), &wanted);
+        }
+        return;
+    }
+    let pairs = meshes.iter().zip(materials.iter().cycle());
+    let pairs = pairs.map(|((mesh, _), (material, _))| ObjectShape::Mesh {
+        mesh: *mesh,
+        material: *material,
+    });
+    object.shapes = pairs.collect();
+}
+
+/// The blocks of a section that a name, or a list of names, stands for, and the names.
+#[derive(Clone, Copy, Debug)]
+struct NamesIn(&'static str, &'static str);
+
+impl Kind for NamesIn {
+    type Of = Vec<(usize, String)>;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Self::Of> {
+        let written = match &node.value {
+            Value::List(list) if !(1..=ENOUGH).contains(&list.len()) => {
+                let wanted = format!("a list of 1 to {ENOUGH} names");
+                wrong_length(cx, &node.at, key, "a list", list.len(), &wanted);
+                return None;
+            }
+            Value::List(list) => list.iter().map(|name| text_at(cx, name, key)).collect(),
+            Value::Text(_) => vec![text_at(cx, node, key)],
+            Value::Integer(_)
+            | Value::Number(_)
+            | Value::Flag(_)
+            | Value::Other(..)
+            | Value::Table(_) => {
+                wrong_type(cx, node, key, "text in quotes");
+                return None;
+            }
+        };
+        let known = cx.names(self.0)?;
+        let found: Vec<Option<(usize, String)>> = written
+            .into_iter()
+            .map(|name| Some((known.find(cx, name?)?, name?.0.to_owned())))
+            .collect();
+        found.into_iter().collect()
+    }
+
+    fn write(&self, value: &Self::Of) -> Value {
+        list(value.iter().map(|(_, name)| Value::Text(name.clone())))
+    }
+
+    fn describe(&self) -> Type {
+        let list = Type::List {
+            of: Box::new(Type::Text(self.1)),
+            least: 1,
+            most: ENOUGH,
+            wanted: "a list of names",
+        };
+        Type::AnyOf(vec![Type::Text(self.1), list], self.1)
+    }
+}
+
+/// Local to world: `matrix`, or scale, then turns about x, y, z, then position.
+fn placement(object: &mut Object, keys: &mut Keys<'_>) {
+    let (mut position, mut rotate, mut scale) = (DVec3::ZERO, [0.0; 3], 1.0);
+    let about = "Where the shape's origin goes.";
+    keys.key("position_m", &mut position, Vector(COORDINATES_M), about);
+    let about = "Turns about x, then y, then z, each right-handed about the axis of the world.";
+    keys.key("rotate_deg", &mut rotate, Numbers::<3>(ANGLES_DEG), about);
+    keys.key(
+        "scale",
+        &mut scale,
+        Number(SCALES),
+        "Factor on the shape; applied first.",
+    );
+    for key in ["position_m", "rotate_deg", "scale"] {
+        keys.exclude("matrix", key);
+    }
+    let mut matrix = None;
+    let about = "Local to world row by row, in metres, instead of the three keys above.";
+    keys.optional("matrix", &mut matrix, Numbers::<16>(COORDINATES_M), about);
+    object.to_world = match matrix {
+        None => DMat4::from_translation(position) * DMat4::from_mat3(turn(rotate) * scale),
+        Some(rows) => DMat4::from_cols_array(&rows).transpose(),
+    };
+    if let Some(rows) = matrix {
+        check_matrix(&rows, object.to_world, keys);
+    }
+}
+
+fn check_matrix(rows: &[f64; 16], matrix: DMat4, keys: &Keys<'_>) {
+    if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
+        let error = DocumentError::BadMatrix {
+            problem: "has a last row other than 0, 0, 0, 1",
+            help: "write the rows one behind the other, the position at the end of the first three",
+        };
+        report(keys, "matrix", error);
+        return;
+    }
+    let linear = DMat3::from_mat4(matrix);
+    let bounds = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
+    // The determinant is at most the product of the columns' lengths (Hadamard). Far below that,
+    // single precision no longer tells the shape from a flat one.
+    if linear.determinant().abs() <= 1e-6 * bounds || bounds < 1e-30 {
+        let error = DocumentError::BadMatrix {
+            problem: "is singular: it flattens the object",
+            help: "let its first three columns point in three independent directions",
+        };
+        report(keys, "matrix", error);
+    }
+}
+
+/// Turns about x, then y, then z, by angles in degrees.
+pub(super) fn turn([x, y, z]: [f64; 3]) -> DMat3 {
+    turn_about_z(z) * turn_about_y(y) * turn_about_x(x)
+}
+
+fn turn_about_x(deg: f64) -> DMat3 {
+    let (sin, cos) = sin_cos_deg(deg);
+    DMat3::from_cols(
+        DVec3::X,
+        DVec3::new(0.0, cos, sin),
+        DVec3::new(0.0, -sin, cos),
+    )
+}
+
+fn turn_about_y(deg: f64) -> DMat3 {
+    let (sin, cos) = sin_cos_deg(deg);
+    DMat3::from_cols(
+        DVec3::new(cos, 0.0, -sin),
+        DVec3::Y,
+        DVec3::new(sin, 0.0, cos),
+    )
+}
+
+fn turn_about_z(deg: f64) -> DMat3 {
+    let (sin, cos) = sin_cos_deg(deg);
+    DMat3::from_cols(
+        DVec3::new(cos, sin, 0.0),
+        DVec3::new(-sin, cos, 0.0),
+        DVec3::Z,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_right_handed() {
+        assert_eq!(turn_about_x(90.0) * DVec3::Y, DVec3::Z);
+        assert_eq!(turn_about_y(90.0) * DVec3::Z, DVec3::X);
+        assert_eq!(turn_about_z(90.0) * DVec3::X, DVec3::Y);
+    }
+}

@@ -1,0 +1,109 @@
+//! What blocks of a scene must be to one another.
+
+use std::collections::BTreeSet;
+
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::names::{Names, singular};
+
+use crate::scene::description::{Description, Light, ObjectShape};
+
+/// Sections whose blocks others name.
+pub(super) const SECTIONS: [&str; 5] = ["meshes", "materials", "leaves", "solids", "objects"];
+
+/// Checks what the scene has as a whole; `keys` are those at its top.
+pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
+    let Some(root) = keys.reader() else {
+        return;
+    };
+    let cx = root.cx;
+    let lights = Names::of(root, "lights", &super::SECTIONS);
+    if lights.are_missing() {
+        cx.error_of_the_file(DocumentError::NoLight);
+    }
+    if cx.names("objects").is_some_and(|names| names.are_missing()) {
+        cx.error_of_the_file(DocumentError::NoObject);
+    }
+    check_shining(scene, keys);
+    if cx.error_count() == 0 {
+        warn_of_the_unused(scene, keys);
+    }
+}
+
+/// An area light needs a mesh object, and an object bears at most one.
+fn check_shining(scene: &Description, keys: &Keys<'_>) {
+    let mut shining = BTreeSet::new();
+    for light in &scene.lights {
+        let Light::Area { object, .. } = light.value else {
+            continue;
+        };
+        // A name that is none is told where it stands.
+        let Some(named) = scene.objects.get(object) else {
+            continue;
+        };
+        let shape = named.value.shapes.first();
+        let problem = if named.value.instances.is_some() {
+            "has instances, and those do not shine"
+        } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
+            "is a leaf, and leaves do not shine"
+        } else if matches!(shape, Some(ObjectShape::Solid { .. })) {
+            "is a body of solid tissue, and those do not shine"
+        } else if shining.insert(object) {
+            continue;
+        } else {
+            "has an area light already"
+        };
+        let error = DocumentError::CannotShine {
+            object: named.name.clone(),
+            problem: problem.to_owned(),
+        };
+        keys.report_at_key(&["lights", &light.name], error);
+    }
+}
+
+/// Blocks that nothing refers to are allowed, and mostly a slip.
+fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
+    let Some(root) = keys.reader() else {
+        return;
+    };
+    let used = |wanted: fn(&ObjectShape) -> Option<usize>| -> BTreeSet<usize> {
+        let objects = scene.objects.iter();
+        objects
+            .flat_map(|object| object.value.shapes.iter().filter_map(wanted))
+            .collect()
+    };
+    let meshes = used(|shape| match shape {
+        ObjectShape::Mesh { mesh, .. } => Some(*mesh),
+        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+    });
+    let materials = used(|shape| match shape {
+        ObjectShape::Mesh { material, .. } => Some(*material),
+        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+    });
+    let leaves = used(|shape| match shape {
+        ObjectShape::Leaf { leaf } => Some(*leaf),
+        ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
+    });
+    let solids = used(|shape| match shape {
+        ObjectShape::Solid { solid } => Some(*solid),
+        ObjectShape::Mesh { .. } | ObjectShape::Leaf { .. } => None,
+    });
+    for (section, used) in [
+        ("meshes", meshes),
+        ("materials", materials),
+        ("leaves", leaves),
+        ("solids", solids),
+    ] {
+        let kind = singular(section);
+        let entries = root.table.get(section).and_then(|entry| entry.node.table());
+        let entries = entries.into_iter().flat_map(|table| &table.0);
+        for (_, entry) in entries
+            .enumerate()
+            .filter(|(index, _)| !used.contains(index))
+        {
+            let message = format!("no object uses the {kind} `{}`", entry.key);
+            let help = "take it out, or add an object with it";
+            root.cx.warn(&entry.key_at, "scene::unused", message, help);
+        }
+    }
+}
