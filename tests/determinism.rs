@@ -172,6 +172,7 @@ fn a_block_that_stopped_early_has_the_bits_of_its_first_samples() {
     };
     let (adaptive, _) = rendered(2, 200, halt);
     let [fewest, most] = adaptive.film.drawn_range();
+    let features = 0..adaptive.layout.sums().len();
     for spp in [fewest, most] {
         let (plain, _) = rendered(2, spp, Halt::default());
         let mut same = 0;
@@ -180,7 +181,8 @@ fn a_block_that_stopped_early_has_the_bits_of_its_first_samples() {
             if pixel.samples() == spp {
                 let of = |pixel: &renderer::film::Pixel<'_>| {
                     let radiance = [0, 1, 2].map(|channel| pixel.mean(channel));
-                    (radiance, pixel.alpha(), pixel.position(), pixel.object())
+                    let features: Vec<_> = features.clone().map(|n| pixel.feature(n)).collect();
+                    (radiance, pixel.alpha(), features)
                 };
                 assert_eq!(of(&pixel), of(&expected), "pixel {x}, {y}");
                 same += 1;

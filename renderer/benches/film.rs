@@ -6,22 +6,42 @@
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use renderer::film::{FEATURE_SAMPLES, Feature, Film};
+use renderer::film::{FEATURE_SAMPLES, Film, Sum};
 
 const SIDE: u32 = 256;
 const SAMPLES: u32 = 16;
+/// Those of position, normal, albedo and object.
+const SUMS: [Sum; 10] = {
+    let wide = Sum::Wide { fraction_bits: 24 };
+    let normal = Sum::Narrow { fraction_bits: 22 };
+    let albedo = Sum::Narrow { fraction_bits: 20 };
+    [
+        wide,
+        wide,
+        wide,
+        normal,
+        normal,
+        normal,
+        albedo,
+        albedo,
+        albedo,
+        Sum::First,
+    ]
+};
+
+type Sample = ([f32; 3], [f32; SUMS.len()]);
 
 fn adding(criterion: &mut Criterion) {
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .expect("a thread");
-    let samples: Vec<([f32; 3], Feature)> = (0..SAMPLES).map(sample).collect();
+    let samples: Vec<Sample> = (0..SAMPLES).map(sample).collect();
     let mut group = criterion.benchmark_group("film");
     group.throughput(Throughput::Elements(u64::from(SIDE * SIDE * SAMPLES)));
     for (name, first) in [("with features", 0), ("radiance", FEATURE_SAMPLES)] {
         // A new film each time: no more than 256 samples of a pixel may record features.
-        let film = || Film::new(SIDE, SIDE, 3, true).expect("a small film");
+        let film = || Film::new(SIDE, SIDE, 3, &SUMS).expect("a small film");
         group.bench_function(name, |bencher| {
             bencher.iter_batched_ref(
                 film,
@@ -33,26 +53,32 @@ fn adding(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn expose(film: &mut Film, first: u32, samples: &[([f32; 3], Feature)]) {
+fn expose(film: &mut Film, first: u32, samples: &[Sample]) {
     film.expose(|block| {
         block.expose(SAMPLES, |_, _, pixel| {
-            for (number, (values, feature)) in (first..).zip(samples) {
-                pixel.add(number, black_box(values), Some(black_box(feature)));
+            for (number, (values, features)) in (first..).zip(samples) {
+                pixel.add(number, black_box(values), Some(black_box(features)));
             }
         });
     });
 }
 
 /// Radiance and a first hit of the size that a leaf close up has.
-fn sample(number: u32) -> ([f32; 3], Feature) {
+fn sample(number: u32) -> Sample {
     let value = 0.1 + 0.05 * number as f32;
-    let feature = Feature {
-        position: [0.01, -0.02, 0.03 + 0.001 * value],
-        normal: [0.0, 0.6, 0.8],
-        albedo: [0.1, 0.3, 0.05],
-        object: 3,
-    };
-    ([value, 0.7 * value, 0.3 * value], feature)
+    let features = [
+        0.01,
+        -0.02,
+        0.03 + 0.001 * value,
+        0.0,
+        0.6,
+        0.8,
+        0.1,
+        0.3,
+        0.05,
+        4.0,
+    ];
+    ([value, 0.7 * value, 0.3 * value], features)
 }
 
 criterion_group!(benches, adding);

@@ -1,11 +1,13 @@
 //! Radiance and first hits in, means and variances out.
 //!
-//! - **In**: samples, each a value per channel and what the camera ray met, block of pixels by block.
+//! - **In**: samples, each a value per channel and, where the camera ray met something, a number per feature, block of pixels
+//!   by block.
 //! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which samples arrive; a
-//!   sample with a value that is not finite is rejected whole and counted, one beyond ±2³⁰ is clamped and counted.
+//!   sample with a number that is not finite is rejected whole and counted, one beyond ±2³⁰ is clamped and counted.
 //!   All pixels of a block have the same number of samples.
-//! - **Memory**: 32 bytes a channel and 56 bytes of features a pixel: 152 for colour.
+//! - **Memory**: 32 bytes a channel, 4 of coverage and 8 or 4 a feature ([`Sum`]) for each pixel.
+//! - **Left out**: what channels and features are; whoever makes a film knows.
 
 mod block;
 mod features;
@@ -21,12 +23,12 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 pub use block::{BLOCK_SIDE, Block, PixelSums};
-pub use features::{FEATURE_SAMPLES, Feature};
+pub use features::{FEATURE_SAMPLES, Sum};
 pub use moments::Moments;
 pub use pixel::Pixel;
 
 use block::Faults;
-use features::{Albedos, Positions, Surface};
+use features::{Coverage, Words};
 
 /// Most pixels of a film.
 pub const MOST_PIXELS: u64 = 1 << 28;
@@ -76,20 +78,20 @@ pub struct Film {
     drawn: Vec<u32>,
     /// For each pixel as many as channels.
     moments: Vec<Moments>,
-    positions: Vec<Positions>,
-    surfaces: Vec<Surface>,
-    /// Empty if none is recorded.
-    albedos: Vec<Albedos>,
+    /// What follows for each pixel.
+    words: Words,
+    wide: Vec<i64>,
+    narrow: Vec<i32>,
     faults: Faults,
 }
 
 impl Film {
-    /// An empty film.
+    /// An empty film that keeps each feature in one of the `sums`.
     ///
     /// # Errors
     ///
     /// [`FilmError`] if it has no pixels or channels, or would be too large.
-    pub fn new(width: u32, height: u32, channels: usize, albedo: bool) -> Result<Self, FilmError> {
+    pub fn new(width: u32, height: u32, channels: usize, sums: &[Sum]) -> Result<Self, FilmError> {
         let pixels = u64::from(width) * u64::from(height);
         if pixels == 0 || channels == 0 {
             return Err(FilmError::Empty {
@@ -98,7 +100,7 @@ impl Film {
                 channels,
             });
         }
-        let bytes = pixels.saturating_mul(Self::bytes_a_pixel(channels, albedo) as u64);
+        let bytes = pixels.saturating_mul(Self::bytes_a_pixel(channels, sums) as u64);
         if pixels > MOST_PIXELS || bytes > MOST_BYTES {
             return Err(FilmError::TooLarge {
                 width,
@@ -108,6 +110,7 @@ impl Film {
             });
         }
         let pixels = pixels as usize;
+        let words = Words::new(sums);
         let blocks = width.div_ceil(BLOCK_SIDE) as usize * height.div_ceil(BLOCK_SIDE) as usize;
         Ok(Self {
             width,
@@ -115,17 +118,17 @@ impl Film {
             channels,
             drawn: vec![0; blocks],
             moments: vec![Moments::default(); pixels * channels],
-            positions: vec![Positions::default(); pixels],
-            surfaces: vec![Surface::default(); pixels],
-            albedos: vec![Albedos::default(); if albedo { pixels } else { 0 }],
+            wide: vec![0; pixels * words.wide],
+            narrow: vec![0; pixels * words.narrow],
+            words,
             faults: Faults::default(),
         })
     }
 
     /// Memory of a pixel, bytes; a block has four more.
-    pub const fn bytes_a_pixel(channels: usize, albedo: bool) -> usize {
-        let albedo = if albedo { size_of::<Albedos>() } else { 0 };
-        channels * size_of::<Moments>() + size_of::<Positions>() + size_of::<Surface>() + albedo
+    pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
+        let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
+        channels * size_of::<Moments>() + Coverage::BYTES + features
     }
 
     /// Pixels across.
@@ -162,10 +165,10 @@ impl Film {
         let block = row as usize * self.blocks_across() + column as usize;
         let rejected = self.faults.rejected.get(&place).copied().unwrap_or(0);
         Pixel {
-            moments: &self.moments[place * self.channels..][..self.channels],
-            position: &self.positions[place],
-            surface: &self.surfaces[place],
-            albedo: self.albedos.get(place),
+            moments: of_place(&self.moments, place, self.channels),
+            words: &self.words,
+            wide: of_place(&self.wide, place, self.words.wide),
+            narrow: of_place(&self.narrow, place, self.words.narrow),
             samples: self.drawn[block] - rejected,
         }
     }
@@ -173,7 +176,7 @@ impl Film {
     /// Something of every pixel, row by row from the top, worked out on the current thread pool.
     pub fn map<T: Send>(&self, of: impl Fn(&Pixel<'_>) -> T + Sync) -> Vec<T> {
         let width = self.width as usize;
-        (0..self.positions.len())
+        (0..width * self.height as usize)
             .into_par_iter()
             .with_min_len(width)
             .map(|place| of(&self.pixel((place % width) as u32, (place / width) as u32)))
@@ -185,18 +188,11 @@ impl Film {
         self.map(|pixel| pixel.mean(channel) as f32)
     }
 
-    /// One channel's variances of the mean, as if samples were independent; 0 below two samples.
-    ///
-    /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of the error.
-    pub fn variance_of_mean(&self, channel: usize) -> Vec<f32> {
-        self.map(|pixel| pixel.variance_of_mean(channel) as f32)
-    }
-
     /// Lets `expose` add samples to every block, spread over the current thread pool. Which thread exposes a block does
     /// not show.
     pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
         let (width, height, channels) = (self.width, self.height, self.channels);
-        let across = self.blocks_across();
+        let (across, words) = (self.blocks_across(), &self.words);
         let row_pixels = (BLOCK_SIDE * width) as usize;
         let rows = self.drawn.len() / across;
         let faults = Mutex::new(Faults::default());
@@ -204,21 +200,24 @@ impl Film {
             .drawn
             .par_chunks_mut(across)
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
-            .zip(self.positions.par_chunks_mut(row_pixels))
-            .zip(self.surfaces.par_chunks_mut(row_pixels))
-            .zip(chunks_or_nothing(&mut self.albedos, row_pixels, rows));
-        rows.enumerate().for_each(
-            |(row, ((((drawn, moments), positions), surfaces), albedos))| {
+            .zip(chunks_or_nothing(
+                &mut self.wide,
+                row_pixels * words.wide,
+                rows,
+            ))
+            .zip(self.narrow.par_chunks_mut(row_pixels * words.narrow));
+        rows.enumerate()
+            .for_each(|(row, (((drawn, moments), wide), narrow))| {
                 let y = row as u32 * BLOCK_SIDE;
                 let pixels = (BLOCK_SIDE * BLOCK_SIDE.min(height - y)) as usize;
                 let blocks = drawn
                     .par_iter_mut()
                     .zip(moments.par_chunks_mut(pixels * channels))
-                    .zip(positions.par_chunks_mut(pixels))
-                    .zip(surfaces.par_chunks_mut(pixels))
-                    .zip(chunks_or_nothing(albedos, pixels, across));
-                blocks.enumerate().for_each(
-                    |(column, ((((drawn, moments), positions), surfaces), albedos))| {
+                    .zip(chunks_or_nothing(wide, pixels * words.wide, across))
+                    .zip(narrow.par_chunks_mut(pixels * words.narrow));
+                blocks
+                    .enumerate()
+                    .for_each(|(column, (((drawn, moments), wide), narrow))| {
                         let x = column as u32 * BLOCK_SIDE;
                         let mut block = Block {
                             number: row * across + column,
@@ -229,9 +228,9 @@ impl Film {
                             channels,
                             drawn,
                             moments,
-                            positions,
-                            surfaces,
-                            albedos,
+                            words,
+                            wide,
+                            narrow,
                             faults: Faults::default(),
                         };
                         expose(&mut block);
@@ -239,10 +238,8 @@ impl Film {
                             let mut all = faults.lock().unwrap_or_else(PoisonError::into_inner);
                             all.merge(&block.faults);
                         }
-                    },
-                );
-            },
-        );
+                    });
+            });
         let found = faults.into_inner().unwrap_or_else(PoisonError::into_inner);
         self.faults.merge(&found);
     }
@@ -252,15 +249,18 @@ impl Film {
     ///
     /// # Panics
     ///
-    /// If the films have different sizes.
+    /// If the films have different sizes, or features that are kept differently.
     pub fn merge(&mut self, other: &Self) {
-        let size = |film: &Self| (film.width, film.height, film.channels, film.albedos.len());
+        let size = |film: &Self| (film.width, film.height, film.channels);
         assert_eq!(size(self), size(other), "films of one size are merged");
+        assert_eq!(
+            self.words, other.words,
+            "films of the same features are merged"
+        );
         merge_each(&mut self.drawn, &other.drawn, |own, other| *own += other);
         merge_each(&mut self.moments, &other.moments, Moments::merge);
-        merge_each(&mut self.positions, &other.positions, Positions::merge);
-        merge_each(&mut self.surfaces, &other.surfaces, Surface::merge);
-        merge_each(&mut self.albedos, &other.albedos, Albedos::merge);
+        merge_each(&mut self.wide, &other.wide, |own, other| *own += other);
+        merge_each(&mut self.narrow, &other.narrow, |own, other| *own += other);
         self.faults.merge(&other.faults);
     }
 
@@ -316,6 +316,11 @@ impl Film {
     }
 }
 
+/// What the pixel at a place has, of which each has `count`.
+fn of_place<T>(all: &[T], place: usize, count: usize) -> &[T] {
+    &all[place * count..][..count]
+}
+
 /// Adds to each of `own` the one of `others` at its place.
 fn merge_each<T: Send + Sync>(own: &mut [T], others: &[T], add: impl Fn(&mut T, &T) + Sync) {
     own.par_iter_mut()
@@ -326,7 +331,7 @@ fn merge_each<T: Send + Sync>(own: &mut [T], others: &[T], add: impl Fn(&mut T, 
 
 /// Chunks of what may not be there at all: then `count` empty ones.
 fn chunks_or_nothing<T>(all: &mut [T], size: usize, count: usize) -> Vec<&mut [T]> {
-    let mut chunks: Vec<&mut [T]> = all.chunks_mut(size).collect();
+    let mut chunks: Vec<&mut [T]> = all.chunks_mut(size.max(1)).collect();
     chunks.resize_with(count, Default::default);
     chunks
 }

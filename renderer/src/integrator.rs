@@ -3,6 +3,7 @@
 pub mod develop;
 pub mod effort;
 pub mod features;
+pub mod layers;
 pub mod mis;
 pub mod noise;
 pub mod path;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::features::{Albedos, Feature, Positions, Surface};
+use super::features::Words;
 use super::moments::Moments;
 
 /// Pixels along a block's sides; blocks at the right and lower border may have fewer.
@@ -46,10 +46,9 @@ pub struct Block<'a> {
     pub(super) channels: usize,
     pub(super) drawn: &'a mut u32,
     pub(super) moments: &'a mut [Moments],
-    pub(super) positions: &'a mut [Positions],
-    pub(super) surfaces: &'a mut [Surface],
-    /// Empty on films without albedo.
-    pub(super) albedos: &'a mut [Albedos],
+    pub(super) words: &'a Words,
+    pub(super) wide: &'a mut [i64],
+    pub(super) narrow: &'a mut [i32],
     pub(super) faults: Faults,
 }
 
@@ -61,23 +60,22 @@ impl Block<'_> {
 
     /// Number of pixels.
     pub fn pixels(&self) -> u32 {
-        self.positions.len() as u32
+        (self.narrow.len() / self.words.narrow) as u32
     }
 
     /// Adds the next `samples` of every pixel: `expose` is called with column, row and where to put them, and has to add as many.
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
+        let words = self.words;
         let places = self
             .moments
             .chunks_exact_mut(self.channels)
-            .zip(self.positions.iter_mut())
-            .zip(self.surfaces.iter_mut());
-        let mut albedos = self.albedos.iter_mut();
-        for (within, ((moments, position), surface)) in (0_u32..).zip(places) {
+            .zip(self.narrow.chunks_exact_mut(words.narrow));
+        for (within, (moments, narrow)) in (0_u32..).zip(places) {
             let mut pixel = PixelSums {
                 moments,
-                position,
-                surface,
-                albedo: albedos.next(),
+                words,
+                wide: &mut self.wide[within as usize * words.wide..][..words.wide],
+                narrow,
                 rejected: 0,
                 clamped: 0,
             };
@@ -97,22 +95,32 @@ impl Block<'_> {
 #[derive(Debug)]
 pub struct PixelSums<'a> {
     moments: &'a mut [Moments],
-    position: &'a mut Positions,
-    surface: &'a mut Surface,
-    albedo: Option<&'a mut Albedos>,
+    words: &'a Words,
+    wide: &'a mut [i64],
+    narrow: &'a mut [i32],
     rejected: u32,
     clamped: u64,
 }
 
 impl PixelSums<'_> {
-    /// Adds sample number `number`: a value for each channel, and what the camera ray met.
+    /// Adds sample number `number`: a value for each channel, and the features of what the camera ray met, if anything;
+    /// numbers beyond the film's features are passed over.
     ///
-    /// A sample with a value that is not finite is rejected whole and counted; a channel's value beyond ±2³⁰ is clamped
+    /// A sample with a number that is not finite is rejected whole and counted; a channel's value beyond ±2³⁰ is clamped
     /// and counted.
-    pub fn add(&mut self, number: u32, values: &[f32], feature: Option<&Feature>) {
+    #[inline]
+    pub fn add<const F: usize>(
+        &mut self,
+        number: u32,
+        values: &[f32],
+        features: Option<&[f32; F]>,
+    ) {
         debug_assert_eq!(values.len(), self.moments.len(), "a value a channel");
-        let finite =
-            values.iter().all(|value| value.is_finite()) && feature.is_none_or(Feature::is_finite);
+        // Features are finite or not without a branch for each.
+        let finite = values.iter().all(|value| value.is_finite())
+            && features.is_none_or(|features| {
+                (features.iter()).fold(true, |all, number| all & number.is_finite())
+            });
         if !finite {
             self.rejected += 1;
             return;
@@ -120,14 +128,9 @@ impl PixelSums<'_> {
         for (moments, &value) in self.moments.iter_mut().zip(values) {
             self.clamped += u64::from(moments.add(value));
         }
-        let Some(feature) = feature else {
-            return;
-        };
-        if self.surface.add(number, feature) {
-            self.position.add(feature.position);
-            if let Some(albedo) = &mut self.albedo {
-                albedo.add(feature.albedo);
-            }
+        if let Some(features) = features {
+            debug_assert!(self.words.features() <= F, "a number for each feature");
+            self.words.add(number, features, self.wide, self.narrow);
         }
     }
 }

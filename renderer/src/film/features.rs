@@ -1,158 +1,198 @@
-//! What a pixel saw besides radiance: how much of it is covered, and by what.
+//! What a pixel keeps besides radiance: how much of it is covered, and features, numbers of what its camera rays met.
+//!
+//! - **In**: for each sample that met something, a number per feature.
+//! - **Out**: means over the covered ones of a pixel's first [`FEATURE_SAMPLES`] samples, or what sample 0 met.
+//! - **Always true**: all that is kept is integers that add up, so films merge by addition alone.
+//! - **Left out**: what the features are; whoever makes a film says how each is kept.
 
 use super::fixed::nearest;
 
-/// Samples of a pixel, by number, that record position, normal and albedo. These converge fast, and a bound keeps their
-/// sums small: 256 samples of ±2³⁰ m in units of 2⁻²⁴ m (60 nm) fit into 64 bits, of normals and albedos into 32.
+/// Samples of a pixel, by number, that record features. These converge fast, and a bound keeps their sums small: 256 samples
+/// of 54 bits fit into 64 bits, of 23 bits into 32.
 pub const FEATURE_SAMPLES: u32 = 256;
 
-const POSITION_BITS: i32 = 24;
-const NORMAL_BITS: i32 = 22;
-const ALBEDO_BITS: i32 = 20;
-/// The most of one sample: ±2³⁰ m.
-const MOST_POSITION: i64 = 1 << 54;
-/// The most of one sample: a normal of length just below 2, an albedo just below 8.
-const MOST_SMALL: i64 = (1 << 23) - 1;
+/// The most of one sample in a wide sum, in its units.
+const MOST_WIDE: f64 = (1_i64 << 54) as f64;
+/// The most of one sample in a narrow sum, in its units.
+const MOST_NARROW: f64 = ((1_i64 << 23) - 1) as f64;
+/// The most bits behind the point.
+const MOST_FRACTION_BITS: i32 = 24;
 
-/// What the camera ray of one sample met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Feature {
-    /// Point, world, m.
-    pub position: [f32; 3],
-    /// Unit normal on the side of the camera, world.
-    pub normal: [f32; 3],
-    /// Linear sRGB of the surface in white light; films without albedo pass over it.
-    pub albedo: [f32; 3],
-    /// Number of the object.
-    pub object: u32,
+/// How a feature is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sum {
+    /// As a sum of 64 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and at most ±2⁵⁴ units:
+    /// with 24 bits up to ±2³⁰.
+    Wide {
+        /// Bits behind the point, 0 to 24.
+        fraction_bits: i32,
+    },
+    /// As a sum of 32 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and less than ±2²³ units:
+    /// with 22 bits up to ±2, with 20 up to ±8.
+    Narrow {
+        /// Bits behind the point, 0 to 24.
+        fraction_bits: i32,
+    },
+    /// As the number of sample 0, whole and ≥ 0 in 32 bits; 0 if that sample met nothing or is not among the samples.
+    First,
 }
 
-impl Feature {
-    /// Whether all of it is finite.
-    pub(super) fn is_finite(&self) -> bool {
-        let all = [self.position, self.normal, self.albedo];
-        all.as_flattened().iter().all(|value| value.is_finite())
-    }
-}
-
-/// Sum of points, in units of 2⁻²⁴ m.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Positions([i64; 3]);
-
-impl Positions {
-    pub(super) fn add(&mut self, position: [f32; 3]) {
-        for (sum, value) in self.0.iter_mut().zip(position) {
-            *sum += nearest(value, POSITION_BITS, MOST_POSITION);
+impl Sum {
+    /// What it takes of a pixel, bytes.
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::Wide { .. } => size_of::<i64>(),
+            Self::Narrow { .. } | Self::First => size_of::<i32>(),
         }
     }
 
-    pub(super) fn merge(&mut self, other: &Self) {
-        for (sum, value) in self.0.iter_mut().zip(other.0) {
-            *sum += value;
+    fn fraction_bits(self) -> i32 {
+        match self {
+            Self::Wide { fraction_bits } | Self::Narrow { fraction_bits } => fraction_bits,
+            Self::First => 0,
         }
     }
 
-    pub(super) fn mean(&self, count: u32) -> [f64; 3] {
-        let unit = f64::from(1 << POSITION_BITS) * f64::from(count);
-        self.0.map(|sum| sum as f64 / unit)
+    /// Units in 1.
+    fn scale(self) -> f64 {
+        f64::from(1 << self.fraction_bits())
     }
 }
 
-/// Sum of albedos, in units of 2⁻²⁰.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Albedos([i32; 3]);
-
-impl Albedos {
-    pub(super) fn add(&mut self, albedo: [f32; 3]) {
-        add_small(&mut self.0, albedo, ALBEDO_BITS);
-    }
-
-    pub(super) fn merge(&mut self, other: &Self) {
-        for (sum, value) in self.0.iter_mut().zip(other.0) {
-            *sum += value;
-        }
-    }
-
-    pub(super) fn mean(&self, count: u32) -> [f64; 3] {
-        mean_small(self.0, count, ALBEDO_BITS)
-    }
+/// Where a pixel keeps each feature: a pixel has words of two widths, and its first narrow one counts coverage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Words {
+    /// In the order of features.
+    runs: Vec<Run>,
+    /// Words of 64 bits.
+    pub(super) wide: usize,
+    /// Words of 32 bits.
+    pub(super) narrow: usize,
 }
 
-/// Sum of normals, coverage, and the object of the first sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Surface {
-    normals: [i32; 3],
-    coverage: Coverage,
-    /// Number + 1 of the object that sample 0 met; 0 if it met none, or is not among the samples.
-    object: u32,
+/// Features that follow one another and are kept in the same way, so that it is looked up once for all of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Run {
+    sum: Sum,
+    /// How many.
+    count: usize,
+    /// The first one's word among those of its width.
+    place: usize,
 }
 
-impl Surface {
-    /// Counts a covered sample; whether it is one that records features.
-    pub(super) fn add(&mut self, number: u32, feature: &Feature) -> bool {
+impl Words {
+    pub(super) fn new(sums: &[Sum]) -> Self {
+        let (mut wide, mut narrow) = (0, 1);
+        let run = |same: &[Sum]| {
+            let (sum, count) = (same[0], same.len());
+            assert!(
+                (0..=MOST_FRACTION_BITS).contains(&sum.fraction_bits()),
+                "a sum has 0 to {MOST_FRACTION_BITS} bits behind the point"
+            );
+            let next = match sum {
+                Sum::Wide { .. } => &mut wide,
+                Sum::Narrow { .. } | Sum::First => &mut narrow,
+            };
+            let place = *next;
+            *next += count;
+            Run { sum, count, place }
+        };
+        let runs = sums.chunk_by(PartialEq::eq).map(run).collect();
+        Self { runs, wide, narrow }
+    }
+
+    /// Number of features.
+    pub(super) fn features(&self) -> usize {
+        self.wide + self.narrow - 1
+    }
+
+    /// Adds a covered sample's features to a pixel's words.
+    #[inline]
+    pub(super) fn add(&self, number: u32, features: &[f32], wide: &mut [i64], narrow: &mut [i32]) {
         let records = number < FEATURE_SAMPLES;
-        self.coverage.add(records);
-        if records {
-            add_small(&mut self.normals, feature.normal, NORMAL_BITS);
+        narrow[0] += Coverage::of_sample(records);
+        if !records {
+            return;
         }
-        if number == 0 {
-            self.object = feature.object.saturating_add(1);
+        let mut rest = features;
+        for run in &self.runs {
+            let (place, scale) = (run.place, run.sum.scale());
+            let values;
+            (values, rest) = rest.split_at(run.count);
+            match run.sum {
+                Sum::Wide { .. } => {
+                    for (sum, &value) in wide[place..].iter_mut().zip(values) {
+                        *sum += nearest(value, scale, MOST_WIDE);
+                    }
+                }
+                Sum::Narrow { .. } => {
+                    for (sum, &value) in narrow[place..].iter_mut().zip(values) {
+                        *sum += nearest(value, scale, MOST_NARROW) as i32;
+                    }
+                }
+                Sum::First if number == 0 => {
+                    for (sum, &value) in narrow[place..].iter_mut().zip(values) {
+                        *sum += value as i32;
+                    }
+                }
+                Sum::First => {}
+            }
         }
-        records
     }
 
-    pub(super) fn merge(&mut self, other: &Self) {
-        for (sum, value) in self.normals.iter_mut().zip(other.normals) {
-            *sum += value;
+    /// A feature of a pixel with these words; none where no sample recorded any.
+    pub(super) fn feature(&self, number: usize, wide: &[i64], narrow: &[i32]) -> Option<f64> {
+        let (run, place) = self.place_of(number);
+        let count = Coverage::of(narrow).recorded();
+        let unit = run.sum.scale() * f64::from(count);
+        (count > 0).then(|| match run.sum {
+            Sum::Wide { .. } => wide[place] as f64 / unit,
+            Sum::Narrow { .. } => f64::from(narrow[place]) / unit,
+            Sum::First => f64::from(narrow[place]),
+        })
+    }
+
+    /// The run that a feature is in, and its word among those of its width.
+    fn place_of(&self, number: usize) -> (&Run, usize) {
+        let mut within = number;
+        for run in &self.runs {
+            if within < run.count {
+                return (run, run.place + within);
+            }
+            within -= run.count;
         }
-        self.coverage.0 += other.coverage.0;
-        self.object = self.object.max(other.object);
-    }
-
-    pub(super) fn coverage(&self) -> Coverage {
-        self.coverage
-    }
-
-    pub(super) fn object(&self) -> u32 {
-        self.object
-    }
-
-    pub(super) fn mean_normal(&self) -> [f64; 3] {
-        mean_small(self.normals, self.coverage.recorded(), NORMAL_BITS)
+        panic!("the film has no feature {number}")
     }
 }
 
 /// Two counts in one word, so that coverage costs four bytes a pixel: all covered samples below, and those among the first
 /// [`FEATURE_SAMPLES`] above. Sums of words are words of sums.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Coverage(u32);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coverage(i32);
 
 impl Coverage {
+    /// What it takes of a pixel.
+    pub(super) const BYTES: usize = size_of::<i32>();
     /// Enough for 2²¹ − 1 samples; the format allows 2²⁰.
     const BITS: u32 = 21;
 
-    fn add(&mut self, records: bool) {
-        self.0 += 1 + (u32::from(records) << Self::BITS);
+    /// What a covered sample adds.
+    fn of_sample(records: bool) -> i32 {
+        1 + (i32::from(records) << Self::BITS)
+    }
+
+    /// That of a pixel with these narrow words.
+    pub(super) fn of(narrow: &[i32]) -> Self {
+        Self(narrow[0])
     }
 
     /// Covered samples.
     pub(super) fn covered(self) -> u32 {
-        self.0 & ((1 << Self::BITS) - 1)
+        self.0 as u32 & ((1 << Self::BITS) - 1)
     }
 
     /// Covered samples that recorded features.
-    pub(super) fn recorded(self) -> u32 {
-        self.0 >> Self::BITS
+    fn recorded(self) -> u32 {
+        self.0 as u32 >> Self::BITS
     }
-}
-
-fn add_small(sums: &mut [i32; 3], values: [f32; 3], fraction_bits: i32) {
-    for (sum, value) in sums.iter_mut().zip(values) {
-        *sum += nearest(value, fraction_bits, MOST_SMALL) as i32;
-    }
-}
-
-fn mean_small(sums: [i32; 3], count: u32, fraction_bits: i32) -> [f64; 3] {
-    let unit = f64::from(1 << fraction_bits) * f64::from(count);
-    sums.map(|sum| f64::from(sum) / unit)
 }

@@ -1,7 +1,8 @@
-//! Single precision to fixed point, by shifts alone.
+//! Single precision to fixed point.
 //!
 //! - **In**: finite `f32`s, each a whole number of at most 24 bits times a power of two.
-//! - **Out**: integers in units of a power of two; a shift gives each, so there is no rounding but the one stated.
+//! - **Out**: integers in units of a power of two; a shift or an exact product gives each, so there is no rounding but the one
+//!   stated.
 //! - **Left out**: numbers that are not finite; whoever calls has sorted them out.
 
 /// Bits behind the point of sums and of sums of squares. (With fewer, the variance of dim pixels would vanish.)
@@ -12,6 +13,7 @@ pub(super) const ONE: f64 = 18_446_744_073_709_551_616.0;
 pub(super) const MOST: f32 = 1_073_741_824.0;
 
 /// A finite number as sign, whole part and power of two: `±mantissa · 2^exponent`.
+#[inline]
 fn parts(value: f32) -> (bool, u32, i32) {
     let bits = value.to_bits();
     let biased = (bits >> 23 & 0xff) as i32;
@@ -22,6 +24,7 @@ fn parts(value: f32) -> (bool, u32, i32) {
 }
 
 /// A value and its square in units of 2⁻⁶⁴, both cut off towards zero; |`value`| ≤ [`MOST`].
+#[inline]
 pub(super) fn value_and_square(value: f32) -> (i128, u128) {
     debug_assert!(value.abs() <= MOST, "clamped beforehand");
     let (negative, mantissa, exponent) = parts(value);
@@ -34,6 +37,7 @@ pub(super) fn value_and_square(value: f32) -> (i128, u128) {
 }
 
 /// `whole · 2^shift`, cut off.
+#[inline]
 fn shifted(whole: u64, shift: i32) -> u128 {
     if shift >= 0 {
         // At most 48 bits of a square, shifted by 2 · 7 + 64 = 78.
@@ -43,21 +47,15 @@ fn shifted(whole: u64, shift: i32) -> u128 {
     }
 }
 
-/// A value in units of 2^−`fraction_bits`, rounded to the nearest, halves away from zero, and kept within ±`most`.
+/// A value times `scale`, rounded to the nearest, halves away from zero, and kept within ±`most`.
 ///
-/// `most` is at most 2⁶² and `fraction_bits` at most 24.
-pub(super) fn nearest(value: f32, fraction_bits: i32, most: i64) -> i64 {
-    let (negative, mantissa, exponent) = parts(value);
-    let (mantissa, shift) = (i64::from(mantissa), exponent + fraction_bits);
-    let magnitude = match shift {
-        // 24 bits shifted by more than 38 are beyond 2⁶², or zero.
-        39.. if mantissa != 0 => most,
-        0.. => mantissa << shift.min(38),
-        -25..0 => (mantissa + (1 << (-shift - 1))) >> -shift,
-        _ => 0,
-    };
-    let magnitude = magnitude.min(most);
-    if negative { -magnitude } else { magnitude }
+/// `scale` is a power of two from 1 to 2²⁴, `most` a whole number of at most 2⁵⁴.
+#[inline]
+pub(super) fn nearest(value: f32, scale: f64, most: f64) -> i64 {
+    // The product is exact and has 24 bits. From 2⁻²⁸ to 2⁵² a half is added to it exactly; below, the sum rounds to less than
+    // 1, and above, the product is whole and stays.
+    let scaled = f64::from(value) * scale;
+    (scaled + 0.5_f64.copysign(scaled)).min(most).max(-most) as i64
 }
 
 #[cfg(test)]
@@ -81,10 +79,23 @@ mod tests {
         fn rounding_is_that_of_double_precision(bits: u32, fraction_bits in 0_i32..=24) {
             let value = f32::from_bits(bits);
             prop_assume!(value.is_finite());
-            let most = 1_i64 << 54;
-            let scaled = f64::from(value) * f64::from(1 << fraction_bits);
-            let expected = libm::round(scaled).clamp(-(most as f64), most as f64) as i64;
-            prop_assert_eq!(nearest(value, fraction_bits, most), expected);
+            let scale = f64::from(1 << fraction_bits);
+            for most in [1_i64 << 54, (1 << 23) - 1] {
+                let most = most as f64;
+                let expected = libm::round(f64::from(value) * scale).clamp(-most, most) as i64;
+                prop_assert_eq!(nearest(value, scale, most), expected);
+            }
+        }
+
+        #[test]
+        fn halves_are_rounded_away_from_zero(whole in -8_388_608_i32..8_388_608, fraction_bits in 0_i32..=24) {
+            // Every number of 24 bits and a half of one, and its neighbours.
+            let half = (whole as f32 + 0.5) / (1 << fraction_bits) as f32;
+            let scale = f64::from(1 << fraction_bits);
+            for value in [half.next_down(), half, half.next_up()] {
+                let expected = libm::round(f64::from(value) * scale) as i64;
+                prop_assert_eq!(nearest(value, scale, 1e9), expected);
+            }
         }
     }
 
@@ -94,9 +105,15 @@ mod tests {
         assert_eq!(value_and_square(-MOST), (-(1 << 94), 1 << 124));
         assert_eq!(value_and_square(f32::from_bits(1)), (0, 0));
         assert_eq!(value_and_square(-0.0), (0, 0));
-        assert_eq!(nearest(f32::MAX, 24, 1 << 54), 1 << 54);
-        assert_eq!(nearest(0.5, 0, 10), 1);
-        assert_eq!(nearest(-0.5, 0, 10), -1);
-        assert_eq!(nearest(0.499_999_97, 0, 10), 0);
+        let of = |value| nearest(value, 1.0, 10.0);
+        assert_eq!(
+            nearest(f32::MAX, 16_777_216.0, 18_014_398_509_481_984.0),
+            1 << 54
+        );
+        assert_eq!([0.5, -0.5, 1.5, 2.5, -0.0].map(of), [1, -1, 2, 3, 0]);
+        assert_eq!(
+            [0.499_999_97, -0.499_999_97, f32::from_bits(1), -1e30].map(of),
+            [0, 0, 0, -10]
+        );
     }
 }

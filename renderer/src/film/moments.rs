@@ -15,6 +15,7 @@ pub struct Moments {
 
 impl Moments {
     /// Adds a finite value; whether it had to be clamped to ±2³⁰.
+    #[inline]
     pub fn add(&mut self, value: f32) -> bool {
         let taken = value.clamp(-MOST, MOST);
         let (sum, square) = value_and_square(taken);
@@ -44,6 +45,8 @@ impl Moments {
     }
 
     /// Unbiased sample variance over `samples`, the number of samples; 0 below two.
+    ///
+    /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of the error.
     pub fn variance_of_mean(&self, samples: u32) -> f64 {
         if samples < 2 {
             return 0.0;

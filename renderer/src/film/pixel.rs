@@ -1,16 +1,15 @@
 //! A pixel's sums, read.
 
-use super::features::{Albedos, Positions, Surface};
+use super::features::{Coverage, Words};
 use super::moments::Moments;
 
-/// Sums of one pixel. Features are means over the covered ones of its first [`super::FEATURE_SAMPLES`] samples, and 0
-/// where none is covered.
+/// Sums of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixel<'a> {
     pub(super) moments: &'a [Moments],
-    pub(super) position: &'a Positions,
-    pub(super) surface: &'a Surface,
-    pub(super) albedo: Option<&'a Albedos>,
+    pub(super) words: &'a Words,
+    pub(super) wide: &'a [i64],
+    pub(super) narrow: &'a [i32],
     pub(super) samples: u32,
 }
 
@@ -25,46 +24,24 @@ impl Pixel<'_> {
         self.moments.len()
     }
 
+    /// What is kept of a channel's samples.
+    pub fn moments(&self, channel: usize) -> &Moments {
+        &self.moments[channel]
+    }
+
     /// Mean of a channel; 0 without samples.
     pub fn mean(&self, channel: usize) -> f64 {
         self.moments[channel].mean(self.samples)
     }
 
-    /// Unbiased sample variance of a channel over the number of samples; 0 below two samples.
-    pub fn variance_of_mean(&self, channel: usize) -> f64 {
-        self.moments[channel].variance_of_mean(self.samples)
-    }
-
     /// Share of all samples that met something.
     pub fn alpha(&self) -> f64 {
-        f64::from(self.surface.coverage().covered()) / f64::from(self.samples.max(1))
+        f64::from(Coverage::of(self.narrow).covered()) / f64::from(self.samples.max(1))
     }
 
-    /// Mean point, world, m; none where nothing is covered.
-    pub fn position(&self) -> Option<[f64; 3]> {
-        let recorded = self.surface.coverage().recorded();
-        (recorded > 0).then(|| self.position.mean(recorded))
-    }
-
-    /// Mean normal, world; shorter than 1 where normals differ.
-    pub fn normal(&self) -> [f64; 3] {
-        self.over_recorded(|_| self.surface.mean_normal())
-    }
-
-    /// Mean albedo, linear sRGB; 0 on films without.
-    pub fn albedo(&self) -> [f64; 3] {
-        self.over_recorded(|count| self.albedo.map_or([0.0; 3], |albedo| albedo.mean(count)))
-    }
-
-    /// Number + 1 of the object that the pixel's first sample met, 0 for none.
-    pub fn object(&self) -> u32 {
-        self.surface.object()
-    }
-
-    fn over_recorded(&self, mean: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
-        match self.surface.coverage().recorded() {
-            0 => [0.0; 3],
-            count => mean(count),
-        }
+    /// A feature by its number: the mean over the covered ones of the first [`super::FEATURE_SAMPLES`] samples, or what sample 0
+    /// met; none where none of these samples is covered.
+    pub fn feature(&self, number: usize) -> Option<f64> {
+        self.words.feature(number, self.wide, self.narrow)
     }
 }

@@ -2,12 +2,30 @@ use proptest::prelude::*;
 
 use super::*;
 
-const GREY: Feature = Feature {
-    position: [1.0, -2.0, 0.5],
-    normal: [0.0, 0.6, 0.8],
-    albedo: [0.5, 0.25, 0.125],
-    object: 6,
+/// Three numbers each of a wide sum and of two narrow ones, and one that is not summed.
+const SUMS: [Sum; 10] = {
+    let (wide, narrow) = (
+        Sum::Wide { fraction_bits: 24 },
+        Sum::Narrow { fraction_bits: 22 },
+    );
+    let rough = Sum::Narrow { fraction_bits: 20 };
+    [
+        wide,
+        wide,
+        wide,
+        narrow,
+        narrow,
+        narrow,
+        rough,
+        rough,
+        rough,
+        Sum::First,
+    ]
 };
+
+type Features = [f32; SUMS.len()];
+
+const GREY: Features = [1.0, -2.0, 0.5, 0.0, 0.6, 0.8, 0.5, 0.25, 0.125, 7.0];
 
 /// A film on which every pixel gets the samples of a list.
 fn exposed(
@@ -15,43 +33,50 @@ fn exposed(
     numbers: &[u32],
     sample: impl Fn(u32, u32, u32) -> Sample + Sync,
 ) -> Film {
-    let mut film = Film::new(size[0], size[1], 2, true).expect("a small film");
+    let mut film = Film::new(size[0], size[1], 2, &SUMS).expect("a small film");
     film.expose(|block| {
         block.expose(numbers.len() as u32, |x, y, pixel| {
             for &number in numbers {
-                let (values, feature) = sample(x, y, number);
-                pixel.add(number, &values, feature.as_ref());
+                let (values, features) = sample(x, y, number);
+                pixel.add(number, &values, features.as_ref());
             }
         });
     });
     film
 }
 
-type Sample = ([f32; 2], Option<Feature>);
+type Sample = ([f32; 2], Option<Features>);
+
+/// All features of a pixel.
+fn features(pixel: &Pixel<'_>) -> Option<[f64; SUMS.len()]> {
+    let all: Option<Vec<f64>> = (0..SUMS.len())
+        .map(|number| pixel.feature(number))
+        .collect();
+    all.map(|all| all.try_into().expect("as many as there are sums"))
+}
 
 #[test]
 fn a_film_that_would_not_fit_is_refused_with_its_size() {
     for (width, height, channels) in [(1 << 20, 1 << 20, 3), (u32::MAX, u32::MAX, 32)] {
-        let film = Film::new(width, height, channels, true);
+        let film = Film::new(width, height, channels, &SUMS);
         assert!(matches!(film, Err(FilmError::TooLarge { .. })));
     }
     assert!(matches!(
-        Film::new(0, 5, 3, true),
+        Film::new(0, 5, 3, &SUMS),
         Err(FilmError::Empty { .. })
     ));
 }
 
 #[test]
-fn a_pixel_of_colour_takes_at_most_160_bytes() {
-    let of_its_block = size_of::<u32>() as f64 / f64::from(BLOCK_SIDE * BLOCK_SIDE);
-    let film = Film::new(512, 512, 3, true).expect("a small film");
-    assert!(Film::bytes_a_pixel(3, true) as f64 + of_its_block <= 160.0);
+fn a_pixel_takes_its_channels_a_count_and_its_sums() {
+    let film = Film::new(512, 512, 3, &SUMS).expect("a small film");
+    let bytes = 3 * 32 + 4 + 3 * 8 + 7 * 4;
+    assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
-            + size_of_val(&film.positions[..])
-            + size_of_val(&film.surfaces[..])
-            + size_of_val(&film.albedos[..]),
-        Film::bytes_a_pixel(3, true) * 512 * 512
+            + size_of_val(&film.wide[..])
+            + size_of_val(&film.narrow[..]),
+        bytes * 512 * 512
     );
 }
 
@@ -73,46 +98,53 @@ fn every_pixel_is_exposed_once_at_its_own_place() {
 }
 
 #[test]
-fn a_film_without_albedo_records_the_rest() {
-    let mut film = Film::new(11, 9, 1, false).expect("a small film");
-    film.expose(|block| {
-        block.expose(1, |_, _, pixel| pixel.add(0, &[2.0], Some(&GREY)));
-    });
-    let pixel = film.pixel(10, 8);
-    assert_eq!((pixel.mean(0), pixel.alpha()), (2.0, 1.0));
-    assert_eq!(pixel.position(), Some([1.0, -2.0, 0.5]));
-    assert_eq!(pixel.albedo(), [0.0; 3]);
+fn a_film_has_as_many_features_as_it_was_made_with() {
+    for sums in [&[][..], &[Sum::First], &SUMS[..3]] {
+        let mut film = Film::new(11, 9, 1, sums).expect("a small film");
+        film.expose(|block| {
+            block.expose(1, |_, _, pixel| {
+                pixel.add(0, &[2.0], Some(&GREY));
+            });
+        });
+        let pixel = film.pixel(10, 8);
+        assert_eq!((pixel.mean(0), pixel.alpha()), (2.0, 1.0));
+        for (number, value) in GREY[..sums.len()].iter().enumerate() {
+            assert_eq!(pixel.feature(number), Some(f64::from(*value)));
+        }
+    }
 }
 
 #[test]
-fn features_are_means_over_covered_samples_and_the_object_is_the_first_samples() {
-    let other = Feature {
-        position: [3.0, 2.0, 0.5],
-        object: 9,
-        ..GREY
-    };
-    let film = exposed([2, 1], &[0, 1, 2, 3], |x, _, number| {
-        let feature = match (x, number) {
+fn features_are_means_over_covered_samples_or_what_the_first_sample_met() {
+    let mut other = GREY;
+    (other[0], other[1], other[9]) = (3.0, 2.0, 10.0);
+    let film = exposed([3, 1], &[0, 1, 2, 3], |x, _, number| {
+        let met = match (x, number) {
             (0, 0) => Some(GREY),
             (0, 1) | (1, 3) => Some(other),
             _ => None,
         };
-        ([0.0; 2], feature)
+        ([0.0; 2], met)
     });
-    let (first, second) = (film.pixel(0, 0), film.pixel(1, 0));
-    assert_eq!((first.alpha(), second.alpha()), (0.5, 0.25));
-    assert_eq!(first.position(), Some([2.0, 0.0, 0.5]));
-    assert_eq!(second.position(), Some([3.0, 2.0, 0.5]));
-    let normal = first.normal();
-    for (mean, exact) in normal.into_iter().zip(GREY.normal) {
-        let off = (mean - f64::from(exact)).abs();
+    let [first, second, third] = [0, 1, 2].map(|x| film.pixel(x, 0));
+    assert_eq!(
+        [first.alpha(), second.alpha(), third.alpha()],
+        [0.5, 0.25, 0.0]
+    );
+    let mean = features(&first).expect("it is covered");
+    assert_eq!(mean[..3], [2.0, 0.0, 0.5]);
+    for (mean, exact) in mean[3..6].iter().zip(&GREY[3..6]) {
+        let off = (mean - f64::from(*exact)).abs();
         assert!(
             off <= 0.5 / f64::from(1 << 22),
             "rounding takes half a unit, not {off}"
         );
     }
-    assert_eq!(second.albedo(), [0.5, 0.25, 0.125]);
-    assert_eq!((first.object(), second.object()), (7, 0));
+    let of_one = features(&second).expect("it is covered");
+    assert_eq!(of_one[..3], [3.0, 2.0, 0.5]);
+    assert_eq!(of_one[6..9], [0.5, 0.25, 0.125]);
+    assert_eq!((mean[9], of_one[9]), (7.0, 0.0));
+    assert_eq!(features(&third), None);
 }
 
 #[test]
@@ -121,20 +153,16 @@ fn coverage_counts_all_samples_and_features_the_first_of_them() {
     let film = exposed([1, 1], &numbers, |_, _, number| {
         // The extremes of what can be recorded, so that the sums show whether they fit.
         let place = if number < FEATURE_SAMPLES { -1e30 } else { 5.0 };
-        let feature = Feature {
-            position: [place; 3],
-            normal: [0.0, 0.0, 1.0],
-            albedo: [1e30; 3],
-            object: 0,
-        };
-        ([0.0; 2], (number % 4 != 3).then_some(feature))
+        let met = [place, place, place, 0.0, 0.0, 1.0, 1e30, 1e30, 1e30, 1e30];
+        ([0.0; 2], (number % 4 != 3).then_some(met))
     });
     let pixel = film.pixel(0, 0);
     assert_eq!(pixel.alpha(), 0.75);
+    let mean = features(&pixel).expect("it is covered");
     let far = -f64::from(1 << 30);
-    assert_eq!(pixel.position(), Some([far; 3]));
-    assert_eq!(pixel.normal(), [0.0, 0.0, 1.0]);
-    assert!((pixel.albedo()[0] - 8.0).abs() < 1e-6);
+    assert_eq!(mean[..6], [far, far, far, 0.0, 0.0, 1.0]);
+    assert!((mean[6] - 8.0).abs() < 1e-6);
+    assert_eq!(mean[9], f64::from(i32::MAX));
 }
 
 #[test]
@@ -146,12 +174,11 @@ fn a_sample_that_is_not_finite_is_rejected_whole_and_a_huge_one_clamped() {
             1 => [f32::INFINITY, 1.0],
             _ => [3.0, 1e30],
         };
-        let nowhere = Feature {
-            position: [f32::NAN; 3],
-            ..GREY
-        };
-        let feature = if x == 8 && number == 3 { nowhere } else { GREY };
-        (values, Some(feature))
+        let mut met = GREY;
+        if x == 8 && number == 3 {
+            met[1] = f32::NAN;
+        }
+        (values, Some(met))
     });
     let pixel = film.pixel(8, 0);
     assert_eq!((film.rejected(), film.clamped(), film.drawn()), (3, 1, 36));
@@ -163,16 +190,13 @@ fn a_sample_that_is_not_finite_is_rejected_whole_and_a_huge_one_clamped() {
 /// Any finite sample, now and then one that is not finite, with or without a feature.
 fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let value = prop_oneof![9 => -1e4_f32..1e6, 1 => Just(f32::NAN), 1 => Just(3e10_f32)];
-    let feature = (-1e3_f32..1e3, -1.0_f32..1.0, 0_u32..9).prop_map(|(place, small, object)| {
-        let (position, normal, albedo) = ([place, -place, small], [small; 3], [small; 3]);
-        Feature {
-            position,
-            normal,
-            albedo,
-            object,
-        }
+    let met = (-1e3_f32..1e3, -1.0_f32..1.0, 1_u16..9).prop_map(|(place, small, object)| {
+        let object = f32::from(object);
+        [
+            place, -place, small, small, small, small, small, small, small, object,
+        ]
     });
-    let sample = ([value.clone(), value], prop::option::of(feature));
+    let sample = ([value.clone(), value], prop::option::of(met));
     prop::collection::vec(sample, 1..40)
 }
 

@@ -2,55 +2,25 @@
 
 use glam::DVec3;
 
-use crate::film::Pixel;
-use crate::image::openexr::{spectral_attributes, spectral_channel_name};
+use crate::image::openexr::spectral_attributes;
 use crate::image::{Attribute, Layer, Picture, REC709};
+use crate::integrator::layers::{FilmLayer, Source};
 use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Camera as CameraBlock, Description, FilmKind};
 use crate::scene::world::World;
 
-/// The picture with all its layers and what is to be known about it, worked out on the current thread pool.
+/// The picture with all its [layers](crate::integrator::layers::LAYERS) and what is to be known about it, worked out on the current thread pool.
 ///
-/// Colour: `R G B A`, `albedo.*`, `variance.*`. Bands: `S0.<nm>nm` in the layout of Fichet, Pacanowski and Wilkie
-/// (JCGT 10(3), 2021), `variance.S0.<nm>nm`, `A`. Both: `P.*` (m), `N.*`, means over covered samples among the first
-/// [`crate::film::FEATURE_SAMPLES`]; `depth.Z` (m), the distance of P from the camera; `samples.Y`; `id.object`, the number + 1 of
-/// the object that the pixel's first sample met, 0 for none.
+/// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
 pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendered) -> Picture {
-    let film = &rendered.film;
-    let beauty: Vec<String> = match &scene.film.kind {
-        FilmKind::Rgb { .. } => ["R", "G", "B"].map(str::to_owned).to_vec(),
-        FilmKind::Spectral { bands } => bands
-            .iter()
-            .map(|band| spectral_channel_name(band.center_nm))
-            .collect(),
-    };
     let mut layers = Vec::new();
-    let mut layer = |name: &str, data: Vec<f32>| {
-        let name = name.to_owned();
-        layers.push(Layer { name, data });
-    };
-    for (channel, name) in beauty.iter().enumerate() {
-        layer(name, film.mean(channel));
-        layer(&format!("variance.{name}"), film.variance_of_mean(channel));
-    }
-    layer("A", film.map(|pixel| pixel.alpha() as f32));
-    layer("depth.Z", film.map(|pixel| depth(&scene.camera, pixel)));
-    for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
-        let position = |pixel: &Pixel<'_>| pixel.position().map_or(0.0, |p| p[axis] as f32);
-        layer(&format!("P.{letter}"), film.map(position));
-        layer(
-            &format!("N.{letter}"),
-            film.map(|pixel| pixel.normal()[axis] as f32),
-        );
-    }
-    if rendered.layout.albedo {
-        for (component, letter) in ["R", "G", "B"].into_iter().enumerate() {
-            let albedo = |pixel: &Pixel<'_>| pixel.albedo()[component].clamp(0.0, 1.0) as f32;
-            layer(&format!("albedo.{letter}"), film.map(albedo));
+    for layer in rendered.layout.layers() {
+        let names = layer.channel_names(&scene.film.kind);
+        for (channel, name) in names.into_iter().enumerate() {
+            let data = developed(layer, channel, &scene.camera, rendered);
+            layers.push(Layer { name, data });
         }
     }
-    layer("samples.Y", film.map(|pixel| pixel.samples() as f32));
-    layer("id.object", film.map(|pixel| pixel.object() as f32));
     Picture {
         width: job.width,
         height: job.height,
@@ -59,13 +29,42 @@ pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendere
     }
 }
 
-/// Distance of a pixel's mean point from the middle of the lens, m; 0 where nothing is covered.
-///
-/// Points that a pixel sees lie along one line but for its width and the blur of the lens, so this is the mean distance nearly.
-fn depth(camera: &CameraBlock, pixel: &Pixel<'_>) -> f32 {
-    pixel.position().map_or(0.0, |position| {
-        (DVec3::from_array(position) - camera.position).length() as f32
-    })
+/// Every pixel of one channel of a layer.
+fn developed(
+    layer: &FilmLayer,
+    channel: usize,
+    camera: &CameraBlock,
+    rendered: &Rendered,
+) -> Vec<f32> {
+    let film = &rendered.film;
+    let first_feature = |name| {
+        let first = rendered.layout.first_feature(name);
+        first.expect("a film has what its layers are made of")
+    };
+    match layer.source {
+        Source::Radiance(of) => {
+            film.map(|pixel| of(pixel.moments(channel), pixel.samples()) as f32)
+        }
+        Source::Count(of) => film.map(|pixel| of(pixel) as f32),
+        Source::Feature {
+            within: [least, most],
+            ..
+        } => {
+            let number = first_feature(layer.name) + channel;
+            film.map(|pixel| {
+                let value = pixel.feature(number);
+                value.map_or(0.0, |value| value.clamp(least, most) as f32)
+            })
+        }
+        Source::OfPoint { layer, by } => {
+            let first = first_feature(layer);
+            film.map(|pixel| {
+                let [x, y, z] = [0, 1, 2].map(|axis| pixel.feature(first + axis));
+                let point = x.zip(y).zip(z);
+                point.map_or(0.0, |((x, y), z)| by(DVec3::new(x, y, z), camera) as f32)
+            })
+        }
+    }
 }
 
 fn attributes(

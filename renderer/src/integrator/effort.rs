@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::integrator::features::{Layout, MOST_CHANNELS};
+use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path;
 use crate::integrator::render::Job;
 use crate::sampling::stream::Stream;

@@ -1,53 +1,61 @@
-//! What a picture records besides radiance: layers for compositing and denoising.
+//! What a sample adds to a picture besides radiance: layers for compositing and denoising.
 
-use crate::film::{FEATURE_SAMPLES, Feature};
-use crate::integrator::path::PathResult;
+use crate::integrator::path::FirstHit;
 use crate::spectrum::cie;
-use crate::spectrum::{Curve, Spectrum, WavelengthSampler, Wavelengths};
+use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthSampler, Wavelengths};
 
-/// What a film of some kind records.
+/// What can be known of a place that a camera ray met first: up to three numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Channels: R, G, B or the bands.
-    pub beauty: usize,
-    /// Whether albedo is recorded.
-    pub albedo: bool,
+pub enum Quantity {
+    /// Point, world, m.
+    Position,
+    /// Unit shading normal on the side of the camera, world.
+    Normal,
+    /// Linear sRGB of the surface in white light.
+    Albedo,
+    /// Number + 1 of the object.
+    Object,
 }
 
-/// Most channels of a film: 32 bands.
-pub const MOST_CHANNELS: usize = 32;
-
-impl Layout {
-    /// For a film of this kind.
-    pub fn new(wavelengths: &WavelengthSampler) -> Self {
-        Self {
-            beauty: wavelengths.channels(),
-            albedo: wavelengths.is_rgb(),
+impl Quantity {
+    /// Its numbers; where it has fewer than three, the others are 0.
+    #[inline]
+    pub fn of<const N: usize>(self, sight: &Sight<'_, N>) -> [f32; 3] {
+        let hit = sight.hit;
+        match self {
+            Self::Position => hit.position.to_array(),
+            Self::Normal => hit.normal.to_array(),
+            Self::Albedo => sight.colour(hit.albedo),
+            Self::Object => [hit.object.saturating_add(1) as f32, 0.0, 0.0],
         }
     }
+}
 
-    /// What the path of sample number `number` met first, if anything; albedo is shown under the light `white`, and worked
-    /// out only where it is recorded.
-    pub fn feature<const N: usize>(
-        self,
-        number: u32,
-        sampler: &WavelengthSampler,
-        wavelengths: &Wavelengths<N>,
-        found: &PathResult<N>,
-        white: &Spectrum,
-    ) -> Option<Feature> {
-        let first = found.first.as_ref()?;
-        let mut albedo = [0.0; 3];
-        if self.albedo && number < FEATURE_SAMPLES {
-            let seen = first.albedo * white.lanes(wavelengths);
-            sampler.film_values(wavelengths, &seen, &mut albedo);
+/// What a sample's camera ray met first, and what it takes to show it.
+#[derive(Clone, Copy, Debug)]
+pub struct Sight<'a, const N: usize> {
+    /// The place.
+    pub hit: &'a FirstHit<N>,
+    /// The path's wavelengths.
+    pub wavelengths: &'a Wavelengths<N>,
+    /// Makes colours of them.
+    pub sampler: &'a WavelengthSampler,
+    /// Light under which surfaces are shown, see [`white`].
+    pub white: &'a Spectrum,
+    /// Whether the film records features of this sample; if not, numbers only have to be finite where these are.
+    pub recorded: bool,
+}
+
+impl<const N: usize> Sight<'_, N> {
+    /// Linear sRGB of a surface that leaves a share of each wavelength, worked out only where it is recorded.
+    fn colour(&self, share: Lanes<N>) -> [f32; 3] {
+        let mut colour = [0.0; 3];
+        if self.recorded {
+            let seen = share * self.white.lanes(self.wavelengths);
+            self.sampler
+                .film_values(self.wavelengths, &seen, &mut colour);
         }
-        Some(Feature {
-            position: first.position.to_array(),
-            normal: first.normal.to_array(),
-            albedo,
-            object: first.object,
-        })
+        colour
     }
 }
 

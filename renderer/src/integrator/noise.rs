@@ -213,7 +213,7 @@ mod tests {
         most: u32,
         value: impl Fn(u32, u32, u32) -> f32 + Sync,
     ) -> (Film, NoiseWatch) {
-        let mut film = Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, 3, false).expect("a small film");
+        let mut film = Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, 3, &[]).expect("a small film");
         let mut watch = NoiseWatch::new(&film, aim, most, true);
         let mut first = 0;
         while first < watch.last_goal() {
@@ -222,7 +222,7 @@ mod tests {
                 let end = end.min(watch.goal(block.number()));
                 if first < end {
                     block.expose(end - first, |x, y, pixel| {
-                        (first..end).for_each(|n| pixel.add(n, &[value(x, y, n); 3], None));
+                        (first..end).for_each(|n| pixel.add::<0>(n, &[value(x, y, n); 3], None));
                     });
                 }
             });

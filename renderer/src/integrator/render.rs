@@ -3,9 +3,10 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::film::{Film, FilmError, PixelSums};
+use crate::film::{FEATURE_SAMPLES, Film, FilmError, PixelSums};
 use crate::integrator::effort::{self, Effort};
-use crate::integrator::features::{self, Layout, MOST_CHANNELS};
+use crate::integrator::features::{self, Sight};
+use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::path;
 use crate::sampling::stream::Stream;
@@ -118,10 +119,10 @@ pub fn render_until(
 ) -> Result<Rendered, FilmError> {
     let started = Instant::now();
     let layout = Layout::new(&world.wavelengths);
-    let mut film = Film::new(job.width, job.height, layout.beauty, layout.albedo)?;
+    let mut film = Film::new(job.width, job.height, layout.beauty, &layout.sums())?;
     let mut watch = halt
         .noise
-        .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.albedo));
+        .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.colour));
     let effort = effort::choose(world, job, layout, stop);
     let pass = PassOfPaths {
         world,
@@ -284,10 +285,17 @@ impl Samples<'_> {
             rays += u64::from(found.rays);
             let sampler = &self.world.wavelengths;
             sampler.film_values(&wavelengths, &found.radiance, values);
-            let feature = self
-                .layout
-                .feature(sample, sampler, &wavelengths, &found, self.white);
-            pixel.add(sample, values, feature.as_ref());
+            let features = found.first.as_ref().map(|hit| {
+                let sight = Sight {
+                    hit,
+                    wavelengths: &wavelengths,
+                    sampler,
+                    white: self.white,
+                    recorded: sample < FEATURE_SAMPLES,
+                };
+                self.layout.features(&sight)
+            });
+            pixel.add(sample, values, features.as_ref());
         }
         rays
     }

@@ -379,6 +379,34 @@ mod tests {
     }
 
     #[test]
+    fn the_kind_of_a_film_says_how_many_wavelengths_a_path_carries() {
+        let bands = |count: usize| FilmKind::Spectral {
+            bands: (0..count)
+                .map(|number| Band {
+                    center_nm: 400.0 + 10.0 * number as f64,
+                    width_nm: 10.0,
+                })
+                .collect(),
+        };
+        let range_nm = [400.0, 780.0];
+        // Three bands are three channels, as colour is, and need half its lanes.
+        for (kind, channels, lanes) in [
+            (FilmKind::Rgb { range_nm }, 3, 8),
+            (bands(1), 1, 4),
+            (bands(3), 3, 4),
+            (bands(4), 4, 4),
+            (bands(5), 5, 8),
+            (bands(9), 9, 16),
+            (bands(17), 17, 32),
+            (bands(32), 32, 32),
+        ] {
+            let sampler = WavelengthSampler::new(&kind);
+            assert_eq!(sampler.channels(), channels);
+            assert_eq!(sampler.grid().lanes(), lanes, "{kind:?}");
+        }
+    }
+
+    #[test]
     fn a_band_film_records_the_radiance_itself() {
         let bands = vec![
             Band {

@@ -1,0 +1,291 @@
+//! The layers of a picture, declared once: what each is called, kept as, made of.
+//!
+//! - **In**: the kind of film.
+//! - **Out**: [`LAYERS`], and of a film's [`Layout`] what its pixels keep and where each layer's numbers are.
+//! - **Always true**: whatever adds samples, merges films, develops pictures or says what a pixel takes goes by this table;
+//!   so does the book, which a test compares with it. A new layer is an entry here, and where it shows something new of what a
+//!   ray met, a [`Quantity`].
+//! - **Left out**: how numbers are added up, see [`crate::film`].
+
+use glam::DVec3;
+
+use crate::film::{Film, Moments, Pixel, Sum};
+use crate::image::openexr::spectral_channel_name;
+use crate::integrator::features::{Quantity, Sight};
+use crate::scene::description::{Camera, FilmKind};
+use crate::spectrum::WavelengthSampler;
+
+/// One layer: the channels of a picture that say one thing.
+#[derive(Clone, Copy, Debug)]
+pub struct FilmLayer {
+    /// Stands before the channels' own names with a dot between them; empty for the picture itself.
+    pub name: &'static str,
+    /// Its channels.
+    pub channels: Channels,
+    /// Films that have it.
+    pub films: Films,
+    /// What it is made of.
+    pub source: Source,
+    /// What it is, for the book.
+    pub about: &'static str,
+}
+
+/// The channels of a layer.
+#[derive(Clone, Copy, Debug)]
+pub enum Channels {
+    /// One for each channel of the film: `R`, `G`, `B` or the bands.
+    OfFilm,
+    /// These.
+    Named(&'static [&'static str]),
+}
+
+/// Films that have a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Films {
+    /// All.
+    All,
+    /// Those of colour.
+    Colour,
+}
+
+/// What a layer is made of: what its pixels keep, and how they are developed.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// The film's own channels, of which every pixel keeps two moments, and the number of samples.
+    Radiance(fn(&Moments, u32) -> f64),
+    /// Counts that every pixel keeps in any case.
+    Count(fn(&Pixel<'_>) -> f64),
+    /// Features of its own, one a channel; 0 where nothing is covered.
+    Feature {
+        /// What a sample adds; the layer has as many of its numbers as channels.
+        quantity: Quantity,
+        /// How a pixel keeps it.
+        sum: Sum,
+        /// The least and the most that the picture shows.
+        within: [f64; 2],
+    },
+    /// What another layer of three features means to the camera; 0 where nothing is covered.
+    OfPoint {
+        /// Name of the other layer, whose films have this one.
+        layer: &'static str,
+        /// From its three means.
+        by: fn(DVec3, &Camera) -> f64,
+    },
+}
+
+const XYZ: Channels = Channels::Named(&["X", "Y", "Z"]);
+const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// Every layer that a picture may have.
+pub const LAYERS: &[FilmLayer] = &[
+    FilmLayer {
+        name: "",
+        channels: Channels::OfFilm,
+        films: Films::All,
+        source: Source::Radiance(Moments::mean),
+        about: "mean radiance",
+    },
+    FilmLayer {
+        name: "variance",
+        channels: Channels::OfFilm,
+        films: Films::All,
+        source: Source::Radiance(Moments::variance_of_mean),
+        about: "variance of the mean radiance, an upper estimate of the noise",
+    },
+    FilmLayer {
+        name: "",
+        channels: Channels::Named(&["A"]),
+        films: Films::All,
+        source: Source::Count(alpha),
+        about: "share of the samples that met something",
+    },
+    FilmLayer {
+        name: "P",
+        channels: XYZ,
+        films: Films::All,
+        source: Source::Feature {
+            quantity: Quantity::Position,
+            sum: Sum::Wide { fraction_bits: 24 },
+            within: ANY,
+        },
+        about: "position of what was met first, m",
+    },
+    FilmLayer {
+        name: "N",
+        channels: XYZ,
+        films: Films::All,
+        source: Source::Feature {
+            quantity: Quantity::Normal,
+            sum: Sum::Narrow { fraction_bits: 22 },
+            within: ANY,
+        },
+        about: "normal of what was met first, on the side of the camera",
+    },
+    FilmLayer {
+        name: "albedo",
+        channels: Channels::Named(&["R", "G", "B"]),
+        films: Films::Colour,
+        source: Source::Feature {
+            quantity: Quantity::Albedo,
+            sum: Sum::Narrow { fraction_bits: 20 },
+            within: [0.0, 1.0],
+        },
+        about: "albedo of what was met first, linear sRGB",
+    },
+    FilmLayer {
+        name: "depth",
+        channels: Channels::Named(&["Z"]),
+        films: Films::All,
+        source: Source::OfPoint {
+            layer: "P",
+            // Points that a pixel sees lie along one line but for its width and the blur of the lens, so this is the mean
+            // distance nearly.
+            by: |point, camera| (point - camera.position).length(),
+        },
+        about: "distance of the mean position from the middle of the lens, m",
+    },
+    FilmLayer {
+        name: "samples",
+        channels: Channels::Named(&["Y"]),
+        films: Films::All,
+        source: Source::Count(|pixel| f64::from(pixel.samples())),
+        about: "number of samples",
+    },
+    FilmLayer {
+        name: "id",
+        channels: Channels::Named(&["object"]),
+        films: Films::All,
+        source: Source::Feature {
+            quantity: Quantity::Object,
+            sum: Sum::First,
+            within: ANY,
+        },
+        about: "number of the object that the pixel's first sample met, 0 for none; the attribute `lamina:objects` names them",
+    },
+];
+
+fn alpha(pixel: &Pixel<'_>) -> f64 {
+    pixel.alpha()
+}
+
+/// Most channels of a film: 32 bands.
+pub const MOST_CHANNELS: usize = 32;
+
+/// Most features of a sample.
+pub const MOST_FEATURES: usize = {
+    let mut count = 0;
+    let mut row = 0;
+    while row < LAYERS.len() {
+        count += LAYERS[row].features();
+        row += 1;
+    }
+    count
+};
+
+impl FilmLayer {
+    /// Number of features that a pixel keeps for it.
+    const fn features(&self) -> usize {
+        match (&self.source, self.channels) {
+            (Source::Feature { .. }, Channels::Named(names)) => {
+                assert!(names.len() <= 3, "a quantity has at most three numbers");
+                names.len()
+            }
+            (Source::Feature { .. }, Channels::OfFilm) => {
+                panic!("a feature's channels do not depend on the film")
+            }
+            (Source::Radiance(_) | Source::Count(_) | Source::OfPoint { .. }, _) => 0,
+        }
+    }
+
+    /// Whole names of its channels on a film of this kind.
+    pub fn channel_names(&self, kind: &FilmKind) -> Vec<String> {
+        let own: Vec<String> = match (self.channels, kind) {
+            (Channels::Named(names), _) => names.iter().map(ToString::to_string).collect(),
+            (Channels::OfFilm, FilmKind::Rgb { .. }) => ["R", "G", "B"].map(str::to_owned).into(),
+            (Channels::OfFilm, FilmKind::Spectral { bands }) => bands
+                .iter()
+                .map(|band| spectral_channel_name(band.center_nm))
+                .collect(),
+        };
+        let whole = |own: String| match self.name {
+            "" => own,
+            name => format!("{name}.{own}"),
+        };
+        own.into_iter().map(whole).collect()
+    }
+}
+
+/// What a film of some kind records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Channels: R, G, B or the bands.
+    pub beauty: usize,
+    /// Whether they are R, G, B.
+    pub colour: bool,
+}
+
+impl Layout {
+    /// For a film of this kind.
+    pub fn new(wavelengths: &WavelengthSampler) -> Self {
+        Self {
+            beauty: wavelengths.channels(),
+            colour: wavelengths.is_rgb(),
+        }
+    }
+
+    /// The layers of its pictures.
+    #[inline]
+    pub fn layers(self) -> impl Iterator<Item = &'static FilmLayer> {
+        LAYERS.iter().filter(move |layer| match layer.films {
+            Films::All => true,
+            Films::Colour => self.colour,
+        })
+    }
+
+    /// How a film keeps its features.
+    pub fn sums(self) -> Vec<Sum> {
+        let of = |layer: &FilmLayer| match layer.source {
+            Source::Feature { sum, .. } => vec![sum; layer.features()],
+            Source::Radiance(_) | Source::Count(_) | Source::OfPoint { .. } => Vec::new(),
+        };
+        self.layers().flat_map(of).collect()
+    }
+
+    /// Memory of a pixel, bytes.
+    pub fn bytes_a_pixel(self) -> usize {
+        Film::bytes_a_pixel(self.beauty, &self.sums())
+    }
+
+    /// Number of a layer's first feature; none if it has no features, or the film no such layer.
+    pub fn first_feature(self, name: &str) -> Option<usize> {
+        let mut first = 0;
+        for layer in self.layers() {
+            if layer.name == name && layer.features() > 0 {
+                return Some(first);
+            }
+            first += layer.features();
+        }
+        None
+    }
+
+    /// What a sample that met something adds to the film's features.
+    #[inline]
+    pub fn features<const N: usize>(self, sight: &Sight<'_, N>) -> Features {
+        let mut features = [0.0; MOST_FEATURES + 2];
+        let mut first = 0;
+        for layer in self.layers() {
+            if let Source::Feature { quantity, .. } = layer.source {
+                // What a quantity has beyond the layer's channels, the next one writes over.
+                features[first..first + 3].copy_from_slice(&quantity.of(sight));
+                first += layer.features();
+            }
+        }
+        features
+    }
+}
+
+/// Features of a sample, with room for what the last quantity has beyond its channels.
+pub type Features = [f32; MOST_FEATURES + 2];
+
+#[cfg(test)]
+mod tests;
