@@ -7,17 +7,11 @@ use renderer::scene::load::{Loaded, load, parse};
 use renderer::scene::report::SceneErrors;
 use tempfile::TempDir;
 
-#[path = "format/accepted.rs"]
 mod accepted;
-#[path = "format/book.rs"]
 mod book;
-#[path = "format/leaves.rs"]
 mod leaves;
-#[path = "format/mutations.rs"]
 mod mutations;
-#[path = "format/refused.rs"]
 mod refused;
-#[path = "format/tissues.rs"]
 mod tissues;
 
 /// The folder of these tests' own files.
