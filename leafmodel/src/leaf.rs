@@ -167,20 +167,12 @@ impl Leaf {
         Self::from_lamina_unless(plan, plan.grow_lamina_unless(is_stopped)?, is_stopped)
     }
 
-    /// Blade and contents of a lamina that the plan has brought forth.
+    /// Blade and contents of a lamina that the plan has brought forth, or nothing if `is_stopped` says so while a mosaic grows.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Blade`], [`LeafError::Mosaic`], [`LeafError::Tissue`].
-    pub fn from_lamina(plan: &LeafPlan, lamina: Lamina) -> Result<Self, LeafError> {
-        Self::from_lamina_unless(plan, lamina, &|| false)
-    }
-
-    /// As [`Leaf::from_lamina`], but gives up when `is_stopped` says so while a mosaic grows.
-    ///
-    /// # Errors
-    ///
-    /// Also [`LeafError::Mosaic`] of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped).
+    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) too),
+    /// [`LeafError::Tissue`].
     pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,
