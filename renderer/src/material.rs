@@ -1,4 +1,4 @@
-//! What surfaces are made of: parameters at a hit → a [`Bsdf`](crate::bsdf::Bsdf).
+//! What surfaces are made of: parameters at a hit → a [`Bsdf`].
 
 pub mod contents_texture;
 pub mod leaf;

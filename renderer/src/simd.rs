@@ -1,6 +1,6 @@
 //! Eight `f32` numbers at a time, on whatever vector unit the machine has.
 //!
-//! Kernels are written once over [`Eight`] and compiled for each instruction set; which one runs is
+//! Kernels are written once over `Eight` and compiled for each instruction set; which one runs is
 //! chosen when the program starts ([`Level::best`]). Only operations that IEEE 754 rounds
 //! correctly are offered, and no fused multiply-add, so that every level gives the same bits.
 //!

@@ -27,7 +27,7 @@ pub fn write(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), Ima
     atomic::replace(path, |file| file.write_all(&bytes))
 }
 
-/// The bytes of the file that [`write`] writes.
+/// The bytes of the file that [`write()`] writes.
 ///
 /// # Errors
 ///
