@@ -1,4 +1,18 @@
 //! One leaf from plan to data: outline → veins → blade and contents.
+//!
+//! ```
+//! use leafmodel::leaf::Leaf;
+//! use leafmodel::species;
+//!
+//! let mut plan = species::find("poplar").ok_or("the poplar is a preset")?.plan();
+//! plan.map_size = 64;
+//! let leaf = Leaf::grow(&plan)?;
+//! // The same plan and seed give the same leaf; another seed another one of the kind.
+//! assert_eq!(Leaf::grow(&plan)?, leaf);
+//! plan.seed += 1;
+//! assert_ne!(Leaf::grow(&plan)?.lamina.network, leaf.lamina.network);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(test)]
 mod combinations;

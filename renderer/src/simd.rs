@@ -9,6 +9,15 @@
 //! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
 //!   same bits at every level.
 //! - **Left out**: wider units. AVX-512 brought nothing for trees of eight children.
+//!
+//! ```
+//! use renderer::simd::Level;
+//!
+//! // The best level is the last of those that this machine has; `scalar` is everywhere.
+//! let levels = Level::all();
+//! assert_eq!(levels[0].name(), "scalar");
+//! assert_eq!(levels.last(), Some(&Level::best()));
+//! ```
 #![allow(
     unsafe_code,
     reason = "intrinsics; a token of a level exists only where its instructions do"
