@@ -45,6 +45,7 @@ from lamina_reference import (
     solid_bsdf,
 )
 from lamina_reference.coat import Coat, albedo
+from lamina_reference.program import program
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
@@ -161,7 +162,7 @@ def test_prospect_without_absorption_loses_nothing() -> None:
 
 
 def test_colours_of_the_presets_are_those_of_colour_science() -> None:
-    rows = colours.rows(colours.program())
+    rows = colours.rows(program())
     assert len(rows) == 2 * 19, len(rows)
     for row in rows:
         assert row.worst < colours.MOST, row
@@ -223,7 +224,7 @@ def exported_table(text: str, folder: Path) -> Path:
     """The table of absorption that the one leaf of a scene names in its export."""
     (folder / "scene.toml").write_text(text, encoding="utf-8")
     done = subprocess.run(
-        [str(colours.program()), "export", "mitsuba", str(folder / "scene.toml"), "--out",
+        [str(program()), "export", "mitsuba", str(folder / "scene.toml"), "--out",
          str(folder / "out")],
         capture_output=True, text=True, check=False,
     )  # fmt: skip

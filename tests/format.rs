@@ -7,19 +7,12 @@ use leafmodel::document::report::DocumentErrors;
 use renderer::scene::load::{Loaded, load, parse};
 use tempfile::TempDir;
 
-#[path = "format/accepted.rs"]
 mod accepted;
-#[path = "format/book.rs"]
 mod book;
-#[path = "format/leaves.rs"]
 mod leaves;
-#[path = "format/mutations.rs"]
 mod mutations;
-#[path = "format/refused.rs"]
 mod refused;
-#[path = "format/schema.rs"]
 mod schema;
-#[path = "format/tissues.rs"]
 mod tissues;
 
 /// The folder of these tests' own files.

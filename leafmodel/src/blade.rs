@@ -7,6 +7,21 @@
 //! - **Out**: a [`BladeMesh`] in millimetres, base at the origin, midrib along +y, adaxial side +z.
 //! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
 //! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each vertex).
+//!
+//! ```
+//! use leafmodel::blade::{BladeForm, BladeMesh};
+//! use leafmodel::species;
+//!
+//! let plan = species::find("poplar").ok_or("the poplar is a preset")?.plan();
+//! let lamina = plan.grow_lamina()?;
+//! // Halves raised by 20° about a straight midrib.
+//! let form = BladeForm { fold: 20_f64.to_radians(), curl: 0.0, ..plan.form };
+//! let mesh = BladeMesh::build(&lamina.outline, &lamina.network, &form)?;
+//! mesh.validate(lamina.outline.area())?;
+//! let highest = mesh.positions.iter().map(|p| p.z).fold(0.0, f64::max);
+//! assert!(highest > 0.0, "the margin stands above the midrib");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod ageing;
 pub mod ageing_courses;

@@ -6,6 +6,18 @@
 //!   the petiole starts at the origin and goes along +y.
 //! - **Always true**: flat, no leaflet crosses another or a stalk but its own; stalks taper; the same plan gives the same leaf.
 //! - **Left out**: leaves whose leaflets overlap in nature. They are refused.
+//!
+//! ```
+//! use leafmodel::species;
+//!
+//! // The plan of a compound leaf is that of its largest leaflet, with an arrangement.
+//! let ash = species::find("ash").ok_or("the ash is a preset")?.plan();
+//! let form = ash.compound.as_ref().ok_or("it is compound")?;
+//! let leaf = form.arrange(&ash)?;
+//! assert_eq!(leaf.leaflets.len() % 2, 1, "pairs, and one at the end");
+//! assert!(leaf.leaflets.iter().all(|leaflet| leaflet.scale <= 1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod arrange;
 mod flat;

@@ -5,6 +5,20 @@
 //! - **Always true**: lengths are millimetres, apex up; the same network gives the same bytes.
 //!   `json` and `graphml` hold every number in full, the others are rounded to 10⁻⁴ mm.
 //! - **Left out**: the blade in space, and tissue.
+//!
+//! ```
+//! use leafmodel::export::{SvgStyle, graphml, svg};
+//! use leafmodel::species;
+//!
+//! let lamina = species::find("poplar").ok_or("the poplar is a preset")?.plan().grow_lamina()?;
+//! let style = SvgStyle { orders_in_colour: true, areoles: true };
+//! let drawing = svg(&lamina.outline, &lamina.network, style);
+//! assert!(drawing.ends_with("</svg>\n"));
+//! // A node of the graph for each point of a vein.
+//! let graph = graphml(&lamina.network);
+//! assert_eq!(graph.matches("<node ").count(), lamina.network.nodes().len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod geojson;
 mod graphml;

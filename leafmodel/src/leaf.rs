@@ -1,4 +1,18 @@
 //! One leaf from plan to data: outline → veins → blade and contents.
+//!
+//! ```
+//! use leafmodel::leaf::Leaf;
+//! use leafmodel::species;
+//!
+//! let mut plan = species::find("poplar").ok_or("the poplar is a preset")?.plan();
+//! plan.map_size = 64;
+//! let leaf = Leaf::grow(&plan)?;
+//! // The same plan and seed give the same leaf; another seed another one of the kind.
+//! assert_eq!(Leaf::grow(&plan)?, leaf);
+//! plan.seed += 1;
+//! assert_ne!(Leaf::grow(&plan)?.lamina.network, leaf.lamina.network);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(test)]
 mod combinations;
@@ -167,20 +181,12 @@ impl Leaf {
         Self::from_lamina_unless(plan, plan.grow_lamina_unless(is_stopped)?, is_stopped)
     }
 
-    /// Blade and contents of a lamina that the plan has brought forth.
+    /// Blade and contents of a lamina that the plan has brought forth, or nothing if `is_stopped` says so while a mosaic grows.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Blade`], [`LeafError::Mosaic`], [`LeafError::Tissue`].
-    pub fn from_lamina(plan: &LeafPlan, lamina: Lamina) -> Result<Self, LeafError> {
-        Self::from_lamina_unless(plan, lamina, &|| false)
-    }
-
-    /// As [`Leaf::from_lamina`], but gives up when `is_stopped` says so while a mosaic grows.
-    ///
-    /// # Errors
-    ///
-    /// Also [`LeafError::Mosaic`] of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped).
+    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) too),
+    /// [`LeafError::Tissue`].
     pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,

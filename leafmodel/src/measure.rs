@@ -7,6 +7,21 @@
 //! - **Left out**: what images show only after clearing and staining: vein widths are those of the model.
 //!
 //! `docs/src/theory/measures.md` defines every measure.
+//!
+//! ```
+//! use leafmodel::measure::measure;
+//! use leafmodel::species;
+//!
+//! let plan = species::find("poplar").ok_or("the poplar is a preset")?.plan();
+//! let lamina = plan.grow_lamina()?;
+//! let measures = measure(&lamina.outline, &lamina.network, plan.venation.murray_exponent());
+//! for key in ["width_over_length", "vein_density_mm_per_mm2", "areoles_per_mm2"] {
+//!     let value = measures.number(key).ok_or("a poplar has a blade, veins and areoles")?;
+//!     assert!(value > 0.0, "{key} = {value}");
+//! }
+//! print!("{}", measures.table());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod forks;
 mod fourier;

@@ -8,6 +8,39 @@
 //! - **Out**: cells on the surface with their types and clones.
 //! - **Always true**: distances are measured on the surface, faces unfolded into a plane ([`patch`]), never through space.
 //! - **Left out**: what genes do inside a cell.
+//!
+//! ```
+//! use leafmodel::mosaic::shapes::sphere;
+//! use leafmodel::mosaic::{CellType, Mosaic, MosaicPlan, RadiusRule, Surface, SurfaceGrowth};
+//!
+//! // Cells of one kind that divide about once in two days, on a ball of 10 mm.
+//! let cells = CellType {
+//!     name: "green".to_owned(),
+//!     division_days: 2.0,
+//!     initial_probability: 1.0,
+//!     switching: vec![1.0],
+//!     adhesion: vec![0.0],
+//! };
+//! let plan = MosaicPlan {
+//!     initial_cells: 20,
+//!     days: 4.0,
+//!     radius_weight: 1.0,
+//!     relaxations_per_day: 4,
+//!     step: 0.1,
+//!     initial_relaxations: 10,
+//!     initial_step: 0.1,
+//!     radius: RadiusRule::Daily,
+//!     types: vec![cells],
+//!     controls: Vec::new(),
+//!     growth: SurfaceGrowth::None,
+//! };
+//! let ball = sphere(10.0, 2.0)?;
+//! let mosaic = Mosaic::grow(&Surface::new(ball.positions, ball.faces)?, &plan, 1)?;
+//! assert!(mosaic.cells.len() > 20);
+//! // Every cell descends from one of the first twenty.
+//! assert!(mosaic.cells.iter().all(|cell| cell.clone < 20));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod atlas;
 #[cfg(test)]

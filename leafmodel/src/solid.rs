@@ -4,6 +4,25 @@
 //! - **Out**: a mesh with texture coordinates, and a map of contents over them.
 //! - **Always true**: contents are per area of the surface, of the tissue down to the depth that the optics are told.
 //! - **Left out**: the inside.
+//!
+//! ```
+//! use glam::DVec3;
+//! use leafmodel::optics::{Pigments, presets};
+//! use leafmodel::solid::{Solid, SolidPlan, SolidShape};
+//!
+//! let plan = SolidPlan {
+//!     shape: SolidShape::Ellipsoid { semi_axes_mm: DVec3::new(20.0, 20.0, 30.0) },
+//!     seed: 1,
+//!     contents: presets::by_name("sun-green").ok_or("it is a preset")?.contents,
+//!     mosaic: None,
+//!     pigments: Pigments::default(),
+//!     map_size: 16,
+//! };
+//! let fruit = Solid::grow(&plan, &|| false)?;
+//! let highest = fruit.positions.iter().map(|p| p.z).fold(0.0, f64::max);
+//! assert!((highest - 30.0).abs() < 0.5, "{highest} mm");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod shape;
 

@@ -3,6 +3,23 @@
 //! - **In**: a name, as in `lamina grow poplar`.
 //! - **Out**: a [`LeafPlan`] with every number in it.
 //! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and changed.
+//!
+//! ```
+//! use leafmodel::species::{self, PRESETS};
+//!
+//! for preset in PRESETS {
+//!     println!("{:24}{}", preset.name, preset.about);
+//! }
+//! let maple = species::find("maple").ok_or("the maple is a preset")?;
+//! let plan = maple.plan();
+//! // A plan is data: here is a smaller leaf of the same kind, and one that is folded.
+//! let mut small = plan.clone();
+//! small.length_mm *= 0.5;
+//! let mut folded = plan.clone();
+//! folded.form.fold = 30_f64.to_radians();
+//! assert!(small != plan && folded != plan);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod arcuate;
 mod beyond;

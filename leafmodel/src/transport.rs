@@ -14,6 +14,20 @@
 //! # Source
 //!
 //! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is settled.
+//!
+//! ```
+//! use leafmodel::transport::{Ladder, TransportPlan};
+//!
+//! // Carrying much together is cheap (`alpha`), bends are dear (`beta`); cells come as long as they pay for their transport.
+//! let plan = TransportPlan { alpha: 0.6, beta: 0.5, epsilon: 5.0, ladder: Ladder::Equal(40), ..TransportPlan::default() };
+//! let leaf = plan.grow(1)?;
+//! assert!(leaf.is_mirrored());
+//! assert!(leaf.cells().len() > 50);
+//! // The veins are the ways on which water comes to the cells.
+//! let margin = leaf.outline(50.0)?;
+//! assert!((margin.length() - 50.0).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod blade;
 mod cells;

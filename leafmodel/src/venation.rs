@@ -13,6 +13,25 @@
 //! # Source
 //!
 //! \[runions2005\]; `docs/src/theory/venation.md` tells what it leaves open and how that is settled.
+//!
+//! ```
+//! use glam::DVec2;
+//! use leafmodel::shape::outline::Outline;
+//! use leafmodel::venation::{self, plan::AuxinPlan};
+//!
+//! // A lozenge of 60 mm, and veins of 80 segments from base to apex.
+//! let corners = [(0.0, 0.0), (18.0, 25.0), (0.0, 60.0), (-18.0, 25.0)].map(DVec2::from);
+//! let margin = Outline::new(corners.to_vec(), corners[0], corners[2])?;
+//! let plan = AuxinPlan { final_length: 80.0, darts_per_area: 0.01, ..AuxinPlan::default() };
+//! let veins = venation::grow(&margin, &plan, 1)?;
+//! assert_eq!(veins.segment_mm(), 60.0 / 80.0);
+//!
+//! // Sources that are used up from farther away leave a sparser net.
+//! let sparse = AuxinPlan { kill_distance: 4.0, ..plan };
+//! let sparse = venation::grow(&margin, &sparse, 1)?;
+//! assert!(sparse.vein_length_mm() < veins.vein_length_mm());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(test)]
 mod agreement;

@@ -8,6 +8,7 @@ table to the promise that no efficiency is printed of a program whose means are 
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -36,7 +37,7 @@ from lamina_bench import (
     write,
 )
 
-PROGRAM = environments.ROOT / "target" / "release" / "lamina"
+PROGRAM = Path(os.environ.get("LAMINA") or environments.ROOT / "target" / "release" / "lamina")
 ORDINARY = campaign.Plan((4, 16), 3, 1.0)
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -20,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from . import variant
+from .program import program
 
 ROOT = Path(__file__).resolve().parents[2]
 # Largest ΔE2000 between the program's colour of R or T and colour-science's.
@@ -70,12 +70,6 @@ class Row:
     def worst(self) -> float:
         """The ΔE2000 that decides."""
         return max(self.delta_e_same_spectrum, self.delta_e_own_spectrum)
-
-
-def program() -> Path:
-    """Where cargo puts the release build."""
-    target = os.environ.get("CARGO_TARGET_DIR")
-    return (Path(target) if target else ROOT / "target") / "release" / "lamina"
 
 
 def lamina(binary: Path, *words: object) -> str:

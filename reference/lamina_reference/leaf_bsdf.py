@@ -35,7 +35,7 @@ FACES = ("adaxial", "abaxial")
 
 
 class ContentsMap:
-    """Seven float maps over uv: bilinear between texel centres, clamped, row 0 at v = 0."""
+    """A float map over uv for each of `CONTENTS`: bilinear between texel centres, clamped, row 0 at v = 0."""
 
     def __init__(self, file: Path) -> None:
         image = oiio.ImageInput.open(str(file))

@@ -5,6 +5,21 @@
 //! - **Out**: `f` without the cosine, sr⁻¹, a value a lane; densities over solid angle.
 //! - **Always true**: energy is not created; all but the dielectric are reciprocal; a density never depends
 //!   on wavelength.
+//!
+//! ```
+//! use glam::{Vec2, Vec3};
+//! use renderer::bsdf::Bsdf;
+//! use renderer::spectrum::Lanes;
+//!
+//! // Grey paper at four wavelengths, seen from 60° off its normal.
+//! let paper: Bsdf<'_, 4> = Bsdf::Diffuse(Lanes::splat(0.6));
+//! let wo = Vec3::new(0.75_f32.sqrt(), 0.0, 0.5);
+//! let sample = paper.sample(wo, 0.5, Vec2::new(0.3, 0.8)).expect("it is seen from above");
+//! assert!((paper.pdf(wo, sample.wi) - sample.pdf).abs() < 1e-6);
+//! // f · |cos| / pdf is what the path goes on with.
+//! let weight = paper.eval(wo, sample.wi) * (sample.wi.z / sample.pdf);
+//! assert!((weight.mean() - 0.6).abs() < 1e-5);
+//! ```
 
 use std::f32::consts::FRAC_1_PI;
 

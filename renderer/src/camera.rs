@@ -1,4 +1,23 @@
 //! Rays from the film into the scene.
+//!
+//! ```
+//! use glam::{DVec3, Vec2};
+//! use renderer::camera::Camera;
+//! use renderer::scene::description;
+//!
+//! let described = description::Camera {
+//!     position: DVec3::new(0.0, -1.0, 0.0),
+//!     look_at: DVec3::ZERO,
+//!     up: DVec3::Z,
+//!     vertical_fov: 0.7,
+//!     lens_radius: 0.0,
+//!     focus_distance: 1.0,
+//! };
+//! let camera = Camera::new(&described, 200, 100);
+//! // The middle of the film looks along +y.
+//! let ray = camera.ray(Vec2::new(100.0, 50.0), Vec2::splat(0.5));
+//! assert!(ray.direction.distance(glam::Vec3::Y) < 1e-6);
+//! ```
 
 use glam::{DMat3, DVec3, Vec2, Vec3};
 

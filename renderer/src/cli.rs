@@ -2,6 +2,13 @@
 //!
 //! stdout carries the paths of what was written and nothing else; stderr the rest. Exit codes: 0 done, 1 the
 //! system failed us, 2 bad input, 130 interrupted with the work saved.
+//!
+//! ```
+//! use std::process::ExitCode;
+//!
+//! let command = ["lamina", "check", "no-such-scene.toml"].map(Into::into);
+//! assert_eq!(renderer::cli::run(command), ExitCode::from(2));
+//! ```
 
 pub mod arguments;
 mod check;

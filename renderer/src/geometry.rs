@@ -10,6 +10,21 @@
 //!   conservative, and equal distances go to the smaller (instance, triangle); so the layout of a tree never
 //!   reaches a picture. No ray slips between two triangles of a mesh that share an edge.
 //! - **Left out**: motion, curves, and seams between *different* meshes, which are as tight as `f32` makes them.
+//!
+//! ```
+//! use glam::{Affine3A, Vec3};
+//! use renderer::geometry::{Geometry, Instance, Ray, TriangleMesh};
+//!
+//! let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+//! let triangle = TriangleMesh::new(corners, None, None, vec![[0, 1, 2]])?;
+//! // The triangle a metre up, and once more two metres up.
+//! let at = |height| Instance { mesh: 0, to_world: Affine3A::from_translation(Vec3::Z * height) };
+//! let geometry = Geometry::build(vec![triangle], vec![at(1.0), at(2.0)])?;
+//! let ray = Ray::new(Vec3::new(0.2, 0.2, 0.0), Vec3::Z);
+//! let hit = geometry.intersect(&ray).expect("it is above");
+//! assert_eq!((hit.instance, hit.t), (0, 1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bounds;
 mod bvh;

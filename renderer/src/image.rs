@@ -5,6 +5,21 @@
 //! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old one. A header that
 //!   claims more than 2²⁸ pixels or 4 GiB is refused before anything is allocated for it.
 //! - **Left out**: deep data, several parts (the first is read), mip levels (the largest is read).
+//!
+//! ```
+//! use renderer::image::{Attribute, Layer, Picture, compare, openexr};
+//!
+//! let picture = Picture {
+//!     width: 2,
+//!     height: 1,
+//!     layers: vec![Layer { name: "Y".to_owned(), data: vec![0.25, 4.0] }],
+//!     attributes: vec![("comments".to_owned(), Attribute::Text("two pixels".to_owned()))],
+//! };
+//! let bytes = openexr::encode(&picture)?;
+//! let again = openexr::decode(&bytes)?;
+//! assert_eq!(again.layer("Y"), picture.layer("Y"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod atomic;
 pub mod compare;

@@ -4,6 +4,22 @@
 //! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its density over solid angle.
 //! - **Always true**: what [`Light::sample`] draws, [`Light::at_infinity`] and [`AreaLight::pdf`] know the density of; a light
 //!   that says it is found by bounces only is never sampled.
+//!
+//! ```
+//! use glam::{Vec2, Vec3};
+//! use renderer::light::distant::DistantLight;
+//! use renderer::light::{Light, Receiver};
+//! use renderer::spectrum::{Curve, Wavelengths};
+//!
+//! // A sun in the zenith with an irradiance of 1 W m⁻² nm⁻¹.
+//! let sun = DistantLight::new(Vec3::Z, 0.00925, Curve::from_points(&[(550.0, 1.0)]));
+//! let floor = Receiver { position: Vec3::ZERO, normal: Vec3::Z };
+//! let wavelengths = Wavelengths::new([450.0, 550.0, 650.0, 750.0]);
+//! let sample = Light::Distant(sun).sample(0, &floor, &wavelengths, Vec2::splat(0.5)).expect("it shines");
+//! // Radiance over density is the irradiance.
+//! let irradiance = sample.radiance.mean() * sample.wi.z / sample.pdf;
+//! assert!((irradiance - 1.0).abs() < 1e-3, "{irradiance}");
+//! ```
 
 use glam::{Vec2, Vec3};
 

@@ -1,4 +1,18 @@
-//! What surfaces are made of: parameters at a hit → a [`Bsdf`](crate::bsdf::Bsdf).
+//! What surfaces are made of: parameters at a hit → a [`Bsdf`].
+//!
+//! ```
+//! use glam::Vec2;
+//! use renderer::bsdf::Bsdf;
+//! use renderer::material::Material;
+//! use renderer::spectrum::{Curve, Wavelengths};
+//!
+//! // Red paint: little below 600 nm, much above.
+//! let reflectance = Curve::from_points(&[(590.0, 0.1), (610.0, 0.7)]);
+//! let paint = Material::Diffuse(reflectance.into());
+//! let wavelengths = Wavelengths::new([450.0, 550.0, 650.0, 750.0]);
+//! let bsdf: Bsdf<'_, 4> = paint.bsdf(Vec2::splat(0.5), &wavelengths);
+//! assert_eq!(bsdf.albedo().0, [0.1, 0.1, 0.7, 0.7]);
+//! ```
 
 pub mod contents_texture;
 pub mod leaf;

@@ -1,6 +1,6 @@
 //! Eight `f32` numbers at a time, on whatever vector unit the machine has.
 //!
-//! Kernels are written once over [`Eight`] and compiled for each instruction set; which one runs is
+//! Kernels are written once over `Eight` and compiled for each instruction set; which one runs is
 //! chosen when the program starts ([`Level::best`]). Only operations that IEEE 754 rounds
 //! correctly are offered, and no fused multiply-add, so that every level gives the same bits.
 //!
@@ -9,6 +9,15 @@
 //! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
 //!   same bits at every level.
 //! - **Left out**: wider units. AVX-512 brought nothing for trees of eight children.
+//!
+//! ```
+//! use renderer::simd::Level;
+//!
+//! // The best level is the last of those that this machine has; `scalar` is everywhere.
+//! let levels = Level::all();
+//! assert_eq!(levels[0].name(), "scalar");
+//! assert_eq!(levels.last(), Some(&Level::best()));
+//! ```
 #![allow(
     unsafe_code,
     reason = "intrinsics; a token of a level exists only where its instructions do"

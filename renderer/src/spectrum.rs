@@ -4,6 +4,18 @@
 //! - **Out**: values at a path's own wavelengths ([`Lanes`]), colours as linear sRGB.
 //! - **Always true**: no RGB number takes part in transport; RGB is made from radiance at the film
 //!   ([`cie`]) and turned into spectra when a picture is read ([`rgb`]).
+//!
+//! ```
+//! use renderer::spectrum::cie;
+//!
+//! // The colour of a surface under daylight: XYZ with Y = 1 for the perfect diffuser, then linear sRGB.
+//! let red = |nm: f64| if nm < 600.0 { 0.05 } else { 0.6 };
+//! let xyz = cie::xyz_under_d65(red);
+//! let [r, g, b] = cie::srgb_from_xyz(xyz);
+//! assert!(r > g && g > 0.0 && r > b);
+//! let [.., y, _] = cie::xyz_under_d65(|_| 1.0);
+//! assert!((y - 1.0).abs() < 1e-6);
+//! ```
 
 pub mod cie;
 pub mod curve;

@@ -1,14 +1,11 @@
 //! How strongly a vein shows across its width, and how that is kept in a map of coarse texels.
 
-/// Exponent `p` with which finer veins count less: a vein of radius `r` has the strength `min(1, r / r_full)^p`.
+/// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in [0, 1].
 ///
-/// One half, by eye (no measurement known to us): with 1 the finest net all but vanishes beside the
-/// secondaries, with less than 0.3 all orders look alike.
-pub const FINENESS_EXPONENT: f64 = 0.5;
-
-/// Strength of a vein of radius `r` over that of a fully developed one, in [0, 1].
+/// The exponent with which finer veins count less is one half by eye (no measurement known to us): with 1 the finest net all
+/// but vanishes beside the secondaries, with less than 0.3 all orders look alike.
 pub(super) fn strength(radius: f64, full_radius: f64) -> f64 {
-    // The square root is the power FINENESS_EXPONENT, and exact on every machine.
+    // A square root, unlike a power, is exact on every machine.
     (radius / full_radius).min(1.0).sqrt()
 }
 
@@ -109,7 +106,7 @@ mod tests {
         assert_eq!(profile.weight(0.15, 0.05), 0.0);
         assert_eq!(strength(0.25, 0.25), 1.0);
         assert_eq!(strength(3.0, 0.25), 1.0);
-        let power = libm::pow(0.1 / 0.25, FINENESS_EXPONENT);
+        let power = libm::pow(0.1 / 0.25, 0.5);
         assert!((strength(0.1, 0.25) - power).abs() < 1e-15);
     }
 

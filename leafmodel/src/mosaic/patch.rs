@@ -23,18 +23,13 @@ use super::surface::{Surface, Unfold};
 #[derive(Clone, Debug)]
 pub struct Patch {
     faces: Vec<(u32, Unfold)>,
-    radius_mm: f64,
 }
 
 impl Patch {
     /// The face in whose frame the others lie.
-    pub fn base(&self) -> u32 {
+    #[cfg(test)]
+    pub(super) fn base(&self) -> u32 {
         self.faces[0].0
-    }
-
-    /// How far from the base the faces reach, mm.
-    pub fn radius_mm(&self) -> f64 {
-        self.radius_mm
     }
 
     /// The faces that can hold points within the radius of any point of the base, by rising distance, the base first; and how
@@ -44,7 +39,8 @@ impl Patch {
     }
 
     /// How the frame of a face lies in the frame of the base; none if the face is not in the patch. Looks at all in turn.
-    pub fn unfold(&self, face: u32) -> Option<Unfold> {
+    #[cfg(test)]
+    pub(super) fn unfold(&self, face: u32) -> Option<Unfold> {
         let found = self.faces.iter().find(|(other, _)| *other == face);
         found.map(|(_, unfold)| *unfold)
     }
@@ -147,7 +143,7 @@ impl<'a> PatchFinder<'a> {
             faces.push((entry.face, entry.unfold));
             self.neighbours_of(&entry, hub, radius_mm);
         }
-        Patch { faces, radius_mm }
+        Patch { faces }
     }
 
     fn neighbours_of(&mut self, entry: &Entry, hub: Hub, radius_mm: f64) {

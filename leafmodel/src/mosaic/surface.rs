@@ -141,11 +141,6 @@ impl Unfold {
         self.turn_back(point - self.shift)
     }
 
-    /// A direction of the unfolded frame in the frame unfolded into.
-    pub fn turn(&self, direction: DVec2) -> DVec2 {
-        self.turn.rotate(direction)
-    }
-
     /// A direction of the frame unfolded into, in the unfolded frame.
     pub fn turn_back(&self, direction: DVec2) -> DVec2 {
         DVec2::new(self.turn.x, -self.turn.y).rotate(direction)

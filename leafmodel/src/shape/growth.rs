@@ -119,7 +119,8 @@ impl RateCurve {
     /// # Errors
     ///
     /// [`GrowthError`] unless it is above −1 and at most 1.
-    pub fn constant(rate: f64) -> Result<Self, GrowthError> {
+    #[cfg(test)]
+    pub(crate) fn constant(rate: f64) -> Result<Self, GrowthError> {
         Self::new(vec![[0.0, rate]])
     }
 

@@ -225,7 +225,8 @@ impl GrowthForm {
     /// # Errors
     ///
     /// As [`GrowthForm::grow`], but that axes may lie apart.
-    pub fn axis_lines(&self, length_mm: f64) -> Result<Vec<[DVec2; 2]>, GrowthFormError> {
+    #[cfg(test)]
+    pub(crate) fn axis_lines(&self, length_mm: f64) -> Result<Vec<[DVec2; 2]>, GrowthFormError> {
         check::length(length_mm)?;
         let lobes = self.lobes()?;
         let ends = |(place, _): &(axes::Place, Vec<DVec2>)| place.ends().map(|p| p * length_mm);
@@ -238,7 +239,8 @@ impl GrowthForm {
     /// # Errors
     ///
     /// As [`GrowthForm::grow`].
-    pub fn vein_lines(&self, length_mm: f64) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
+    #[cfg(test)]
+    pub(crate) fn vein_lines(&self, length_mm: f64) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
         check::length(length_mm)?;
         let mut lines = Vec::new();
         for (side, sign) in [(Side::Right, 1.0), (Side::Left, -1.0)] {

@@ -78,7 +78,8 @@ pub fn coloured(preset: &str) -> Option<&'static ColouredLeaf> {
 }
 
 /// All of them, in the order of the book.
-pub fn all_coloured() -> impl Iterator<Item = &'static ColouredLeaf> {
+#[cfg(test)]
+pub(crate) fn all_coloured() -> impl Iterator<Item = &'static ColouredLeaf> {
     COLOURED.iter()
 }
 

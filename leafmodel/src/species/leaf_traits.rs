@@ -184,7 +184,8 @@ pub fn traits(preset: &str) -> Option<&'static LeafTraits> {
 }
 
 /// All species, in the order of the book's table.
-pub fn all() -> impl Iterator<Item = &'static LeafTraits> {
+#[cfg(test)]
+pub(crate) fn all() -> impl Iterator<Item = &'static LeafTraits> {
     SPECIES.iter().copied()
 }
 

@@ -97,7 +97,8 @@ impl<'a> TransportSystem<'a> {
     }
 
     /// `P_G(x, v)` for all `v` (Definition 2.3): what `x` more at `v` would cost on the way to it; 0 at the root.
-    pub fn potentials(&self, x: f64) -> Vec<f64> {
+    #[cfg(test)]
+    pub(crate) fn potentials(&self, x: f64) -> Vec<f64> {
         let (counts, multiples) = (self.counts(), self.multiples());
         let mut potentials = vec![0.0; self.cells.len()];
         for v in self.root_to_tip() {
@@ -113,7 +114,8 @@ impl<'a> TransportSystem<'a> {
 
     /// `C_Ω(x)` by brute force over all cells that have a neighbour outside and the root (Eq. 3.2); infinite if no
     /// cell can supply it.
-    pub fn expense(&self, x: Cell) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn expense(&self, x: Cell) -> f64 {
         let has = |cell: Cell| self.cells.contains(&cell);
         let (multiples, potentials) = (self.multiples(), self.potentials(self.h * self.h));
         let mass = libm::pow(self.h * self.h, self.alpha);

@@ -197,16 +197,6 @@ impl FilledBlade {
         &self.unsupplied
     }
 
-    /// Edge of a cell, mm.
-    pub fn cell_mm(&self) -> f64 {
-        self.frame.scale
-    }
-
-    /// The centre of a cell, mm.
-    pub fn centre(&self, cell: Cell) -> DVec2 {
-        self.frame.to_mm(place(cell))
-    }
-
     pub(crate) fn frame(&self) -> &Frame {
         &self.frame
     }

@@ -103,14 +103,6 @@ pub enum ArcuateError {
         /// What it may be.
         range: &'static str,
     },
-    /// A vein that is not there.
-    #[error("vein index {index} is outside 0 to {last}")]
-    NoSuchVein {
-        /// The number asked for.
-        index: usize,
-        /// The last there is.
-        last: usize,
-    },
     /// The margin that they belong to.
     #[error(transparent)]
     Margin(#[from] CubicMarginError),
@@ -241,21 +233,16 @@ impl ArcuatePlan {
 
 impl ArcuateVeins {
     /// Lateral veins, both sides together.
-    pub fn laterals(&self) -> usize {
+    #[cfg(test)]
+    pub(crate) fn laterals(&self) -> usize {
         self.laterals.len()
     }
 
     /// Start, control and end point of a lateral, mm. Laterals of the midrib come first, from base to tip, left before right.
-    ///
-    /// # Errors
-    ///
-    /// [`ArcuateError::NoSuchVein`].
-    pub fn lateral(&self, index: usize) -> Result<[DVec2; 3], ArcuateError> {
-        let vein = self.laterals.get(index).ok_or(ArcuateError::NoSuchVein {
-            index,
-            last: self.laterals.len().saturating_sub(1),
-        })?;
-        Ok(vein.curve.0.map(|p| self.frame.to_mm(p)))
+    #[cfg(test)]
+    pub(crate) fn lateral(&self, index: usize) -> Option<[DVec2; 3]> {
+        let vein = self.laterals.get(index)?;
+        Some(vein.curve.0.map(|p| self.frame.to_mm(p)))
     }
 }
 

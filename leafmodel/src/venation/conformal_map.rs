@@ -27,11 +27,6 @@ impl ConformalMap {
         Self { curvature, centre }
     }
 
-    /// Gaussian curvature `K` of the blade.
-    pub fn curvature(&self) -> f64 {
-        self.curvature
-    }
-
     /// Whether the blade is flat.
     pub fn is_flat(&self) -> bool {
         self.curvature == 0.0

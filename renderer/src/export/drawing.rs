@@ -56,32 +56,14 @@ pub struct Drawing {
     pub rgb: Vec<u8>,
 }
 
-/// Draws a leaf so that its longer side, with a border of a fiftieth, takes `pixels_per_long_side`.
+/// Draws a leaf on a sheet whose longer side, with a border of a fiftieth, takes `pixels_per_long_side`.
+///
+/// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]: pictures of a leaf while it grows
+/// have one scale on the sheet of the full-grown one. A compound leaf has several margins.
 ///
 /// # Errors
 ///
 /// [`ImageError`] unless that is 1 to 32 000, and the picture at most [`MOST_PIXELS`] in all.
-pub fn draw(
-    outline: &Outline,
-    network: &VenationNetwork,
-    pixels_per_long_side: u32,
-    style: Style,
-) -> Result<Drawing, ImageError> {
-    draw_within(
-        outline.bounds(),
-        std::slice::from_ref(outline),
-        network,
-        pixels_per_long_side,
-        style,
-    )
-}
-
-/// The same on the sheet of another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of a
-/// leaf while it grows have one scale on the sheet of the full-grown one. A compound leaf has several margins.
-///
-/// # Errors
-///
-/// As [`draw`].
 pub fn draw_within(
     (low, high): (DVec2, DVec2),
     outlines: &[Outline],
@@ -322,12 +304,18 @@ mod tests {
         VenationNetwork::from_parts(nodes.collect(), edges.collect(), 1.0).expect("a line")
     }
 
+    fn draw(veins: &VenationNetwork, pixels: u32, style: Style) -> Result<Drawing, ImageError> {
+        let blade = blade();
+        let page = blade.bounds();
+        draw_within(page, std::slice::from_ref(&blade), veins, pixels, style)
+    }
+
     /// How many pixels the ink of veins would cover.
     fn inked(veins: &VenationNetwork, style: Style) -> f64 {
         let bare = line([(40.0, 1.0), (40.0, 2.0)], 1, 1e-9);
         let pixels = (100.0 * 1.04) as u32;
-        let without = draw(&blade(), &bare, pixels, style).expect("small");
-        let with = draw(&blade(), veins, pixels, style).expect("small");
+        let without = draw(&bare, pixels, style).expect("small");
+        let with = draw(veins, pixels, style).expect("small");
         let paler = without
             .rgb
             .iter()
@@ -370,7 +358,7 @@ mod tests {
     #[test]
     fn the_apex_is_up_and_the_blade_pale() {
         let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
-        let drawing = draw(&blade(), &veins, 104, Style::OnPaper).expect("small");
+        let drawing = draw(&veins, 104, Style::OnPaper).expect("small");
         assert_eq!((drawing.width, drawing.height), (104, 104));
         let pixel = |x: usize, y: usize| &drawing.rgb[3 * (104 * y + x)..][..3];
         assert_eq!(pixel(52, 12), [60, 90, 42]);
@@ -382,8 +370,8 @@ mod tests {
     fn sizes_that_cannot_be_drawn_are_refused() {
         let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
         for pixels in [0, 20_000, 40_000, u32::MAX] {
-            assert!(draw(&blade(), &veins, pixels, Style::Orders).is_err());
+            assert!(draw(&veins, pixels, Style::Orders).is_err());
         }
-        assert!(draw(&blade(), &veins, 1, Style::Orders).is_ok());
+        assert!(draw(&veins, 1, Style::Orders).is_ok());
     }
 }

@@ -358,13 +358,9 @@ impl Geometry {
     }
 
     /// An instance by number.
-    pub fn instance(&self, i: u32) -> &Instance {
+    #[cfg(test)]
+    pub(crate) fn instance(&self, i: u32) -> &Instance {
         &self.placements[i as usize].instance
-    }
-
-    /// How many instances there are.
-    pub fn instance_count(&self) -> usize {
-        self.placements.len()
     }
 }
 

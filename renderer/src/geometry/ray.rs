@@ -27,7 +27,8 @@ impl Ray {
     }
 
     /// The point at `t`.
-    pub fn at(&self, t: f32) -> Vec3 {
+    #[cfg(test)]
+    pub(crate) fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }
 

@@ -71,11 +71,11 @@ pub fn write(picture: &Picture, path: &Path) -> Result<(), ImageError> {
     atomic::replace(path, |file| file.write_all(&bytes))
 }
 
-/// The bytes of the file that [`write`] writes.
+/// The bytes of the file that [`write()`] writes.
 ///
 /// # Errors
 ///
-/// As [`write`], but for the file.
+/// As [`write()`], but for the file.
 pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     check(picture)?;
     let size = Vec2(picture.width as usize, picture.height as usize);

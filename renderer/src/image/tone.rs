@@ -12,14 +12,6 @@ pub fn to_bytes(linear: &[f32], exposure_ev: f64, tone: Tone) -> Vec<u8> {
         .collect()
 }
 
-/// As [`to_bytes`], with 16 bits.
-pub fn to_words(linear: &[f32], exposure_ev: f64, tone: Tone) -> Vec<u16> {
-    let encoded = encoded(linear, exposure_ev, tone);
-    encoded
-        .map(|value| libm::round(value * 65535.0) as u16)
-        .collect()
-}
-
 fn encoded(linear: &[f32], exposure_ev: f64, tone: Tone) -> impl Iterator<Item = f64> + '_ {
     let exposure = libm::exp2(exposure_ev);
     linear.iter().map(move |&value| {
@@ -95,10 +87,6 @@ mod tests {
         ];
         let expected = [0, 10, 118, 188, 255, 255, 0, 0, 255, 0];
         assert_eq!(to_bytes(&light, 0.0, Tone::Linear), expected);
-        assert_eq!(
-            to_words(&[0.0, 0.5, 1.0], 0.0, Tone::Linear),
-            [0, 48192, 65535]
-        );
     }
 
     #[test]

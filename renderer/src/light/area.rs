@@ -14,7 +14,6 @@ pub struct AreaLight {
     patches: Box<[Patch]>,
     /// The patch that each triangle belongs to; `None` if it has no area in world space.
     patch_of: Box<[Option<u32>]>,
-    area: f32,
 }
 
 impl AreaLight {
@@ -23,15 +22,9 @@ impl AreaLight {
         let (patches, patch_of) = patch::patches(triangles);
         Self {
             radiance: radiance.into(),
-            area: patches.iter().map(Patch::area).sum(),
             patches: patches.into(),
             patch_of: patch_of.into(),
         }
-    }
-
-    /// Area, m².
-    pub fn area(&self) -> f32 {
-        self.area
     }
 
     /// Radiance curve, W m⁻² sr⁻¹ nm⁻¹.

@@ -4,9 +4,6 @@ use std::sync::OnceLock;
 
 use crate::spectrum::table::parse_shipped;
 
-/// First and last wavelength of the observer's table, nm.
-pub const OBSERVER_RANGE_NM: [f64; 2] = [360.0, 830.0];
-
 /// XYZ to linear sRGB (Rec. 709 primaries, D65 white), IEC 61966-2-1 with the primaries' exact inverse.
 pub const XYZ_TO_SRGB: [[f64; 3]; 3] = [
     [

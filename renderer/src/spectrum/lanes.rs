@@ -24,11 +24,6 @@ impl<const N: usize> Lanes<N> {
         Self(array::from_fn(f))
     }
 
-    /// Applies `f` to every lane.
-    pub fn map(self, f: impl FnMut(f32) -> f32) -> Self {
-        Self(self.0.map(f))
-    }
-
     /// Sum over the lanes, in halves, so that it takes three steps for eight of them.
     #[inline]
     pub fn sum(self) -> f32 {
@@ -60,16 +55,6 @@ impl<const N: usize> Lanes<N> {
     /// Whether every lane is exactly zero.
     pub fn is_zero(self) -> bool {
         self.0.iter().all(|&lane| lane == 0.0)
-    }
-
-    /// Lane-wise smaller one.
-    pub fn min(self, other: Self) -> Self {
-        Self::from_fn(|i| self.0[i].min(other.0[i]))
-    }
-
-    /// Lane-wise greater one.
-    pub fn max(self, other: Self) -> Self {
-        Self::from_fn(|i| self.0[i].max(other.0[i]))
     }
 }
 

@@ -24,7 +24,8 @@ impl Ancestry {
     }
 
     /// The old face that a new face is a part of.
-    pub fn face(&self, face: u32) -> u32 {
+    #[cfg(test)]
+    pub(crate) fn face(&self, face: u32) -> u32 {
         self.faces[face as usize].0
     }
 

@@ -52,6 +52,7 @@ impl Place {
     }
 
     /// Base and tip.
+    #[cfg(test)]
     pub(super) fn ends(&self) -> [DVec2; 2] {
         [DVec2::ZERO, DVec2::Y].map(|p| self.apply(p))
     }

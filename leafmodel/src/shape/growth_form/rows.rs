@@ -13,6 +13,7 @@ use crate::shape::outer_boundary::outer_boundary;
 const LONGEST: f64 = 1000.0;
 
 /// Points of a vein's line.
+#[cfg(test)]
 const LINE: usize = 24;
 
 /// How an axis grows.
@@ -103,6 +104,7 @@ impl<'a> Rows<'a> {
     }
 
     /// The lines of the veins, from the axis outwards.
+    #[cfg(test)]
     pub(super) fn vein_lines(&self) -> Result<Vec<Vec<DVec2>>, GrowthFormError> {
         let line = |&(j, _): &(usize, VeinRow)| {
             let (curve, end) = self.row(j)?;

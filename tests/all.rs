@@ -1,0 +1,10 @@
+//! What needs both crates, statistics or pictures: one program, because to link one for each file takes longer than to run it.
+
+mod determinism;
+mod format;
+mod golden;
+mod lights;
+mod optics;
+mod radiometry;
+mod scattering;
+mod solid_tissue;
