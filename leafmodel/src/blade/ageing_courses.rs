@@ -4,7 +4,7 @@
 //! `docs/src/theory/ageing.md` lists with their sources.
 
 use super::ageing::{Course, Delay};
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents};
 
 /// Yellow by unmasking of carotenoids: ginkgo, poplar, birch. No anthocyanin.
 pub const YELLOW: Course = Course {
@@ -85,14 +85,11 @@ pub const COURSES: [(&str, Course); 5] = [
 ];
 
 /// What a dead, dry leaf holds (estimate within the ranges of litter).
-pub const LITTER: Contents = Contents {
-    structure: 2.2,
-    chlorophyll: 0.3,
-    carotenoids: 1.0,
-    anthocyanins: 0.0,
-    betacyanins: 0.0,
-    betaxanthins: 0.0,
-    brown: 1.1,
-    water: 0.001,
-    dry_matter: 0.0045,
-};
+pub const LITTER: Contents = Contents::of(&[
+    (Constituent::Structure, 2.2),
+    (Constituent::Chlorophyll, 0.3),
+    (Constituent::Carotenoids, 1.0),
+    (Constituent::Brown, 1.1),
+    (Constituent::Water, 0.001),
+    (Constituent::DryMatter, 0.0045),
+]);

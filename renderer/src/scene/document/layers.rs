@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, Picture, RimWidth};
-use leafmodel::optics::Contents;
+use leafmodel::optics::PerConstituent;
 
-use super::contents::KEYS;
-use super::contents::STRUCTURE;
+use super::contents::limits;
 use super::limits::Limits;
 use super::names::require_name;
 use super::path::{Wanted, resolve};
@@ -15,9 +14,6 @@ use super::reader::Block;
 use crate::scene::assets;
 use crate::scene::error::SceneError;
 use crate::scene::source::Place;
-
-/// Most of each content, as in a block of contents.
-const MOST: [f64; Contents::COUNT] = [10.0, 1e3, 1e3, 1e3, 1e3, 1e3, 100.0, 1.0, 1.0];
 
 /// Largest picture that is read, bytes.
 const MOST_PICTURE_BYTES: u64 = 1 << 30;
@@ -93,16 +89,15 @@ fn read_values(block: &Block<'_>) -> Option<Change> {
         }
     };
     let inner = block.optional_block("contents")?;
-    let mut values = [None; Contents::COUNT];
-    for (index, (value, key)) in values.iter_mut().zip(KEYS).enumerate() {
+    let values = PerConstituent::from_fn(|constituent| {
+        let [_, most] = constituent.range();
         let limits = match mode {
-            Mode::Replace if index == 0 => STRUCTURE,
-            Mode::Replace => Limits::closed(0.0, MOST[index]),
-            Mode::Add => Limits::closed(-MOST[index], MOST[index]),
+            Mode::Replace => limits(constituent),
+            Mode::Add => Limits::closed(-most, most),
             Mode::Multiply => Limits::closed(0.0, 100.0),
         };
-        *value = inner.optional_number(key, limits);
-    }
+        inner.optional_number(constituent.key(), limits)
+    });
     inner.finish();
     Some(Change::Values { mode, values })
 }
@@ -224,7 +219,7 @@ fn read_map(block: &Block<'_>, path: &str, at: &Place) -> Option<Change> {
             file: path.to_owned(),
             channel: None,
             width: map.size().0,
-            texels: map.texels().to_vec(),
+            texels: map.texels().iter().map(|texel| *texel.as_array()).collect(),
         }))),
         Err(error) => {
             bad_file(block, path, at, error.without_path(&file));

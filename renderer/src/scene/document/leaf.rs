@@ -5,7 +5,7 @@ use leafmodel::blade::tissue::Tissue;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::Contour;
 use leafmodel::leaf::venation_plan::VenationPlan;
-use leafmodel::optics::Contents;
+use leafmodel::optics::{Contents, VeinFactors};
 
 use super::compound::read_compound;
 use super::contents::read_contents;
@@ -21,20 +21,6 @@ use super::senescence::read_senescence;
 use super::spectrum::require_prospect;
 use super::venation::read_venation;
 use crate::scene::description::Leaf;
-
-/// Factors on the contents over a fully developed vein: pale, watery, dense (our choice within
-/// the ranges that `docs/src/format/leaf.md` names).
-const VEIN_FACTORS: Contents = Contents {
-    structure: 1.3,
-    chlorophyll: 0.1,
-    carotenoids: 0.12,
-    anthocyanins: 1.0,
-    betacyanins: 1.0,
-    betaxanthins: 1.0,
-    brown: 1.0,
-    water: 2.0,
-    dry_matter: 2.5,
-};
 
 /// Texels of the content maps along the longer side where nothing is said.
 pub(crate) const MAP_SIZE: u64 = 1024;
@@ -53,7 +39,7 @@ pub(crate) fn read_leaf(block: &Block<'_>) -> Option<Leaf> {
     let tissue = contents.map(|lamina| read_tissue(block, lamina));
     if contents.is_none() {
         // Its blocks are read all the same, so that their errors are found too.
-        read_tissue(block, VEIN_FACTORS);
+        read_tissue(block, Contents::NOTHING);
     }
     let pigments = read_pigments(block);
     let earns = outline.as_ref().zip(venation.as_ref());
@@ -127,7 +113,7 @@ fn warn_of_pigments(block: &Block<'_>, plan: &LeafPlan) {
 pub(crate) fn default_tissue(lamina: Contents) -> Tissue {
     Tissue {
         lamina,
-        vein_factors: VEIN_FACTORS,
+        vein_factors: VeinFactors::default(),
         full_vein_radius_mm: 0.06,
         sheath_width_mm: 0.1,
         mottle: 0.0,
@@ -151,25 +137,14 @@ pub(crate) fn default_form(length_mm: f64) -> BladeForm {
 
 /// `veins` and `mottle`, both of which may be left out.
 fn read_tissue(leaf: &Block<'_>, lamina: Contents) -> Tissue {
-    const FACTORS: Limits = Limits::closed(0.0, 100.0);
+    const FACTORS: Limits = Limits::closed(0.0, VeinFactors::MOST);
     const FULL_MM: Limits = Limits::closed(0.001, 100.0);
     const SHEATH_MM: Limits = Limits::closed(0.001, 5.0);
     const PATCH_MM: Limits = Limits::closed(0.01, 1000.0);
     let mut tissue = default_tissue(lamina);
     if let Some(block) = leaf.optional_block("veins") {
-        let factors = &mut tissue.vein_factors;
-        for (key, factor) in [
-            ("structure", &mut factors.structure),
-            ("chlorophyll", &mut factors.chlorophyll),
-            ("carotenoids", &mut factors.carotenoids),
-            ("anthocyanins", &mut factors.anthocyanins),
-            ("betacyanins", &mut factors.betacyanins),
-            ("betaxanthins", &mut factors.betaxanthins),
-            ("brown", &mut factors.brown),
-            ("water", &mut factors.water),
-            ("dry_matter", &mut factors.dry_matter),
-        ] {
-            *factor = block.number_or(key, FACTORS, *factor);
+        for (constituent, factor) in tissue.vein_factors.iter_mut() {
+            *factor = block.number_or(constituent.name(), FACTORS, *factor);
         }
         tissue.full_vein_radius_mm =
             block.number_or("full_radius_mm", FULL_MM, tissue.full_vein_radius_mm);

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use leafmodel::mosaic::pattern::MosaicPattern;
 use leafmodel::mosaic::shapes::Shape;
-use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM, Solid as Tissue};
+use leafmodel::optics::{Contents, PerConstituent};
 use leafmodel::solid::{SolidMesh, SolidPlan, SolidShape};
 
 use super::contents::read_changed;
@@ -28,17 +28,7 @@ use crate::scene::error::SceneError;
 use crate::scene::source::{Place, escaped};
 
 /// What solid tissue holds where nothing is said.
-pub(crate) const NOTHING: Contents = Contents {
-    structure: 1.0,
-    chlorophyll: 0.0,
-    carotenoids: 0.0,
-    anthocyanins: 0.0,
-    betacyanins: 0.0,
-    betaxanthins: 0.0,
-    brown: 0.0,
-    water: 0.0,
-    dry_matter: 0.0,
-};
+pub(crate) const NOTHING: Contents = Contents::NOTHING;
 /// Depth that contents are spread over where nothing is said, mm.
 pub(crate) const DEPTH_MM: f64 = 1.0;
 /// GGX roughness of the skin where nothing is said.
@@ -132,11 +122,10 @@ fn tell_of_mixed_cells(block: &Block<'_>, plan: &SolidPlan) {
     if plan.contents.mixes_betalains_and_anthocyanins() {
         return;
     }
-    let most = parts.fold([0.0_f64; Contents::COUNT], |most, part| {
-        let part = part.to_array();
-        std::array::from_fn(|i| most[i].max(part[i]))
+    let most = parts.fold(PerConstituent::splat(0.0), |most, part| {
+        most.zip_with(part.0, f64::max)
     });
-    if Contents::from_array(most).mixes_betalains_and_anthocyanins() {
+    if Contents(most).mixes_betalains_and_anthocyanins() {
         tell_of_mixture(block, "cells of this body hold");
     }
 }

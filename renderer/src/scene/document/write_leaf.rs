@@ -22,7 +22,6 @@ pub(super) use self::mosaic::mosaic;
 use self::outline::outline;
 pub(super) use self::pigments::pigments;
 use self::venation::{arcuate, auxin, filled, vein_style};
-use super::contents::KEYS;
 use super::leaf::{MAP_SIZE, default_form, default_tissue};
 use super::senescence::{BLEND, BLEND_DAYS, delays, numbers};
 use super::tree::{Entry, Node, Table, Value};
@@ -149,14 +148,10 @@ fn leaf(plan: &LeafPlan) -> Keys {
 
 fn contents(contents: &Contents) -> Keys {
     let mut keys = Keys::default();
-    let named = KEYS.into_iter().zip(Contents::NAMES);
-    for ((key, name), value) in named.zip(contents.to_array()) {
-        // None of these where nothing is said; the others are always said.
-        match name {
-            "anthocyanins" | "betacyanins" | "betaxanthins" | "brown" => {
-                keys.number_unless(key, value, 0.0);
-            }
-            _ => keys.number(key, value),
+    for (constituent, value) in **contents {
+        match constituent.if_left_out() {
+            None => keys.number(constituent.key(), value),
+            Some(default) => keys.number_unless(constituent.key(), value, default),
         }
     }
     keys
@@ -166,12 +161,12 @@ fn contents(contents: &Contents) -> Keys {
 fn tissue(tissue: &Tissue) -> (Keys, Keys) {
     let default = default_tissue(tissue.lamina);
     let mut veins = Keys::default();
-    let (own, usual) = (tissue.vein_factors, default.vein_factors);
-    for (key, (value, default)) in Contents::NAMES
-        .into_iter()
-        .zip(own.to_array().into_iter().zip(usual.to_array()))
-    {
-        veins.number_unless(key, value, default);
+    for (constituent, factor) in *tissue.vein_factors {
+        veins.number_unless(
+            constituent.name(),
+            factor,
+            default.vein_factors[constituent],
+        );
     }
     let full = tissue.full_vein_radius_mm;
     veins.number_unless("full_radius_mm", full, default.full_vein_radius_mm);

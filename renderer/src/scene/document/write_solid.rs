@@ -7,7 +7,6 @@ use leafmodel::optics::Contents;
 use leafmodel::optics::solid::{ETA, SCATTERING_PER_MM};
 use leafmodel::solid::SolidShape;
 
-use super::contents::KEYS;
 use super::leaf::MAP_SIZE;
 use super::solid::{COAT_ALPHA, DEPTH_MM, NOTHING};
 use super::tree::Value;
@@ -58,9 +57,8 @@ fn optics(keys: &mut Keys, optics: &SolidOptics) {
 /// What of contents is there.
 fn contents(contents: &Contents) -> Keys {
     let mut keys = Keys::default();
-    let own = contents.to_array().into_iter().zip(NOTHING.to_array());
-    for (key, (value, default)) in KEYS.into_iter().zip(own) {
-        keys.number_unless(key, value, default);
+    for (constituent, value) in **contents {
+        keys.number_unless(constituent.key(), value, NOTHING[constituent]);
     }
     keys
 }
@@ -113,6 +111,7 @@ mod tests {
     use super::*;
     use crate::scene::description::Coat;
     use crate::scene::load::{parse, solid_to_toml};
+    use leafmodel::optics::Constituent;
 
     const SCENE: &str = "[film.rgb]\nsize = [4, 4]\nspp = 1\n[camera.perspective]\n\
         position_m = [0, -1, 0]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 40\n\
@@ -153,13 +152,7 @@ mod tests {
                 }],
                 ..MosaicPlan::default()
             },
-            contents: vec![
-                held,
-                Contents {
-                    chlorophyll: 60.0,
-                    ..held
-                },
-            ],
+            contents: vec![held, held.with(&[(Constituent::Chlorophyll, 60.0)])],
             blend_mm: 1.5,
             faces: LeafFaces::Through,
         }
@@ -191,12 +184,11 @@ mod tests {
             shape in shapes(),
             optics in (0.1..5.0, prop_oneof![Just(SCATTERING_PER_MM), 0.1..5.0], 1.0..2.0),
             coat in prop_oneof![Just(None), (1.0..2.0, 0.02..1.0).prop_map(Some)],
-            held in prop::array::uniform8(prop_oneof![Just(0.0), 0.0..1.0]),
+            held in super::super::write_leaf::tests::of_each(prop_oneof![Just(0.0), 0.0..1.0]),
             pigments in super::super::write_leaf::tests::palettes::pigments(),
             (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
         ) {
-            let [b, c, d, e, f, g, h, i] = held;
-            let contents = Contents::from_array([1.0, b, c, d, e, f, g, h, i]);
+            let contents = Contents(held).with(&[(Constituent::Structure, 1.0)]);
             let (depth_mm, scattering_per_mm, eta) = optics;
             let (coat_eta, alpha) = coat.unwrap_or((eta, COAT_ALPHA));
             let solid = Solid {

@@ -193,6 +193,7 @@ mod tests {
     use leafmodel::venation::plan::AuxinPlan;
 
     use super::*;
+    use leafmodel::optics::Constituent;
 
     fn set(settings: &[&str]) -> Result<LeafPlan, LeafNotChosen> {
         let mut plan = leafmodel::species::find("poplar").expect("a preset").plan();
@@ -244,7 +245,7 @@ mod tests {
         );
         let plan = set(&["isogonic.length_step_segments=2", "veins.structure=1.1"])
             .expect("good settings");
-        assert_eq!(plan.tissue.vein_factors.structure, 1.1);
+        assert_eq!(plan.tissue.vein_factors[Constituent::Structure], 1.1);
         // In a block that the plan does not have.
         let clearance = set(&["venation.closed.margin_clearance={ distance = 0.1, until = 1 }"]);
         let clearance = clearance.expect("a good block");

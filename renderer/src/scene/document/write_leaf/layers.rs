@@ -4,7 +4,6 @@ use leafmodel::blade::layers::{Change, Layer, Mode};
 use leafmodel::blade::masks::{Mask, RimWidth};
 
 use super::Keys;
-use crate::scene::document::contents::KEYS;
 use crate::scene::document::layers::{NOISE_SOFTNESS, SCALE_MM, SOFTNESS_MM};
 use crate::scene::document::tree::Value;
 
@@ -35,9 +34,9 @@ fn layer(layer: &Layer) -> Keys {
     }
     if let Change::Values { values, .. } = &layer.change {
         let mut block = Keys::default();
-        for (key, value) in KEYS.into_iter().zip(values) {
+        for (constituent, value) in *values {
             if let Some(value) = value {
-                block.number(key, *value);
+                block.number(constituent.key(), value);
             }
         }
         keys.block("contents", block);

@@ -7,7 +7,7 @@ mod veins;
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::{Arrangement, CompoundForm, Feather};
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
-use leafmodel::optics::Pigments;
+use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments, Texel};
 use leafmodel::shape::contour_curve::{ContourCurve, ControlPoint};
 use leafmodel::shape::cubic_margin::CubicMargin;
 use leafmodel::shape::growth::RateCurve;
@@ -36,6 +36,14 @@ use crate::scene::load::{leaf_to_toml, parse_leaves};
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\">\
     <path d=\"M0 0H9V9Z\"/><path id=\"kite\" d=\"M5 9 C6 8 6 7 5 5 L4 7 Z\"/></svg>";
 
+/// One of these for each constituent.
+pub(in crate::scene::document) fn of_each<S: Strategy>(
+    one: S,
+) -> impl Strategy<Value = PerConstituent<S::Value>> {
+    let values = prop::array::uniform::<_, { Constituent::COUNT }>(one);
+    values.prop_map(PerConstituent::new)
+}
+
 fn ovate() -> GrowthForm {
     HalfForm::entire(1.2, 0.3, 3.0).into()
 }
@@ -46,8 +54,12 @@ fn plain() -> LeafPlan {
         seed: 0,
         outline: Contour::GrowthAlgorithm(ovate()).into(),
         venation: AuxinPlan::default().into(),
-        tissue: default_tissue(Contents::from_array([
-            1.5, 40.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.006,
+        tissue: default_tissue(Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 9.0),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.006),
         ])),
         layers: Vec::new(),
         mosaic: None,
@@ -106,9 +118,10 @@ fn layers_and_days_read_back_to_the_same() {
     let mut number = 0;
     let mut layer = |mask, mode, share| {
         number += 1;
-        let mut values = [None; Contents::COUNT];
-        values[number] = Some(0.25);
-        values[6] = Some(1.0);
+        let values = PerConstituent::splat(None).with(&[
+            (Constituent::ALL[number], Some(0.25)),
+            (Constituent::Brown, Some(1.0)),
+        ]);
         Layer {
             name: format!("layer-{number}"),
             mask,
@@ -165,10 +178,7 @@ fn layers_and_days_read_back_to_the_same() {
             senescence: Some(Senescence {
                 source: AgeSource::Day { day: 21.5, course },
                 blend: 6.0,
-                contents: Contents {
-                    brown: 0.8,
-                    ..LITTER
-                },
+                contents: LITTER.with(&[(Constituent::Brown, 0.8)]),
             }),
             ..plain()
         };
@@ -194,8 +204,9 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     let folder = tempfile::tempdir().expect("a folder");
     let grey = [0, 0, 0, 51, 51, 51, 255, 255, 255, 102, 102, 102];
     portable_network::write(&folder.path().join("rim.png"), 2, 2, &grey).expect("a picture");
-    let texels = vec![[2.0, 30.0, 8.0, 2.0, 1.0, 3.0, 0.5, 0.02, 0.01]; 6];
-    let map = map_picture(&ContentsTexture::new(3, 2, texels.clone()));
+    let texel = Texel::from_fn(|constituent| constituent.least() as f32 + 0.5);
+    let texels = vec![texel; 6];
+    let map = map_picture(&ContentsTexture::new(3, 2, texels));
     openexr::write(&map, &folder.path().join("map.exr")).expect("a map");
     let text = leaf_to_toml("beech", &plain())
         + "[leaves.beech.layers.all]\nmap = \"map.exr\"\n\
@@ -209,7 +220,7 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     let [all, rim, part] = plan.layers.as_slice() else {
         panic!("three layers: {:?}", plan.layers);
     };
-    assert!(matches!(&all.change, Change::Map(map) if map.texels == texels));
+    assert!(matches!(&all.change, Change::Map(map) if map.texels == [*texel.as_array(); 6]));
     // As written, not as light; the lowest row first.
     let share = |byte: u8| [f32::from(byte) / 255.0];
     let weights = [255, 102, 0, 51].map(share);
@@ -296,7 +307,7 @@ constant = 0.5
     assert_eq!(green.switching, [0.125, 0.875, 0.0]);
     assert_eq!((white.adhesion[0], yellow.adhesion[2]), (0.2, 0.2));
     assert_eq!(white.division_days, f64::INFINITY);
-    assert_eq!(pattern.contents[0].betaxanthins, 2.0);
+    assert_eq!(pattern.contents[0][Constituent::Betaxanthins], 2.0);
     assert_eq!(pattern.contents[1], plan.tissue.lamina);
     assert_eq!(pattern.plan.controls.len(), 5);
     assert_eq!(read(&leaf_to_toml("beech", &plan)), plan);
