@@ -26,7 +26,10 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::{Constituent, Contents, Pigments, VeinFactors};
+use crate::optics::Constituent::{
+    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
 
 use self::colours::ColouredLeaf;
@@ -87,12 +90,12 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
         venation: venation.into(),
         tissue: Tissue {
             lamina: Contents::of(&[
-                (Constituent::Structure, 1.5),
-                (Constituent::Chlorophyll, 38.0),
-                (Constituent::Carotenoids, 9.0),
-                (Constituent::Anthocyanins, 0.5),
-                (Constituent::Water, 0.01),
-                (Constituent::DryMatter, 0.005),
+                (Structure, 1.5),
+                (Chlorophyll, 38.0),
+                (Carotenoids, 9.0),
+                (Anthocyanins, 0.5),
+                (Water, 0.01),
+                (DryMatter, 0.005),
             ]),
             vein_factors: VeinFactors::default(),
             full_vein_radius_mm: (4.0 * veinlet).clamp(0.001, 0.2),

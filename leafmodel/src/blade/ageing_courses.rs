@@ -4,7 +4,8 @@
 //! `docs/src/theory/ageing.md` lists with their sources.
 
 use super::ageing::{Course, Delay};
-use crate::optics::{Constituent, Contents};
+use crate::optics::Constituent::{Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water};
+use crate::optics::Contents;
 
 /// Yellow by unmasking of carotenoids: ginkgo, poplar, birch. No anthocyanin.
 pub const YELLOW: Course = Course {
@@ -86,10 +87,10 @@ pub const COURSES: [(&str, Course); 5] = [
 
 /// What a dead, dry leaf holds (estimate within the ranges of litter).
 pub const LITTER: Contents = Contents::of(&[
-    (Constituent::Structure, 2.2),
-    (Constituent::Chlorophyll, 0.3),
-    (Constituent::Carotenoids, 1.0),
-    (Constituent::Brown, 1.1),
-    (Constituent::Water, 0.001),
-    (Constituent::DryMatter, 0.0045),
+    (Structure, 2.2),
+    (Chlorophyll, 0.3),
+    (Carotenoids, 1.0),
+    (Brown, 1.1),
+    (Water, 0.001),
+    (DryMatter, 0.0045),
 ]);

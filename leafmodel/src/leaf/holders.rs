@@ -114,6 +114,7 @@ mod tests {
     use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
     use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
     use crate::mosaic::plan::{CellType, MosaicPlan};
+    use crate::optics::Texel;
     use crate::species::find;
 
     /// A beet's leaf: betacyanins, no anthocyanins.
@@ -183,13 +184,19 @@ mod tests {
 
     #[test]
     fn maps_bring_what_any_of_their_texels_holds() {
-        let mut texels = vec![[1.5, 30.0, 8.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.01]; 4];
-        texels[1][3] = 2.0;
+        let green = [
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 30.0),
+        ];
+        let green = Texel::splat(0.0).with(&green);
+        let red = green.with(&[(Constituent::Anthocyanins, 2.0)]);
         let change = Change::Map(Arc::new(Picture {
             file: "map.exr".to_owned(),
             channel: None,
             width: 2,
-            texels: texels.clone(),
+            texels: [green, red, green, green]
+                .map(|texel| *texel.as_array())
+                .to_vec(),
         }));
         let map = Layer {
             change,

@@ -8,7 +8,7 @@ use super::green_leaf;
 use crate::compound::{Arrangement, CompoundForm, Feather};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
-use crate::optics::Constituent;
+use crate::optics::Constituent::{Carotenoids, Chlorophyll, DryMatter, Structure, Water};
 use crate::shape::teeth::ToothWave;
 use crate::venation::plan::{AuxinPlan, Growth};
 
@@ -44,11 +44,11 @@ fn leaf(leaflet: Leaflet, compound: CompoundForm) -> LeafPlan {
     let mut leaf = green_leaf(leaflet.length_mm, leaflet.seed, leaflet.outline, venation);
     let lamina = &mut leaf.tissue.lamina;
     [
-        lamina[Constituent::Structure],
-        lamina[Constituent::Chlorophyll],
-        lamina[Constituent::Carotenoids],
-        lamina[Constituent::Water],
-        lamina[Constituent::DryMatter],
+        lamina[Structure],
+        lamina[Chlorophyll],
+        lamina[Carotenoids],
+        lamina[Water],
+        lamina[DryMatter],
     ] = leaflet.contents;
     [leaf.form.fold, leaf.form.curl] = leaflet.bend.map(f64::to_radians);
     leaf.form.max_edge_mm = leaflet.length_mm / 50.0;

@@ -14,7 +14,10 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::{Constituent, Contents, Pigments, VeinFactors};
+use crate::optics::Constituent::{
+    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
 
 pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
@@ -206,12 +209,12 @@ impl LeafTraits {
     /// What the lamina holds between veins in summer.
     pub fn contents(&self) -> Contents {
         Contents::of(&[
-            (Constituent::Structure, self.structure.value),
-            (Constituent::Chlorophyll, self.chlorophyll.value),
-            (Constituent::Carotenoids, self.carotenoids.value),
-            (Constituent::Anthocyanins, self.anthocyanins.value),
-            (Constituent::Water, self.water.value),
-            (Constituent::DryMatter, self.dry_matter.value),
+            (Structure, self.structure.value),
+            (Chlorophyll, self.chlorophyll.value),
+            (Carotenoids, self.carotenoids.value),
+            (Anthocyanins, self.anthocyanins.value),
+            (Water, self.water.value),
+            (DryMatter, self.dry_matter.value),
         ])
     }
 
@@ -228,8 +231,8 @@ impl LeafTraits {
         let length_mm = self.length_mm.value;
         let finest = venation.veinlet_radius_mm;
         let mut vein_factors = VeinFactors::default();
-        vein_factors[Constituent::Chlorophyll] = self.veins.pigments;
-        vein_factors[Constituent::Carotenoids] = 1.2 * self.veins.pigments;
+        vein_factors[Chlorophyll] = self.veins.pigments;
+        vein_factors[Carotenoids] = 1.2 * self.veins.pigments;
         LeafPlan {
             length_mm,
             seed,

@@ -2,7 +2,10 @@
 
 use super::super::ageing_courses::{COURSES, LITTER, RED};
 use super::*;
-use crate::optics::{Constituent, Contents};
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::Contents;
 
 const FRAME: UvFrame = UvFrame {
     min: DVec2::new(-20.0, 0.0),
@@ -15,13 +18,13 @@ const MARGIN: [DVec2; 4] = [
     DVec2::new(-20.0, 60.0),
 ];
 const GREEN: Contents = Contents::of(&[
-    (Constituent::Structure, 1.5),
-    (Constituent::Chlorophyll, 40.0),
-    (Constituent::Carotenoids, 9.0),
-    (Constituent::Anthocyanins, 0.5),
-    (Constituent::Brown, 0.01),
-    (Constituent::Water, 0.01),
-    (Constituent::DryMatter, 0.005),
+    (Structure, 1.5),
+    (Chlorophyll, 40.0),
+    (Carotenoids, 9.0),
+    (Anthocyanins, 0.5),
+    (Brown, 0.01),
+    (Water, 0.01),
+    (DryMatter, 0.005),
 ]);
 
 fn leaf(course: Course, day: f64) -> AgeingLeaf {
@@ -67,36 +70,25 @@ fn chlorophyll_never_rises_brown_never_falls_and_carotenoids_outlast_chlorophyll
                 let now = leaf.contents(GREEN, p);
                 let slack = 1e-12;
                 assert!(
-                    now[Constituent::Chlorophyll] <= before[Constituent::Chlorophyll] + slack,
+                    now[Chlorophyll] <= before[Chlorophyll] + slack,
                     "{name} {p}"
                 );
                 assert!(
-                    now[Constituent::Carotenoids] <= before[Constituent::Carotenoids] + slack,
+                    now[Carotenoids] <= before[Carotenoids] + slack,
                     "{name} {p}"
                 );
-                assert!(
-                    now[Constituent::Brown] >= before[Constituent::Brown] - slack,
-                    "{name} {p}"
-                );
-                assert!(
-                    now[Constituent::Water] <= before[Constituent::Water] + slack,
-                    "{name} {p}"
-                );
+                assert!(now[Brown] >= before[Brown] - slack, "{name} {p}");
+                assert!(now[Water] <= before[Water] + slack, "{name} {p}");
                 if leaf.dead_share(p) == 0.0 {
                     // What ages is what is above the rest that stays.
                     let rest = course.chlorophyll_rest;
-                    let left = (now[Constituent::Chlorophyll] - rest)
-                        / (GREEN[Constituent::Chlorophyll] - rest);
-                    let share = now[Constituent::Carotenoids] / GREEN[Constituent::Carotenoids];
+                    let left = (now[Chlorophyll] - rest) / (GREEN[Chlorophyll] - rest);
+                    let share = now[Carotenoids] / GREEN[Carotenoids];
                     assert!(share >= left - slack, "{name} {p}: {share} of {left}");
                 }
                 before = now;
             }
-            assert_eq!(
-                before[Constituent::Brown],
-                LITTER[Constituent::Brown],
-                "{name}: litter in the end"
-            );
+            assert_eq!(before[Brown], LITTER[Brown], "{name}: litter in the end");
         }
     }
 }
@@ -106,19 +98,15 @@ fn no_anthocyanin_is_made_before_chlorophyll_is_below_20_and_then_up_to_its_most
     for (name, course) in COURSES {
         for tenth in 0..1000 {
             let now = course.senescent(GREEN, f64::from(tenth) * 0.1);
-            let made = now[Constituent::Anthocyanins] > GREEN[Constituent::Anthocyanins];
+            let made = now[Anthocyanins] > GREEN[Anthocyanins];
             let may = course.anthocyanins > 0.0;
             // At the threshold itself rounding decides.
-            if (now[Constituent::Chlorophyll] - ANTHOCYANIN_BELOW).abs() > 1e-9 {
-                assert_eq!(
-                    made,
-                    may && now[Constituent::Chlorophyll] < ANTHOCYANIN_BELOW,
-                    "{name}"
-                );
+            if (now[Chlorophyll] - ANTHOCYANIN_BELOW).abs() > 1e-9 {
+                assert_eq!(made, may && now[Chlorophyll] < ANTHOCYANIN_BELOW, "{name}");
             }
         }
-        let end = course.senescent(GREEN, 100.0)[Constituent::Anthocyanins];
-        let most = course.anthocyanins.max(GREEN[Constituent::Anthocyanins]);
+        let end = course.senescent(GREEN, 100.0)[Anthocyanins];
+        let most = course.anthocyanins.max(GREEN[Anthocyanins]);
         assert!((end - most).abs() < 1e-3 * most, "{name}: {end}");
     }
 }
@@ -130,10 +118,7 @@ fn a_leaf_that_never_falls_below_20_makes_no_anthocyanin() {
         ..RED
     };
     let end = green_for_ever.senescent(GREEN, 500.0);
-    assert_eq!(
-        end[Constituent::Anthocyanins],
-        GREEN[Constituent::Anthocyanins]
-    );
+    assert_eq!(end[Anthocyanins], GREEN[Anthocyanins]);
 }
 
 #[test]
@@ -166,7 +151,7 @@ fn tissue_near_veins_stays_green_longest_or_goes_first() {
             ..Delay::NONE
         };
         let leaf = leaf(Course { onset, ..RED }, 10.0);
-        let chlorophyll = |x| leaf.contents(GREEN, DVec2::new(x, 30.0))[Constituent::Chlorophyll];
+        let chlorophyll = |x| leaf.contents(GREEN, DVec2::new(x, 30.0))[Chlorophyll];
         chlorophyll(0.0) - chlorophyll(10.0)
     };
     assert!(at_vein(6.0) > 5.0);

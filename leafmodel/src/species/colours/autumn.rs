@@ -11,7 +11,7 @@ use crate::blade::ageing::{Course, Delay};
 use crate::blade::ageing_courses::{LITTER, YELLOW};
 use crate::blade::senescence::{AgeSource, Senescence};
 use crate::leaf::LeafPlan;
-use crate::optics::Constituent;
+use crate::optics::Constituent::{Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter};
 
 /// Days from living to dead.
 const BLEND_DAYS: f64 = 5.0;
@@ -190,7 +190,7 @@ pub(super) const RED_MAPLE: ColouredLeaf = ColouredLeaf {
         };
         let mut plan = aged(leaf, red_maple(leaf), course);
         // Veins stay paler than the blade between them.
-        plan.tissue.vein_factors[Constituent::Anthocyanins] = 0.5;
+        plan.tissue.vein_factors[Anthocyanins] = 0.5;
         plan
     },
 };
@@ -230,7 +230,7 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
             ..YELLOW
         };
         let mut plan = aged(leaf, runions::sweetgum(), course);
-        plan.tissue.vein_factors[Constituent::Anthocyanins] = 0.6;
+        plan.tissue.vein_factors[Anthocyanins] = 0.6;
         plan
     },
 };
@@ -273,7 +273,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
         plan.form.fold = 16.0_f64.to_radians();
         plan.form.curl = 48.0_f64.to_radians();
         plan.form.ruffle = 0.03;
-        plan.tissue.vein_factors[Constituent::Brown] = 0.75;
+        plan.tissue.vein_factors[Brown] = 0.75;
         plan
     },
 };
@@ -281,21 +281,21 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
 /// The green leaf as it has aged.
 fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
     let (turned, summer) = (leaf.of("turned"), green.tissue.lamina);
-    let kept = turned[Constituent::Carotenoids] / summer[Constituent::Carotenoids];
+    let kept = turned[Carotenoids] / summer[Carotenoids];
     let age = leaf.age.expect("leaves that turn have an age");
     let course = Course {
         half_days: age.half_days.value,
         death_day: age.death_day.value,
-        chlorophyll_rest: turned[Constituent::Chlorophyll],
+        chlorophyll_rest: turned[Chlorophyll],
         labile_carotenoids: (1.0 - kept).max(0.0),
-        anthocyanins: turned[Constituent::Anthocyanins],
-        brown: turned[Constituent::Brown],
+        anthocyanins: turned[Anthocyanins],
+        brown: turned[Brown],
         ..course
     };
-    let dry = course.dry_matter_factor * summer[Constituent::DryMatter];
+    let dry = course.dry_matter_factor * summer[DryMatter];
     let contents = leaf
         .held("dead")
-        .unwrap_or(LITTER.with(&[(Constituent::DryMatter, dry)]));
+        .unwrap_or(LITTER.with(&[(DryMatter, dry)]));
     let source = AgeSource::Day {
         day: age.day.value,
         course,

@@ -7,7 +7,10 @@ use super::*;
 use crate::blade::frame::UvFrame;
 use crate::blade::senescence::AgeSource;
 use crate::leaf::venation_plan::VenationPlan;
-use crate::optics::{Constituent, Contents, ProspectD};
+use crate::optics::Constituent::{
+    Anthocyanins, Betacyanins, Brown, Carotenoids, Chlorophyll, Water,
+};
+use crate::optics::{Contents, ProspectD};
 use crate::species::{PRESETS, find};
 use crate::venation::network::VeinSegment;
 use crate::venation::plan::{AuxinPlan, Growth};
@@ -117,15 +120,15 @@ fn core(point: &Point) -> bool {
 }
 
 fn chlorophyll(contents: &Contents) -> f64 {
-    contents[Constituent::Chlorophyll]
+    contents[Chlorophyll]
 }
 
 fn anthocyanins(contents: &Contents) -> f64 {
-    contents[Constituent::Anthocyanins]
+    contents[Anthocyanins]
 }
 
 fn brown(contents: &Contents) -> f64 {
-    contents[Constituent::Brown]
+    contents[Brown]
 }
 
 fn reflectance(nm: f64) -> impl Fn(&Contents) -> f64 {
@@ -206,34 +209,19 @@ fn a_course_leads_from_the_green_leaf_to_what_is_told_of_turned_tissue() {
         let late = course.senescent(living, 3.5 * course.half_days);
         let near = |value: f64, told: f64, share: f64| (value - told).abs() <= share * told + 0.35;
         assert!(
-            near(
-                late[Constituent::Chlorophyll],
-                turned[Constituent::Chlorophyll],
-                0.0
-            ),
+            near(late[Chlorophyll], turned[Chlorophyll], 0.0),
             "{late:?}"
         );
         // Even those that last fade a little.
         assert!(
-            near(
-                late[Constituent::Carotenoids],
-                turned[Constituent::Carotenoids],
-                0.25
-            ),
+            near(late[Carotenoids], turned[Carotenoids], 0.25),
             "{late:?}"
         );
         assert!(
-            near(
-                late[Constituent::Anthocyanins],
-                turned[Constituent::Anthocyanins],
-                0.1
-            ),
+            near(late[Anthocyanins], turned[Anthocyanins], 0.1),
             "{late:?}"
         );
-        assert!(
-            (late[Constituent::Brown] - turned[Constituent::Brown]).abs() < 0.01,
-            "{late:?}"
-        );
+        assert!((late[Brown] - turned[Brown]).abs() < 0.01, "{late:?}");
     }
 }
 
@@ -243,7 +231,7 @@ fn on_its_last_day_a_leaf_is_dead_everywhere_and_a_day_earlier_it_need_not_be() 
         let plan = coloured(preset).expect("a leaf").plan();
         let senescence = plan.senescence.expect("it ages");
         let last = senescence.last_day().expect("by days");
-        let dead = senescence.contents[Constituent::Brown];
+        let dead = senescence.contents[Brown];
         let browns = |day| {
             let senescence = senescence.on_day(day);
             points(&LeafPlan {
@@ -252,9 +240,7 @@ fn on_its_last_day_a_leaf_is_dead_everywhere_and_a_day_earlier_it_need_not_be() 
             })
         };
         let least = |points: &[Point]| {
-            let browns = points
-                .iter()
-                .map(|point| point.contents[Constituent::Brown]);
+            let browns = points.iter().map(|point| point.contents[Brown]);
             browns.fold(f64::INFINITY, f64::min)
         };
         assert!((least(&browns(last)) - dead).abs() < 1e-6, "{preset}");
@@ -270,7 +256,7 @@ fn yellow_leaves_are_bright_in_green_and_red_light_and_not_in_blue() {
         let green = coloured(preset).expect("a leaf").green.contents();
         let of = |nm| mean(&points, blade, reflectance(nm));
         assert!(
-            mean(&points, blade, chlorophyll) < 0.25 * green[Constituent::Chlorophyll],
+            mean(&points, blade, chlorophyll) < 0.25 * green[Chlorophyll],
             "{preset}"
         );
         assert!(mean(&points, blade, anthocyanins) < 1.0, "{preset}");
@@ -337,7 +323,7 @@ fn litter_is_brown_dry_and_without_green() {
     let green = coloured("oak-litter").expect("a leaf").green.contents();
     assert!(mean(&points, blade, brown) > 0.8);
     assert!(mean(&points, blade, chlorophyll) < 2.0);
-    assert!(mean(&points, blade, |c| c[Constituent::Water]) < 0.4 * green[Constituent::Water]);
+    assert!(mean(&points, blade, |c| c[Water]) < 0.4 * green[Water]);
     let [blue, yellow, red] = [450.0, 550.0, 680.0].map(|nm| mean(&points, blade, reflectance(nm)));
     assert!(
         blue < 0.75 * yellow && yellow < 0.85 * red,
@@ -380,7 +366,7 @@ fn variegated_leaves_are_pale_at_the_margin_and_green_inside() {
         );
         let rim = |p: &Point| p.margin < 1.0 && p.vein > 0.3;
         assert!(
-            mean(&points, rim, chlorophyll) < sector[Constituent::Chlorophyll] + 8.0,
+            mean(&points, rim, chlorophyll) < sector[Chlorophyll] + 8.0,
             "{preset}"
         );
         for nm in [550.0, 680.0] {
@@ -398,9 +384,10 @@ fn variegated_leaves_are_pale_at_the_margin_and_green_inside() {
         ..plan.clone()
     };
     let [one, two] = [plan, other].map(|plan| points(&plan));
-    let differ = one.iter().zip(&two).filter(|(a, b)| {
-        (a.contents[Constituent::Chlorophyll] - b.contents[Constituent::Chlorophyll]).abs() > 10.0
-    });
+    let differ = one
+        .iter()
+        .zip(&two)
+        .filter(|(a, b)| (a.contents[Chlorophyll] - b.contents[Chlorophyll]).abs() > 10.0);
     assert!(10 * differ.count() > one.len());
 }
 
@@ -427,7 +414,7 @@ fn a_croton_has_yellow_blotches_and_little_between_yellow_and_green() {
         let blade = points.iter().filter(|point| blade(point));
         let all = blade.clone().count() as f64;
         blade
-            .filter(|point| of(point.contents[Constituent::Chlorophyll]))
+            .filter(|point| of(point.contents[Chlorophyll]))
             .count() as f64
             / all
     };
@@ -442,7 +429,7 @@ fn josephs_coat_is_red_at_the_base_green_at_the_tip_and_holds_no_anthocyanin() {
     assert_eq!(mean(&points, |_| true, anthocyanins), 0.0);
     let base = |p: &Point| p.along < 0.2 && blade(p);
     let tip = |p: &Point| p.along > 0.88;
-    let betacyanins = |c: &Contents| c[Constituent::Betacyanins];
+    let betacyanins = |c: &Contents| c[Betacyanins];
     assert!(mean(&points, base, betacyanins) > 15.0);
     assert!(mean(&points, tip, betacyanins) < 7.0);
     assert!(mean(&points, tip, chlorophyll) > 2.5 * mean(&points, base, chlorophyll));
