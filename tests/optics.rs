@@ -1,7 +1,7 @@
 //! PROSPECT-D against figures computed independently (33 sets of contents × 211 wavelengths).
 
 use leafmodel::optics::presets::{Preset, PresetBasis};
-use leafmodel::optics::{Contents, Pigments, ProspectD, presets};
+use leafmodel::optics::{Constituent, Contents, Pigments, ProspectD, presets};
 use renderer::image::tone::to_srgb;
 use renderer::spectrum::cie;
 
@@ -101,30 +101,21 @@ fn hex(share: impl Fn(f64) -> f64) -> String {
 
 /// What the numbers of a preset that are not 0 rest on, in words. That N is fitted where contents are measured is said below the table.
 fn rests_on(preset: &Preset) -> String {
-    const NAMES: [&str; Contents::COUNT] = [
-        "N",
-        "Cab",
-        "Car",
-        "Ant",
-        "betacyanins",
-        "betaxanthins",
-        "brown",
-        "Cw",
-        "Cm",
-    ];
-    let usual = |index: usize, basis: PresetBasis| {
+    let usual = |constituent: Constituent, basis: PresetBasis| {
         basis == preset.basis
             || basis == PresetBasis::Absent
-            || (index == 0 && preset.basis == PresetBasis::Measured && basis == PresetBasis::Fitted)
+            || (constituent == Constituent::Structure
+                && preset.basis == PresetBasis::Measured
+                && basis == PresetBasis::Fitted)
     };
-    let all = (0..Contents::COUNT).map(|index| (index, preset.basis_of(index)));
-    let others: Vec<(usize, PresetBasis)> =
-        all.filter(|&(index, basis)| !usual(index, basis)).collect();
+    let all = Constituent::ALL.map(|constituent| (constituent, preset.basis_of(constituent)));
+    let unusual = |&(constituent, basis): &(Constituent, PresetBasis)| !usual(constituent, basis);
+    let others: Vec<(Constituent, PresetBasis)> = all.into_iter().filter(unusual).collect();
     let Some(&(_, basis)) = others.first() else {
         return preset.basis.word().to_owned();
     };
     assert!(others.iter().all(|other| other.1 == basis), "{others:?}");
-    let names: Vec<&str> = others.iter().map(|&(index, _)| NAMES[index]).collect();
+    let names: Vec<&str> = others.iter().map(|other| other.0.symbol()).collect();
     let names = names.join(", ");
     format!("{names} {}; the rest {}", basis.word(), preset.basis.word())
 }
@@ -143,13 +134,13 @@ fn the_book_lists_the_presets_as_they_are() {
         format!(
             "| {} | {} | {} | {} | {} | {} | {} | {} | `{}` | `{}` | {} |",
             preset.name,
-            c.structure,
-            c.chlorophyll,
-            c.carotenoids,
-            c.anthocyanins,
-            c.brown,
-            c.water,
-            c.dry_matter,
+            c[Constituent::Structure],
+            c[Constituent::Chlorophyll],
+            c[Constituent::Carotenoids],
+            c[Constituent::Anthocyanins],
+            c[Constituent::Brown],
+            c[Constituent::Water],
+            c[Constituent::DryMatter],
             hex(|nm| optics(nm).reflectance),
             hex(|nm| optics(nm).transmittance),
             rests_on(&preset)

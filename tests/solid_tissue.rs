@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use leafmodel::optics::solid::{ETA, HalfSpace, ReflectanceTable, SCATTERING_PER_MM, Solid};
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::{Constituent, Contents, ProspectD};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::leaf::Coat;
 use renderer::material::Material;
@@ -86,7 +86,7 @@ fn anchors() -> Vec<[f64; 4]> {
 fn watery(optics: Solid, albedo: f64, coat: Coat) -> Material {
     let at = ProspectD::coefficients(1450.0).expect("in range");
     let absorbed = optics.scattering_per_mm * (1.0 - albedo) / albedo;
-    let water_cm = absorbed * optics.depth_mm / at.absorption.water;
+    let water_cm = absorbed * optics.depth_mm / at.absorption[Constituent::Water];
     let contents = Contents::new(1.0, 0.0, 0.0, 0.0, 0.0, water_cm, 0.0).expect("in range");
     material(contents, optics, coat)
 }
@@ -141,8 +141,8 @@ fn an_integrating_sphere_finds_the_tables_reflectance_below_any_coat() {
         for (lane, nm) in WAVELENGTHS_NM.map(f64::from).into_iter().enumerate() {
             let wavelengths = wavelengths();
             let bsdf = material.bsdf(Vec2::ZERO, &wavelengths);
-            let at = ProspectD::coefficients(nm).expect("in range").absorption;
-            let expected = table.at(fruit().albedo_of(at.of_leaf(&rind())));
+            let at = ProspectD::coefficients(nm).expect("in range");
+            let expected = table.at(fruit().albedo_of(at.absorption_of_leaf(&rind())));
             for wo in [Vec3::Z, Vec3::NEG_Z] {
                 let found = scattered(&bsdf, wo, lane);
                 assert!(

@@ -15,7 +15,7 @@ use leafmodel::blade::masks::{Mask, RimWidth};
 use leafmodel::blade::senescence::Withering;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::mosaic::pattern::LaminaPattern;
-use leafmodel::optics::Contents;
+use leafmodel::optics::{Constituent, PerConstituent};
 use leafmodel::species::find;
 use leafmodel::venation::network::VeinSegment;
 
@@ -73,8 +73,8 @@ fn maps(criterion: &mut Criterion) {
 /// A rim that wanders, green along the larger veins, patches.
 fn layers() -> [Layer; 3] {
     let layer = |name: &str, mask, chlorophyll| {
-        let mut values = [None; Contents::COUNT];
-        values[1] = Some(chlorophyll);
+        let values = PerConstituent::splat(None);
+        let values = values.with(&[(Constituent::Chlorophyll, Some(chlorophyll))]);
         Layer {
             name: name.to_owned(),
             mask,

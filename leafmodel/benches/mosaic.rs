@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 use leafmodel::mosaic::pattern::{LeafFaces, MosaicPattern};
 use leafmodel::mosaic::shapes::{Shape, lathe, rounded_cube, sheet, sphere};
 use leafmodel::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered, Surface};
-use leafmodel::optics::Contents;
+use leafmodel::optics::{Constituent, Contents};
 use leafmodel::species;
 
 /// Name; days, `w_r`, cells; adhesion within the types; days between their divisions; the body.
@@ -133,7 +133,13 @@ fn rows(criterion: &mut Criterion) {
             controls: body.controls(),
             ..MosaicPlan::default()
         };
-        let tissue = Contents::from_array([1.5, 40.0, 8.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.01]);
+        let tissue = Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 8.0),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.01),
+        ]);
         let pattern = MosaicPattern {
             plan,
             contents: vec![tissue; 2],

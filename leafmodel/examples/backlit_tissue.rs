@@ -11,7 +11,7 @@ use glam::DVec2;
 use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::frame::UvFrame;
 use leafmodel::blade::tissue::Tissue;
-use leafmodel::optics::{Coefficients, Contents, ProspectD};
+use leafmodel::optics::{Coefficients, Constituent, Contents, ProspectD, Texel, VeinFactors};
 use leafmodel::venation::network::VeinSegment;
 
 const LENGTH_MM: f64 = 70.0;
@@ -47,8 +47,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn pixel(texel: &[f32; Contents::COUNT], bands: &[Coefficients; 3]) -> [u8; 3] {
-    let contents = Contents::from_array(texel.map(f64::from));
+fn pixel(texel: &Texel, bands: &[Coefficients; 3]) -> [u8; 3] {
+    let contents = Contents::from_texel(*texel);
     bands.map(|band| {
         let transmittance = band.reflectance_transmittance(&contents).transmittance;
         (255.0 * libm::pow((2.0 * transmittance).min(1.0), 1.0 / 2.2)) as u8
@@ -59,7 +59,13 @@ fn pixel(texel: &[f32; Contents::COUNT], bands: &[Coefficients; 3]) -> [u8; 3] {
 fn tissue() -> Result<Tissue, Box<dyn std::error::Error>> {
     Ok(Tissue {
         lamina: Contents::new(1.5, 40.0, 9.0, 0.5, 0.0, 0.01, 0.006)?,
-        vein_factors: Contents::from_array([1.3, 0.08, 0.1, 1.0, 1.0, 1.0, 1.0, 2.0, 2.5]),
+        vein_factors: VeinFactors::of(&[
+            (Constituent::Structure, 1.3),
+            (Constituent::Chlorophyll, 0.08),
+            (Constituent::Carotenoids, 0.1),
+            (Constituent::Water, 2.0),
+            (Constituent::DryMatter, 2.5),
+        ]),
         full_vein_radius_mm: 0.06,
         sheath_width_mm: 0.08,
         mottle: 0.1,

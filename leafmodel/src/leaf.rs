@@ -218,7 +218,7 @@ mod tests {
 
     use super::*;
     use crate::leaf::outline_plan::Contour;
-    use crate::optics::Contents;
+    use crate::optics::{Constituent, Contents, VeinFactors};
     use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
     use crate::transport::VeinStyle;
     use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
@@ -262,8 +262,22 @@ mod tests {
             outline: ovate(),
             venation: auxin().into(),
             tissue: Tissue {
-                lamina: Contents::from_array([1.5, 40.0, 9.0, 0.5, 0.0, 0.0, 0.01, 0.01, 0.006]),
-                vein_factors: Contents::from_array([1.3, 0.25, 0.25, 1.0, 1.0, 1.0, 1.0, 2.0, 2.5]),
+                lamina: Contents::of(&[
+                    (Constituent::Structure, 1.5),
+                    (Constituent::Chlorophyll, 40.0),
+                    (Constituent::Carotenoids, 9.0),
+                    (Constituent::Anthocyanins, 0.5),
+                    (Constituent::Brown, 0.01),
+                    (Constituent::Water, 0.01),
+                    (Constituent::DryMatter, 0.006),
+                ]),
+                vein_factors: VeinFactors::of(&[
+                    (Constituent::Structure, 1.3),
+                    (Constituent::Chlorophyll, 0.25),
+                    (Constituent::Carotenoids, 0.25),
+                    (Constituent::Water, 2.0),
+                    (Constituent::DryMatter, 2.5),
+                ]),
                 full_vein_radius_mm: 0.25,
                 sheath_width_mm: 0.1,
                 mottle: 0.1,
@@ -314,7 +328,7 @@ mod tests {
             let longer = leaf.contents.width.max(leaf.contents.height);
             prop_assert_eq!(longer, plan.map_size);
             for texel in &leaf.contents.texels {
-                let contents = Contents::from_array(texel.map(f64::from));
+                let contents = Contents::from_texel(*texel);
                 prop_assert!(contents.checked().is_ok(), "{:?}", contents);
             }
         }

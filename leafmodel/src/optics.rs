@@ -1,7 +1,8 @@
 //! Leaf optics: from what a leaf contains to what it reflects and transmits (PROSPECT-D).
 //!
-//! The leaf is a pile of `N` identical absorbing plates with rough faces. [`constituents`] holds
-//! what one unit of each constituent absorbs, [`absorption`] turns contents into the absorption
+//! The leaf is a pile of `N` identical absorbing plates with rough faces. [`constituent`] says what
+//! a leaf is made of, [`prospect_d`] what one unit of each constituent absorbs,
+//! [`absorption`] turns contents into the absorption
 //! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
 //! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
 //! [`pigments`] says which substances the pigment columns consist of.
@@ -23,19 +24,25 @@
 
 pub mod absorption;
 pub mod betalains;
-pub mod constituents;
+pub mod constituent;
 pub mod contents;
 pub mod fast;
 pub mod interface;
+pub mod per_constituent;
 pub mod pigments;
 pub mod pile;
 pub mod plate;
 pub mod presets;
+pub mod prospect_d;
 pub mod solid;
+pub mod vein_factors;
 
-pub use constituents::{Coefficients, OutsideTable, ProspectD, SpecificAbsorption};
-pub use contents::{Contents, ContentsError};
+pub use constituent::Constituent;
+pub use contents::{Contents, ContentsError, Texel};
 pub use interface::Interface;
+pub use per_constituent::PerConstituent;
 pub use pigments::{Pigments, PigmentsError};
 pub use pile::ReflectanceTransmittance;
 pub use plate::layer_transmissivity;
+pub use prospect_d::{Coefficients, OutsideTable, ProspectD};
+pub use vein_factors::VeinFactors;

@@ -44,7 +44,7 @@ mod venation;
 
 use std::path::Path;
 
-pub use self::contents::{NOTHING, changed_contents, contents};
+pub use self::contents::{changed_contents, contents};
 pub use self::leaf::{leaf, usual_leaf};
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::pigments::pigments;

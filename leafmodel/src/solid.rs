@@ -152,10 +152,7 @@ impl Solid {
         let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
         let atlas = Atlas::new(&surface, plan.map_size, GUTTER)?;
         let texels = atlas.texels();
-        let texel = |contents: Option<Contents>| {
-            let contents = contents.unwrap_or(plan.contents);
-            contents.to_array().map(|value| value as f32)
-        };
+        let texel = |contents: Option<Contents>| contents.unwrap_or(plan.contents).to_texel();
         let mut contents = ContentsMap {
             width: texels,
             height: texels,
@@ -226,7 +223,7 @@ impl Solid {
             contents: ContentsMap {
                 width: 1,
                 height: 1,
-                texels: vec![contents.to_array().map(|value| value as f32)],
+                texels: vec![contents.to_texel()],
             },
             mosaic: None,
         }

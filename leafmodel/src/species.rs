@@ -43,7 +43,10 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::{Contents, Pigments};
+use crate::optics::Constituent::{
+    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
 
 use self::colours::ColouredLeaf;
@@ -103,28 +106,15 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
         outline,
         venation: venation.into(),
         tissue: Tissue {
-            lamina: Contents {
-                structure: 1.5,
-                chlorophyll: 38.0,
-                carotenoids: 9.0,
-                anthocyanins: 0.5,
-                betacyanins: 0.0,
-                betaxanthins: 0.0,
-                brown: 0.0,
-                water: 0.01,
-                dry_matter: 0.005,
-            },
-            vein_factors: Contents {
-                structure: 1.3,
-                chlorophyll: 0.1,
-                carotenoids: 0.12,
-                anthocyanins: 1.0,
-                betacyanins: 1.0,
-                betaxanthins: 1.0,
-                brown: 1.0,
-                water: 2.0,
-                dry_matter: 2.5,
-            },
+            lamina: Contents::of(&[
+                (Structure, 1.5),
+                (Chlorophyll, 38.0),
+                (Carotenoids, 9.0),
+                (Anthocyanins, 0.5),
+                (Water, 0.01),
+                (DryMatter, 0.005),
+            ]),
+            vein_factors: VeinFactors::default(),
             full_vein_radius_mm: (4.0 * veinlet).clamp(0.001, 0.2),
             sheath_width_mm: (5.0 * veinlet).clamp(0.001, 0.15),
             mottle: 0.1,

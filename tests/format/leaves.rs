@@ -13,6 +13,7 @@ use renderer::scene::load::load_leaves;
 
 use super::accepted::assert_near;
 use super::{accept, codes, folder, text_of};
+use leafmodel::optics::Constituent;
 
 /// The plan of veins that grow towards auxin.
 fn auxin(plan: &LeafPlan) -> &AuxinPlan {
@@ -38,8 +39,8 @@ fn a_leaf_is_planned_as_written() {
     };
     assert_eq!(venation.growth, isogonic);
     assert_near(beech.plan.form.fold, std::f64::consts::PI / 20.0);
-    assert_eq!(beech.plan.tissue.vein_factors.dry_matter, 4.0);
-    assert_eq!(beech.plan.tissue.lamina.anthocyanins, 0.0);
+    assert_eq!(beech.plan.tissue.vein_factors[Constituent::DryMatter], 4.0);
+    assert_eq!(beech.plan.tissue.lamina[Constituent::Anthocyanins], 0.0);
     let [adaxial, abaxial] = beech.coats;
     assert_eq!(
         (adaxial.eta, adaxial.alpha_across, adaxial.alpha_along),

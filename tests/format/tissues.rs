@@ -1,9 +1,9 @@
 //! What tissue holds and reflects is as the file says: bodies of solid tissue, pigments, and what never occurs together.
 
 use glam::DVec3;
-use leafmodel::optics::Pigments;
 use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
 use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
+use leafmodel::optics::{Constituent, Pigments};
 use leafmodel::solid::SolidShape;
 use renderer::scene::description::{Material, SolidTissue};
 
@@ -29,16 +29,19 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
     let held = melon.plan.contents;
     assert_eq!(
         (
-            held.structure,
-            held.chlorophyll,
-            held.carotenoids,
-            held.water
+            held[Constituent::Structure],
+            held[Constituent::Chlorophyll],
+            held[Constituent::Carotenoids],
+            held[Constituent::Water]
         ),
         (1.0, 7.0, 0.0, 0.09)
     );
     let mosaic = melon.plan.mosaic.as_ref().expect("it has a mosaic");
     assert_eq!(
-        (mosaic.contents[0].chlorophyll, mosaic.contents[0].water),
+        (
+            mosaic.contents[0][Constituent::Chlorophyll],
+            mosaic.contents[0][Constituent::Water]
+        ),
         (60.0, 0.09)
     );
     let axes = |x, y, z| SolidShape::Ellipsoid {
@@ -81,7 +84,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
         panic!("rind is {:?}", scene.materials[5].value);
     };
     assert!(
-        matches!(tissue, SolidTissue::Contents { contents, extrapolate: true } if contents.betaxanthins == 1.0)
+        matches!(tissue, SolidTissue::Contents { contents, extrapolate: true } if contents[Constituent::Betaxanthins] == 1.0)
     );
     assert_eq!((optics.tissue.depth_mm, optics.coat.eta), (0.5, 1.33));
     assert_eq!(pigments.betaxanthins, Betaxanthin::Vulgaxanthin);

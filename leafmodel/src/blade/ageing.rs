@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::distances::Distances;
 use super::frame::UvFrame;
 use super::tissue::TissueError;
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents};
 use crate::venation::network::VeinSegment;
 
 /// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine red-senescing species).
@@ -213,30 +213,32 @@ impl Course {
         }
         let halves = age / self.half_days;
         let left = decay.left(halves);
-        let rest = self.chlorophyll_rest.min(living.chlorophyll);
-        let chlorophyll = rest + (living.chlorophyll - rest) * left;
+        let green = living[Constituent::Chlorophyll];
+        let rest = self.chlorophyll_rest.min(green);
+        let chlorophyll = rest + (green - rest) * left;
         let persistent = decay.left(halves / self.persistence);
         let labile = self.labile_carotenoids;
-        let mut anthocyanins = living.anthocyanins;
-        if self.anthocyanins > anthocyanins && chlorophyll < ANTHOCYANIN_BELOW {
-            let since = age - self.days_to_anthocyanin(living.chlorophyll, decay);
+        let mut aged = living;
+        aged[Constituent::Chlorophyll] = chlorophyll;
+        aged[Constituent::Carotenoids] *= labile * left + (1.0 - labile) * persistent;
+        let anthocyanins = &mut aged[Constituent::Anthocyanins];
+        if self.anthocyanins > *anthocyanins && chlorophyll < ANTHOCYANIN_BELOW {
+            let since = age - self.days_to_anthocyanin(green, decay);
             if since > 0.0 {
                 let made = 1.0 - libm::exp(-since / self.anthocyanin_days);
-                anthocyanins += (self.anthocyanins - anthocyanins) * made;
+                *anthocyanins += (self.anthocyanins - *anthocyanins) * made;
             }
         }
-        let towards = |factor: f64| 1.0 + (factor - 1.0) * (1.0 - left);
-        Contents {
-            structure: living.structure * towards(self.structure_factor),
-            chlorophyll,
-            carotenoids: living.carotenoids * (labile * left + (1.0 - labile) * persistent),
-            anthocyanins,
-            betacyanins: living.betacyanins,
-            betaxanthins: living.betaxanthins,
-            brown: living.brown + (self.brown - living.brown).max(0.0) * (1.0 - left),
-            water: living.water * towards(self.water_factor),
-            dry_matter: living.dry_matter * towards(self.dry_matter_factor),
+        let brown = &mut aged[Constituent::Brown];
+        *brown += (self.brown - *brown).max(0.0) * (1.0 - left);
+        for (constituent, factor) in [
+            (Constituent::Structure, self.structure_factor),
+            (Constituent::Water, self.water_factor),
+            (Constituent::DryMatter, self.dry_matter_factor),
+        ] {
+            aged[constituent] *= 1.0 + (factor - 1.0) * (1.0 - left);
         }
+        aged
     }
 }
 

@@ -4,6 +4,7 @@
 //! `docs/src/theory/ageing.md` lists with their sources.
 
 use super::ageing::{Course, Delay};
+use crate::optics::Constituent::{Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water};
 use crate::optics::Contents;
 
 /// Yellow by unmasking of carotenoids: ginkgo, poplar, birch. No anthocyanin.
@@ -85,14 +86,11 @@ pub const COURSES: [(&str, Course); 5] = [
 ];
 
 /// What a dead, dry leaf holds (estimate within the ranges of litter).
-pub const LITTER: Contents = Contents {
-    structure: 2.2,
-    chlorophyll: 0.3,
-    carotenoids: 1.0,
-    anthocyanins: 0.0,
-    betacyanins: 0.0,
-    betaxanthins: 0.0,
-    brown: 1.1,
-    water: 0.001,
-    dry_matter: 0.0045,
-};
+pub const LITTER: Contents = Contents::of(&[
+    (Structure, 2.2),
+    (Chlorophyll, 0.3),
+    (Carotenoids, 1.0),
+    (Brown, 1.1),
+    (Water, 0.001),
+    (DryMatter, 0.0045),
+]);

@@ -12,7 +12,7 @@ use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use super::vein_field::VeinField;
 use crate::mosaic::pattern::LaminaPattern;
-use crate::optics::Contents;
+use crate::optics::Texel;
 use crate::venation::network::VeinSegment;
 
 /// Contents per leaf area over a [`UvFrame`], as texels.
@@ -22,9 +22,8 @@ pub struct ContentsMap {
     pub width: u32,
     /// Texels along `v`; the centre of row `j` is at `v = (j + ½) / height`.
     pub height: u32,
-    /// Row by row from `v = 0`, `width × height` of them. Each holds structure, chlorophyll, carotenoids,
-    /// anthocyanins, betacyanins, betaxanthins, brown, water and dry matter in the units of [`crate::optics::Contents`].
-    pub texels: Vec<[f32; Contents::COUNT]>,
+    /// Row by row from `v = 0`, `width × height` of them.
+    pub texels: Vec<Texel>,
 }
 
 impl ContentsMap {
@@ -98,7 +97,7 @@ impl ContentsMap {
             mottle: (tissue.mottle > 0.0).then(|| Mottle::new(seed, tissue.mottle_scale_mm)),
         };
         let coverage = Coverage::new(place.margin, frame, [width as usize, height as usize]);
-        let mut texels = vec![[0.0; Contents::COUNT]; width as usize * height as usize];
+        let mut texels = vec![Texel::splat(0.0); width as usize * height as usize];
         let rows = texels.par_chunks_mut(width as usize).enumerate();
         rows.for_each(|(row, texels)| {
             let v = (row as f64 + 0.5) / f64::from(height);
@@ -130,7 +129,7 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    fn texel(&self, uv: DVec2, weights: &mut Vec<f64>) -> [f32; Contents::COUNT] {
+    fn texel(&self, uv: DVec2, weights: &mut Vec<f64>) -> Texel {
         let point = self.frame.point(uv);
         let mottle = self.mottle.map_or(0.0, |mottle| mottle.at(point));
         let pattern = self.pattern;
@@ -141,17 +140,19 @@ impl Painter<'_> {
             .withering
             .map_or(living, |withering| withering.contents(living, point));
         let cover = self.field.cover(point);
-        let contents = self.tissue.contents_of(lamina, cover, mottle);
-        contents.to_array().map(|value| value as f32)
+        self.tissue.contents_of(lamina, cover, mottle).to_texel()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::ops::Range;
+
     use proptest::prelude::*;
 
     use super::super::tissue::tests::GREEN;
     use super::*;
+    use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 
     const FRAME: UvFrame = UvFrame {
         min: DVec2::new(-3.0, 0.0),
@@ -172,7 +173,7 @@ mod tests {
         ContentsMap::paint(&FRAME, veins, tissue, map_size, 11).expect("all in range")
     }
 
-    fn at(map: &ContentsMap, column: u32, row: u32) -> [f32; Contents::COUNT] {
+    fn at(map: &ContentsMap, column: u32, row: u32) -> Texel {
         map.texels[(row * map.width + column) as usize]
     }
 
@@ -192,16 +193,16 @@ mod tests {
     #[test]
     fn row_0_lies_at_the_least_y_and_column_0_at_the_least_x() {
         let map = paint(&[vein([-3.0, 0.0], [-3.0, 0.0], 0.5)], &GREEN, 100);
-        assert!(at(&map, 0, 0)[1] < 20.0);
+        assert!(at(&map, 0, 0)[Constituent::Chlorophyll] < 20.0);
         for (column, row) in [(map.width - 1, 0), (0, 99), (map.width - 1, 99)] {
-            assert_eq!(at(&map, column, row)[1], 40.0);
+            assert_eq!(at(&map, column, row)[Constituent::Chlorophyll], 40.0);
         }
     }
 
     #[test]
     fn far_from_veins_there_is_exactly_the_lamina() {
         let map = paint(&[vein([0.0, 0.0], [0.0, 10.0], 0.3)], &GREEN, 200);
-        let lamina = GREEN.lamina.to_array().map(|value| value as f32);
+        let lamina = GREEN.lamina.to_texel();
         for row in 0..map.height {
             for column in 0..map.width {
                 let x = -3.0 + 6.0 * (f64::from(column) + 0.5) / f64::from(map.width);
@@ -216,27 +217,40 @@ mod tests {
     fn veins_hold_less_where_the_factor_is_below_one_and_more_where_above() {
         // 101 columns: one is centred on the vein.
         let mut tissue = GREEN;
-        tissue.vein_factors = Contents::from_array([1.4, 0.3, 2.0, 0.0, 0.5, 2.0, 3.0, 0.5, 2.0]);
-        tissue.lamina = Contents::from_array([1.5, 40.0, 9.0, 2.0, 3.0, 4.0, 0.2, 0.01, 0.006]);
+        tissue.vein_factors = VeinFactors::of(&[
+            (Constituent::Structure, 1.4),
+            (Constituent::Chlorophyll, 0.3),
+            (Constituent::Carotenoids, 2.0),
+            (Constituent::Anthocyanins, 0.0),
+            (Constituent::Betacyanins, 0.5),
+            (Constituent::Betaxanthins, 2.0),
+            (Constituent::Brown, 3.0),
+            (Constituent::Water, 0.5),
+            (Constituent::DryMatter, 2.0),
+        ]);
+        tissue.lamina = Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 9.0),
+            (Constituent::Anthocyanins, 2.0),
+            (Constituent::Betacyanins, 3.0),
+            (Constituent::Betaxanthins, 4.0),
+            (Constituent::Brown, 0.2),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.006),
+        ]);
         for radius in [0.05, 0.25, 1.0] {
             let map = paint(&[vein([0.0, 0.0], [0.0, 10.0], radius)], &tissue, 168);
             assert_eq!(map.width, 101);
             let centre = at(&map, 50, 80);
-            for (index, factor) in tissue.vein_factors.to_array().into_iter().enumerate() {
-                let lamina = tissue.lamina.to_array()[index] as f32;
-                if factor < 1.0 {
-                    assert!(
-                        centre[index] < lamina,
-                        "{} at {radius} mm",
-                        Contents::NAMES[index]
-                    );
-                } else {
-                    assert!(
-                        centre[index] > lamina,
-                        "{} at {radius} mm",
-                        Contents::NAMES[index]
-                    );
-                }
+            for (constituent, factor) in *tissue.vein_factors {
+                let (own, between) = (centre[constituent], tissue.lamina.to_texel()[constituent]);
+                let differs = match factor {
+                    ..1.0 => own < between,
+                    1.0 => own == between,
+                    _ => own > between,
+                };
+                assert!(differs, "{constituent:?} at {radius} mm");
             }
         }
     }
@@ -262,7 +276,9 @@ mod tests {
                 let start = map.height / 2 - 4;
                 let sum: f64 = (start..start + 8)
                     .flat_map(|row| (0..map.width).map(move |column| (column, row)))
-                    .map(|(column, row)| 40.0 - f64::from(at(&map, column, row)[1]))
+                    .map(|(column, row)| {
+                        40.0 - f64::from(at(&map, column, row)[Constituent::Chlorophyll])
+                    })
                     .sum();
                 sum / f64::from(map.width)
             };
@@ -281,7 +297,7 @@ mod tests {
             ..GREEN
         };
         let veins = [vein([0.0, 0.0], [1.0, 9.0], 0.2)];
-        let bits = |seed| -> Vec<[u32; Contents::COUNT]> {
+        let bits = |seed| -> Vec<PerConstituent<u32>> {
             ContentsMap::paint(&FRAME, &veins, &tissue, 64, seed)
                 .expect("all in range")
                 .texels
@@ -311,28 +327,33 @@ mod tests {
         assert_eq!(refused(&flat, 64), "side of the frame");
     }
 
+    /// A number of a range for each constituent.
+    fn of_each(range: Range<f64>) -> impl Strategy<Value = PerConstituent<f64>> {
+        let values = prop::array::uniform::<_, { Constituent::COUNT }>(range);
+        values.prop_map(PerConstituent::new)
+    }
+
     proptest! {
         #[test]
         fn contents_are_finite_and_in_range_everywhere(
-            factors in prop::array::uniform9(0.0..100.0_f64),
-            lamina in prop::array::uniform8(0.0..1000.0_f64),
+            factors in of_each(0.0..100.0),
+            lamina in of_each(0.0..1000.0),
             structure in 1.0..100.0,
             ends in prop::collection::vec(([-4.0..4.0, -1.0..11.0], [-4.0..4.0, -1.0..11.0], 0.001..20.0), 1..8),
             mottle in 0.0..=1.0,
             full_vein_radius_mm in 0.001..1.0,
         ) {
-            let [a, b, c, d, e, f, g, h] = lamina;
             let tissue = Tissue {
-                lamina: Contents::from_array([structure, a, b, c, d, e, f, g, h]),
-                vein_factors: Contents::from_array(factors),
+                lamina: Contents(lamina).with(&[(Constituent::Structure, structure)]),
+                vein_factors: VeinFactors(factors),
                 full_vein_radius_mm,
                 mottle,
                 ..GREEN
             };
             let veins: Vec<VeinSegment> = ends.into_iter().map(|(from, to, r)| vein(from, to, r)).collect();
             for texel in paint(&veins, &tissue, 40).texels {
-                prop_assert!(texel.iter().all(|value| value.is_finite() && *value >= 0.0));
-                prop_assert!(texel[0] >= 1.0);
+                prop_assert!(texel.iter().all(|(_, value)| value.is_finite() && *value >= 0.0));
+                prop_assert!(texel[Constituent::Structure] >= 1.0);
             }
         }
     }

@@ -11,7 +11,7 @@ use super::ageing::Place;
 use super::frame::UvFrame;
 use super::masks::{Mask, MaskField, Picture};
 use super::tissue::TissueError;
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents, PerConstituent};
 use crate::venation::chance::{self, Use};
 
 /// A layer of contents.
@@ -30,15 +30,15 @@ pub struct Layer {
 /// What a layer makes of the contents below it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// Some of the contents, in the order of [`Contents::to_array`], are changed by numbers; the others stay.
+    /// Some of the contents are changed by numbers; the others stay.
     Values {
         /// How.
         mode: Mode,
         /// By what, or as factors; −1000 to 1000 with [`Mode::Add`], else 0 to 1000.
-        values: [Option<f64>; Contents::COUNT],
+        values: PerConstituent<Option<f64>>,
     },
     /// All of them are those of a map over the leaf's box.
-    Map(Arc<Picture<{ Contents::COUNT }>>),
+    Map(Arc<Picture<{ Constituent::COUNT }>>),
 }
 
 /// How numbers change contents.
@@ -63,14 +63,15 @@ impl Layer {
         let valid = (0.0..=1.0).contains(&self.share);
         TissueError::unless(valid, "layers.share", self.share, "from 0 to 1")?;
         if let Change::Values { mode, values } = &self.change {
-            for (name, value) in Contents::NAMES.into_iter().zip(values) {
-                let Some(value) = *value else { continue };
-                let (least, range) = match (mode, name) {
-                    (Mode::Add, _) => (-1000.0, "from -1000 to 1000"),
-                    (Mode::Replace, "structure") => (1.0, "from 1 to 1000"),
-                    (Mode::Replace | Mode::Multiply, _) => (0.0, "from 0 to 1000"),
+            for (constituent, value) in *values {
+                let Some(value) = value else { continue };
+                let (least, range) = match mode {
+                    Mode::Add => (-1000.0, "from -1000 to 1000"),
+                    Mode::Replace if constituent.least() > 0.0 => (1.0, "from 1 to 1000"),
+                    Mode::Replace | Mode::Multiply => (0.0, "from 0 to 1000"),
                 };
-                TissueError::unless((least..=1000.0).contains(&value), name, value, range)?;
+                let valid = (least..=1000.0).contains(&value);
+                TissueError::unless(valid, constituent.name(), value, range)?;
             }
         }
         Ok(())
@@ -101,7 +102,7 @@ impl<'a> LayerFields<'a> {
         if self.layers.is_empty() {
             return ground;
         }
-        let mut values = ground.to_array();
+        let mut contents = ground;
         for (layer, mask) in &self.layers {
             let weight = layer.share * mask.at(p);
             if weight <= 0.0 {
@@ -109,31 +110,27 @@ impl<'a> LayerFields<'a> {
             }
             match &layer.change {
                 Change::Values { mode, values: by } => {
-                    for (index, (value, by)) in values.iter_mut().zip(by).enumerate() {
-                        let Some(by) = *by else { continue };
+                    for (constituent, value) in contents.iter_mut() {
+                        let Some(by) = by[constituent] else { continue };
                         let target = match mode {
                             Mode::Replace => by,
                             Mode::Add => *value + by,
                             Mode::Multiply => *value * by,
                         };
-                        *value += (target.max(least(index)) - *value) * weight;
+                        *value += (target.max(constituent.least()) - *value) * weight;
                     }
                 }
                 Change::Map(map) => {
-                    let targets = map.at(self.frame.uv(p));
-                    for (index, (value, target)) in values.iter_mut().zip(targets).enumerate() {
-                        *value += (target.max(least(index)) - *value) * weight;
+                    let targets = PerConstituent::new(map.at(self.frame.uv(p)));
+                    for (constituent, value) in contents.iter_mut() {
+                        let target = targets[constituent].max(constituent.least());
+                        *value += (target - *value) * weight;
                     }
                 }
             }
         }
-        Contents::from_array(values)
+        contents
     }
-}
-
-/// The least that there can be of a content.
-fn least(index: usize) -> f64 {
-    if index == 0 { 1.0 } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -146,12 +143,20 @@ mod tests {
     };
 
     fn ground() -> Contents {
-        Contents::from_array([1.5, 40.0, 9.0, 1.0, 0.0, 0.0, 0.1, 0.01, 0.005])
+        Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 9.0),
+            (Constituent::Anthocyanins, 1.0),
+            (Constituent::Brown, 0.1),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.005),
+        ])
     }
 
     fn layer(mode: Mode, chlorophyll: f64, share: f64) -> Layer {
-        let mut values = [None; Contents::COUNT];
-        values[1] = Some(chlorophyll);
+        let values = PerConstituent::splat(None);
+        let values = values.with(&[(Constituent::Chlorophyll, Some(chlorophyll))]);
         Layer {
             name: "test".to_owned(),
             mask: Mask::Everywhere,
@@ -181,10 +186,7 @@ mod tests {
             (Mode::Multiply, 0.5, 1.0, 20.0),
             (Mode::Multiply, 0.5, 0.0, 40.0),
         ] {
-            let expected = Contents {
-                chlorophyll,
-                ..ground()
-            };
+            let expected = ground().with(&[(Constituent::Chlorophyll, chlorophyll)]);
             assert_eq!(painted(&[layer(mode, by, share)]), expected);
         }
     }
@@ -195,7 +197,7 @@ mod tests {
             layer(Mode::Replace, 10.0, 1.0),
             layer(Mode::Multiply, 2.0, 1.0),
         );
-        let chlorophyll = |layers: &[Layer]| painted(layers).chlorophyll;
+        let chlorophyll = |layers: &[Layer]| painted(layers)[Constituent::Chlorophyll];
         assert_eq!(chlorophyll(&[pale.clone(), twice.clone()]), 20.0);
         assert_eq!(chlorophyll(&[twice, pale]), 10.0);
         assert_eq!(painted(&[]), ground());
@@ -203,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_map_takes_the_place_of_all_contents() {
-        let texel = [2.0, 30.0, 8.0, 2.0, 1.0, 3.0, 0.5, 0.02, 0.01];
+        let texel = std::array::from_fn(|channel| 1.0 + 0.25 * channel as f32);
         let map = Picture {
             file: "map.exr".to_owned(),
             channel: None,
@@ -214,8 +216,8 @@ mod tests {
             change: Change::Map(Arc::new(map)),
             ..layer(Mode::Replace, 0.0, 1.0)
         };
-        let found = painted(&[layer]).to_array().map(|value| value as f32);
-        assert_eq!(found, texel);
+        let found = painted(&[layer]).to_texel();
+        assert_eq!(found.as_array(), &texel);
     }
 
     #[test]

@@ -64,10 +64,10 @@ impl Senescence {
         };
         let valid = (0.001..=most).contains(&self.blend);
         TissueError::unless(valid, "senescence.blend", self.blend, range)?;
-        for (index, value) in self.contents.to_array().into_iter().enumerate() {
-            let least = if index == 0 { 1.0 } else { 0.0 };
+        for (constituent, value) in *self.contents {
+            let least = constituent.least();
             let valid = (least..=1000.0).contains(&value);
-            let range = if index == 0 {
+            let range = if least > 0.0 {
                 "from 1 to 1000"
             } else {
                 "from 0 to 1000"
@@ -189,14 +189,7 @@ impl Withering {
     /// What the tissue at a point (mm) holds between veins if `living` is what it held alive.
     pub fn contents(&self, living: Contents, point: DVec2) -> Contents {
         match &self.0 {
-            Way::Revenue { dead, .. } => {
-                let dead_share = self.dead_share(point);
-                let mut mixed = living.to_array();
-                for (value, dead) in mixed.iter_mut().zip(dead.to_array()) {
-                    *value += (dead - *value) * dead_share;
-                }
-                Contents::from_array(mixed)
-            }
+            Way::Revenue { dead, .. } => living.towards(*dead, self.dead_share(point)),
             Way::Day(leaf) => leaf.contents(living, point),
         }
     }
@@ -205,31 +198,26 @@ impl Withering {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optics::Constituent;
     use crate::transport::example;
 
-    const DEAD: Contents = Contents {
-        structure: 2.0,
-        chlorophyll: 1.0,
-        carotenoids: 3.0,
-        anthocyanins: 0.0,
-        betacyanins: 0.0,
-        betaxanthins: 0.0,
-        brown: 1.0,
-        water: 0.001,
-        dry_matter: 0.005,
-    };
+    const DEAD: Contents = Contents::of(&[
+        (Constituent::Structure, 2.0),
+        (Constituent::Chlorophyll, 1.0),
+        (Constituent::Carotenoids, 3.0),
+        (Constituent::Brown, 1.0),
+        (Constituent::Water, 0.001),
+        (Constituent::DryMatter, 0.005),
+    ]);
 
-    const LIVING: Contents = Contents {
-        structure: 1.5,
-        chlorophyll: 40.0,
-        carotenoids: 9.0,
-        anthocyanins: 0.5,
-        betacyanins: 0.0,
-        betaxanthins: 0.0,
-        brown: 0.0,
-        water: 0.01,
-        dry_matter: 0.005,
-    };
+    const LIVING: Contents = Contents::of(&[
+        (Constituent::Structure, 1.5),
+        (Constituent::Chlorophyll, 40.0),
+        (Constituent::Carotenoids, 9.0),
+        (Constituent::Anthocyanins, 0.5),
+        (Constituent::Water, 0.01),
+        (Constituent::DryMatter, 0.005),
+    ]);
 
     fn withering(share: f64, blend: f64) -> Withering {
         let leaf = example(1)
@@ -288,10 +276,7 @@ mod tests {
             "senescence.revenue_share"
         );
         assert_eq!(field(Senescence { blend: 0.0, ..good }), "senescence.blend");
-        let contents = Contents {
-            structure: 0.5,
-            ..DEAD
-        };
+        let contents = DEAD.with(&[(Constituent::Structure, 0.5)]);
         assert_eq!(
             field(Senescence { contents, ..good }),
             "senescence.contents"

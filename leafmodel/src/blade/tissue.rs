@@ -1,18 +1,19 @@
 //! What the tissue holds at every point of the lamina.
 
+use std::sync::LazyLock;
+
 use thiserror::Error;
 
 use super::vein_field::VeinCover;
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 
 /// Contents between veins, and factors on them in veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tissue {
     /// Contents of the lamina between veins.
     pub lamina: Contents,
-    /// Factor on each of the contents over the middle of a fully developed vein (each ≥ 0; structure ≥ 0,
-    /// and the result at least 1). Below 1 for chlorophyll makes veins bright in transmitted light, above 1 dark.
-    pub vein_factors: Contents,
+    /// How they change in veins; structure stays at least 1.
+    pub vein_factors: VeinFactors,
     /// Radius, mm, from which a vein counts as fully developed; finer ones take part of the factors.
     pub full_vein_radius_mm: f64,
     /// Width, mm, over which a vein's edge (bundle sheath extension) blends into the lamina, > 0.
@@ -23,20 +24,6 @@ pub struct Tissue {
     pub mottle_scale_mm: f64,
 }
 
-/// Factors on the contents over a fully developed vein: pale, watery, dense (our choice within the ranges that
-/// `docs/src/format/leaf.md` names).
-const VEIN_FACTORS: Contents = Contents {
-    structure: 1.3,
-    chlorophyll: 0.1,
-    carotenoids: 0.12,
-    anthocyanins: 1.0,
-    betacyanins: 1.0,
-    betaxanthins: 1.0,
-    brown: 1.0,
-    water: 2.0,
-    dry_matter: 2.5,
-};
-
 impl Tissue {
     /// Size of patches where nothing is said, mm.
     pub const MOTTLE_SCALE_MM: f64 = 1.0;
@@ -45,7 +32,7 @@ impl Tissue {
     pub fn of(lamina: Contents) -> Self {
         Self {
             lamina,
-            vein_factors: VEIN_FACTORS,
+            vein_factors: VeinFactors::default(),
             full_vein_radius_mm: 0.06,
             sheath_width_mm: 0.1,
             mottle: 0.0,
@@ -86,37 +73,18 @@ impl TissueError {
     }
 }
 
-const LAMINA: [&str; Contents::COUNT] = [
-    "lamina.structure",
-    "lamina.chlorophyll",
-    "lamina.carotenoids",
-    "lamina.anthocyanins",
-    "lamina.betacyanins",
-    "lamina.betaxanthins",
-    "lamina.brown",
-    "lamina.water",
-    "lamina.dry_matter",
-];
+/// `lamina.structure` and so on.
+static LAMINA: LazyLock<PerConstituent<String>> = LazyLock::new(|| fields_of("lamina"));
 
-const FACTORS: [&str; Contents::COUNT] = [
-    "vein_factors.structure",
-    "vein_factors.chlorophyll",
-    "vein_factors.carotenoids",
-    "vein_factors.anthocyanins",
-    "vein_factors.betacyanins",
-    "vein_factors.betaxanthins",
-    "vein_factors.brown",
-    "vein_factors.water",
-    "vein_factors.dry_matter",
-];
+/// `vein_factors.structure` and so on.
+static FACTORS: LazyLock<PerConstituent<String>> = LazyLock::new(|| fields_of("vein_factors"));
 
-/// Which of the contents are there because a vein is thick, in the order of [`Contents::to_array`]:
-/// structure, water and dry matter.
-const BULK: [bool; Contents::COUNT] = [true, false, false, false, false, false, false, true, true];
+fn fields_of(whole: &str) -> PerConstituent<String> {
+    PerConstituent::from_fn(|constituent| format!("{whole}.{}", constituent.name()))
+}
 
-/// Which of the contents the mottle varies: chlorophyll and carotenoids.
-const MOTTLED: [bool; Contents::COUNT] =
-    [false, true, true, false, false, false, false, false, false];
+/// What the mottle varies.
+const MOTTLED: [Constituent; 2] = [Constituent::Chlorophyll, Constituent::Carotenoids];
 
 impl Tissue {
     /// Whether every field is in its range. The upper ends are far above any leaf; they keep what
@@ -126,8 +94,9 @@ impl Tissue {
     ///
     /// [`TissueError`] for the first field that is not, by name.
     pub fn validate(&self) -> Result<(), TissueError> {
-        for (index, (field, value)) in LAMINA.into_iter().zip(self.lamina.to_array()).enumerate() {
-            if index == 0 {
+        for (constituent, value) in *self.lamina {
+            let field = LAMINA[constituent].as_str();
+            if constituent == Constituent::Structure {
                 let valid = (1.0..=100.0).contains(&value);
                 TissueError::unless(valid, field, value, "from 1 to 100")?;
             } else {
@@ -135,8 +104,9 @@ impl Tissue {
                 TissueError::unless(valid, field, value, "from 0 to 1000")?;
             }
         }
-        for (field, value) in FACTORS.into_iter().zip(self.vein_factors.to_array()) {
-            let valid = (0.0..=100.0).contains(&value);
+        for (constituent, value) in *self.vein_factors {
+            let valid = (0.0..=VeinFactors::MOST).contains(&value);
+            let field = FACTORS[constituent].as_str();
             TissueError::unless(valid, field, value, "from 0 to 100")?;
         }
         let full = self.full_vein_radius_mm;
@@ -168,20 +138,19 @@ impl Tissue {
     #[must_use]
     pub fn contents_of(&self, lamina: Contents, cover: VeinCover, mottle: f64) -> Contents {
         let patch = 1.0 + self.mottle * mottle;
-        let factors = self.vein_factors.to_array();
-        let mut values = lamina.to_array();
-        for (index, (value, factor)) in values.iter_mut().zip(factors).enumerate() {
-            let thick = BULK[index] && factor > 1.0;
+        let mut contents = lamina;
+        for (constituent, value) in contents.iter_mut() {
+            let factor = self.vein_factors[constituent];
+            let thick = constituent.is_bulk() && factor > 1.0;
             let share = cover.weight + if thick { cover.excess } else { 0.0 };
             *value *= 1.0 + (factor - 1.0) * share;
-            if MOTTLED[index] {
+            if MOTTLED.contains(&constituent) {
                 *value *= patch;
             }
             // A factor of 0 at full weight may round to just below nothing.
-            *value = value.max(0.0);
+            *value = value.max(constituent.least());
         }
-        values[0] = values[0].max(1.0);
-        Contents::from_array(values)
+        contents
     }
 }
 
@@ -191,28 +160,22 @@ pub(super) mod tests {
 
     /// A thin green broad leaf, bright veins.
     pub(in crate::blade) const GREEN: Tissue = Tissue {
-        lamina: Contents {
-            structure: 1.5,
-            chlorophyll: 40.0,
-            carotenoids: 9.0,
-            anthocyanins: 0.5,
-            betacyanins: 0.0,
-            betaxanthins: 0.0,
-            brown: 0.01,
-            water: 0.01,
-            dry_matter: 0.006,
-        },
-        vein_factors: Contents {
-            structure: 1.3,
-            chlorophyll: 0.25,
-            carotenoids: 0.25,
-            anthocyanins: 1.0,
-            betacyanins: 1.0,
-            betaxanthins: 1.0,
-            brown: 1.0,
-            water: 2.0,
-            dry_matter: 2.5,
-        },
+        lamina: Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 9.0),
+            (Constituent::Anthocyanins, 0.5),
+            (Constituent::Brown, 0.01),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.006),
+        ]),
+        vein_factors: VeinFactors::of(&[
+            (Constituent::Structure, 1.3),
+            (Constituent::Chlorophyll, 0.25),
+            (Constituent::Carotenoids, 0.25),
+            (Constituent::Water, 2.0),
+            (Constituent::DryMatter, 2.5),
+        ]),
         full_vein_radius_mm: 0.25,
         sheath_width_mm: 0.1,
         mottle: 0.0,
@@ -257,23 +220,14 @@ pub(super) mod tests {
                 broken.push((tissue, field, bad));
             }
         }
-        for index in 0..Contents::COUNT {
+        for constituent in Constituent::ALL {
             for bad in [-0.001, 1001.0, f64::NAN, f64::INFINITY] {
-                let mut values = GREEN.lamina.to_array();
-                values[index] = bad;
-                let lamina = Contents::from_array(values);
-                broken.push((Tissue { lamina, ..GREEN }, LAMINA[index], bad));
-                let mut values = GREEN.vein_factors.to_array();
-                values[index] = bad;
-                let vein_factors = Contents::from_array(values);
-                broken.push((
-                    Tissue {
-                        vein_factors,
-                        ..GREEN
-                    },
-                    FACTORS[index],
-                    bad,
-                ));
+                let mut tissue = GREEN;
+                tissue.lamina[constituent] = bad;
+                broken.push((tissue, LAMINA[constituent].as_str(), bad));
+                let mut tissue = GREEN;
+                tissue.vein_factors[constituent] = bad;
+                broken.push((tissue, FACTORS[constituent].as_str(), bad));
             }
         }
         assert_eq!(GREEN.validate(), Ok(()));
@@ -307,9 +261,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_full_vein_holds_the_lamina_times_its_factors() {
-        let vein = GREEN.contents(FULL, 0.0).to_array();
-        for (index, value) in vein.into_iter().enumerate() {
-            let expected = GREEN.lamina.to_array()[index] * GREEN.vein_factors.to_array()[index];
+        for (constituent, value) in *GREEN.contents(FULL, 0.0) {
+            let expected = GREEN.lamina[constituent] * GREEN.vein_factors[constituent];
             assert!(
                 (value - expected).abs() <= 1e-15 * expected,
                 "{value} {expected}"
@@ -324,13 +277,21 @@ pub(super) mod tests {
             excess: 3.0,
         };
         let (full, thick) = (GREEN.contents(FULL, 0.0), GREEN.contents(thick, 0.0));
-        let surplus = |contents: Contents| contents.dry_matter - GREEN.lamina.dry_matter;
+        let surplus = |contents: Contents| {
+            contents[Constituent::DryMatter] - GREEN.lamina[Constituent::DryMatter]
+        };
         assert!((surplus(thick) - 4.0 * surplus(full)).abs() < 1e-15);
-        assert!(thick.water > full.water && thick.structure > full.structure);
-        assert_eq!(thick.chlorophyll, full.chlorophyll);
+        assert!(
+            thick[Constituent::Water] > full[Constituent::Water]
+                && thick[Constituent::Structure] > full[Constituent::Structure]
+        );
+        assert_eq!(
+            thick[Constituent::Chlorophyll],
+            full[Constituent::Chlorophyll]
+        );
         // Contents that veins lack do not become negative where they are thick.
         let mut dry = GREEN;
-        dry.vein_factors.water = 0.0;
+        dry.vein_factors[Constituent::Water] = 0.0;
         let drained = dry.contents(
             VeinCover {
                 weight: 1.0,
@@ -338,14 +299,14 @@ pub(super) mod tests {
             },
             0.0,
         );
-        assert_eq!(drained.water, 0.0);
+        assert_eq!(drained[Constituent::Water], 0.0);
     }
 
     #[test]
     fn fewer_plates_than_one_become_one() {
         let mut tissue = GREEN;
-        tissue.vein_factors.structure = 0.0;
-        assert_eq!(tissue.contents(FULL, 0.0).structure, 1.0);
+        tissue.vein_factors[Constituent::Structure] = 0.0;
+        assert_eq!(tissue.contents(FULL, 0.0)[Constituent::Structure], 1.0);
     }
 
     #[test]
@@ -356,8 +317,8 @@ pub(super) mod tests {
         };
         let patch = tissue.contents(LAMINA_ONLY, -0.5);
         let mut expected = GREEN.lamina;
-        expected.chlorophyll *= 0.9;
-        expected.carotenoids *= 0.9;
+        expected[Constituent::Chlorophyll] *= 0.9;
+        expected[Constituent::Carotenoids] *= 0.9;
         assert_eq!(patch, expected);
     }
 }

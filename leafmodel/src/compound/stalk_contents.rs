@@ -3,7 +3,7 @@
 use super::WholeLeaf;
 use crate::blade::vein_field::VeinCover;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
-use crate::optics::Contents;
+use crate::optics::{Contents, PerConstituent};
 use crate::venation::network::VeinSegment;
 
 impl WholeLeaf {
@@ -15,21 +15,20 @@ impl WholeLeaf {
     /// [`LeafError`] if the leaf is not of this plan and its cells earn nothing.
     pub fn stalk_contents(&self, plan: &LeafPlan) -> Result<Contents, LeafError> {
         let living = plan.tissue.lamina;
-        let mut lamina = living.to_array();
+        let mut lamina = living;
         if plan.senescence.is_some() {
-            lamina = [0.0; Contents::COUNT];
+            let mut mean = PerConstituent::splat(0.0);
             for blade in &self.blades {
-                let at_base = withered(blade, plan, living)?.to_array();
-                for (sum, value) in lamina.iter_mut().zip(at_base) {
-                    *sum += value / self.blades.len() as f64;
-                }
+                let at_base =
+                    withered(blade, plan, living)?.map(|value| value / self.blades.len() as f64);
+                mean = mean.zip_with(at_base, |sum, value| sum + value);
             }
+            lamina = Contents(mean);
         }
         let vein = VeinCover {
             weight: 1.0,
             excess: 0.0,
         };
-        let lamina = Contents::from_array(lamina);
         Ok(plan.tissue.contents_of(lamina, vein, 0.0))
     }
 }

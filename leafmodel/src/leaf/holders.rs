@@ -4,14 +4,13 @@ use super::LeafPlan;
 use crate::blade::layers::{Change, Layer, Mode};
 use crate::blade::masks::Mask;
 use crate::blade::senescence::AgeSource;
-use crate::optics::Contents;
+use crate::optics::{Constituent, PerConstituent};
 
-/// Anthocyanins, betacyanins and betaxanthins in the order of [`Contents::to_array`].
-const ANTHOCYANINS: usize = 3;
-const BETALAINS: [usize; 2] = [4, 5];
+const ANTHOCYANINS: Constituent = Constituent::Anthocyanins;
+const BETALAINS: [Constituent; 2] = [Constituent::Betacyanins, Constituent::Betaxanthins];
 
 /// A part of a plan, by its keys, and the greatest contents that it brings anywhere.
-type Holder = (String, [f64; Contents::COUNT]);
+type Holder = (String, PerConstituent<f64>);
 
 impl LeafPlan {
     /// The keys of two parts of the plan of which the first brings anthocyanins and the second betalains, which no plant
@@ -20,7 +19,7 @@ impl LeafPlan {
     /// A layer that takes the place of a pigment everywhere makes that of the parts below it void.
     pub fn anthocyanins_beside_betalains(&self) -> Option<[String; 2]> {
         let holders = self.holders();
-        let first = |wanted: &[usize]| {
+        let first = |wanted: &[Constituent]| {
             let brings = |(_, contents): &&Holder| wanted.iter().any(|&i| contents[i] > 0.0);
             holders.iter().find(brings).map(|(key, _)| key.clone())
         };
@@ -28,13 +27,13 @@ impl LeafPlan {
     }
 
     fn holders(&self) -> Vec<Holder> {
-        let lamina = self.tissue.lamina.to_array();
+        let lamina = self.tissue.lamina.0;
         let mut holders: Vec<Holder> = match &self.mosaic {
             None => vec![("contents".to_owned(), lamina)],
             Some(mosaic) => {
                 let types = mosaic.plan.types.iter().zip(&mosaic.contents);
-                let types = types
-                    .map(|(kind, held)| (format!("mosaic.types.{}", kind.name), held.to_array()));
+                let types =
+                    types.map(|(kind, held)| (format!("mosaic.types.{}", kind.name), held.0));
                 let bare = mosaic
                     .may_leave_bare()
                     .then(|| ("contents".to_owned(), lamina));
@@ -49,7 +48,7 @@ impl LeafPlan {
             holders.push(("contents".to_owned(), lamina));
         }
         if let Some(senescence) = &self.senescence {
-            let mut dead = senescence.contents.to_array();
+            let mut dead = senescence.contents.0;
             let made = match &senescence.source {
                 AgeSource::Day { day, course } if *day > 0.0 => course.anthocyanins,
                 AgeSource::Day { .. } | AgeSource::Revenue { .. } => 0.0,
@@ -67,11 +66,11 @@ fn lay(holders: &mut Vec<Holder>, layer: &Layer) {
         return;
     }
     let covers = layer.mask == Mask::Everywhere && layer.share == 1.0;
-    let mut brought = [0.0_f64; Contents::COUNT];
+    let mut brought = PerConstituent::splat(0.0_f64);
     match &layer.change {
         Change::Map(map) => {
             for texel in &map.texels {
-                for (most, value) in brought.iter_mut().zip(texel) {
+                for ((_, most), value) in brought.iter_mut().zip(texel) {
                     *most = most.max(f64::from(*value));
                 }
             }
@@ -80,8 +79,8 @@ fn lay(holders: &mut Vec<Holder>, layer: &Layer) {
             }
         }
         Change::Values { mode, values } => {
-            for (index, value) in values.iter().enumerate() {
-                let Some(value) = *value else { continue };
+            for (constituent, value) in *values {
+                let Some(value) = value else { continue };
                 let clears = match mode {
                     Mode::Replace => true,
                     Mode::Multiply => value == 0.0,
@@ -89,12 +88,12 @@ fn lay(holders: &mut Vec<Holder>, layer: &Layer) {
                 };
                 if covers && clears {
                     for (_, contents) in holders.iter_mut() {
-                        contents[index] = 0.0;
+                        contents[constituent] = 0.0;
                     }
                 }
                 // Factors bring nothing that is not there.
                 if *mode != Mode::Multiply {
-                    brought[index] = value.max(0.0);
+                    brought[constituent] = value.max(0.0);
                 }
             }
         }
@@ -115,19 +114,19 @@ mod tests {
     use crate::mosaic::control::{ControlImage, CylinderControl, Steered};
     use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
     use crate::mosaic::plan::{CellType, MosaicPlan};
+    use crate::optics::Texel;
     use crate::species::find;
 
     /// A beet's leaf: betacyanins, no anthocyanins.
     fn beet() -> LeafPlan {
         let mut plan = find("poplar").expect("a preset").plan();
-        plan.tissue.lamina.anthocyanins = 0.0;
-        plan.tissue.lamina.betacyanins = 8.0;
+        plan.tissue.lamina[Constituent::Anthocyanins] = 0.0;
+        plan.tissue.lamina[Constituent::Betacyanins] = 8.0;
         plan
     }
 
-    fn layer(mask: Mask, mode: Mode, index: usize, value: f64) -> Layer {
-        let mut values = [None; Contents::COUNT];
-        values[index] = Some(value);
+    fn layer(mask: Mask, mode: Mode, constituent: Constituent, value: f64) -> Layer {
+        let values = PerConstituent::splat(None).with(&[(constituent, Some(value))]);
         Layer {
             name: "spots".to_owned(),
             mask,
@@ -151,7 +150,7 @@ mod tests {
     fn one_class_alone_is_as_in_plants() {
         assert_eq!(beet().anthocyanins_beside_betalains(), None);
         let red = find("poplar").expect("a preset").plan();
-        assert!(red.tissue.lamina.anthocyanins > 0.0);
+        assert!(red.tissue.lamina[Constituent::Anthocyanins] > 0.0);
         assert_eq!(red.anthocyanins_beside_betalains(), None);
     }
 
@@ -159,17 +158,23 @@ mod tests {
     fn layers_bring_pigments_wherever_they_lie_and_take_them_only_where_they_lie() {
         let with =
             |layers: Vec<Layer>| LeafPlan { layers, ..beet() }.anthocyanins_beside_betalains();
-        let red = || layer(midrib(), Mode::Add, 3, 2.0);
+        let red = || layer(midrib(), Mode::Add, ANTHOCYANINS, 2.0);
         assert_eq!(with(vec![red()]), Some(keys("layers.spots", "contents")));
-        let washed = |mask| vec![layer(mask, Mode::Replace, 4, 0.0), red()];
+        let washed = |mask| vec![layer(mask, Mode::Replace, BETALAINS[0], 0.0), red()];
         assert_eq!(with(washed(Mask::Everywhere)), None);
         assert_eq!(
             with(washed(midrib())),
             Some(keys("layers.spots", "contents"))
         );
-        let faded = vec![layer(Mask::Everywhere, Mode::Multiply, 4, 0.0), red()];
+        let faded = vec![
+            layer(Mask::Everywhere, Mode::Multiply, BETALAINS[0], 0.0),
+            red(),
+        ];
         assert_eq!(with(faded), None);
-        assert_eq!(with(vec![layer(midrib(), Mode::Multiply, 3, 9.0)]), None);
+        assert_eq!(
+            with(vec![layer(midrib(), Mode::Multiply, ANTHOCYANINS, 9.0)]),
+            None
+        );
         let nowhere = Layer {
             share: 0.0,
             ..red()
@@ -179,17 +184,23 @@ mod tests {
 
     #[test]
     fn maps_bring_what_any_of_their_texels_holds() {
-        let mut texels = vec![[1.5, 30.0, 8.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.01]; 4];
-        texels[1][3] = 2.0;
+        let green = [
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 30.0),
+        ];
+        let green = Texel::splat(0.0).with(&green);
+        let red = green.with(&[(Constituent::Anthocyanins, 2.0)]);
         let change = Change::Map(Arc::new(Picture {
             file: "map.exr".to_owned(),
             channel: None,
             width: 2,
-            texels: texels.clone(),
+            texels: [green, red, green, green]
+                .map(|texel| *texel.as_array())
+                .to_vec(),
         }));
         let map = Layer {
             change,
-            ..layer(midrib(), Mode::Add, 0, 0.0)
+            ..layer(midrib(), Mode::Add, Constituent::Structure, 0.0)
         };
         let over = |mask| {
             let layers = vec![Layer {
@@ -213,11 +224,10 @@ mod tests {
             adhesion: vec![0.0, 0.0],
         };
         let beet = beet();
-        let red = Contents {
-            betacyanins: 0.0,
-            anthocyanins: 5.0,
-            ..beet.tissue.lamina
-        };
+        let red = beet.tissue.lamina.with(&[
+            (Constituent::Betacyanins, 0.0),
+            (Constituent::Anthocyanins, 5.0),
+        ]);
         let mosaic = MosaicPattern {
             plan: MosaicPlan {
                 types: vec![kind("green"), kind("red")],
@@ -244,11 +254,10 @@ mod tests {
             switching: vec![1.0],
             adhesion: vec![0.0],
         };
-        let held = Contents {
-            betacyanins: 0.0,
-            anthocyanins: 5.0,
-            ..beet().tissue.lamina
-        };
+        let held = beet().tissue.lamina.with(&[
+            (Constituent::Betacyanins, 0.0),
+            (Constituent::Anthocyanins, 5.0),
+        ]);
         let steered = |steers: Option<Steered>| {
             let control = |steers| CylinderControl {
                 from: DVec3::ZERO,

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
     use crate::mosaic::plan::MosaicPlan;
-    use crate::optics::Contents;
+    use crate::optics::Constituent;
     use crate::species::find;
 
     #[test]
@@ -122,13 +122,7 @@ mod tests {
                 types: MosaicPlan::two_types([8.0, 10.0], [0.5, 0.8], 0.25, 0.0),
                 ..MosaicPlan::default()
             },
-            contents: vec![
-                tissue,
-                Contents {
-                    chlorophyll: 0.0,
-                    ..tissue
-                },
-            ],
+            contents: vec![tissue, tissue.with(&[(Constituent::Chlorophyll, 0.0)])],
             blend_mm: 0.5,
             faces: LeafFaces::Through,
         });

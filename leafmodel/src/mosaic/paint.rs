@@ -23,7 +23,7 @@ use super::patch::PatchFinder;
 use super::simulation::Mosaic;
 use super::surface::{Surface, SurfacePoint};
 use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
-use crate::optics::Contents;
+use crate::optics::{Contents, PerConstituent};
 
 /// Faces worked on together.
 const CHUNK: usize = 256;
@@ -239,15 +239,13 @@ impl TypeField {
     ) -> Contents {
         assert_eq!(of_types.len(), self.types, "contents for each type");
         self.type_weights(point, weights);
-        let mut sum = [0.0; Contents::COUNT];
+        let mut sum = PerConstituent::splat(0.0);
         for (contents, &weight) in of_types.iter().zip(&*weights) {
             if weight > 0.0 {
-                for (sum, value) in sum.iter_mut().zip(contents.to_array()) {
-                    *sum += weight * value;
-                }
+                sum = sum.zip_with(contents.0, |sum, value| sum + weight * value);
             }
         }
-        Contents::from_array(sum)
+        Contents(sum)
     }
 
     /// Contents at many points at once, on all threads; `None` for `None` and for bare places.

@@ -171,6 +171,7 @@ impl LaminaPattern {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optics::Constituent;
     use crate::species;
 
     #[test]
@@ -203,7 +204,7 @@ mod tests {
                     .contents(at, &mut weights)
                     .expect("nothing is blocked");
                 // Foreground on both faces, on one, on none.
-                let class = contents.chlorophyll / 25.0;
+                let class = contents[Constituent::Chlorophyll] / 25.0;
                 assert!((class - class.round()).abs() < 1e-9, "{class}");
                 seen[class.round() as usize] += 1.0 / 1800.0;
             }

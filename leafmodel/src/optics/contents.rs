@@ -1,39 +1,27 @@
 //! What a leaf holds.
 
+use std::ops::{Deref, DerefMut};
+
 use thiserror::Error;
 
-/// What a leaf holds per leaf area, and its structure: PROSPECT-D's inputs, and betalains.
+use super::constituent::Constituent;
+use super::per_constituent::PerConstituent;
+
+/// What a leaf holds per leaf area, and its structure: `contents[Constituent::Water]`, in the units of [`Constituent`].
 ///
-/// [`Contents::new`] and [`Contents::checked`] refuse values outside the ranges given here; the
-/// optics trust them. (The same fields also carry dimensionless factors, where ranges differ.)
+/// [`Contents::new`] and [`Contents::checked`] refuse fewer plates than one, and less than nothing of the rest; the optics trust them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contents {
-    /// `N`, number of plates, real, ≥ 1.
-    pub structure: f64,
-    /// Chlorophyll a + b, µg cm⁻², ≥ 0.
-    pub chlorophyll: f64,
-    /// Carotenoids, µg cm⁻², ≥ 0.
-    pub carotenoids: f64,
-    /// Anthocyanins, µg cm⁻², ≥ 0.
-    pub anthocyanins: f64,
-    /// Betacyanins, µg cm⁻², ≥ 0; not in PROSPECT-D.
-    pub betacyanins: f64,
-    /// Betaxanthins, µg cm⁻², ≥ 0; not in PROSPECT-D.
-    pub betaxanthins: f64,
-    /// Brown pigments, PROSPECT's arbitrary unit, ≥ 0.
-    pub brown: f64,
-    /// Water, cm (= g cm⁻²), ≥ 0.
-    pub water: f64,
-    /// Dry matter, g cm⁻², ≥ 0.
-    pub dry_matter: f64,
-}
+pub struct Contents(pub PerConstituent<f64>);
+
+/// What a leaf holds at a texel of a map.
+pub type Texel = PerConstituent<f32>;
 
 /// A content outside the range in which the model holds.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{field} is {value}, it must be {range}")]
+#[error("{} is {value}, it must be {range}", .of.name())]
 pub struct ContentsError {
     /// Which of the contents.
-    pub field: &'static str,
+    pub of: Constituent,
     /// What it was.
     pub value: f64,
     /// What it may be.
@@ -41,7 +29,39 @@ pub struct ContentsError {
 }
 
 impl Contents {
-    /// PROSPECT-D's inputs in the order of the fields; no betalains.
+    /// A plate that holds nothing.
+    pub const NOTHING: Self =
+        Self(PerConstituent::splat(0.0).with(&[(Constituent::Structure, 1.0)]));
+
+    /// These contents, and nothing of what is not named; nothing is checked.
+    pub const fn of(named: &[(Constituent, f64)]) -> Self {
+        Self::NOTHING.with(named)
+    }
+
+    /// The same but for these contents.
+    #[must_use]
+    pub const fn with(self, named: &[(Constituent, f64)]) -> Self {
+        Self(self.0.with(named))
+    }
+
+    /// PROSPECT-D's inputs: structure, chlorophyll, carotenoids, anthocyanins, brown, water, dry matter; nothing is checked.
+    pub const fn prospect_d(inputs: [f64; 7]) -> Self {
+        use Constituent::{
+            Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+        };
+        let [n, cab, car, ant, brown, cw, cm] = inputs;
+        Self::of(&[
+            (Structure, n),
+            (Chlorophyll, cab),
+            (Carotenoids, car),
+            (Anthocyanins, ant),
+            (Brown, brown),
+            (Water, cw),
+            (DryMatter, cm),
+        ])
+    }
+
+    /// PROSPECT-D's inputs; no betalains.
     ///
     /// # Errors
     ///
@@ -55,13 +75,11 @@ impl Contents {
         water: f64,
         dry_matter: f64,
     ) -> Result<Self, ContentsError> {
-        Self::from_array([
+        Self::prospect_d([
             structure,
             chlorophyll,
             carotenoids,
             anthocyanins,
-            0.0,
-            0.0,
             brown,
             water,
             dry_matter,
@@ -75,20 +93,14 @@ impl Contents {
     ///
     /// [`ContentsError`] for the first value outside its range.
     pub fn checked(self) -> Result<Self, ContentsError> {
-        if !(self.structure.is_finite() && self.structure >= 1.0) {
-            return Err(ContentsError {
-                field: "structure",
-                value: self.structure,
-                range: "finite and at least 1",
-            });
-        }
-        for (field, value) in Self::NAMES.into_iter().zip(self.to_array()).skip(1) {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(ContentsError {
-                    field,
-                    value,
-                    range: "finite and at least 0",
-                });
+        for (of, value) in self.0 {
+            if !(value.is_finite() && value >= of.least()) {
+                let range = if of.least() > 0.0 {
+                    "finite and at least 1"
+                } else {
+                    "finite and at least 0"
+                };
+                return Err(ContentsError { of, value, range });
             }
         }
         Ok(self)
@@ -106,69 +118,41 @@ impl Contents {
     ///
     /// For a map the greatest value of each content answers for all its points: the rule holds for plants, not for points.
     pub fn mixes_betalains_and_anthocyanins(&self) -> bool {
-        self.anthocyanins > 0.0 && (self.betacyanins > 0.0 || self.betaxanthins > 0.0)
+        let holds = |constituent| self[constituent] > 0.0;
+        holds(Constituent::Anthocyanins)
+            && (holds(Constituent::Betacyanins) || holds(Constituent::Betaxanthins))
     }
 
-    /// How many fields there are.
-    pub const COUNT: usize = 9;
-
-    /// Names of the fields, in the order of [`Contents::to_array`].
-    pub const NAMES: [&'static str; Self::COUNT] = [
-        "structure",
-        "chlorophyll",
-        "carotenoids",
-        "anthocyanins",
-        "betacyanins",
-        "betaxanthins",
-        "brown",
-        "water",
-        "dry_matter",
-    ];
-
-    /// Their units, in the same order; numbers without one have an empty one.
-    pub const UNITS: [&'static str; Self::COUNT] = [
-        "", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "µg/cm²", "", "cm", "g/cm²",
-    ];
-
-    /// The values, in the order of the fields.
-    pub fn to_array(self) -> [f64; Self::COUNT] {
-        [
-            self.structure,
-            self.chlorophyll,
-            self.carotenoids,
-            self.anthocyanins,
-            self.betacyanins,
-            self.betaxanthins,
-            self.brown,
-            self.water,
-            self.dry_matter,
-        ]
+    /// `C + (C′ − C) w`: these contents where others, `C′`, weigh `w`.
+    #[must_use]
+    pub fn towards(self, others: Self, weight: f64) -> Self {
+        let mixed = |own: f64, other: f64| own + (other - own) * weight;
+        Self(self.zip_with(others.0, mixed))
     }
 
-    /// From the values in the order of the fields; nothing is checked.
-    pub fn from_array(values: [f64; Self::COUNT]) -> Self {
-        let [
-            structure,
-            chlorophyll,
-            carotenoids,
-            anthocyanins,
-            betacyanins,
-            betaxanthins,
-            brown,
-            water,
-            dry_matter,
-        ] = values;
-        Self {
-            structure,
-            chlorophyll,
-            carotenoids,
-            anthocyanins,
-            betacyanins,
-            betaxanthins,
-            brown,
-            water,
-            dry_matter,
-        }
+    /// As a texel of a map holds them.
+    #[inline]
+    pub fn to_texel(self) -> Texel {
+        self.0.map(|content| content as f32)
+    }
+
+    /// Those of a texel; nothing is checked.
+    pub fn from_texel(texel: Texel) -> Self {
+        Self(texel.map(f64::from))
+    }
+}
+
+impl Deref for Contents {
+    type Target = PerConstituent<f64>;
+
+    fn deref(&self) -> &PerConstituent<f64> {
+        &self.0
+    }
+}
+
+impl DerefMut for Contents {
+    fn deref_mut(&mut self) -> &mut PerConstituent<f64> {
+        &mut self.0
     }
 }
 
@@ -176,19 +160,20 @@ impl Contents {
 mod tests {
     use super::*;
 
-    const GREEN: [f64; Contents::COUNT] = [1.5, 40.0, 8.0, 1.0, 0.2, 0.3, 0.1, 0.01, 0.009];
+    /// Something of everything.
+    const GREEN: Contents = Contents::prospect_d([1.5, 40.0, 8.0, 1.0, 0.1, 0.01, 0.009]).with(&[
+        (Constituent::Betacyanins, 0.2),
+        (Constituent::Betaxanthins, 0.3),
+    ]);
 
     #[test]
     fn each_content_out_of_range_is_refused_by_name() {
-        assert!(Contents::from_array(GREEN).checked().is_ok());
-        for (index, name) in Contents::NAMES.into_iter().enumerate() {
+        assert!(GREEN.checked().is_ok());
+        for of in Constituent::ALL {
             for bad in [-0.001, f64::NAN, f64::INFINITY] {
-                let mut values = GREEN;
-                values[index] = bad;
-                let error = Contents::from_array(values)
-                    .checked()
-                    .expect_err("the value is out of range");
-                assert_eq!(error.field, name);
+                let error = GREEN.with(&[(of, bad)]).checked();
+                let error = error.expect_err("the value is out of range");
+                assert_eq!(error.of, of);
                 assert_eq!(error.value.to_bits(), bad.to_bits());
             }
         }
@@ -206,19 +191,26 @@ mod tests {
 
     #[test]
     fn betalains_go_with_any_pigment_but_anthocyanins() {
-        let mut values = GREEN;
-        assert!(Contents::from_array(values).mixes_betalains_and_anthocyanins());
-        values[3] = 0.0;
-        assert!(!Contents::from_array(values).mixes_betalains_and_anthocyanins());
-        values[3] = 1.0;
-        values[4] = 0.0;
-        assert!(Contents::from_array(values).mixes_betalains_and_anthocyanins());
-        values[5] = 0.0;
-        assert!(!Contents::from_array(values).mixes_betalains_and_anthocyanins());
+        use Constituent::{Anthocyanins, Betacyanins, Betaxanthins};
+        let mixes = |without: &[Constituent]| {
+            let none: Vec<_> = without.iter().map(|&one| (one, 0.0)).collect();
+            GREEN.with(&none).mixes_betalains_and_anthocyanins()
+        };
+        assert!(mixes(&[]));
+        assert!(!mixes(&[Anthocyanins]));
+        assert!(mixes(&[Betacyanins]));
+        assert!(!mixes(&[Betacyanins, Betaxanthins]));
     }
 
     #[test]
-    fn an_array_and_back_is_the_same() {
-        assert_eq!(Contents::from_array(GREEN).to_array(), GREEN);
+    fn what_is_not_named_is_not_there() {
+        let dry = Contents::of(&[(Constituent::Water, 0.0), (Constituent::DryMatter, 0.004)]);
+        assert_eq!(dry[Constituent::Structure], 1.0);
+        assert_eq!(dry[Constituent::DryMatter], 0.004);
+        assert_eq!(dry[Constituent::Chlorophyll], 0.0);
+        assert_eq!(
+            Contents::from_texel(dry.to_texel())[Constituent::Water],
+            0.0
+        );
     }
 }

@@ -12,8 +12,9 @@
 mod depth;
 mod elementary;
 
-use super::constituents::Coefficients;
-use super::contents::Contents;
+use super::constituent::Constituent;
+use super::contents::Texel;
+use super::prospect_d::Coefficients;
 use depth::DepthTable;
 use elementary::{exp_minus_one, log_one_plus};
 
@@ -24,33 +25,32 @@ const LOSSLESS: f32 = 1e-30;
 const LEAST_T: f32 = 1e-15;
 
 /// Numbers that [`PileLanes`] holds for a wavelength.
-pub const CONSTANTS: usize = 3 + Contents::COUNT - 1;
+pub const CONSTANTS: usize = FACES + Constituent::ABSORBING.len();
+
+/// Those of them that tell of the faces of a plate.
+const FACES: usize = 3;
 
 /// What the faces of a plate do at `L` wavelengths, and what the constituents absorb there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PileLanes<const L: usize> {
     /// `t_av(40°)`, `t₁₂ = t_av(90°)`, `t₂₁ = t₁₂ / n²`, then what one unit of each constituent absorbs,
-    /// in the order of [`Contents::to_array`] from the second on.
+    /// in the order of [`Constituent::ABSORBING`].
     pub constants: [[f32; L]; CONSTANTS],
 }
 
 /// The constants of [`PileLanes`] at one wavelength.
 pub fn constants(at: &Coefficients) -> [f32; CONSTANTS] {
-    let absorption = &at.absorption;
-    [
+    let faces: [f64; FACES] = [
         at.interface.t_av_40,
         at.interface.t_av_90,
         at.interface.transmissivity_from_inside(),
-        absorption.chlorophyll,
-        absorption.carotenoids,
-        absorption.anthocyanins,
-        absorption.betacyanins,
-        absorption.betaxanthins,
-        absorption.brown,
-        absorption.water,
-        absorption.dry_matter,
-    ]
-    .map(|constant| constant as f32)
+    ];
+    let absorbed = Constituent::ABSORBING.map(|constituent| at.absorption[constituent]);
+    let mut constants = [0.0; CONSTANTS];
+    for (constant, value) in constants.iter_mut().zip(faces.into_iter().chain(absorbed)) {
+        *constant = value as f32;
+    }
+    constants
 }
 
 impl<const L: usize> PileLanes<L> {
@@ -69,9 +69,12 @@ impl<const L: usize> PileLanes<L> {
 
     /// What contents absorb in all at each of the wavelengths, `Σ C K`; the structure does not count.
     #[inline]
-    pub fn absorption(&self, contents: &[f32; Contents::COUNT]) -> [f32; L] {
+    pub fn absorption(&self, contents: &Texel) -> [f32; L] {
         let mut sum = [0.0; L];
-        for (row, content) in self.constants[3..].iter().zip(&contents[1..]) {
+        for (row, content) in self.constants[FACES..]
+            .iter()
+            .zip(&contents.as_array()[1..])
+        {
             for lane in 0..L {
                 sum[lane] += row[lane] * content;
             }
@@ -79,13 +82,10 @@ impl<const L: usize> PileLanes<L> {
         sum
     }
 
-    /// `(R, T)` of a leaf with these contents, in the order of [`Contents::to_array`], at each of the wavelengths.
+    /// `(R, T)` of a leaf with these contents at each of the wavelengths.
     #[inline]
-    pub fn reflectance_transmittance(
-        &self,
-        contents: &[f32; Contents::COUNT],
-    ) -> ([f32; L], [f32; L]) {
-        let structure = contents[0];
+    pub fn reflectance_transmittance(&self, contents: &Texel) -> ([f32; L], [f32; L]) {
+        let structure = contents[Constituent::Structure];
         let per_plate = 1.0 / structure;
         let mut depths = self.absorption(contents);
         let table = DepthTable::get();
@@ -157,16 +157,17 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::optics::ProspectD;
     use crate::optics::pile::pile as exact_pile;
+    use crate::optics::{Contents, PerConstituent, ProspectD};
 
     /// A leaf of `n` plates each of which absorbs `k` at a wavelength, by one constituent alone.
     fn fast(nm: f64, k: f64, n: f64) -> (f32, f32) {
         let mut at = ProspectD::coefficients(nm).expect("in range");
-        at.absorption.brown = 1.0;
-        let mut contents = [0.0; Contents::COUNT];
-        contents[0] = n as f32;
-        contents[6] = (k * n) as f32;
+        at.absorption[Constituent::Brown] = 1.0;
+        let contents = PerConstituent::splat(0.0).with(&[
+            (Constituent::Structure, n as f32),
+            (Constituent::Brown, (k * n) as f32),
+        ]);
         let (r, t) = PileLanes::new(&[at]).reflectance_transmittance(&contents);
         (r[0], t[0])
     }
@@ -215,7 +216,7 @@ mod tests {
     #[test]
     fn lanes_together_are_the_lanes_alone() {
         let contents = Contents::new(1.6, 45.0, 10.0, 0.5, 0.1, 0.011, 0.006).expect("valid");
-        let contents = contents.to_array().map(|content| content as f32);
+        let contents = contents.to_texel();
         let at: [_; 8] = std::array::from_fn(|i| {
             ProspectD::coefficients(410.0 + 250.0 * i as f64).expect("in range")
         });

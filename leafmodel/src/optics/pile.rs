@@ -1,9 +1,10 @@
 //! N plates, N real: the leaf.
 
-use super::constituents::Coefficients;
+use super::constituent::Constituent;
 use super::contents::Contents;
 use super::interface::Interface;
 use super::plate::Plate;
+use super::prospect_d::Coefficients;
 
 /// Directional–hemispherical reflectance and transmittance at one wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +21,7 @@ impl Coefficients {
         pile(
             &self.interface,
             self.absorption_per_plate(contents),
-            contents.structure,
+            contents[Constituent::Structure],
         )
     }
 }
@@ -111,18 +112,21 @@ mod tests {
 
         #[test]
         fn more_of_any_constituent_never_brightens(
-            index in 1..Contents::COUNT,
+            constituent in prop::sample::select(&Constituent::ABSORBING[..]),
             share in 0.0..1.0,
             nm in 400.0..2500.0,
             n in 1.0..3.0,
         ) {
-            let most = [0.0, 100.0, 25.0, 40.0, 30.0, 30.0, 2.0, 0.05, 0.03];
+            let betalains = |each| [(Constituent::Betacyanins, each), (Constituent::Betaxanthins, each)];
+            let most = Contents::prospect_d([0.0, 100.0, 25.0, 40.0, 2.0, 0.05, 0.03]);
+            let most = most.with(&betalains(30.0));
+            let leaf = Contents::prospect_d([n, 20.0, 4.0, 1.0, 0.1, 0.008, 0.004]);
+            let mut leaf = leaf.with(&betalains(0.5));
             let at = ProspectD::coefficients(nm).expect("in range");
-            let mut values = [n, 20.0, 4.0, 1.0, 0.5, 0.5, 0.1, 0.008, 0.004];
-            values[index] = share * most[index];
-            let less = at.reflectance_transmittance(&Contents::from_array(values));
-            values[index] *= 1.1;
-            let more = at.reflectance_transmittance(&Contents::from_array(values));
+            leaf[constituent] = share * most[constituent];
+            let less = at.reflectance_transmittance(&leaf);
+            leaf[constituent] *= 1.1;
+            let more = at.reflectance_transmittance(&leaf);
             prop_assert!(more.reflectance <= less.reflectance + 1e-15);
             prop_assert!(more.transmittance <= less.transmittance + 1e-15);
         }

@@ -3,7 +3,9 @@
 //! Each is one leaf of its kind, not a mean, and says what its numbers rest on. Leaves of a species:
 //! [`crate::species`].
 
+use super::constituent::Constituent;
 use super::contents::Contents;
+use super::per_constituent::PerConstituent;
 
 /// What the contents of a preset rest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,34 +46,27 @@ pub struct Preset {
     pub contents: Contents,
     /// What the numbers rest on, taken together.
     pub basis: PresetBasis,
-    /// What each rests on, in the order of [`Contents::to_array`].
-    each: [PresetBasis; Contents::COUNT],
+    /// What each rests on.
+    each: PerConstituent<PresetBasis>,
 }
 
 impl Preset {
-    /// What the number at `index` of [`Contents::to_array`] rests on.
+    /// What one of the contents rests on.
     ///
     /// Nobody measures a number of plates: it is fitted, with the contents as measured. A content of 0 is taken to be absent.
-    pub fn basis_of(&self, index: usize) -> PresetBasis {
-        self.each[index]
+    pub fn basis_of(&self, constituent: Constituent) -> PresetBasis {
+        self.each[constituent]
     }
 
     /// The same, whose structure, chlorophyll and carotenoids rest on something else.
     const fn green_part(mut self, basis: PresetBasis) -> Self {
-        let [structure, chlorophyll, carotenoids, ..] = &mut self.each;
-        *structure = basis;
-        *chlorophyll = basis;
-        *carotenoids = basis;
+        use Constituent::{Carotenoids, Chlorophyll, Structure};
+        self.each = self.each.with(&[
+            (Structure, basis),
+            (Chlorophyll, basis),
+            (Carotenoids, basis),
+        ]);
         self
-    }
-}
-
-/// A content of 0 is taken to be absent.
-const fn unless_absent(value: f64, basis: PresetBasis) -> PresetBasis {
-    if value == 0.0 {
-        PresetBasis::Absent
-    } else {
-        basis
     }
 }
 
@@ -84,46 +79,26 @@ const fn preset(
     values: [f64; 7],
     basis: PresetBasis,
 ) -> Preset {
-    let [
-        structure,
-        chlorophyll,
-        carotenoids,
-        anthocyanins,
-        brown,
-        water,
-        dry_matter,
-    ] = values;
     let structure_basis = match basis {
         PresetBasis::Measured => PresetBasis::Fitted,
         PresetBasis::Angers | PresetBasis::Fitted | PresetBasis::Estimate | PresetBasis::Absent => {
             basis
         }
     };
-    let each = [
-        structure_basis,
-        unless_absent(chlorophyll, basis),
-        unless_absent(carotenoids, basis),
-        unless_absent(anthocyanins, basis),
-        PresetBasis::Absent,
-        PresetBasis::Absent,
-        unless_absent(brown, basis),
-        unless_absent(water, basis),
-        unless_absent(dry_matter, basis),
-    ];
+    let contents = Contents::prospect_d(values);
+    let mut each = PerConstituent::splat(basis).with(&[(Constituent::Structure, structure_basis)]);
+    let mut next = 0;
+    while next < Constituent::COUNT {
+        let constituent = Constituent::ALL[next];
+        if contents.0.of(constituent) == 0.0 {
+            each = each.with(&[(constituent, PresetBasis::Absent)]);
+        }
+        next += 1;
+    }
     Preset {
         name,
         about,
-        contents: Contents {
-            structure,
-            chlorophyll,
-            carotenoids,
-            anthocyanins,
-            betacyanins: 0.0,
-            betaxanthins: 0.0,
-            brown,
-            water,
-            dry_matter,
-        },
+        contents,
         basis,
         each,
     }
@@ -179,18 +154,29 @@ mod tests {
 
     #[test]
     fn each_number_says_what_it_rests_on() {
-        use PresetBasis::{Absent, Angers, Estimate, Fitted, Measured};
-        let basis = |name: &str| {
-            let preset = by_name(name).expect("a preset");
-            std::array::from_fn::<_, { Contents::COUNT }, _>(|index| preset.basis_of(index))
+        use Constituent::{
+            Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
         };
-        let golden = [
-            Fitted, Measured, Measured, Absent, Absent, Absent, Absent, Measured, Measured,
-        ];
+        use PresetBasis::{Absent, Angers, Estimate, Fitted, Measured};
+        let absent = PerConstituent::splat(Absent);
+        let basis = |name: &str| by_name(name).expect("a preset").each;
+        let golden = absent.with(&[
+            (Structure, Fitted),
+            (Chlorophyll, Measured),
+            (Carotenoids, Measured),
+            (Water, Measured),
+            (DryMatter, Measured),
+        ]);
         assert_eq!(basis("golden"), golden);
-        let purple = [
-            Angers, Angers, Angers, Estimate, Absent, Absent, Absent, Estimate, Estimate,
-        ];
+        let purple = absent.with(&[
+            (Structure, Angers),
+            (Chlorophyll, Angers),
+            (Carotenoids, Angers),
+            (Anthocyanins, Estimate),
+            (Brown, Absent),
+            (Water, Estimate),
+            (DryMatter, Estimate),
+        ]);
         assert_eq!(basis("smoke-tree-purple"), purple);
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::contents::CONTENTS;
+use super::contents::limits;
 use super::outline::bad_file;
 use crate::blade::layers::{Change, Layer, Mode};
 use crate::blade::masks::{Mask, Picture, RimWidth};
@@ -14,7 +14,7 @@ use crate::document::path::{Wanted, resolve};
 use crate::document::source::Place;
 use crate::document::value_kind::{Flag, Integer, Number, Text, Word};
 use crate::document::values::text_at;
-use crate::optics::Contents;
+use crate::optics::{Constituent, PerConstituent};
 
 /// Softness of edges where nothing is said, mm.
 const SOFTNESS_MM: f64 = 0.5;
@@ -50,7 +50,7 @@ pub(super) fn layers(layers: &mut Vec<Layer>, keys: &mut Keys<'_>) {
 fn none() -> Change {
     Change::Values {
         mode: Mode::Replace,
-        values: [None; Contents::COUNT],
+        values: PerConstituent::splat(None),
     }
 }
 
@@ -90,14 +90,15 @@ fn values(change: &mut Change, keys: &mut Keys<'_>) {
     let mode = *mode;
     let about = "What it changes.";
     keys.required_block("contents", about, &[], |keys| {
-        for (content, value) in CONTENTS.iter().zip(values) {
-            let [(least, _), (most, _)] = content.limits.ends();
+        for (constituent, value) in values.iter_mut() {
+            let [_, most] = constituent.range();
             let limits = match mode {
-                Mode::Replace => Limits::closed(least, most),
+                Mode::Replace => limits(constituent),
                 Mode::Add => Limits::closed(-most, most),
                 Mode::Multiply => Limits::closed(0.0, 100.0),
             };
-            keys.optional(content.key, value, Number(limits), content.about);
+            let number = Number(limits);
+            keys.optional(constituent.key(), value, number, constituent.meaning());
         }
     });
 }
@@ -129,7 +130,7 @@ fn map(change: &mut Change, keys: &mut Keys<'_>) {
         match assets.contents(&file) {
             Ok(Raster { width, values }) => {
                 read.width = width;
-                let texels = values.chunks_exact(Contents::COUNT);
+                let texels = values.chunks_exact(Constituent::COUNT);
                 read.texels = texels
                     .map(|texel| std::array::from_fn(|index| texel[index]))
                     .collect();

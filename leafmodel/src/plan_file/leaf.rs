@@ -17,7 +17,7 @@ use crate::document::limits::Limits;
 use crate::document::value_kind::{Degrees, Integer, Number};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
-use crate::optics::{Contents, Pigments};
+use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
 
 /// A leaf of which nothing is said but its length.
@@ -27,7 +27,7 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         seed: 0,
         outline: Contour::GrowthAlgorithm(super::growth_form::usual()).into(),
         venation: AuxinPlan::default().into(),
-        tissue: Tissue::of(super::contents::NOTHING),
+        tissue: Tissue::of(Contents::NOTHING),
         layers: Vec::new(),
         mosaic: None,
         senescence: None,
@@ -141,23 +141,19 @@ fn tissue(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
         .iter_mut()
         .flat_map(|mosaic| &mut mosaic.contents)
     {
-        let (now, before) = (tissue.lamina.to_array(), before.to_array());
-        let mut own = held.to_array();
-        for (own, (now, before)) in own.iter_mut().zip(now.into_iter().zip(before)) {
-            if *own == before {
-                *own = now;
+        for (constituent, own) in held.iter_mut() {
+            if *own == before[constituent] {
+                *own = tissue.lamina[constituent];
             }
         }
-        *held = Contents::from_array(own);
     }
     let about = "Factors on the contents over the middle of a thick vein.";
     keys.block("veins", about, |keys| {
-        let mut factors = tissue.vein_factors.to_array();
-        let limits = Number(Limits::closed(0.0, 100.0));
-        for (name, factor) in Contents::NAMES.into_iter().zip(&mut factors) {
-            keys.key(name, factor, limits, "Factor on this content.");
+        let limits = Number(Limits::closed(0.0, VeinFactors::MOST));
+        for (constituent, factor) in tissue.vein_factors.iter_mut() {
+            let about = "Factor on this content over a fully developed vein.";
+            keys.key(constituent.name(), factor, limits, about);
         }
-        tissue.vein_factors = Contents::from_array(factors);
         let limits = Number(Limits::closed(0.001, 100.0));
         let about = "Radius from which a vein has the whole factors; finer ones take part of \
             them.";

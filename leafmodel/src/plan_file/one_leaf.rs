@@ -225,6 +225,7 @@ mod tests {
     use crate::venation::plan::AuxinPlan;
 
     use super::*;
+    use crate::optics::Constituent;
 
     fn set(settings: &[&str]) -> Result<LeafPlan, LeafNotChosen> {
         let mut plan = crate::species::find("poplar").expect("a preset").plan();
@@ -277,7 +278,7 @@ mod tests {
         );
         let plan = set(&["isogonic.length_step_segments=2", "veins.structure=1.1"])
             .expect("good settings");
-        assert_eq!(plan.tissue.vein_factors.structure, 1.1);
+        assert_eq!(plan.tissue.vein_factors[Constituent::Structure], 1.1);
         // In a block that the plan does not have.
         let clearance = set(&["venation.closed.margin_clearance={ distance = 0.1, until = 1 }"]);
         let clearance = clearance.expect("a good block");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::contents::{NOTHING, changed_contents, warn_of_mixture};
+use super::contents::{changed_contents, warn_of_mixture};
 use super::layers::asset;
 use super::mosaic::{self, mosaic};
 use super::outline::bad_file;
@@ -29,7 +29,7 @@ pub fn usual_solid() -> SolidPlan {
     SolidPlan {
         shape: sphere(),
         seed: 0,
-        contents: NOTHING,
+        contents: Contents::NOTHING,
         mosaic: None,
         pigments: Pigments::default(),
         map_size: MAP_SIZE,
@@ -103,11 +103,10 @@ fn warn_of_mixed_cells(plan: &SolidPlan, keys: &Keys<'_>) {
     if plan.contents.mixes_betalains_and_anthocyanins() {
         return;
     }
-    let most = parts.fold([0.0_f64; Contents::COUNT], |most, part| {
-        let part = part.to_array();
-        std::array::from_fn(|i| most[i].max(part[i]))
+    let most = parts.fold(Contents::NOTHING, |most, part| {
+        Contents(most.zip_with(part.0, f64::max))
     });
-    warn_of_mixture(&Contents::from_array(most), keys, "cells of this body hold");
+    warn_of_mixture(&most, keys, "cells of this body hold");
 }
 
 const SHAPES: [Variant<SolidShape>; 5] = [

@@ -7,7 +7,7 @@ mod veins;
 use crate::blade::petiole::PetiolePlan;
 use crate::compound::{Arrangement, CompoundForm, Feather};
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
-use crate::optics::Pigments;
+use crate::optics::{Constituent, Contents, PerConstituent, Pigments};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
 use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::growth::RateCurve;
@@ -35,7 +35,6 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::venation_plan::VenationPlan;
-use crate::optics::Contents;
 
 fn to_toml(plan: &LeafPlan) -> String {
     leaf_to_toml("beech", plan, Extent::Changed)
@@ -43,6 +42,12 @@ fn to_toml(plan: &LeafPlan) -> String {
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\">\
     <path d=\"M0 0H9V9Z\"/><path id=\"kite\" d=\"M5 9 C6 8 6 7 5 5 L4 7 Z\"/></svg>";
+
+/// One of these for each constituent.
+pub(super) fn of_each<S: Strategy>(one: S) -> impl Strategy<Value = PerConstituent<S::Value>> {
+    let values = prop::array::uniform::<_, { Constituent::COUNT }>(one);
+    values.prop_map(PerConstituent::new)
+}
 
 fn ovate() -> GrowthForm {
     HalfForm::entire(1.2, 0.3, 3.0).into()
@@ -54,8 +59,12 @@ fn plain() -> LeafPlan {
         seed: 0,
         outline: Contour::GrowthAlgorithm(ovate()).into(),
         venation: AuxinPlan::default().into(),
-        tissue: Tissue::of(Contents::from_array([
-            1.5, 40.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.006,
+        tissue: Tissue::of(Contents::of(&[
+            (Constituent::Structure, 1.5),
+            (Constituent::Chlorophyll, 40.0),
+            (Constituent::Carotenoids, 9.0),
+            (Constituent::Water, 0.01),
+            (Constituent::DryMatter, 0.006),
         ])),
         layers: Vec::new(),
         mosaic: None,
@@ -109,9 +118,10 @@ fn layers_and_days_read_back_to_the_same() {
     let mut number = 0;
     let mut layer = |mask, mode, share| {
         number += 1;
-        let mut values = [None; Contents::COUNT];
-        values[number] = Some(0.25);
-        values[6] = Some(1.0);
+        let values = PerConstituent::splat(None).with(&[
+            (Constituent::ALL[number], Some(0.25)),
+            (Constituent::Brown, Some(1.0)),
+        ]);
         Layer {
             name: format!("layer-{number}"),
             mask,
@@ -168,10 +178,7 @@ fn layers_and_days_read_back_to_the_same() {
             senescence: Some(Senescence {
                 source: AgeSource::Day { day: 21.5, course },
                 blend: 6.0,
-                contents: Contents {
-                    brown: 0.8,
-                    ..LITTER
-                },
+                contents: LITTER.with(&[(Constituent::Brown, 0.8)]),
             }),
             ..plain()
         };
@@ -260,7 +267,7 @@ constant = 0.5
     assert_eq!(green.switching, [0.125, 0.875, 0.0]);
     assert_eq!((white.adhesion[0], yellow.adhesion[2]), (0.2, 0.2));
     assert_eq!(white.division_days, f64::INFINITY);
-    assert_eq!(pattern.contents[0].betaxanthins, 2.0);
+    assert_eq!(pattern.contents[0][Constituent::Betaxanthins], 2.0);
     assert_eq!(pattern.contents[1], plan.tissue.lamina);
     assert_eq!(pattern.plan.controls.len(), 5);
     assert_eq!(read(&to_toml(&plan)), plan);

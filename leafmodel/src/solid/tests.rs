@@ -5,14 +5,10 @@ use super::*;
 use crate::mosaic::plan::{CellType, MosaicPlan};
 use crate::mosaic::shapes::ellipsoid;
 use crate::mosaic::shapes::rounded_cube;
-
-const BARE: [f64; Contents::COUNT] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+use crate::optics::{Constituent, Contents};
 
 fn holding(chlorophyll: f64) -> Contents {
-    Contents {
-        chlorophyll,
-        ..Contents::from_array(BARE)
-    }
+    Contents::of(&[(Constituent::Chlorophyll, chlorophyll)])
 }
 
 /// Cells of two types with 10 and 50 µg/cm² of chlorophyll.
@@ -98,7 +94,7 @@ fn chlorophyll(map: &ContentsMap, uv: DVec2) -> f64 {
     let ((x, a), (y, b)) = (along(uv.x, map.width), along(uv.y, map.height));
     let texel = |x: u32, y: u32| {
         let (x, y) = (x.min(map.width - 1), y.min(map.height - 1));
-        f64::from(map.texels[(y * map.width + x) as usize][1])
+        f64::from(map.texels[(y * map.width + x) as usize][Constituent::Chlorophyll])
     };
     let row = |y: u32| texel(x, y) * (1.0 - a) + texel(x + 1, y) * a;
     row(y) * (1.0 - b) + row(y + 1) * b

@@ -16,7 +16,7 @@ use self::autumn::{BIRCH, GINKGO, OAK_LITTER, POPLAR, RED_MAPLE, SUGAR_MAPLE, SW
 use self::evergreen::{ACER_VARIEGATED, AMARANTH, COTINUS, CROTON, IRON_CHLOROSIS, IVY};
 use super::leaf_traits::{LeafTraits, Quantity};
 use crate::leaf::LeafPlan;
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents, PerConstituent};
 
 /// All of them, in the order of the book.
 pub(super) static COLOURED: [ColouredLeaf; 13] = [
@@ -57,8 +57,8 @@ pub struct ColouredLeaf {
 pub struct Holding {
     /// Which tissue: `turned` has aged and still lives, `dead` is litter, others are places or types of cells.
     pub tissue: &'static str,
-    /// In the order of [`Contents::NAMES`].
-    pub contents: [Option<Quantity>; Contents::COUNT],
+    /// The contents that differ.
+    pub contents: PerConstituent<Option<Quantity>>,
 }
 
 /// The days of an ageing leaf.
@@ -93,17 +93,10 @@ impl ColouredLeaf {
     pub fn quantities(&self) -> Vec<(String, &'static str, Quantity)> {
         let mut all = Vec::new();
         for Holding { tissue, contents } in self.tissues {
-            for ((name, unit), quantity) in Contents::NAMES
-                .into_iter()
-                .zip(Contents::UNITS)
-                .zip(contents)
-            {
-                let Some(quantity) = *quantity else { continue };
-                all.push((
-                    format!("{tissue}: {}", name.replace('_', " ")),
-                    unit,
-                    quantity,
-                ));
+            for (constituent, quantity) in *contents {
+                let Some(quantity) = quantity else { continue };
+                let name = constituent.name().replace('_', " ");
+                all.push((format!("{tissue}: {name}"), constituent.unit(), quantity));
             }
         }
         if let Some(age) = &self.age {
@@ -124,11 +117,9 @@ impl ColouredLeaf {
             .tissues
             .iter()
             .find(|holding| holding.tissue == tissue)?;
-        let mut held = self.green.contents().to_array();
-        for (value, told) in held.iter_mut().zip(holding.contents) {
-            *value = told.map_or(*value, |quantity| quantity.value);
-        }
-        Some(Contents::from_array(held))
+        let green = self.green.contents();
+        let held = |value, told: Option<Quantity>| told.map_or(value, |quantity| quantity.value);
+        Some(Contents(green.zip_with(holding.contents, held)))
     }
 
     /// What a tissue that the table has holds.
@@ -143,48 +134,48 @@ impl Holding {
     const fn new(tissue: &'static str) -> Self {
         Self {
             tissue,
-            contents: [None; Contents::COUNT],
+            contents: PerConstituent::splat(None),
         }
     }
 
-    const fn with(mut self, index: usize, quantity: Quantity) -> Self {
-        self.contents[index] = Some(quantity);
+    const fn with(mut self, constituent: Constituent, quantity: Quantity) -> Self {
+        self.contents = self.contents.with(&[(constituent, Some(quantity))]);
         self
     }
 
     const fn structure(self, quantity: Quantity) -> Self {
-        self.with(0, quantity)
+        self.with(Constituent::Structure, quantity)
     }
 
     const fn chlorophyll(self, quantity: Quantity) -> Self {
-        self.with(1, quantity)
+        self.with(Constituent::Chlorophyll, quantity)
     }
 
     const fn carotenoids(self, quantity: Quantity) -> Self {
-        self.with(2, quantity)
+        self.with(Constituent::Carotenoids, quantity)
     }
 
     const fn anthocyanins(self, quantity: Quantity) -> Self {
-        self.with(3, quantity)
+        self.with(Constituent::Anthocyanins, quantity)
     }
 
     const fn betacyanins(self, quantity: Quantity) -> Self {
-        self.with(4, quantity)
+        self.with(Constituent::Betacyanins, quantity)
     }
 
     const fn betaxanthins(self, quantity: Quantity) -> Self {
-        self.with(5, quantity)
+        self.with(Constituent::Betaxanthins, quantity)
     }
 
     const fn brown(self, quantity: Quantity) -> Self {
-        self.with(6, quantity)
+        self.with(Constituent::Brown, quantity)
     }
 
     const fn water(self, quantity: Quantity) -> Self {
-        self.with(7, quantity)
+        self.with(Constituent::Water, quantity)
     }
 
     const fn dry_matter(self, quantity: Quantity) -> Self {
-        self.with(8, quantity)
+        self.with(Constituent::DryMatter, quantity)
     }
 }

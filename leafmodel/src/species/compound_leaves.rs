@@ -8,6 +8,7 @@ use super::green_leaf;
 use crate::compound::{Arrangement, CompoundForm, Feather};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
+use crate::optics::Constituent::{Carotenoids, Chlorophyll, DryMatter, Structure, Water};
 use crate::shape::teeth::ToothWave;
 use crate::venation::plan::{AuxinPlan, Growth};
 
@@ -43,11 +44,11 @@ fn leaf(leaflet: Leaflet, compound: CompoundForm) -> LeafPlan {
     let mut leaf = green_leaf(leaflet.length_mm, leaflet.seed, leaflet.outline, venation);
     let lamina = &mut leaf.tissue.lamina;
     [
-        lamina.structure,
-        lamina.chlorophyll,
-        lamina.carotenoids,
-        lamina.water,
-        lamina.dry_matter,
+        lamina[Structure],
+        lamina[Chlorophyll],
+        lamina[Carotenoids],
+        lamina[Water],
+        lamina[DryMatter],
     ] = leaflet.contents;
     [leaf.form.fold, leaf.form.curl] = leaflet.bend.map(f64::to_radians);
     leaf.form.max_edge_mm = leaflet.length_mm / 50.0;

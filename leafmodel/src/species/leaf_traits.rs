@@ -14,7 +14,10 @@ use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::optics::{Contents, Pigments};
+use crate::optics::Constituent::{
+    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
 
 pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
@@ -206,17 +209,14 @@ impl LeafTraits {
 
     /// What the lamina holds between veins in summer.
     pub fn contents(&self) -> Contents {
-        Contents {
-            structure: self.structure.value,
-            chlorophyll: self.chlorophyll.value,
-            carotenoids: self.carotenoids.value,
-            anthocyanins: self.anthocyanins.value,
-            betacyanins: 0.0,
-            betaxanthins: 0.0,
-            brown: 0.0,
-            water: self.water.value,
-            dry_matter: self.dry_matter.value,
-        }
+        Contents::of(&[
+            (Structure, self.structure.value),
+            (Chlorophyll, self.chlorophyll.value),
+            (Carotenoids, self.carotenoids.value),
+            (Anthocyanins, self.anthocyanins.value),
+            (Water, self.water.value),
+            (DryMatter, self.dry_matter.value),
+        ])
     }
 
     /// What the grown outline is held against, with name and unit.
@@ -231,6 +231,9 @@ impl LeafTraits {
     pub fn plan(&self, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
         let length_mm = self.length_mm.value;
         let finest = venation.veinlet_radius_mm;
+        let mut vein_factors = VeinFactors::default();
+        vein_factors[Chlorophyll] = self.veins.pigments;
+        vein_factors[Carotenoids] = 1.2 * self.veins.pigments;
         LeafPlan {
             length_mm,
             seed,
@@ -238,17 +241,7 @@ impl LeafTraits {
             venation: venation.into(),
             tissue: Tissue {
                 lamina: self.contents(),
-                vein_factors: Contents {
-                    structure: 1.3,
-                    chlorophyll: self.veins.pigments,
-                    carotenoids: 1.2 * self.veins.pigments,
-                    anthocyanins: 1.0,
-                    betacyanins: 1.0,
-                    betaxanthins: 1.0,
-                    brown: 1.0,
-                    water: 2.0,
-                    dry_matter: 2.5,
-                },
+                vein_factors,
                 full_vein_radius_mm: (self.veins.full_over_finest * finest).clamp(0.001, 0.2),
                 sheath_width_mm: (self.veins.sheath_over_finest * finest).clamp(0.001, 0.15),
                 mottle: 0.1,

@@ -9,6 +9,9 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
 use crate::optics::Contents;
 use crate::transport::{FilledPlan, TransportPlan, VeinStyle, example};
 use crate::venation::plan::AuxinPlan;
@@ -87,22 +90,20 @@ pub(super) fn example_4() -> LeafPlan {
 /// Example 1 when its outer cells have died, which the paper foresees (Remark 3.6) and does not show.
 pub(super) fn autumn() -> LeafPlan {
     let mut leaf = example_1();
-    leaf.tissue.lamina.chlorophyll = 20.0;
-    leaf.tissue.lamina.carotenoids = 8.0;
+    leaf.tissue.lamina[Chlorophyll] = 20.0;
+    leaf.tissue.lamina[Carotenoids] = 8.0;
     leaf.senescence = Some(Senescence {
         source: AgeSource::Revenue { share: 0.84 },
         blend: 0.09,
-        contents: Contents {
-            structure: 2.0,
-            chlorophyll: 0.5,
-            carotenoids: 6.0,
-            anthocyanins: 1.0,
-            betacyanins: 0.0,
-            betaxanthins: 0.0,
-            brown: 0.7,
-            water: 0.002,
-            dry_matter: 0.005,
-        },
+        contents: Contents::of(&[
+            (Structure, 2.0),
+            (Chlorophyll, 0.5),
+            (Carotenoids, 6.0),
+            (Anthocyanins, 1.0),
+            (Brown, 0.7),
+            (Water, 0.002),
+            (DryMatter, 0.005),
+        ]),
     });
     leaf
 }

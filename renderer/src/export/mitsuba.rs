@@ -14,13 +14,13 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use leafmodel::optics::{Pigments, ProspectD};
+use leafmodel::optics::{Constituent, Pigments, ProspectD};
 use serde_json::json;
 use thiserror::Error;
 
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::Material;
-use crate::material::contents_texture::{CHANNELS, ContentsTexture};
+use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::LeafTissue;
 use crate::material::palette::Palette;
 use crate::material::solid::SolidTissue;
@@ -70,23 +70,14 @@ fn absorption_table(pigments: &Pigments) -> String {
         text +=
             "# Some of the pigments are others than PROSPECT-D's: those that the scene names.\n";
     }
-    text += "wavelength_nm,refractive_index,chlorophyll,carotenoids,anthocyanins,betacyanins,betaxanthins,brown,water,dry_matter\n";
+    text += "wavelength_nm,refractive_index";
+    text.extend(Constituent::ABSORBING.map(|constituent| format!(",{}", constituent.channel())));
+    text.push('\n');
     for nm in 400..=2500 {
         let at = ProspectD::coefficients_of(pigments, f64::from(nm));
-        let k = at.absorption;
-        let columns = [
-            at.interface.refractive_index,
-            k.chlorophyll,
-            k.carotenoids,
-            k.anthocyanins,
-            k.betacyanins,
-            k.betaxanthins,
-            k.brown,
-            k.water,
-            k.dry_matter,
-        ];
-        text += &nm.to_string();
-        text.extend(columns.map(|value| format!(",{value}")));
+        text += &format!("{nm},{}", at.interface.refractive_index);
+        let absorbed = Constituent::ABSORBING.map(|constituent| at.absorption[constituent]);
+        text.extend(absorbed.map(|value| format!(",{value}")));
         text.push('\n');
     }
     text
@@ -178,18 +169,18 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
 /// A contents map as a picture whose first row is v = 0.
 pub fn map_picture(map: &ContentsTexture) -> Picture {
     let (width, height) = map.size();
-    let layers = CHANNELS
-        .into_iter()
-        .enumerate()
-        .map(|(channel, name)| Layer {
-            name: name.to_owned(),
-            data: map.texels().iter().map(|texel| texel[channel]).collect(),
-        })
-        .collect();
+    let layers = Constituent::ALL.map(|constituent| Layer {
+        name: constituent.channel().to_owned(),
+        data: map
+            .texels()
+            .iter()
+            .map(|texel| texel[constituent])
+            .collect(),
+    });
     Picture {
         width: width as u32,
         height: height as u32,
-        layers,
+        layers: layers.into(),
         attributes: Vec::new(),
     }
 }

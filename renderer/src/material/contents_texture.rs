@@ -1,17 +1,14 @@
 //! What a leaf holds at each point of it, as a float picture over uv.
 
 use glam::Vec2;
-use leafmodel::optics::Contents;
-
-/// Channels of a contents map, in the order of its texels.
-pub const CHANNELS: [&str; Contents::COUNT] = Contents::NAMES;
+use leafmodel::optics::{Contents, PerConstituent, Texel};
 
 /// A contents map: bilinear between texel centres, clamped at the border; row 0 is at v = 0.
 #[derive(Clone, Debug)]
 pub struct ContentsTexture {
     width: usize,
     height: usize,
-    texels: Box<[[f32; Contents::COUNT]]>,
+    texels: Box<[Texel]>,
 }
 
 impl ContentsTexture {
@@ -20,7 +17,7 @@ impl ContentsTexture {
     /// # Panics
     ///
     /// If the number of texels is another, or zero.
-    pub fn new(width: usize, height: usize, texels: Vec<[f32; Contents::COUNT]>) -> Self {
+    pub fn new(width: usize, height: usize, texels: Vec<Texel>) -> Self {
         assert!(
             !texels.is_empty() && texels.len() == width * height,
             "a map fills its rectangle"
@@ -38,24 +35,25 @@ impl ContentsTexture {
     }
 
     /// The texels, row by row from v = 0.
-    pub fn texels(&self) -> &[[f32; Contents::COUNT]] {
+    pub fn texels(&self) -> &[Texel] {
         &self.texels
     }
 
     /// Mean contents over all texels.
     pub fn mean(&self) -> Contents {
-        let mut sums = [0.0_f64; Contents::COUNT];
-        for texel in &self.texels {
-            for (sum, &value) in sums.iter_mut().zip(texel) {
-                *sum += f64::from(value);
-            }
-        }
-        Contents::from_array(sums.map(|sum| sum / self.texels.len() as f64))
+        let add = |sum: f64, value: f32| sum + f64::from(value);
+        let sums = self
+            .texels
+            .iter()
+            .fold(PerConstituent::splat(0.0), |sums, texel| {
+                sums.zip_with(*texel, add)
+            });
+        Contents(sums.map(|sum| sum / self.texels.len() as f64))
     }
 
-    /// Contents at `uv`, in the order of [`Contents::to_array`].
+    /// Contents at `uv`.
     #[inline]
-    pub fn at(&self, uv: Vec2) -> [f32; Contents::COUNT] {
+    pub fn at(&self, uv: Vec2) -> Texel {
         let x = (uv.x * self.width as f32 - 0.5).clamp(0.0, (self.width - 1) as f32);
         let y = (uv.y * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
         let (x0, y0) = (x as usize, y as usize);
@@ -63,25 +61,28 @@ impl ContentsTexture {
         let (share_x, share_y) = (x - x0 as f32, y - y0 as f32);
         let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
         let (a, b, c, d) = (texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1));
-        let value = |i: usize| {
+        let value = |i| {
             let below = a[i] * (1.0 - share_x) + b[i] * share_x;
             let above = c[i] * (1.0 - share_x) + d[i] * share_x;
             below * (1.0 - share_y) + above * share_y
         };
-        std::array::from_fn(value)
+        Texel::from_fn(value)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::optics::Constituent;
+
     use super::*;
 
     #[test]
     fn a_lookup_at_a_texel_centre_gives_the_texel_and_between_two_their_mean() {
-        let texel = |value: f32| [1.0 + value, value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let (structure, chlorophyll) = (Constituent::Structure, Constituent::Chlorophyll);
+        let texel =
+            |value: f32| Texel::splat(0.0).with(&[(structure, 1.0 + value), (chlorophyll, value)]);
         let map = ContentsTexture::new(2, 2, vec![texel(1.0), texel(2.0), texel(3.0), texel(4.0)]);
         let at = |x, y| map.at(Vec2::new(x, y));
-        let [structure, chlorophyll] = [0, 1];
         assert_eq!(at(0.25, 0.25)[chlorophyll], 1.0);
         assert_eq!(at(0.75, 0.75)[chlorophyll], 4.0);
         assert_eq!(at(0.5, 0.25)[chlorophyll], 1.5);

@@ -1,7 +1,7 @@
 //! A leaf's material: what decides its R and T, and its coats.
 
 use glam::Vec2;
-use leafmodel::optics::{Contents, ProspectD};
+use leafmodel::optics::{Contents, ProspectD, Texel};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
 use crate::material::contents_texture::ContentsTexture;
@@ -113,13 +113,13 @@ impl LeafMaterial {
     }
 
     fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
-        let optics = |contents: &[f32; Contents::COUNT]| {
+        let optics = |contents: &Texel| {
             let pile = self.palette.lanes(wavelengths);
             let (reflectance, transmittance) = pile.reflectance_transmittance(contents);
             (Lanes(reflectance), Lanes(transmittance))
         };
         let (reflectance, transmittance) = match &self.tissue {
-            LeafTissue::Uniform(contents) => optics(&contents.to_array().map(|c| c as f32)),
+            LeafTissue::Uniform(contents) => optics(&contents.to_texel()),
             LeafTissue::Map(map) => optics(&map.at(uv)),
             LeafTissue::Measured {
                 reflectance,
@@ -175,7 +175,7 @@ mod tests {
             let palette = known.of(pigments);
             for step in 0..1000 {
                 let nm = 395.0 + 2.13 * step as f32;
-                let held = green.to_array().map(|content| content as f32);
+                let held = green.to_texel();
                 let (r, t) = palette.lanes(&at(nm)).reflectance_transmittance(&held);
                 let exact = ProspectD::coefficients_of(pigments, f64::from(nm))
                     .reflectance_transmittance(&green);
@@ -198,7 +198,7 @@ mod tests {
             range_nm: [400.0, 780.0],
         });
         let mut known = Palettes::on(sampler.grid());
-        let texel = red.to_array().map(|content| content as f32);
+        let texel = red.to_texel();
         for pigments in &palettes() {
             for tissue in [
                 LeafTissue::Uniform(red),

@@ -6,7 +6,7 @@
 use std::sync::{Arc, OnceLock};
 
 use leafmodel::optics::fast::{self, PileLanes};
-use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD, SpecificAbsorption};
+use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD};
 
 use crate::spectrum::{Table, WavelengthGrid, Wavelengths};
 
@@ -95,16 +95,7 @@ impl Palette {
                 t_av_40: between(a.interface.t_av_40, b.interface.t_av_40),
                 t_av_90: between(a.interface.t_av_90, b.interface.t_av_90),
             },
-            absorption: SpecificAbsorption {
-                chlorophyll: between(a.absorption.chlorophyll, b.absorption.chlorophyll),
-                carotenoids: between(a.absorption.carotenoids, b.absorption.carotenoids),
-                anthocyanins: between(a.absorption.anthocyanins, b.absorption.anthocyanins),
-                betacyanins: between(a.absorption.betacyanins, b.absorption.betacyanins),
-                betaxanthins: between(a.absorption.betaxanthins, b.absorption.betaxanthins),
-                brown: between(a.absorption.brown, b.absorption.brown),
-                water: between(a.absorption.water, b.absorption.water),
-                dry_matter: between(a.absorption.dry_matter, b.absorption.dry_matter),
-            },
+            absorption: a.absorption.zip_with(b.absorption, between),
         }
     }
 }

@@ -98,8 +98,8 @@ impl SolidMaterial {
         (0..=steps)
             .map(|i| range_nm[0] + (range_nm[1] - range_nm[0]) * f64::from(i) / f64::from(steps))
             .find(|&nm| {
-                let at = ProspectD::coefficients_of(self.palette.pigments(), nm).absorption;
-                self.reflectance(at.of_leaf(&contents)) < coat - 1e-4
+                let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
+                self.reflectance(at.absorption_of_leaf(&contents)) < coat - 1e-4
             })
     }
 
@@ -131,7 +131,7 @@ impl SolidMaterial {
 
     fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
         let contents = match &self.tissue {
-            SolidTissue::Uniform(contents) => contents.to_array().map(|content| content as f32),
+            SolidTissue::Uniform(contents) => contents.to_texel(),
             SolidTissue::Map(map) => map.at(uv),
         };
         let absorption = self.palette.lanes(wavelengths).absorption(&contents);

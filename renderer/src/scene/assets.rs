@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use leafmodel::document::assets::{Assets, Raster, Triangles};
-use leafmodel::optics::Contents;
+use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
 use crate::image::{ImageError, openexr, portable_network};
-
-use crate::material::contents_texture::{CHANNELS, ContentsTexture};
+use crate::material::contents_texture::ContentsTexture;
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -129,7 +128,7 @@ fn channel(
     Ok(layer.data.clone())
 }
 
-/// A contents map: an EXR with the channels of [`CHANNELS`]; its first row is v = 0.
+/// A contents map: an EXR with a channel for each [`Constituent`]; its first row is v = 0.
 ///
 /// # Errors
 ///
@@ -137,18 +136,17 @@ fn channel(
 pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     let picture = openexr::read(file)?;
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let mut texels = vec![[0.0; Contents::COUNT]; width * height];
-    for (number, name) in CHANNELS.into_iter().enumerate() {
+    let mut texels = vec![Texel::splat(0.0); width * height];
+    for constituent in Constituent::ALL {
+        let name = constituent.channel();
         // Maps of PROSPECT-D's inputs alone hold no betalains.
-        let is_betalain = name.starts_with("beta");
-        if is_betalain && !picture.layers.iter().any(|layer| layer.name == name) {
+        if !constituent.is_prospect_d() && !picture.layers.iter().any(|layer| layer.name == name) {
             continue;
         }
-        // N below 1 is no pile of plates.
-        let values = channel(file, &picture, name, if number == 0 { 1.0 } else { 0.0 })?;
+        let values = channel(file, &picture, name, constituent.least() as f32)?;
         for (row, line) in values.chunks(width).enumerate() {
             for (column, value) in line.iter().enumerate() {
-                texels[row * width + column][number] = *value;
+                texels[row * width + column][constituent] = *value;
             }
         }
     }
@@ -288,7 +286,11 @@ impl Assets for Decoder {
         let map = contents_map(file).map_err(|error| error.without_path(file))?;
         Ok(Raster {
             width: map.size().0,
-            values: map.texels().as_flattened().to_vec(),
+            values: map
+                .texels()
+                .iter()
+                .flat_map(|texel| *texel.as_array())
+                .collect(),
         })
     }
 

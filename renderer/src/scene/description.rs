@@ -254,8 +254,7 @@ pub enum LeafTissue {
         /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
         extrapolate: bool,
     },
-    /// PROSPECT-D of contents read from a map: an EXR with channels `structure`, `chlorophyll`, `carotenoids`,
-    /// `anthocyanins`, `brown`, `water`, `dry_matter`.
+    /// PROSPECT-D of contents read from a map: an EXR with a channel for each [`leafmodel::optics::Constituent`].
     Map {
         /// The map's file, resolved and inside the scene's folder.
         file: PathBuf,

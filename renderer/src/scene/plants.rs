@@ -6,8 +6,8 @@ use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::{CompoundError, WholeLeaf};
 use leafmodel::leaf::{Leaf, LeafError, LeafPlan};
-use leafmodel::optics::Contents;
 use leafmodel::optics::solid::ReflectanceTable;
+use leafmodel::optics::{Contents, Texel};
 use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
 
@@ -126,7 +126,7 @@ pub(super) struct MeshParts {
 pub(super) struct MapParts {
     pub(super) width: usize,
     pub(super) height: usize,
-    pub(super) texels: Vec<[f32; Contents::COUNT]>,
+    pub(super) texels: Vec<Texel>,
 }
 
 /// Grows a leaf whose pigments are those of `palette`, or takes it from `cache` if it is there.

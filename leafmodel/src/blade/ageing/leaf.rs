@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::super::distances::Distances;
 use super::super::mottle::Mottle;
 use super::{Along, Course, Decay, Delay, Place};
-use crate::optics::Contents;
+use crate::optics::{Constituent, Contents};
 use crate::transport::DeathField;
 use crate::venation::chance::{self, Use};
 
@@ -201,17 +201,11 @@ impl AgeingLeaf {
             return aged;
         }
         // Death brings back no pigment and takes no brown.
-        let dead = Contents {
-            chlorophyll: self.dead.chlorophyll.min(aged.chlorophyll),
-            carotenoids: self.dead.carotenoids.min(aged.carotenoids),
-            brown: self.dead.brown.max(aged.brown),
-            ..self.dead
+        let mut dead = self.dead;
+        for pigment in [Constituent::Chlorophyll, Constituent::Carotenoids] {
+            dead[pigment] = dead[pigment].min(aged[pigment]);
         }
-        .to_array();
-        let mut mixed = aged.to_array();
-        for (value, dead) in mixed.iter_mut().zip(dead) {
-            *value += (dead - *value) * share;
-        }
-        Contents::from_array(mixed)
+        dead[Constituent::Brown] = dead[Constituent::Brown].max(aged[Constituent::Brown]);
+        aged.towards(dead, share)
     }
 }

@@ -2,6 +2,10 @@
 
 use super::super::ageing_courses::{COURSES, LITTER, RED};
 use super::*;
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::Contents;
 
 const FRAME: UvFrame = UvFrame {
     min: DVec2::new(-20.0, 0.0),
@@ -13,17 +17,15 @@ const MARGIN: [DVec2; 4] = [
     DVec2::new(20.0, 60.0),
     DVec2::new(-20.0, 60.0),
 ];
-const GREEN: Contents = Contents {
-    structure: 1.5,
-    chlorophyll: 40.0,
-    carotenoids: 9.0,
-    anthocyanins: 0.5,
-    betacyanins: 0.0,
-    betaxanthins: 0.0,
-    brown: 0.01,
-    water: 0.01,
-    dry_matter: 0.005,
-};
+const GREEN: Contents = Contents::of(&[
+    (Structure, 1.5),
+    (Chlorophyll, 40.0),
+    (Carotenoids, 9.0),
+    (Anthocyanins, 0.5),
+    (Brown, 0.01),
+    (Water, 0.01),
+    (DryMatter, 0.005),
+]);
 
 fn leaf(course: Course, day: f64) -> AgeingLeaf {
     let vein = VeinSegment {
@@ -67,20 +69,26 @@ fn chlorophyll_never_rises_brown_never_falls_and_carotenoids_outlast_chlorophyll
             for leaf in &days {
                 let now = leaf.contents(GREEN, p);
                 let slack = 1e-12;
-                assert!(now.chlorophyll <= before.chlorophyll + slack, "{name} {p}");
-                assert!(now.carotenoids <= before.carotenoids + slack, "{name} {p}");
-                assert!(now.brown >= before.brown - slack, "{name} {p}");
-                assert!(now.water <= before.water + slack, "{name} {p}");
+                assert!(
+                    now[Chlorophyll] <= before[Chlorophyll] + slack,
+                    "{name} {p}"
+                );
+                assert!(
+                    now[Carotenoids] <= before[Carotenoids] + slack,
+                    "{name} {p}"
+                );
+                assert!(now[Brown] >= before[Brown] - slack, "{name} {p}");
+                assert!(now[Water] <= before[Water] + slack, "{name} {p}");
                 if leaf.dead_share(p) == 0.0 {
                     // What ages is what is above the rest that stays.
                     let rest = course.chlorophyll_rest;
-                    let left = (now.chlorophyll - rest) / (GREEN.chlorophyll - rest);
-                    let share = now.carotenoids / GREEN.carotenoids;
+                    let left = (now[Chlorophyll] - rest) / (GREEN[Chlorophyll] - rest);
+                    let share = now[Carotenoids] / GREEN[Carotenoids];
                     assert!(share >= left - slack, "{name} {p}: {share} of {left}");
                 }
                 before = now;
             }
-            assert_eq!(before.brown, LITTER.brown, "{name}: litter in the end");
+            assert_eq!(before[Brown], LITTER[Brown], "{name}: litter in the end");
         }
     }
 }
@@ -90,15 +98,15 @@ fn no_anthocyanin_is_made_before_chlorophyll_is_below_20_and_then_up_to_its_most
     for (name, course) in COURSES {
         for tenth in 0..1000 {
             let now = course.senescent(GREEN, f64::from(tenth) * 0.1);
-            let made = now.anthocyanins > GREEN.anthocyanins;
+            let made = now[Anthocyanins] > GREEN[Anthocyanins];
             let may = course.anthocyanins > 0.0;
             // At the threshold itself rounding decides.
-            if (now.chlorophyll - ANTHOCYANIN_BELOW).abs() > 1e-9 {
-                assert_eq!(made, may && now.chlorophyll < ANTHOCYANIN_BELOW, "{name}");
+            if (now[Chlorophyll] - ANTHOCYANIN_BELOW).abs() > 1e-9 {
+                assert_eq!(made, may && now[Chlorophyll] < ANTHOCYANIN_BELOW, "{name}");
             }
         }
-        let end = course.senescent(GREEN, 100.0).anthocyanins;
-        let most = course.anthocyanins.max(GREEN.anthocyanins);
+        let end = course.senescent(GREEN, 100.0)[Anthocyanins];
+        let most = course.anthocyanins.max(GREEN[Anthocyanins]);
         assert!((end - most).abs() < 1e-3 * most, "{name}: {end}");
     }
 }
@@ -110,7 +118,7 @@ fn a_leaf_that_never_falls_below_20_makes_no_anthocyanin() {
         ..RED
     };
     let end = green_for_ever.senescent(GREEN, 500.0);
-    assert_eq!(end.anthocyanins, GREEN.anthocyanins);
+    assert_eq!(end[Anthocyanins], GREEN[Anthocyanins]);
 }
 
 #[test]
@@ -143,7 +151,7 @@ fn tissue_near_veins_stays_green_longest_or_goes_first() {
             ..Delay::NONE
         };
         let leaf = leaf(Course { onset, ..RED }, 10.0);
-        let chlorophyll = |x| leaf.contents(GREEN, DVec2::new(x, 30.0)).chlorophyll;
+        let chlorophyll = |x| leaf.contents(GREEN, DVec2::new(x, 30.0))[Chlorophyll];
         chlorophyll(0.0) - chlorophyll(10.0)
     };
     assert!(at_vein(6.0) > 5.0);
@@ -155,11 +163,12 @@ fn tissue_near_veins_stays_green_longest_or_goes_first() {
 fn contents_are_smooth_in_time() {
     // No step: over a hundredth of a day nothing changes by more than its steepest slope allows.
     let p = DVec2::new(9.0, 22.0);
-    let mut before = GREEN.to_array();
+    let mut before = GREEN;
     for i in 1..8000 {
-        let now = leaf(RED, f64::from(i) * 0.01).contents(GREEN, p).to_array();
-        for (a, b) in now.into_iter().zip(before) {
-            assert!((a - b).abs() < 0.1, "{a} after {b}");
+        let now = leaf(RED, f64::from(i) * 0.01).contents(GREEN, p);
+        for (constituent, b) in *before {
+            let a = now[constituent];
+            assert!((a - b).abs() < 0.1, "{constituent:?}: {a} after {b}");
         }
         before = now;
     }

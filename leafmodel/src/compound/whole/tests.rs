@@ -4,6 +4,7 @@ use super::super::tests::{feather, leaflet, palmate};
 use super::*;
 use crate::compound::FlatLeaf;
 use crate::leaf::Lamina;
+use crate::optics::Constituent;
 use crate::shape::outline::Outline;
 
 /// A leaf with few veins.
@@ -134,7 +135,6 @@ fn tilts_are_chance_that_the_seed_decides() {
 #[test]
 fn stalks_age_as_the_base_of_the_blade_does() {
     use crate::blade::senescence::{AgeSource, Senescence};
-    use crate::optics::Contents;
 
     let mut plan = plan(Arrangement::Pinnate(feather()), |_| ());
     plan.compound = None;
@@ -145,11 +145,10 @@ fn stalks_age_as_the_base_of_the_blade_does() {
         radius_mm: None,
         curl: 0.0,
     });
-    let dead = Contents {
-        chlorophyll: 0.0,
-        brown: 2.0,
-        ..plan.tissue.lamina
-    };
+    let dead = plan
+        .tissue
+        .lamina
+        .with(&[(Constituent::Chlorophyll, 0.0), (Constituent::Brown, 2.0)]);
     let mut at = |share: Option<f64>| {
         plan.senescence = share.map(|share| Senescence {
             source: AgeSource::Revenue { share },
@@ -161,7 +160,7 @@ fn stalks_age_as_the_base_of_the_blade_does() {
     };
     let (living, summer, end) = (at(None), at(Some(1.0)), at(Some(0.0)));
     assert_eq!(living, summer);
-    assert!(living.chlorophyll > 0.0 && living.brown < 1.0);
-    assert_eq!(end.chlorophyll, 0.0);
-    assert!(end.brown > living.brown);
+    assert!(living[Constituent::Chlorophyll] > 0.0 && living[Constituent::Brown] < 1.0);
+    assert_eq!(end[Constituent::Chlorophyll], 0.0);
+    assert!(end[Constituent::Brown] > living[Constituent::Brown]);
 }

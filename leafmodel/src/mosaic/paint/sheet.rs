@@ -158,12 +158,8 @@ impl SheetField {
             face: adaxial.face + self.corners.len() as u32,
             barycentric: [u, w, v],
         };
-        let second = self.field.contents(&abaxial, of_types, weights).to_array();
-        let mut mean = first.to_array();
-        for (value, other) in mean.iter_mut().zip(second) {
-            *value = 0.5 * (*value + other);
-        }
-        Contents::from_array(mean)
+        let second = self.field.contents(&abaxial, of_types, weights);
+        Contents(first.zip_with(second.0, |one, other| 0.5 * (one + other)))
     }
 }
 

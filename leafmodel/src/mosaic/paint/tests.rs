@@ -4,6 +4,7 @@ use super::*;
 use crate::mosaic::control::{ControlImage, Steered};
 use crate::mosaic::shapes::sphere;
 use crate::mosaic::voronoi::tests::{scattered, surface};
+use crate::optics::{Constituent, Contents};
 
 fn kinds(sites: usize, types: u16) -> Vec<u16> {
     (0..sites).map(|i| (i * 7 % 11) as u16 % types).collect()
@@ -142,8 +143,11 @@ fn the_two_faces_of_a_blade_hold_half_of_its_contents_each() {
         &[contents(60.0), contents(10.0)],
         &mut [0.0; 2],
     );
-    assert!((found.chlorophyll - 35.0).abs() < 1e-9);
-    assert!((found.water - 0.01).abs() < 1e-12 && (found.structure - 1.5).abs() < 1e-12);
+    assert!((found[Constituent::Chlorophyll] - 35.0).abs() < 1e-9);
+    assert!(
+        (found[Constituent::Water] - 0.01).abs() < 1e-12
+            && (found[Constituent::Structure] - 1.5).abs() < 1e-12
+    );
 }
 
 #[test]

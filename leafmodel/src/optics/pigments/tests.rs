@@ -1,7 +1,10 @@
 use super::*;
-use crate::optics::{ProspectD, SpecificAbsorption};
+use crate::optics::Constituent::{
+    Anthocyanins, Betacyanins, Betaxanthins, Carotenoids, Chlorophyll,
+};
+use crate::optics::{PerConstituent, ProspectD};
 
-fn at(pigments: &Pigments, nm: f64) -> SpecificAbsorption {
+fn at(pigments: &Pigments, nm: f64) -> PerConstituent<f64> {
     ProspectD::coefficients_of(pigments, nm).absorption
 }
 
@@ -65,19 +68,19 @@ fn carotenoids_peak_where_they_do_in_methanol() {
 
 #[test]
 fn anthocyanins_peak_at_their_aglycone_with_the_height_of_epsilon_over_mass() {
-    let cyanidin = at(&Pigments::default(), 535.0).anthocyanins;
+    let cyanidin = at(&Pigments::default(), 535.0)[Anthocyanins];
     for (index, aglycone) in Aglycone::ALL.into_iter().enumerate() {
         let pigments = aglycones(only(index), 0.0, 0.0);
-        let value = |nm: f64| at(&pigments, nm).anthocyanins;
+        let value = |nm: f64| at(&pigments, nm)[Anthocyanins];
         let got = peak(480..=600, value);
         assert!((got - aglycone.peak_nm()).abs() <= 1.0, "{got}");
         let height = aglycone.epsilon() / aglycone.molar_mass() / (26_900.0 / 449.4);
         assert!((value(got) / cyanidin / height - 1.0).abs() < 2e-3);
     }
     let moved = aglycones(only(1), 15.0, 0.0);
-    assert!((peak(480..=640, |nm| at(&moved, nm).anthocyanins) - 550.0).abs() <= 1.0);
+    assert!((peak(480..=640, |nm| at(&moved, nm)[Anthocyanins]) - 550.0).abs() <= 1.0);
     let blue = aglycones(only(1), 0.0, 1.0);
-    assert!((peak(480..=640, |nm| at(&blue, nm).anthocyanins) - 585.0).abs() <= 1.0);
+    assert!((peak(480..=640, |nm| at(&blue, nm)[Anthocyanins]) - 585.0).abs() <= 1.0);
 }
 
 #[test]
@@ -87,8 +90,8 @@ fn betalains_peak_where_their_class_does() {
         betaxanthins: Betaxanthin::Vulgaxanthin,
         ..Pigments::default()
     };
-    assert!((at(&pigments, 536.0).betacyanins - 0.090).abs() < 5e-4);
-    assert!((at(&pigments, 477.0).betaxanthins - 0.163).abs() < 5e-4);
+    assert!((at(&pigments, 536.0)[Betacyanins] - 0.090).abs() < 5e-4);
+    assert!((at(&pigments, 477.0)[Betaxanthins] - 0.163).abs() < 5e-4);
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn a_to_b_of_leaves_is_near_the_column_of_prospect() {
         let n = f64::from(range.end() - range.start() + 1);
         let squares: f64 = range
             .map(f64::from)
-            .map(|nm| at(&pigments, nm).chlorophyll - at(&Pigments::default(), nm).chlorophyll)
+            .map(|nm| at(&pigments, nm)[Chlorophyll] - at(&Pigments::default(), nm)[Chlorophyll])
             .map(|off| off * off)
             .sum();
         (squares / n).sqrt()
@@ -151,7 +154,7 @@ fn more_b_absorbs_more_where_b_does_and_less_at_the_red_peak_of_a() {
             chlorophyll: ChlorophyllMix::Apportioned { a_to_b },
             ..Pigments::default()
         };
-        at(&pigments, nm).chlorophyll
+        at(&pigments, nm)[Chlorophyll]
     };
     let usual = ChlorophyllMix::A_TO_B;
     // b absorbs in the leaf near 461 and 660 nm, a near 435 and 679 nm.
@@ -183,7 +186,7 @@ fn bands_vanish_smoothly_beyond_the_range_of_their_data() {
     };
     for nm in 800..=2500 {
         let k = at(&pigments, f64::from(nm));
-        assert_eq!([k.chlorophyll, k.carotenoids, k.anthocyanins], [0.0; 3]);
+        assert_eq!([k[Chlorophyll], k[Carotenoids], k[Anthocyanins]], [0.0; 3]);
     }
     // No step greater than what the steepest flank of a band makes in 1 nm.
     for nm in 400..800 {
@@ -192,9 +195,9 @@ fn bands_vanish_smoothly_beyond_the_range_of_their_data() {
             at(&pigments, f64::from(nm + 1)),
         );
         for (a, b) in [
-            (low.chlorophyll, high.chlorophyll),
-            (low.carotenoids, high.carotenoids),
-            (low.anthocyanins, high.anthocyanins),
+            (low[Chlorophyll], high[Chlorophyll]),
+            (low[Carotenoids], high[Carotenoids]),
+            (low[Anthocyanins], high[Anthocyanins]),
         ] {
             assert!(a >= 0.0 && (a - b).abs() < 0.012, "{nm} nm: {a}, {b}");
         }

@@ -69,8 +69,8 @@ fn contents_spread_over_twice_the_depth_absorb_half_as_much() {
         scattering_per_mm: SCATTERING_PER_MM,
         eta: ETA,
     };
-    let at = ProspectD::coefficients(680.0).expect("in range").absorption;
-    let whole = at.of_leaf(&contents);
+    let at = ProspectD::coefficients(680.0).expect("in range");
+    let whole = at.absorption_of_leaf(&contents);
     let two = Solid {
         depth_mm: 2.0,
         ..solid

@@ -1,26 +1,26 @@
 //! Tissue, form and stalks by chance.
 
 use super::*;
+use crate::optics::{Constituent, Contents, VeinFactors};
 
 pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
-    let contents = (1.0..4.0, prop::array::uniform8(0.0..1.0)).prop_map(|(structure, rest)| {
-        let [a, b, c, d, e, f, g, h] = rest;
-        Contents::from_array([structure, a * 80.0, b * 20.0, c, d, e, f, g, h])
+    let contents = (1.0..4.0, of_each(0.0..1.0)).prop_map(|(structure, rest)| {
+        let mut held = Contents(rest).with(&[(Constituent::Structure, structure)]);
+        held[Constituent::Chlorophyll] *= 80.0;
+        held[Constituent::Carotenoids] *= 20.0;
+        held
     });
-    let tissue = (
-        contents,
-        prop::option::of(prop::array::uniform8(0.0..2.0)),
-        0.0..1.0_f64,
-    )
-        .prop_map(|(lamina, factors, mottle)| {
+    let tissue = (contents, prop::option::of(of_each(0.0..2.0)), 0.0..1.0_f64).prop_map(
+        |(lamina, factors, mottle)| {
             let mut tissue = Tissue::of(lamina);
-            if let Some([a, b, c, d, e, f, g, h]) = factors {
-                tissue.vein_factors = Contents::from_array([1.3, a, b, c, d, e, f, g, h]);
+            if let Some(factors) = factors {
+                tissue.vein_factors = VeinFactors(factors);
                 tissue.mottle = mottle;
                 tissue.sheath_width_mm = 0.1 + mottle;
             }
             tissue
-        });
+        },
+    );
     let form = (
         -80.0..80.0_f64,
         -355.0..355.0_f64,

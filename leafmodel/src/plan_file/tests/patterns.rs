@@ -8,12 +8,14 @@ use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
 use crate::mosaic::plan::{CellType, MosaicPlan, RadiusRule};
 
 use super::*;
+use crate::optics::{Constituent, Contents};
 
 pub(super) fn senescence() -> impl Strategy<Value = Option<Senescence>> {
     let blend = prop_oneof![Just(0.08), 0.001..1.0];
-    let contents = (1.0..4.0, prop::array::uniform8(0.0..1.0)).prop_map(|(structure, rest)| {
-        let [a, b, c, d, e, f, g, h] = rest;
-        Contents::from_array([structure, a, b * 20.0, c, d, e, f, g, h])
+    let contents = (1.0..4.0, of_each(0.0..1.0)).prop_map(|(structure, rest)| {
+        let mut held = Contents(rest).with(&[(Constituent::Structure, structure)]);
+        held[Constituent::Carotenoids] *= 20.0;
+        held
     });
     let aged = (0.0..1.0, blend, contents).prop_map(|(share, blend, contents)| Senescence {
         source: AgeSource::Revenue { share },
@@ -49,7 +51,13 @@ pub(super) fn senescence() -> impl Strategy<Value = Option<Senescence>> {
     prop::option::of(prop_oneof![aged, days])
 }
 
-/// Brown, water and dry matter are small numbers.
+/// Of these there are small numbers.
+const RARE: [Constituent; 3] = [
+    Constituent::Brown,
+    Constituent::Water,
+    Constituent::DryMatter,
+];
+/// How small.
 const BULK: f64 = 0.02;
 
 fn mask() -> impl Strategy<Value = Mask> {
@@ -102,14 +110,14 @@ fn mask() -> impl Strategy<Value = Mask> {
 
 fn layer() -> impl Strategy<Value = Layer> {
     let modes = [Mode::Replace, Mode::Add, Mode::Multiply];
-    let values = prop::array::uniform9(prop::option::of(1.0..10.0));
+    let values = of_each(prop::option::of(1.0..10.0));
     let share = prop_oneof![Just(1.0), 0.0..1.0];
     (mask(), share, 0..3_usize, values, 0.0..40.0).prop_map(
         move |(mask, share, mode, mut values, chlorophyll)| {
             // One at least.
-            values[1] = Some(chlorophyll);
-            for value in values[6..].iter_mut().flatten() {
-                *value *= BULK;
+            values[Constituent::Chlorophyll] = Some(chlorophyll);
+            for rare in RARE {
+                values[rare] = values[rare].map(|value| BULK * value);
             }
             Layer {
                 name: String::new(),
@@ -138,7 +146,7 @@ pub(super) fn layers_by_chance() -> impl Strategy<Value = Vec<Layer>> {
 pub(super) fn mosaic_by_chance() -> impl Strategy<Value = Option<MosaicPattern>> {
     let sixteenths = || prop::array::uniform3(0_u32..6);
     let rows = prop::array::uniform3(sixteenths());
-    let held = prop::array::uniform3(prop::array::uniform9(1.0..9.0));
+    let held = prop::array::uniform3(of_each(1.0..9.0));
     let numbers = (1..9000_usize, 0.0..90.0, 0.1..10.0, 0.0..5.0);
     let choices = (any::<bool>(), any::<bool>(), any::<bool>());
     let pattern = (1..4_usize, sixteenths(), rows, held, numbers, choices).prop_map(
@@ -180,9 +188,12 @@ pub(super) fn mosaic_by_chance() -> impl Strategy<Value = Option<MosaicPattern>>
                 },
                 contents: held[..count]
                     .iter()
-                    .map(|&[a, b, c, d, e, f, brown, water, dry]| {
-                        let [brown, water, dry] = [brown, water, dry].map(|value| BULK * value);
-                        Contents::from_array([a, b, c, d, e, f, brown, water, dry])
+                    .map(|held| {
+                        let mut held = Contents(*held);
+                        for rare in RARE {
+                            held[rare] *= BULK;
+                        }
+                        held
                     })
                     .collect(),
                 blend_mm,

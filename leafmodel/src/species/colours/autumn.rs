@@ -11,7 +11,7 @@ use crate::blade::ageing::{Course, Delay};
 use crate::blade::ageing_courses::{LITTER, YELLOW};
 use crate::blade::senescence::{AgeSource, Senescence};
 use crate::leaf::LeafPlan;
-use crate::optics::Contents;
+use crate::optics::Constituent::{Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter};
 
 /// Days from living to dead.
 const BLEND_DAYS: f64 = 5.0;
@@ -190,7 +190,7 @@ pub(super) const RED_MAPLE: ColouredLeaf = ColouredLeaf {
         };
         let mut plan = aged(leaf, red_maple(leaf), course);
         // Veins stay paler than the blade between them.
-        plan.tissue.vein_factors.anthocyanins = 0.5;
+        plan.tissue.vein_factors[Anthocyanins] = 0.5;
         plan
     },
 };
@@ -230,7 +230,7 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
             ..YELLOW
         };
         let mut plan = aged(leaf, runions::sweetgum(), course);
-        plan.tissue.vein_factors.anthocyanins = 0.6;
+        plan.tissue.vein_factors[Anthocyanins] = 0.6;
         plan
     },
 };
@@ -273,28 +273,29 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
         plan.form.fold = 16.0_f64.to_radians();
         plan.form.curl = 48.0_f64.to_radians();
         plan.form.ruffle = 0.03;
-        plan.tissue.vein_factors.brown = 0.75;
+        plan.tissue.vein_factors[Brown] = 0.75;
         plan
     },
 };
 
 /// The green leaf as it has aged.
 fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
-    let turned = leaf.of("turned");
+    let (turned, summer) = (leaf.of("turned"), green.tissue.lamina);
+    let kept = turned[Carotenoids] / summer[Carotenoids];
     let age = leaf.age.expect("leaves that turn have an age");
     let course = Course {
         half_days: age.half_days.value,
         death_day: age.death_day.value,
-        chlorophyll_rest: turned.chlorophyll,
-        labile_carotenoids: (1.0 - turned.carotenoids / green.tissue.lamina.carotenoids).max(0.0),
-        anthocyanins: turned.anthocyanins,
-        brown: turned.brown,
+        chlorophyll_rest: turned[Chlorophyll],
+        labile_carotenoids: (1.0 - kept).max(0.0),
+        anthocyanins: turned[Anthocyanins],
+        brown: turned[Brown],
         ..course
     };
-    let contents = leaf.held("dead").unwrap_or(Contents {
-        dry_matter: course.dry_matter_factor * green.tissue.lamina.dry_matter,
-        ..LITTER
-    });
+    let dry = course.dry_matter_factor * summer[DryMatter];
+    let contents = leaf
+        .held("dead")
+        .unwrap_or(LITTER.with(&[(DryMatter, dry)]));
     let source = AgeSource::Day {
         day: age.day.value,
         course,

@@ -7,7 +7,10 @@ use super::*;
 use crate::blade::frame::UvFrame;
 use crate::blade::senescence::AgeSource;
 use crate::leaf::venation_plan::VenationPlan;
-use crate::optics::ProspectD;
+use crate::optics::Constituent::{
+    Anthocyanins, Betacyanins, Brown, Carotenoids, Chlorophyll, Water,
+};
+use crate::optics::{Contents, ProspectD};
 use crate::species::{PRESETS, find};
 use crate::venation::network::VeinSegment;
 use crate::venation::plan::{AuxinPlan, Growth};
@@ -74,7 +77,7 @@ fn points(plan: &LeafPlan) -> Vec<Point> {
                 .map(|s| beyond(s, p))
                 .fold(f64::INFINITY, f64::min);
             found.push(Point {
-                contents: Contents::from_array(texel.map(f64::from)),
+                contents: Contents::from_texel(texel),
                 margin: lamina.outline.distance_to_margin(p),
                 vein,
                 along: (p - base).dot(apex - base) / (apex - base).length_squared(),
@@ -117,15 +120,15 @@ fn core(point: &Point) -> bool {
 }
 
 fn chlorophyll(contents: &Contents) -> f64 {
-    contents.chlorophyll
+    contents[Chlorophyll]
 }
 
 fn anthocyanins(contents: &Contents) -> f64 {
-    contents.anthocyanins
+    contents[Anthocyanins]
 }
 
 fn brown(contents: &Contents) -> f64 {
-    contents.brown
+    contents[Brown]
 }
 
 fn reflectance(nm: f64) -> impl Fn(&Contents) -> f64 {
@@ -205,14 +208,20 @@ fn a_course_leads_from_the_green_leaf_to_what_is_told_of_turned_tissue() {
         assert_eq!(course.senescent(living, 0.0), living);
         let late = course.senescent(living, 3.5 * course.half_days);
         let near = |value: f64, told: f64, share: f64| (value - told).abs() <= share * told + 0.35;
-        assert!(near(late.chlorophyll, turned.chlorophyll, 0.0), "{late:?}");
-        // Even those that last fade a little.
-        assert!(near(late.carotenoids, turned.carotenoids, 0.25), "{late:?}");
         assert!(
-            near(late.anthocyanins, turned.anthocyanins, 0.1),
+            near(late[Chlorophyll], turned[Chlorophyll], 0.0),
             "{late:?}"
         );
-        assert!((late.brown - turned.brown).abs() < 0.01, "{late:?}");
+        // Even those that last fade a little.
+        assert!(
+            near(late[Carotenoids], turned[Carotenoids], 0.25),
+            "{late:?}"
+        );
+        assert!(
+            near(late[Anthocyanins], turned[Anthocyanins], 0.1),
+            "{late:?}"
+        );
+        assert!((late[Brown] - turned[Brown]).abs() < 0.01, "{late:?}");
     }
 }
 
@@ -222,7 +231,7 @@ fn on_its_last_day_a_leaf_is_dead_everywhere_and_a_day_earlier_it_need_not_be() 
         let plan = coloured(preset).expect("a leaf").plan();
         let senescence = plan.senescence.expect("it ages");
         let last = senescence.last_day().expect("by days");
-        let dead = senescence.contents.brown;
+        let dead = senescence.contents[Brown];
         let browns = |day| {
             let senescence = senescence.on_day(day);
             points(&LeafPlan {
@@ -231,7 +240,7 @@ fn on_its_last_day_a_leaf_is_dead_everywhere_and_a_day_earlier_it_need_not_be() 
             })
         };
         let least = |points: &[Point]| {
-            let browns = points.iter().map(|point| point.contents.brown);
+            let browns = points.iter().map(|point| point.contents[Brown]);
             browns.fold(f64::INFINITY, f64::min)
         };
         assert!((least(&browns(last)) - dead).abs() < 1e-6, "{preset}");
@@ -247,7 +256,7 @@ fn yellow_leaves_are_bright_in_green_and_red_light_and_not_in_blue() {
         let green = coloured(preset).expect("a leaf").green.contents();
         let of = |nm| mean(&points, blade, reflectance(nm));
         assert!(
-            mean(&points, blade, chlorophyll) < 0.25 * green.chlorophyll,
+            mean(&points, blade, chlorophyll) < 0.25 * green[Chlorophyll],
             "{preset}"
         );
         assert!(mean(&points, blade, anthocyanins) < 1.0, "{preset}");
@@ -314,7 +323,7 @@ fn litter_is_brown_dry_and_without_green() {
     let green = coloured("oak-litter").expect("a leaf").green.contents();
     assert!(mean(&points, blade, brown) > 0.8);
     assert!(mean(&points, blade, chlorophyll) < 2.0);
-    assert!(mean(&points, blade, |c| c.water) < 0.4 * green.water);
+    assert!(mean(&points, blade, |c| c[Water]) < 0.4 * green[Water]);
     let [blue, yellow, red] = [450.0, 550.0, 680.0].map(|nm| mean(&points, blade, reflectance(nm)));
     assert!(
         blue < 0.75 * yellow && yellow < 0.85 * red,
@@ -357,7 +366,7 @@ fn variegated_leaves_are_pale_at_the_margin_and_green_inside() {
         );
         let rim = |p: &Point| p.margin < 1.0 && p.vein > 0.3;
         assert!(
-            mean(&points, rim, chlorophyll) < sector.chlorophyll + 8.0,
+            mean(&points, rim, chlorophyll) < sector[Chlorophyll] + 8.0,
             "{preset}"
         );
         for nm in [550.0, 680.0] {
@@ -378,7 +387,7 @@ fn variegated_leaves_are_pale_at_the_margin_and_green_inside() {
     let differ = one
         .iter()
         .zip(&two)
-        .filter(|(a, b)| (a.contents.chlorophyll - b.contents.chlorophyll).abs() > 10.0);
+        .filter(|(a, b)| (a.contents[Chlorophyll] - b.contents[Chlorophyll]).abs() > 10.0);
     assert!(10 * differ.count() > one.len());
 }
 
@@ -404,7 +413,10 @@ fn a_croton_has_yellow_blotches_and_little_between_yellow_and_green() {
     let share = |of: &dyn Fn(f64) -> bool| {
         let blade = points.iter().filter(|point| blade(point));
         let all = blade.clone().count() as f64;
-        blade.filter(|point| of(point.contents.chlorophyll)).count() as f64 / all
+        blade
+            .filter(|point| of(point.contents[Chlorophyll]))
+            .count() as f64
+            / all
     };
     let [yellow, green] = [share(&|c| c < 8.0), share(&|c| c > 38.0)];
     assert!((0.05..0.5).contains(&yellow), "{yellow}");
@@ -417,7 +429,7 @@ fn josephs_coat_is_red_at_the_base_green_at_the_tip_and_holds_no_anthocyanin() {
     assert_eq!(mean(&points, |_| true, anthocyanins), 0.0);
     let base = |p: &Point| p.along < 0.2 && blade(p);
     let tip = |p: &Point| p.along > 0.88;
-    let betacyanins = |c: &Contents| c.betacyanins;
+    let betacyanins = |c: &Contents| c[Betacyanins];
     assert!(mean(&points, base, betacyanins) > 15.0);
     assert!(mean(&points, tip, betacyanins) < 7.0);
     assert!(mean(&points, tip, chlorophyll) > 2.5 * mean(&points, base, chlorophyll));

@@ -14,7 +14,8 @@ use crate::compound::{Arrangement, CompoundForm, Feather};
 use crate::leaf::LeafPlan;
 use crate::mosaic::MosaicPlan;
 use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
-use crate::optics::Contents;
+use crate::optics::Constituent::{self, Anthocyanins, Betacyanins, Carotenoids, Chlorophyll};
+use crate::optics::{Contents, PerConstituent};
 
 pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
     preset: "cotinus",
@@ -34,7 +35,7 @@ pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
         let outline = contours::smoke_tree();
         let mut plan = trees::leaf(leaf.green, 2, outline, trees::net(80.0, 480.0, 4.0));
         plan.tissue.lamina = leaf.of("blade");
-        plan.tissue.vein_factors.anthocyanins = 0.7;
+        plan.tissue.vein_factors[Anthocyanins] = 0.7;
         let rim = Mask::Margin {
             width: RimWidth::Mm(0.3),
             softness_mm: 1.4,
@@ -138,8 +139,8 @@ pub(super) const IRON_CHLOROSIS: ColouredLeaf = ColouredLeaf {
         let mut plan = red_maple(leaf);
         plan.tissue.lamina = leaf.of("between veins");
         // What is near them stays green, and so do they.
-        plan.tissue.vein_factors.chlorophyll = 0.55;
-        plan.tissue.vein_factors.carotenoids = 0.6;
+        plan.tissue.vein_factors[Chlorophyll] = 0.55;
+        plan.tissue.vein_factors[Carotenoids] = 0.6;
         let near = |orders, width_mm, softness_mm| Mask::Veins {
             orders,
             width_mm,
@@ -175,7 +176,7 @@ pub(super) const CROTON: ColouredLeaf = ColouredLeaf {
             blend_mm: 0.35,
             faces: LeafFaces::Through,
         });
-        plan.tissue.vein_factors.carotenoids = 0.7;
+        plan.tissue.vein_factors[Carotenoids] = 0.7;
         plan
     },
 };
@@ -226,7 +227,7 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
             },
             pigments("red", up_to(0.12, 0.52), red),
         ];
-        plan.tissue.vein_factors.betacyanins = 0.8;
+        plan.tissue.vein_factors[Betacyanins] = 0.8;
         plan
     },
 };
@@ -252,17 +253,16 @@ fn whole(name: &str, mask: Mask, contents: Contents) -> Layer {
 
 /// A layer that takes the place of pigments.
 fn pigments(name: &str, mask: Mask, contents: Contents) -> Layer {
-    let bulk = ["structure", "water", "dry_matter"];
-    replacing(name, mask, contents, |content| !bulk.contains(&content))
+    replacing(name, mask, contents, |content| !content.is_bulk())
 }
 
-fn replacing(name: &str, mask: Mask, contents: Contents, which: impl Fn(&str) -> bool) -> Layer {
-    let mut values = contents.to_array().map(Some);
-    for (value, content) in values.iter_mut().zip(Contents::NAMES) {
-        if !which(content) {
-            *value = None;
-        }
-    }
+fn replacing(
+    name: &str,
+    mask: Mask,
+    contents: Contents,
+    which: impl Fn(Constituent) -> bool,
+) -> Layer {
+    let values = PerConstituent::from_fn(|content| which(content).then_some(contents[content]));
     Layer {
         name: name.to_owned(),
         mask,

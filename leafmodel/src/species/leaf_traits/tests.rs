@@ -2,6 +2,9 @@
 
 use super::*;
 use crate::measure::shape;
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
 use crate::species::{PRESETS, find};
 
 /// The presets that issue lists and books ask for by a plant's name.
@@ -58,17 +61,17 @@ fn a_preset_is_grown_from_the_traits_that_are_told() {
         let grown = [
             plan.length_mm,
             plan.form.thickness_mm,
-            held.structure,
-            held.chlorophyll,
-            held.carotenoids,
-            held.anthocyanins,
-            held.water,
-            held.dry_matter,
+            held[Structure],
+            held[Chlorophyll],
+            held[Carotenoids],
+            held[Anthocyanins],
+            held[Water],
+            held[DryMatter],
         ];
         let told = traits.quantities().map(|(_, _, quantity)| quantity.value);
         assert_eq!(grown, told, "{}", traits.preset);
         // Nothing else is in it.
-        assert_eq!(held.brown, 0.0);
+        assert_eq!(held[Brown], 0.0);
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
+use leafmodel::optics::{Constituent, PerConstituent};
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
@@ -56,19 +57,19 @@ pub struct OpticsArguments {
 }
 
 impl OpticsArguments {
-    /// The numbers that are given, in the order of [`leafmodel::optics::Contents`], with their options' names.
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 9] {
-        [
-            ("--n", self.n),
-            ("--cab", self.cab),
-            ("--car", self.car),
-            ("--ant", self.ant),
-            ("--betacyanins", self.betacyanins),
-            ("--betaxanthins", self.betaxanthins),
-            ("--brown", self.brown),
-            ("--cw", self.cw),
-            ("--cm", self.cm),
-        ]
+    /// The numbers that are given, with their options' names.
+    pub fn numbers(&self) -> PerConstituent<(&'static str, Option<f64>)> {
+        PerConstituent::from_fn(|constituent| match constituent {
+            Constituent::Structure => ("--n", self.n),
+            Constituent::Chlorophyll => ("--cab", self.cab),
+            Constituent::Carotenoids => ("--car", self.car),
+            Constituent::Anthocyanins => ("--ant", self.ant),
+            Constituent::Betacyanins => ("--betacyanins", self.betacyanins),
+            Constituent::Betaxanthins => ("--betaxanthins", self.betaxanthins),
+            Constituent::Brown => ("--brown", self.brown),
+            Constituent::Water => ("--cw", self.cw),
+            Constituent::DryMatter => ("--cm", self.cm),
+        })
     }
 }
 

@@ -33,7 +33,7 @@ impl Daylight {
 
     /// sRGB of the light that comes back from a leaf with these contents; white paper is 255.
     fn colour(&self, contents: &Contents) -> [u8; 3] {
-        let contents = contents.to_array().map(|content| content as f32);
+        let contents = contents.to_texel();
         let mut rgb = [0.0; 3];
         for (lane, weights) in &self.0 {
             let ([reflectance], _) = lane.reflectance_transmittance(&contents);
@@ -64,7 +64,7 @@ pub(super) fn in_daylight(map: &ContentsMap, pigments: &Pigments, outline: &Outl
             let u = (column as f64 + 0.5) / width as f64;
             if outline.contains(frame.point(DVec2::new(u, v))) {
                 let texel = map.texels[row * width + column];
-                let contents = Contents::from_array(texel.map(f64::from));
+                let contents = Contents::from_texel(texel);
                 pixel.copy_from_slice(&daylight.colour(&contents));
             }
         }

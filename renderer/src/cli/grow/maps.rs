@@ -7,7 +7,7 @@ use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::senescence::AgeSource;
 use leafmodel::leaf::LeafPlan;
-use leafmodel::optics::Contents;
+use leafmodel::optics::Constituent;
 use leafmodel::shape::outline::Outline;
 
 use crate::cli::{Failure, say};
@@ -63,10 +63,11 @@ fn picture(name: &str, map: &ContentsMap, outline: &Outline, day: Option<f64>) -
             "first row at the least y, towards the base; columns from the least x".to_owned(),
         ),
     ];
-    let units = Contents::NAMES.into_iter().zip(Contents::UNITS);
-    picture
-        .attributes
-        .extend(units.map(|(content, unit)| text(&format!("unit.{content}"), in_ascii(unit))));
+    let units = Constituent::ALL.map(|constituent| {
+        let key = format!("unit.{}", constituent.channel());
+        text(&key, in_ascii(constituent.unit()))
+    });
+    picture.attributes.extend(units);
     if let Some(day) = day {
         let day = ("lamina:day".to_owned(), Attribute::Double(day));
         picture.attributes.push(day);
@@ -91,6 +92,7 @@ mod tests {
     use crate::scene::assets::contents_map;
     use crate::scene::description::{LeafTissue, Material};
     use crate::scene::load::load;
+    use leafmodel::optics::Texel;
 
     const SCENE: &str = r#"
 format = 1
@@ -156,10 +158,9 @@ radiance_w_m2_sr_nm = 0.1
             for column in (0..map.width).step_by(5) {
                 let centre = |i: u32, count: u32| ((f64::from(i) + 0.5) / f64::from(count)) as f32;
                 let uv = Vec2::new(centre(column, map.width), centre(row, map.height));
-                let found = texture.at(uv).map(f64::from);
                 let held = map.texels[(row * map.width + column) as usize];
-                for (found, held) in found.into_iter().zip(held) {
-                    let held = f64::from(held);
+                for (constituent, found) in texture.at(uv).map(f64::from) {
+                    let held = f64::from(held[constituent]);
                     assert!(
                         (found - held).abs() <= 2e-4 * held.abs() + 1e-6,
                         "{found} {held}"
@@ -182,7 +183,7 @@ radiance_w_m2_sr_nm = 0.1
         let map = ContentsMap {
             width: 1,
             height: 1,
-            texels: vec![[1.0; Contents::COUNT]],
+            texels: vec![Texel::splat(1.0)],
         };
         let picture = picture("leaf", &map, &outline, day(&plan));
         let bytes = openexr::encode(&picture).expect("encoded");

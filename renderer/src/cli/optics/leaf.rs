@@ -1,7 +1,7 @@
 //! Which leaf `lamina optics` computes, and what each of its numbers rests on.
 
-use leafmodel::optics::Contents;
 use leafmodel::optics::presets::{self, Preset};
+use leafmodel::optics::{Constituent, Contents, PerConstituent};
 use serde_json::{Value, json};
 
 use crate::cli::Failure;
@@ -10,36 +10,19 @@ use crate::cli::columns::in_columns;
 use leafmodel::document::nearest::nearest;
 
 /// A leaf of which nothing is said.
-const DEFAULT: Contents = Contents {
-    structure: 1.5,
-    chlorophyll: 40.0,
-    carotenoids: 8.0,
-    anthocyanins: 0.0,
-    betacyanins: 0.0,
-    betaxanthins: 0.0,
-    brown: 0.0,
-    water: 0.01,
-    dry_matter: 0.009,
-};
-
-/// What a number is, as a table says it, and what stands for its unit if it has none.
-const ABOUT: [(&str, &str); Contents::COUNT] = [
-    ("structure N", "plates"),
-    ("chlorophyll a + b", ""),
-    ("carotenoids", ""),
-    ("anthocyanins", ""),
-    ("betacyanins", ""),
-    ("betaxanthins", ""),
-    ("brown pigments", "PROSPECT's unit"),
-    ("water", ""),
-    ("dry matter", ""),
-];
+const DEFAULT: Contents = Contents::of(&[
+    (Constituent::Structure, 1.5),
+    (Constituent::Chlorophyll, 40.0),
+    (Constituent::Carotenoids, 8.0),
+    (Constituent::Water, 0.01),
+    (Constituent::DryMatter, 0.009),
+]);
 
 /// The leaf, and where its numbers are from.
 pub(super) struct Chosen {
     pub(super) contents: Contents,
     preset: Option<Preset>,
-    given: [(&'static str, Option<f64>); Contents::COUNT],
+    given: PerConstituent<(&'static str, Option<f64>)>,
 }
 
 pub(super) fn choose(arguments: &OpticsArguments) -> Result<Chosen, Failure> {
@@ -48,13 +31,9 @@ pub(super) fn choose(arguments: &OpticsArguments) -> Result<Chosen, Failure> {
         None => None,
     };
     let given = arguments.numbers();
-    let mut values = preset.map_or(DEFAULT, |preset| preset.contents).to_array();
-    for (value, (_, given)) in values.iter_mut().zip(given) {
-        *value = given.unwrap_or(*value);
-    }
-    let contents = Contents::from_array(values)
-        .checked()
-        .map_err(Failure::bad)?;
+    let usual = preset.map_or(DEFAULT, |preset| preset.contents);
+    let contents = Contents(usual.zip_with(given, |usual, (_, given)| given.unwrap_or(usual)));
+    let contents = contents.checked().map_err(Failure::bad)?;
     Ok(Chosen {
         contents,
         preset,
@@ -77,7 +56,8 @@ impl Chosen {
     pub(super) fn line(&self) -> String {
         let mut words = Vec::new();
         words.extend(self.preset.map(|preset| preset.name.to_owned()));
-        for ((option, _), value) in self.given.iter().zip(self.contents.to_array()) {
+        for (constituent, value) in *self.contents {
+            let (option, _) = self.given[constituent];
             words.push(format!("{} {value}", option.trim_start_matches('-')));
         }
         words.join(" ")
@@ -85,9 +65,9 @@ impl Chosen {
 
     /// The contents by name.
     pub(super) fn json(&self) -> Value {
-        let values = Contents::NAMES.into_iter().zip(self.contents.to_array());
+        let values = self.contents.into_iter();
         values
-            .map(|(name, value)| (name.to_owned(), json!(value)))
+            .map(|(constituent, value)| (constituent.name().to_owned(), json!(value)))
             .collect()
     }
 
@@ -95,15 +75,15 @@ impl Chosen {
     pub(super) fn about(&self) -> String {
         let head = ["content", "value", "unit", "rests on"].map(str::to_owned);
         let mut rows = vec![head];
-        let values = self.contents.to_array();
-        for (index, ((what, other), value)) in ABOUT.into_iter().zip(values).enumerate() {
-            let unit = Contents::UNITS[index].to_owned() + other;
-            let basis = match (self.given[index], &self.preset) {
+        for (constituent, value) in *self.contents {
+            let unit = constituent.counted_in().to_owned();
+            let basis = match (self.given[constituent], &self.preset) {
                 ((option, Some(_)), _) => format!("given by {option}"),
-                ((_, None), Some(preset)) => preset.basis_of(index).word().to_owned(),
+                ((_, None), Some(preset)) => preset.basis_of(constituent).word().to_owned(),
                 ((_, None), None) => "default of this command".to_owned(),
             };
-            rows.push([what.to_owned(), value.to_string(), unit, basis]);
+            let what = constituent.words().to_owned();
+            rows.push([what, value.to_string(), unit, basis]);
         }
         let mut text = String::new();
         if let Some(preset) = self.preset {

@@ -5,6 +5,7 @@ use glam::DMat4;
 use super::shapes::MeshFile;
 use super::*;
 use crate::scene::load;
+use leafmodel::optics::Texel;
 
 const SCENE: &str = r#"
 format = 1
@@ -38,9 +39,9 @@ irradiance_w_m2_nm = { blackbody_k = 5800, scale = 1.5 }
 towards = [0, 0, 1]
 "#;
 
-/// A contents map of 2 × 3 texels, each of its 54 numbers different.
+/// A contents map of 2 × 3 texels, each of its numbers different.
 fn map() -> ContentsTexture {
-    let texel = |i: u16| std::array::from_fn(|channel| 1.0 + f32::from(i) + channel as f32 / 8.0);
+    let texel = |i: u16| Texel::from_fn(|channel| 1.0 + f32::from(i) + channel as u8 as f32 / 8.0);
     ContentsTexture::new(2, 3, (0..6).map(texel).collect())
 }
 

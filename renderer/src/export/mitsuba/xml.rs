@@ -242,8 +242,8 @@ fn prospect(table: &str, extrapolate: bool) -> String {
 fn uniform_tissue(contents: &Contents, table: &str, extrapolate: bool) -> String {
     let mut xml = String::from("  <string name=\"tissue\" value=\"contents\"/>\n");
     xml += &prospect(table, extrapolate);
-    for (name, value) in Contents::NAMES.into_iter().zip(contents.to_array()) {
-        xml += &number(name, value);
+    for (constituent, value) in **contents {
+        xml += &number(constituent.channel(), value);
     }
     xml
 }

@@ -7,7 +7,7 @@ use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
-use leafmodel::plan_file::{self, NOTHING, held_contents, require_prospect};
+use leafmodel::plan_file::{self, held_contents, require_prospect};
 
 use super::leaf::surface;
 use super::solid::optics;
@@ -76,7 +76,7 @@ const KINDS: [Variant<Material>; 4] = [
             } = Leaf::from(plan_file::usual_leaf(100.0));
             Material::Leaf {
                 tissue: LeafTissue::Contents {
-                    contents: NOTHING,
+                    contents: Contents::NOTHING,
                     extrapolate: false,
                 },
                 pigments: Box::default(),
@@ -105,7 +105,7 @@ const KINDS: [Variant<Material>; 4] = [
         about: "Solid tissue of uniform contents or of a map of contents.",
         new: || Material::Solid {
             tissue: SolidTissue::Contents {
-                contents: NOTHING,
+                contents: Contents::NOTHING,
                 extrapolate: false,
             },
             pigments: Box::default(),
@@ -144,7 +144,7 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
     // A colour by name needs no contents, but may have some that differ.
     let mut contents = match tissue {
         LeafTissue::Contents { contents, .. } => *contents,
-        LeafTissue::Map { .. } | LeafTissue::Measured { .. } => NOTHING,
+        LeafTissue::Map { .. } | LeafTissue::Measured { .. } => Contents::NOTHING,
     };
     plan_file::colour_preset(&mut contents, keys);
     if keys.base().is_some() {
@@ -192,7 +192,7 @@ fn solid_tissue(tissue: &mut SolidTissue, keys: &mut Keys<'_>) {
         if kind == "contents" {
             keys.required_block("contents", HELD, &[], |keys| {
                 require_prospect(keys);
-                let mut contents: Contents = NOTHING;
+                let mut contents: Contents = Contents::NOTHING;
                 held_contents(&mut contents, keys);
                 *tissue = SolidTissue::Contents {
                     contents,

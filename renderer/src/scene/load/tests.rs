@@ -9,7 +9,7 @@ use leafmodel::mosaic::control::{ControlImage, CylinderControl, Steered};
 use leafmodel::mosaic::pattern::{LeafFaces, MosaicPattern};
 use leafmodel::mosaic::plan::{CellType, MosaicPlan};
 use leafmodel::optics::solid::{SCATTERING_PER_MM, Solid as Tissue};
-use leafmodel::optics::{Contents, Pigments};
+use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments, Texel};
 use leafmodel::plan_file::leaf_to_toml;
 use leafmodel::solid::{SolidPlan, SolidShape};
 use proptest::prelude::*;
@@ -69,13 +69,7 @@ fn pattern(held: Contents) -> MosaicPattern {
             }],
             ..MosaicPlan::default()
         },
-        contents: vec![
-            held,
-            Contents {
-                chlorophyll: 60.0,
-                ..held
-            },
-        ],
+        contents: vec![held, held.with(&[(Constituent::Chlorophyll, 60.0)])],
         blend_mm: 1.5,
         faces: LeafFaces::Through,
     }
@@ -107,12 +101,12 @@ proptest! {
         shape in shapes(),
         optics in (0.1..5.0, prop_oneof![Just(SCATTERING_PER_MM), 0.1..5.0], 1.0..2.0),
         coat in prop_oneof![Just(None), (1.0..2.0, 0.02..1.0).prop_map(Some)],
-        held in prop::array::uniform8(prop_oneof![Just(0.0), 0.0..1.0]),
+        held in prop::collection::vec(prop_oneof![Just(0.0), 0.0..1.0], Constituent::COUNT),
         packaging in 0.1..1.0,
         (seed, map_size, patterned) in (any::<u64>(), 16_u32..2000, any::<bool>()),
     ) {
-        let [b, c, d, e, f, g, h, i] = held;
-        let contents = Contents::from_array([1.0, b, c, d, e, f, g, h, i]);
+        let contents = Contents(PerConstituent::from_fn(|one| held[one as usize]))
+            .with(&[(Constituent::Structure, 1.0)]);
         let (depth_mm, scattering_per_mm, eta) = optics;
         let (coat_eta, alpha) = coat.unwrap_or((eta, 0.3));
         let solid = Solid {
@@ -203,8 +197,9 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     let folder = tempfile::tempdir().expect("a folder");
     let grey = [0, 0, 0, 51, 51, 51, 255, 255, 255, 102, 102, 102];
     portable_network::write(&folder.path().join("rim.png"), 2, 2, &grey).expect("a picture");
-    let texels = vec![[2.0, 30.0, 8.0, 2.0, 1.0, 3.0, 0.5, 0.02, 0.01]; 6];
-    let map = map_picture(&ContentsTexture::new(3, 2, texels.clone()));
+    let texel = Texel::from_fn(|constituent| constituent.least() as f32 + 0.5);
+    let texels = vec![texel; 6];
+    let map = map_picture(&ContentsTexture::new(3, 2, texels));
     openexr::write(&map, &folder.path().join("map.exr")).expect("a map");
     let text = PLAIN.to_owned()
         + "[leaves.beech.layers.all]\nmap = \"map.exr\"\n\
@@ -218,7 +213,7 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     let [all, rim, part] = plan.layers.as_slice() else {
         panic!("three layers: {:?}", plan.layers);
     };
-    assert!(matches!(&all.change, Change::Map(map) if map.texels == texels));
+    assert!(matches!(&all.change, Change::Map(map) if map.texels == [*texel.as_array(); 6]));
     // As written, not as light; the lowest row first.
     let share = |byte: u8| [f32::from(byte) / 255.0];
     let weights = [255, 102, 0, 51].map(share);

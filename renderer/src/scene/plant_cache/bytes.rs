@@ -1,7 +1,7 @@
 //! A grown leaf as bytes: counts and numbers one after the other, little-endian.
 
 use glam::{DAffine3, Vec2, Vec3};
-use leafmodel::optics::Contents;
+use leafmodel::optics::{Contents, PerConstituent};
 
 use crate::scene::plants::{LeafParts, MapParts, MeshParts, Piece};
 
@@ -27,11 +27,14 @@ pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {
     for map in &parts.maps {
         count(&mut out, map.width);
         count(&mut out, map.height);
-        floats(&mut out, map.texels.as_flattened().iter().copied());
+        floats(
+            &mut out,
+            map.texels.iter().flat_map(|texel| *texel.as_array()),
+        );
     }
     count(&mut out, usize::from(parts.stalk.is_some()));
     if let Some(stalk) = &parts.stalk {
-        doubles(&mut out, &stalk.to_array());
+        doubles(&mut out, stalk.as_array());
     }
     count(&mut out, parts.pieces.len());
     for piece in &parts.pieces {
@@ -71,7 +74,7 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
     })?;
     let maps = rest.list(|rest| {
         let (width, height) = (rest.count()?, rest.count()?);
-        let texels = rest.floats(width.checked_mul(height)?, |texel| texel)?;
+        let texels = rest.floats(width.checked_mul(height)?, PerConstituent::new)?;
         (!texels.is_empty()).then_some(MapParts {
             width,
             height,
@@ -80,7 +83,7 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
     })?;
     let stalk = match rest.count()? {
         0 => None,
-        1 => Some(Contents::from_array(rest.doubles()?)),
+        1 => Some(Contents(PerConstituent::new(rest.doubles()?))),
         _ => return None,
     };
     let materials = maps.len() + usize::from(stalk.is_some());

@@ -87,11 +87,13 @@ mod tests {
     use crate::material::leaf::LeafMaterial;
     use crate::material::palette::Palette;
     use crate::spectrum::Curve;
+    use leafmodel::optics::Constituent;
 
     /// Two texels: what the first holds of anthocyanins, and what the second holds of betaxanthins.
     fn leaf(anthocyanins: f32, betaxanthins: f32) -> Material {
-        let first = [1.5, 30.0, 8.0, anthocyanins, 0.0, 0.0, 0.0, 0.01, 0.01];
-        let second = [1.5, 30.0, 8.0, 0.0, 0.0, betaxanthins, 0.0, 0.01, 0.01];
+        let green = Contents::prospect_d([1.5, 30.0, 8.0, 0.0, 0.0, 0.01, 0.01]).to_texel();
+        let first = green.with(&[(Constituent::Anthocyanins, anthocyanins)]);
+        let second = green.with(&[(Constituent::Betaxanthins, betaxanthins)]);
         let coat = Coat::new(1.45, 0.3, 0.3);
         Material::Leaf(Box::new(LeafMaterial::new(
             LeafTissue::Map(ContentsTexture::new(2, 1, vec![first, second])),

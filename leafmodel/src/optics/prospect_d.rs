@@ -8,7 +8,9 @@ use std::sync::OnceLock;
 
 use thiserror::Error;
 
+use super::constituent::Constituent;
 use super::interface::Interface;
+use super::per_constituent::PerConstituent;
 use super::pigments::Pigments;
 
 /// First wavelength of the table, nm.
@@ -19,34 +21,14 @@ pub const LAST_NM: f64 = 2500.0;
 const TABLE: &str = include_str!("prospect_d.csv");
 const ROWS: usize = 2101;
 
-/// What one unit of each constituent adds to the absorption of the whole leaf at one wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpecificAbsorption {
-    /// Chlorophyll a + b, cm² µg⁻¹; 0 above 780 nm.
-    pub chlorophyll: f64,
-    /// Carotenoids, cm² µg⁻¹; 0 above 560 nm.
-    pub carotenoids: f64,
-    /// Anthocyanins, cm² µg⁻¹; 0 above 689 nm.
-    pub anthocyanins: f64,
-    /// Betacyanins, cm² µg⁻¹.
-    pub betacyanins: f64,
-    /// Betaxanthins, cm² µg⁻¹.
-    pub betaxanthins: f64,
-    /// Brown pigments, per PROSPECT's arbitrary unit; 0 above 1099 nm.
-    pub brown: f64,
-    /// Water, cm⁻¹.
-    pub water: f64,
-    /// Dry matter, cm² g⁻¹.
-    pub dry_matter: f64,
-}
-
 /// PROSPECT-D's constants at one wavelength, and what betalains absorb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
     /// The faces of a plate.
     pub interface: Interface,
-    /// What the constituents absorb.
-    pub absorption: SpecificAbsorption,
+    /// What one unit of each constituent adds to the absorption of the whole leaf, in the inverse of the constituent's unit: chlorophyll
+    /// up to 780 nm, carotenoids up to 560 nm, anthocyanins up to 689 nm, brown pigments up to 1099 nm. The structure adds nothing.
+    pub absorption: PerConstituent<f64>,
 }
 
 /// A wavelength for which PROSPECT-D has no data.
@@ -104,28 +86,29 @@ impl ProspectD {
         };
         Coefficients {
             interface: Interface::of_index(between(0)),
-            absorption: SpecificAbsorption {
-                chlorophyll: own_or(1, &|nm| {
+            absorption: PerConstituent::from_fn(|constituent| match constituent {
+                Constituent::Structure => 0.0,
+                Constituent::Chlorophyll => own_or(1, &|nm| {
                     pigments.chlorophyll.specific(nm, |nm| column(1, nm))
                 }),
-                carotenoids: own_or(2, &|nm| pigments.carotenoids.specific(nm)),
-                anthocyanins: own_or(3, &|nm| {
+                Constituent::Carotenoids => own_or(2, &|nm| pigments.carotenoids.specific(nm)),
+                Constituent::Anthocyanins => own_or(3, &|nm| {
                     pigments.anthocyanins.specific(nm, |nm| column(3, nm))
                 }),
-                betacyanins: band(&|nm| {
+                Constituent::Betacyanins => band(&|nm| {
                     pigments
                         .betacyanins
                         .specific(nm, pigments.betalain_packaging)
                 }),
-                betaxanthins: band(&|nm| {
+                Constituent::Betaxanthins => band(&|nm| {
                     pigments
                         .betaxanthins
                         .specific(nm, pigments.betalain_packaging)
                 }),
-                brown: between(4),
-                water: between(5),
-                dry_matter: between(6),
-            },
+                Constituent::Brown => between(4),
+                Constituent::Water => between(5),
+                Constituent::DryMatter => between(6),
+            }),
         }
     }
 
@@ -182,8 +165,8 @@ mod tests {
     fn whole_nanometres_give_the_figures_of_the_table() {
         let at = ProspectD::coefficients(400.0).expect("in range");
         assert_eq!(at.interface.refractive_index, 1.5115);
-        assert_eq!(at.absorption.chlorophyll, 0.0648815);
-        assert_eq!(at.absorption.dry_matter, 109.7);
+        assert_eq!(at.absorption[Constituent::Chlorophyll], 0.0648815);
+        assert_eq!(at.absorption[Constituent::DryMatter], 109.7);
         let last = TABLE.trim_end().lines().next_back().expect("has lines");
         let at = ProspectD::coefficients(2500.0).expect("in range");
         let figures: Vec<f64> = last
@@ -192,7 +175,7 @@ mod tests {
             .collect();
         assert_eq!(figures[0], 2500.0);
         assert_eq!(at.interface.refractive_index, figures[1]);
-        assert_eq!(at.absorption.water, figures[6]);
+        assert_eq!(at.absorption[Constituent::Water], figures[6]);
     }
 
     #[test]
@@ -211,8 +194,11 @@ mod tests {
         let low = ProspectD::coefficients(550.0).expect("in range").absorption;
         let high = ProspectD::coefficients(551.0).expect("in range").absorption;
         let mid = ProspectD::coefficients(550.5).expect("in range").absorption;
-        let mean = f64::midpoint(low.chlorophyll, high.chlorophyll);
-        assert!((mid.chlorophyll - mean).abs() < 1e-17);
+        let mean = f64::midpoint(
+            low[Constituent::Chlorophyll],
+            high[Constituent::Chlorophyll],
+        );
+        assert!((mid[Constituent::Chlorophyll] - mean).abs() < 1e-17);
     }
 
     #[test]
