@@ -107,6 +107,15 @@ fn plans(opened: &Opened) -> Option<Vec<Named<LeafPlan>>> {
     read_leaves(&opened.cx, &opened.tree, &SECTIONS, whole_leaf)
 }
 
+/// As [`plans`], but contents need not be said.
+fn plans_of_veins(opened: &Opened) -> Option<Vec<Named<LeafPlan>>> {
+    read_leaves(&opened.cx, &opened.tree, &SECTIONS, |plan, keys| {
+        leaf_preset(plan, keys);
+        leaf::veins_alone(plan, keys);
+        keys.leave(&SURFACE);
+    })
+}
+
 /// The keys of a leaf, those of its surface left alone.
 fn whole_leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     leaf_preset(plan, keys);

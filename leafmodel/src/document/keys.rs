@@ -568,12 +568,13 @@ impl<'p> Keys<'p> {
                 let Some(section) = section else {
                     return;
                 };
+                let of_preset = value.len();
                 for entry in &section.table.0 {
                     require_name(section.cx, &entry.key, &entry.key_at);
                     let Some(inner) = section.open(entry) else {
                         continue;
                     };
-                    let known = value
+                    let known = value[..of_preset]
                         .iter()
                         .position(|one| (list.name_of)(one) == entry.key);
                     let base = reading.base.clone().filter(|_| known.is_some());

@@ -41,6 +41,15 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
 
 /// The keys of a leaf.
 pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
+    whole_or_veins(plan, keys, true);
+}
+
+/// The keys of a leaf of which only margin and veins are wanted: its contents need not be said.
+pub(super) fn veins_alone(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
+    whole_or_veins(plan, keys, false);
+}
+
+fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     // What follows the length goes on to do so.
     let form = BladeForm::nearly_flat(plan.length_mm);
     let usual_edges = plan.form.max_edge_mm == form.max_edge_mm;
@@ -75,7 +84,7 @@ pub fn leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     if is_whole(keys, "venation", errors) {
         venation::check(plan, tried.as_ref(), keys);
     }
-    tissue(plan, keys);
+    tissue(plan, keys, whole);
     let about = "Which substances its pigments are.";
     keys.block("pigments", about, |keys| pigments(&mut plan.pigments, keys));
     let base = plan.tissue.lamina;
@@ -128,13 +137,15 @@ fn is_whole(keys: &Keys<'_>, block: &str, errors: Option<usize>) -> bool {
 }
 
 /// `contents`, `veins` and `mottle`.
-fn tissue(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
+fn tissue(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     let tissue = &mut plan.tissue;
     let before = tissue.lamina;
     let about = "What the lamina holds between veins.";
-    keys.required_block("contents", about, &[], |keys| {
-        contents(&mut tissue.lamina, keys);
-    });
+    if whole || keys.has("contents") {
+        keys.required_block("contents", about, &[], |keys| {
+            contents(&mut tissue.lamina, keys);
+        });
+    }
     // Cells of a preset that held what the tissue does go on to do so.
     for held in plan
         .mosaic

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use super::{leaf_to_toml, plans, schema, whole_leaf};
+use super::{leaf_to_toml, plans, plans_of_veins, schema, whole_leaf};
 use crate::document::assets::Assets;
 use crate::document::context::{Context, KnownKey, QUOTED};
 use crate::document::keys::Keys;
@@ -87,7 +87,8 @@ fn meant(nearest: Option<&str>) -> String {
 }
 
 /// Reads one leaf. `overridden` are `key=value` with paths from the top of the file, `settings` with paths from the leaf, or
-/// with as much of a path's end as only one key has.
+/// with as much of a path's end as only one key has. Where only margin and veins are wanted, `veins_alone`, the leaf's contents
+/// need not be said.
 ///
 /// # Errors
 ///
@@ -95,6 +96,7 @@ fn meant(nearest: Option<&str>) -> String {
 pub fn load_one_leaf(
     file: LeafFile<'_>,
     assets: Option<&'static dyn Assets>,
+    veins_alone: bool,
     overridden: &[String],
     settings: &[String],
 ) -> Result<Named<LeafPlan>, LeafNotChosen> {
@@ -130,7 +132,11 @@ pub fn load_one_leaf(
             overrides::apply(&opened.cx, &mut opened.tree, "--set", &text, &types);
         }
     }
-    let leaves = plans(&opened);
+    let leaves = if veins_alone {
+        plans_of_veins(&opened)
+    } else {
+        plans(&opened)
+    };
     let (leaves, _) = opened.finish(leaves)?;
     leaves
         .into_iter()
@@ -238,7 +244,7 @@ mod tests {
             plan: &plan,
         };
         let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
-        load_one_leaf(file, None, &[], &settings).map(|leaf| leaf.value)
+        load_one_leaf(file, None, false, &[], &settings).map(|leaf| leaf.value)
     }
 
     fn auxin(plan: &LeafPlan) -> &AuxinPlan {
@@ -257,8 +263,8 @@ mod tests {
                 name: preset.name,
                 plan: &plan,
             };
-            let leaf =
-                load_one_leaf(file, None, &[], &[]).unwrap_or_else(|error| panic!("{error}"));
+            let leaf = load_one_leaf(file, None, false, &[], &[])
+                .unwrap_or_else(|error| panic!("{error}"));
             assert_eq!((leaf.name.as_str(), leaf.value), (preset.name, plan));
         }
     }

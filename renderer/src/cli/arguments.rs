@@ -25,7 +25,8 @@ Examples:
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lamina check scenes/first-leaf/scene.toml
-  lamina check scenes/first-leaf/scene.toml -D leaves.aspen.length_mm=120";
+  lamina check scenes/first-leaf/scene.toml -D leaves.aspen.length_mm=120
+  lamina check scenes/fly-agaric/scene.toml --build";
 
 const OPTICS_EXAMPLES: &str = "\
 Examples:
@@ -58,9 +59,9 @@ pub enum Command {
     /// Render a scene to STEM.exr and STEM.png
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
-    /// Report every error of a scene file
+    /// Report every error of a scene file, or of a file of leaves
     #[command(after_help = CHECK_EXAMPLES)]
-    Check(SceneArguments),
+    Check(CheckArguments),
     /// Write reflectance and transmittance of a leaf by PROSPECT-D
     #[command(after_help = OPTICS_EXAMPLES)]
     Optics(OpticsArguments),
@@ -88,6 +89,17 @@ pub struct SceneArguments {
     /// Override a value, written as in the file: -D film.rgb.spp=16
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+}
+
+/// `lamina check`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct CheckArguments {
+    /// Scene and overrides.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Grow what the scene grows and build it as well, as a render would: tells its size, and what only then shows
+    #[arg(long)]
+    pub build: bool,
 }
 
 /// `lamina render`.
@@ -301,7 +313,7 @@ mod tests {
         let Some(Command::Check(check)) = arguments.command else {
             panic!("no check");
         };
-        assert_eq!(check.overrides, ["picture.exposure_ev=-1"]);
+        assert_eq!(check.scene.overrides, ["picture.exposure_ev=-1"]);
     }
 
     #[test]

@@ -1,18 +1,99 @@
-//! `lamina check`: every error of a scene at once, and what it would build.
+//! `lamina check`: every error of a scene at once, or of a file of leaves; on request, what it would build.
 
-use crate::cli::arguments::SceneArguments;
-use crate::cli::{Failure, load_scene, say};
+use crate::cli::arguments::{CheckArguments, SceneArguments};
+use crate::cli::{Failure, colour, load_scene, say};
+use crate::geometry;
+use crate::scene::assets;
+use crate::scene::description::{Description, LeafTissue, Light, Material, Mesh, SolidTissue};
+use crate::scene::load;
 use crate::scene::world::World;
 
-pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
-    let loaded = load_scene(arguments)?;
-    let world = World::build(&loaded.description).map_err(Failure::bad)?;
+pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let CheckArguments { scene, build } = arguments;
+    if let Some(leaves) = load::load_if_only_leaves(&scene.scene, &scene.overrides) {
+        let (leaves, warnings) = leaves?;
+        for warning in warnings {
+            eprint!("{}", warning.render(colour()));
+        }
+        let leaves = counted(leaves.len(), "leaf", "leaves");
+        say(format!("{}: {leaves}", scene.scene.display()));
+        return Ok(());
+    }
+    let description = load_scene(scene)?.description;
+    if *build {
+        return tell_world(scene, &description);
+    }
+    read_files(&description)?;
+    let film = &description.film;
+    let mut parts = vec![
+        counted(description.objects.len(), "object", "objects"),
+        counted(description.lights.len(), "light", "lights"),
+    ];
+    if !description.leaves.is_empty() {
+        parts.push(counted(description.leaves.len(), "leaf", "leaves"));
+    }
+    if !description.solids.is_empty() {
+        parts.push(counted(description.solids.len(), "body", "bodies"));
+    }
+    say(format!(
+        "{}: {}, {} × {} pixels, {}",
+        scene.scene.display(),
+        parts.join(", "),
+        film.width,
+        film.height,
+        counted(film.spp as usize, "sample a pixel", "samples a pixel"),
+    ));
+    Ok(())
+}
+
+/// Reads the files that a scene names and that its reader has only looked up.
+fn read_files(description: &Description) -> Result<(), Failure> {
+    for mesh in &description.meshes {
+        let Mesh::File { file, scale } = &mesh.value else {
+            continue;
+        };
+        let bytes = assets::read(file).map_err(Failure::bad)?;
+        let ending = file.extension().and_then(|ending| ending.to_str());
+        let name = &mesh.name;
+        geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
+            .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
+    }
+    for material in &description.materials {
+        let file = match &material.value {
+            Material::Leaf {
+                tissue: LeafTissue::Map { file, .. },
+                ..
+            }
+            | Material::Solid {
+                tissue: SolidTissue::Map { file, .. },
+                ..
+            } => file,
+            Material::Leaf { .. }
+            | Material::Solid { .. }
+            | Material::Diffuse { .. }
+            | Material::Dielectric { .. } => continue,
+        };
+        let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
+        assets::contents_map(file).map_err(told)?;
+    }
+    for light in &description.lights {
+        if let Light::Environment { file, .. } = &light.value {
+            let told = |error| Failure::bad(format!("lights.{}: {error}", light.name));
+            assets::environment(file).map_err(told)?;
+        }
+    }
+    Ok(())
+}
+
+/// Builds the scene and tells its size.
+fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
+    let world = World::build(description).map_err(Failure::bad)?;
     for note in &world.notes {
         eprintln!("note: {note}");
     }
     let (low, high) = world.geometry.bounds();
     let size = high - low;
-    let count = loaded.description.objects.len();
+    let count = description.objects.len();
     let parts = if world.objects.len() > count {
         format!(" ({} parts)", world.objects.len())
     } else {
@@ -20,9 +101,9 @@ pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     };
     say(format!(
         "{}: {}{parts}, {}, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
-        arguments.scene.display(),
-        counted(count, "object"),
-        counted(world.lights.len(), "light"),
+        scene.scene.display(),
+        counted(count, "object", "objects"),
+        counted(world.lights.len(), "light", "lights"),
         size.x,
         size.y,
         size.z,
@@ -32,7 +113,6 @@ pub(super) fn run(arguments: &SceneArguments) -> Result<(), Failure> {
 }
 
 /// A number of things, in words.
-fn counted(count: usize, thing: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {thing}{plural}")
+fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
 }

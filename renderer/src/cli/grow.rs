@@ -54,8 +54,8 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
         }
     }
     let started = Instant::now();
-    let chosen = choice::choose(arguments)?;
     let outputs = Outputs::planned(arguments)?;
+    let chosen = choice::choose(arguments, outputs.show_only_veins(arguments))?;
     // What the plan cannot give is told before anything is written.
     if arguments.fields.is_some() {
         fields::check(&chosen.plan)?;

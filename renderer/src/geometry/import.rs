@@ -7,6 +7,7 @@ mod obj;
 mod ply;
 
 use glam::{Vec2, Vec3};
+use leafmodel::document::source::escaped;
 use thiserror::Error;
 
 use super::mesh::{MeshError, TriangleMesh};
@@ -44,6 +45,12 @@ pub enum ImportError {
     Mesh(#[from] MeshError),
 }
 
+/// A piece of the file as messages show it: in quotes, safe to print, no longer than a line.
+fn shown(text: &str) -> String {
+    const MOST: usize = 60;
+    format!("\"{}\"", escaped(text, MOST))
+}
+
 /// What a file holds, before it is cleaned.
 #[derive(Debug, Default)]
 struct RawMesh {
@@ -77,7 +84,7 @@ pub fn import(bytes: &[u8], extension: &str, scale: f32) -> Result<TriangleMesh,
         "obj" => obj::parse(bytes)?,
         _ => {
             return Err(ImportError::UnknownFormat {
-                extension: extension.to_owned(),
+                extension: escaped(extension, 60),
             });
         }
     };

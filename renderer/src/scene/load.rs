@@ -72,6 +72,22 @@ pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>
     into_leaves(Opened::file(path, overrides, schema)?)
 }
 
+/// Leaves with what is allowed and hardly meant, or everything that is wrong.
+pub type LeavesRead = Result<(Vec<Named<Leaf>>, Vec<Warning>), DocumentErrors>;
+
+/// Reads the leaves of the file at `path` if leaves are all it is about: it has some, and nothing that only a picture needs.
+pub fn load_if_only_leaves(path: &Path, overrides: &[String]) -> Option<LeavesRead> {
+    let mut opened = Opened::file(path, overrides, schema).ok()?;
+    let has = |section: &&str| opened.tree.get(section).is_some();
+    let has_leaves = has(&"leaves");
+    if !has_leaves || ["film", "camera", "lights", "objects"].iter().any(has) {
+        return None;
+    }
+    opened.cx.assets = Some(&DECODER);
+    let leaves = blocks::read_only_leaves(&opened.cx, &opened.tree);
+    Some(opened.finish(leaves))
+}
+
 /// Reads only the leaves of a text; `file_name` and `folder` as for [`parse`].
 ///
 /// # Errors

@@ -18,9 +18,17 @@ pub(super) struct Chosen {
 }
 
 /// The leaf with all its settings.
-pub(super) fn choose(arguments: &GrowArguments) -> Result<Chosen, Failure> {
+pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Chosen, Failure> {
     let wanted = arguments.leaf.as_deref().unwrap_or_default();
-    let read = |file| load_one_leaf(file, Some(&DECODER), &arguments.overrides, &arguments.set);
+    let read = |file| {
+        load_one_leaf(
+            file,
+            Some(&DECODER),
+            veins_alone,
+            &arguments.overrides,
+            &arguments.set,
+        )
+    };
     let preset = species::find(wanted);
     let chosen = if let Some(preset) = preset {
         let plan = preset.plan();

@@ -118,6 +118,15 @@ impl Outputs {
     }
 }
 
+impl Outputs {
+    /// Whether nothing is asked for that depends on what the leaf holds.
+    pub(super) fn show_only_veins(&self, arguments: &GrowArguments) -> bool {
+        let has_plan = self.whole.iter().any(|(_, kind)| *kind == Kind::Toml);
+        let shows_contents = self.blade || arguments.contents.is_some() || arguments.ages.is_some();
+        !has_plan && !shows_contents
+    }
+}
+
 /// Fails if a folder could neither be written to nor be made.
 fn check_folder(folder: &Path) -> Result<(), Failure> {
     let there = folder

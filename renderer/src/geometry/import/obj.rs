@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{Vec2, Vec3};
 
 use super::{ImportError, MOST_CORNERS, RawMesh};
+use crate::geometry::import::shown;
 
 /// What a corner of a face names, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,7 +105,7 @@ fn numbers<'a>(
             Some(word) => {
                 *number = word
                     .parse()
-                    .map_err(|_| format!("{word:?} is not a number"))?;
+                    .map_err(|_| format!("{} is not a number", shown(word)))?;
             }
             None if i < least => return Err(format!("{i} numbers; it takes {least}")),
             None => break,
@@ -120,7 +121,8 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<Corner, String> {
     for (i, part) in word.split('/').enumerate() {
         if i >= 3 {
             return Err(format!(
-                "{word:?} names more than vertex, texture coordinate and normal"
+                "{} names more than vertex, texture coordinate and normal",
+                shown(word)
             ));
         }
         if part.is_empty() {
@@ -128,7 +130,7 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<Corner, String> {
         }
         let number: i64 = part
             .parse()
-            .map_err(|_| format!("{part:?} is not an index"))?;
+            .map_err(|_| format!("{} is not an index", shown(part)))?;
         let count = i64::try_from(counts[i]).unwrap_or(i64::MAX);
         // Positive numbers count from the first, negative ones back from the last.
         let index = if number < 0 {
@@ -146,7 +148,7 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<Corner, String> {
         found[i] = Some(index);
     }
     Ok(Corner {
-        position: found[0].ok_or_else(|| format!("{word:?} names no vertex"))?,
+        position: found[0].ok_or_else(|| format!("{} names no vertex", shown(word)))?,
         uv: found[1],
         normal: found[2],
     })

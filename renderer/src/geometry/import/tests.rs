@@ -225,3 +225,22 @@ fn damaged_files_give_a_mesh_or_an_error() {
         "{read} read, {refused} refused"
     );
 }
+
+#[test]
+fn an_error_shows_no_more_of_a_file_than_a_line_has() {
+    let long = "x".repeat(2_000_000);
+    for (text, ending) in [
+        (format!("v 0 0 {long}\n"), "obj"),
+        (format!("f {long}\n"), "obj"),
+        (format!("ply\nformat {long} 1.0\nend_header\n"), "ply"),
+        (format!("ply\n{long}\nend_header\n"), "ply"),
+    ] {
+        let error = import(text.as_bytes(), ending, 1.0).expect_err("no mesh");
+        let told = error.to_string();
+        assert!(
+            told.contains("xxx") && told.len() < 300,
+            "{} bytes",
+            told.len()
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! The header of a PLY file: its elements and what they are made of.
 
 use super::super::ImportError;
+use crate::geometry::import::shown;
 
 /// Longest header that is read; every header of use is far shorter.
 const LONGEST: usize = 1 << 16;
@@ -107,15 +108,15 @@ impl Header {
                         "ascii" => Format::Ascii,
                         "binary_little_endian" => Format::LittleEndian,
                         "binary_big_endian" => Format::BigEndian,
-                        _ => return Err(wrong(format!("the format {name:?} is not known"))),
+                        _ => return Err(wrong(format!("the format {} is not known", shown(name)))),
                     });
                 }
                 ["element", name, count] => {
-                    let count = count
-                        .parse()
-                        .map_err(|_| wrong(format!("{count:?} is not a number of elements")))?;
+                    let count = count.parse().map_err(|_| {
+                        wrong(format!("{} is not a number of elements", shown(count)))
+                    })?;
                     if elements.iter().any(|element| element.name == name) {
-                        return Err(wrong(format!("a second element {name:?}")));
+                        return Err(wrong(format!("a second element {}", shown(name))));
                     }
                     elements.push(Element {
                         name: name.to_owned(),
@@ -129,7 +130,7 @@ impl Header {
                         .ok_or_else(|| wrong("a property before any element".to_owned()))?;
                     let scalar = |name: &str| {
                         Scalar::named(name)
-                            .ok_or_else(|| wrong(format!("the type {name:?} is not known")))
+                            .ok_or_else(|| wrong(format!("the type {} is not known", shown(name))))
                     };
                     let (kind, name) = match *words {
                         ["list", count, item, name] => {
@@ -156,7 +157,12 @@ impl Header {
                 }
                 ["end_header"] => break,
                 ["comment" | "obj_info", ..] | [] => {}
-                _ => return Err(wrong(format!("{text:?} is not a line of a PLY header"))),
+                _ => {
+                    return Err(wrong(format!(
+                        "{} is not a line of a PLY header",
+                        shown(text)
+                    )));
+                }
             }
         }
         let format = format.ok_or(ImportError::Line {

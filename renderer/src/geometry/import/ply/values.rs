@@ -2,6 +2,7 @@
 
 use super::super::ImportError;
 use super::header::{Body, Format, Scalar};
+use crate::geometry::import::shown;
 
 /// A place in the values of a file.
 #[derive(Debug)]
@@ -42,7 +43,7 @@ impl<'a> Values<'a> {
             let word = self.word()?;
             let number: f64 = word
                 .parse()
-                .map_err(|_| self.wrong(format!("{word:?} is not a number")))?;
+                .map_err(|_| self.wrong(format!("{} is not a number", shown(word))))?;
             return Ok(number);
         }
         Ok(match scalar {
