@@ -1,5 +1,6 @@
 //! What needs both crates, statistics or pictures: one program, because to link one for each file takes longer than to run it.
 
+mod architecture;
 mod determinism;
 mod format;
 mod golden;

@@ -25,6 +25,7 @@ pub mod path;
 pub mod reader;
 pub mod report;
 pub mod schema;
+pub mod sections;
 pub mod source;
 pub mod tree;
 pub mod value_kind;

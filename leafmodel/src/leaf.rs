@@ -40,7 +40,7 @@ use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
-use crate::compound::CompoundForm;
+use crate::compound::form::CompoundForm;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::optics::Pigments;
 use crate::transport::TransportError;

@@ -21,6 +21,7 @@ pub mod growth_form;
 mod interior_grid;
 mod outer_boundary;
 pub mod outline;
+pub(crate) mod segments;
 mod slabs;
 pub mod svg_path;
 pub mod teeth;

@@ -47,6 +47,7 @@ mod secondaries;
 mod tests;
 mod tree;
 mod vein_network;
+mod vein_style;
 mod walls;
 mod year;
 
@@ -58,5 +59,5 @@ pub use self::filled::{FilledBlade, FilledPlan};
 pub use self::leaf::{Stage, TransportLeaf};
 pub use self::plan::{Ladder, TransportError, TransportPlan};
 pub use self::secondaries::Secondary;
-pub use self::vein_network::VeinStyle;
+pub use self::vein_style::VeinStyle;
 pub use self::year::Year;

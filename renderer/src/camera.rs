@@ -3,9 +3,9 @@
 //! ```
 //! use glam::{DVec3, Vec2};
 //! use renderer::camera::Camera;
-//! use renderer::scene::description;
+//! use renderer::camera::view::View;
 //!
-//! let described = description::Camera {
+//! let described = View {
 //!     position: DVec3::new(0.0, -1.0, 0.0),
 //!     look_at: DVec3::ZERO,
 //!     up: DVec3::Z,
@@ -23,9 +23,11 @@ use glam::{DMat3, DVec3, Vec2, Vec3};
 
 use crate::geometry::ray::Ray;
 use crate::sampling::warp;
-use crate::scene::description;
 
 pub mod filter;
+pub mod view;
+
+use self::view::View;
 
 /// A perspective camera with a thin lens.
 #[derive(Clone, Debug)]
@@ -43,7 +45,7 @@ pub struct Camera {
 
 impl Camera {
     /// For a film of `width` × `height` square pixels.
-    pub fn new(camera: &description::Camera, width: u32, height: u32) -> Self {
+    pub fn new(camera: &View, width: u32, height: u32) -> Self {
         let axes = Self::axes(camera);
         let tan = libm::tan(0.5 * camera.vertical_fov) as f32;
         Self {
@@ -64,7 +66,7 @@ impl Camera {
     }
 
     /// Unit vectors to the right of the picture, up, and into the scene.
-    pub fn axes(camera: &description::Camera) -> DMat3 {
+    pub fn axes(camera: &View) -> DMat3 {
         let forward = (camera.look_at - camera.position).normalize_or(DVec3::NEG_Z);
         let right = forward
             .cross(camera.up)
@@ -93,7 +95,7 @@ mod tests {
     use super::*;
 
     fn camera(lens_radius: f64) -> Camera {
-        let described = description::Camera {
+        let described = View {
             position: DVec3::new(0.0, -2.0, 0.0),
             look_at: DVec3::ZERO,
             up: DVec3::Z,

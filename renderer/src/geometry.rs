@@ -26,9 +26,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod binary_tree;
 mod bounds;
 mod bvh;
 mod hilbert;
+mod hit;
 mod median;
 mod memory;
 mod scramble;
@@ -41,6 +43,7 @@ pub mod frame;
 pub mod import;
 pub mod instance;
 pub mod mesh;
+mod placement;
 pub mod ray;
 pub mod surface;
 

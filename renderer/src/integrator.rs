@@ -45,8 +45,10 @@
 pub mod develop;
 pub mod effort;
 pub mod features;
+mod job;
 pub mod layers;
 pub mod mis;
 pub mod noise;
 pub mod path;
 pub mod render;
+mod trial;

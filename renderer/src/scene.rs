@@ -42,6 +42,7 @@
 mod angle;
 pub mod assets;
 mod blocks;
+mod coat;
 pub mod description;
 pub mod load;
 pub mod plant_cache;

@@ -19,14 +19,18 @@
 
 pub mod cie;
 pub mod curve;
+pub mod grid;
 pub mod lanes;
 pub mod planck;
+pub mod recorded;
 pub mod rgb;
 pub mod table;
 pub mod tabulated;
 pub mod wavelengths;
+pub mod written;
 
 pub use curve::Curve;
+pub use grid::{WavelengthGrid, Wavelengths};
 pub use lanes::Lanes;
 pub use tabulated::{Spectrum, Table};
-pub use wavelengths::{WavelengthGrid, WavelengthSampler, Wavelengths};
+pub use wavelengths::WavelengthSampler;

@@ -1,5 +1,6 @@
 //! The blade as triangles.
 
+pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -32,37 +33,6 @@ pub struct BladeMesh {
     pub lamina: Vec<DVec2>,
     /// Vertices of each triangle, counter-clockwise seen from the adaxial side.
     pub triangles: Vec<[u32; 3]>,
-}
-
-/// Why there is no blade.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum BladeError {
-    /// A number outside the range in which it means something.
-    #[error("{field} is {value}, it must be {range}")]
-    OutOfRange {
-        /// Which field of [`super::BladeForm`].
-        field: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
-    /// The mesh would be too large.
-    #[error(
-        "the blade would take more than {limit} triangles: raise max_edge_mm or meshed_vein_radius_mm"
-    )]
-    TooFine {
-        /// Most triangles allowed.
-        limit: usize,
-    },
-    /// Fold, curl and ruffle bend the blade so much that it turns inside out.
-    #[error(
-        "{faces} triangles of the blade are turned over: fold, curl, ruffle or relief are too strong together"
-    )]
-    TurnedOver {
-        /// How many triangles face the wrong way.
-        faces: usize,
-    },
 }
 
 /// What is wrong with a mesh. No mesh from [`BladeMesh::build`] has any of it.

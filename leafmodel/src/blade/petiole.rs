@@ -10,8 +10,8 @@ mod midrib;
 use glam::{DVec2, DVec3};
 
 use super::BladeForm;
+use super::error::BladeError;
 use super::form::Bending;
-use super::mesh::BladeError;
 use super::relief::{Relief, smooth_step};
 use super::stalk::StalkMesh;
 use crate::shape::outline::Outline;

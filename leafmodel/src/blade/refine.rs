@@ -16,11 +16,13 @@ use glam::DVec2;
 use spade::handles::FixedVertexHandle;
 use spade::{Point2, Triangulation as _};
 
-use super::mesh::BladeError;
+use super::error::BladeError;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
-use super::triangulate::Cdt;
 use crate::shape::outline::Outline;
+
+/// The triangulation that is refined.
+pub(super) type Cdt = spade::ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
 /// Number of vertices, the first ones, that only frame the leaf.
 pub(super) const FRAME: usize = 4;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::mesh::BladeError;
+use super::error::BladeError;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use super::triangulate::triangulate;

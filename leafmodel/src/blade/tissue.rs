@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use thiserror::Error;
 
-use super::vein_field::VeinCover;
+use super::vein_cover::VeinCover;
 use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 
 /// Contents between veins, and factors on them in veins.

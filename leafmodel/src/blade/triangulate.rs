@@ -4,15 +4,13 @@
 //! inside told from the outside by crossing the margin.
 
 use glam::DVec2;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
+use spade::Triangulation as _;
 
-use super::mesh::BladeError;
+use super::error::BladeError;
 use super::refine::{FRAME, Refinement};
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use crate::shape::outline::Outline;
-
-pub(super) type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// Neighbours on the margin closer than this share of the longest edge become one point: so short an
 /// edge carries no shape, but would not survive single precision.

@@ -3,31 +3,9 @@
 use glam::DVec2;
 
 use super::tissue::{Tissue, TissueError};
+use super::vein_cover::VeinCover;
 use super::vein_profile::{Profile, strength};
 use crate::venation::network::VeinSegment;
-
-/// Share that veins have in the tissue at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VeinCover {
-    /// 0 between veins to 1 over a fully developed one; finer veins reach less.
-    pub weight: f64,
-    /// `r / r_full − 1` on the axis of a vein of radius `r > r_full`, falling to 0 at its edge; 0 elsewhere.
-    pub excess: f64,
-}
-
-impl VeinCover {
-    const NONE: Self = Self {
-        weight: 0.0,
-        excess: 0.0,
-    };
-
-    fn strongest(self, other: Self) -> Self {
-        Self {
-            weight: self.weight.max(other.weight),
-            excess: self.excess.max(other.excess),
-        }
-    }
-}
 
 /// The veins of a leaf, sorted into a uniform grid of cells that each know every segment within reach.
 ///

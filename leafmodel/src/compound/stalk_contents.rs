@@ -1,7 +1,7 @@
 //! What stalks hold.
 
 use super::WholeLeaf;
-use crate::blade::vein_field::VeinCover;
+use crate::blade::vein_cover::VeinCover;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
 use crate::optics::{Contents, PerConstituent};
 use crate::venation::network::VeinSegment;

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::assets::Assets;
 use super::error::{DocumentError, LocatedError};
-use super::names::Names;
+use super::sections::Names;
 use super::source::{Place, Sources, escaped};
 use super::tree::Node;
 

@@ -1,12 +1,11 @@
 //! Names of blocks, and what refers to them.
 
-use std::collections::BTreeMap;
-
 use super::context::{Context, ENOUGH, QUOTED};
 use super::error::DocumentError;
 use super::nearest::nearest;
 use super::reader::Block;
 use super::schema::Type;
+use super::sections::{Names, singular};
 use super::source::{Place, escaped};
 use super::tree::{Node, Value};
 use super::value_kind::Kind;
@@ -24,16 +23,6 @@ pub struct Named<T> {
     pub value: T,
 }
 
-/// The names of one section, in the file's order; a block's index is its place here.
-#[derive(Debug)]
-pub struct Names {
-    kind: &'static str,
-    in_order: Vec<String>,
-    index: BTreeMap<String, usize>,
-    /// Whether the section may stand in the file under a misspelt name.
-    hidden: bool,
-}
-
 impl Names {
     /// The names in a section of the file, whose other sections are given too.
     pub fn of(root: &Block<'_>, section: &'static str, sections: &[&str]) -> Self {
@@ -45,25 +34,6 @@ impl Names {
                 .first_entries()
                 .any(|entry| nearest(&entry.key, sections.iter().copied()) == Some(section));
         found
-    }
-
-    /// Names that are no section.
-    pub fn of_list<'n>(kind: &'static str, names: impl IntoIterator<Item = &'n str>) -> Self {
-        let in_order: Vec<String> = names.into_iter().map(str::to_owned).collect();
-        let numbered = in_order.iter().enumerate();
-        Self {
-            kind,
-            index: numbered
-                .map(|(index, name)| (name.clone(), index))
-                .collect(),
-            in_order,
-            hidden: false,
-        }
-    }
-
-    /// The index of a name, if there is one.
-    pub fn index_of(&self, name: &str) -> Option<usize> {
-        self.index.get(name).copied()
     }
 
     /// The index of the block that a piece of text names.
@@ -80,16 +50,6 @@ impl Names {
             cx.error(at, error);
         }
         index
-    }
-
-    /// Whether the section has no block, and is not just misspelt.
-    pub fn are_missing(&self) -> bool {
-        self.in_order.is_empty() && !self.hidden
-    }
-
-    /// The name at an index.
-    pub fn name(&self, index: usize) -> &str {
-        self.in_order.get(index).map_or("", String::as_str)
     }
 }
 
@@ -111,19 +71,6 @@ impl Kind for NameIn {
 
     fn describe(&self) -> Type {
         Type::Text(self.1)
-    }
-}
-
-/// What one block of a section is called.
-pub fn singular(section: &str) -> &'static str {
-    match section {
-        "leaves" => "leaf",
-        "meshes" => "mesh",
-        "materials" => "material",
-        "objects" => "object",
-        "lights" => "light",
-        "solids" => "solid",
-        _ => "block",
     }
 }
 

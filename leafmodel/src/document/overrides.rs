@@ -4,9 +4,9 @@ use toml::de::DeTable;
 
 use super::context::{Context, ENOUGH, QUOTED};
 use super::error::{DocumentError, LocatedError};
-use super::names::singular;
 use super::nearest::nearest;
 use super::schema::{BlockSchema, EntrySchema, Is, Type};
+use super::sections::singular;
 use super::source::{Place, escaped};
 use super::tree::{Entry, Node, Table};
 use super::values::listed;

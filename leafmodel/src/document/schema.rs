@@ -9,7 +9,6 @@ use super::write::value_to_toml;
 
 pub use self::json::json_schema;
 pub use self::tables::{filled, tables};
-pub use super::keys::Keys;
 
 /// The keys of a block, in the order in which they are declared.
 #[derive(Clone, Debug, Default)]
@@ -213,11 +212,6 @@ impl Type {
             Self::Table(_) => "a table".to_owned(),
         }
     }
-}
-
-/// Describes a block whose values are defaults.
-pub fn describe(declare: impl FnOnce(&mut Keys<'_>)) -> BlockSchema {
-    Keys::describe(declare)
 }
 
 /// The unit that the ending of a key tells.

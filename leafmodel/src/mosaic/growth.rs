@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::plan::{MosaicError, in_range};
+use super::error::{MosaicError, in_range};
 
 /// Whether and how the surface grows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use self::blocks::Block;
 use self::kernel::Places;
 use super::control::Controls;
-use super::simulation::Live;
+use super::live::Live;
 use super::surface::Surface;
 use super::walk::walk;
 

@@ -6,12 +6,14 @@ mod tests;
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use self::regions::Regions;
 use super::control::Controls;
 use super::division::{child_id, chosen, events_to_division, kind_of_child, place_of_child};
-use super::plan::{MOST_CELLS, MosaicError, MosaicPlan, RadiusRule};
+use super::error::{MosaicError, in_range};
+use super::live::Live;
+use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
 use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::venation::chance::{Use, bits, uniform};
@@ -49,22 +51,6 @@ pub struct Mosaic {
     pub radius_mm: f64,
     /// The time, days.
     pub day: f64,
-}
-
-/// A cell while it lives: its place is in the frame of a face of the surface worked on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Live {
-    pub face: u32,
-    pub at: DVec2,
-    pub kind: u16,
-    clone: u32,
-    parent: u32,
-    /// From which its chances come.
-    id: u64,
-    /// How often it has divided.
-    divisions: u64,
-    /// The relaxation event at which it divides next.
-    divides_at: u64,
 }
 
 const NO_PARENT: u32 = u32::MAX;
@@ -111,7 +97,7 @@ impl Mosaic {
         plan.validate()?;
         for &day in days {
             let good = (0.0..=plan.days).contains(&day);
-            super::plan::in_range("day of a stage", day, good, "0 to the days of the plan")?;
+            in_range("day of a stage", day, good, "0 to the days of the plan")?;
         }
         let event = |day: f64| (day * f64::from(plan.relaxations_per_day)).round() as u64;
         let mut order: Vec<usize> = (0..days.len()).collect();

@@ -4,7 +4,7 @@ use super::layers::asset;
 use super::outline::bad_file;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
-use crate::document::names::Names;
+use crate::document::sections::Names;
 use crate::document::value_kind::{Integer, Number, Text, Vector, Word};
 use crate::document::values::text_at;
 use crate::mosaic::control::{ControlImage, CylinderControl, Steered};

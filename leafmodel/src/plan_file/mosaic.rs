@@ -7,7 +7,7 @@ use super::control::{self, control};
 use crate::document::error::DocumentError;
 use crate::document::keys::{Keys, NamedList};
 use crate::document::limits::Limits;
-use crate::document::names::Names;
+use crate::document::sections::Names;
 use crate::document::tree::Entry;
 use crate::document::value_kind::{Integer, MapOf, Number, Vector, Word};
 use crate::document::values::rounded;

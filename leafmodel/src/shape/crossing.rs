@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::segments::turn;
 use super::slabs::Slabs;
 
 /// Two edges of the closed polygon that cross or touch apart from the corner that neighbours
@@ -40,11 +41,6 @@ pub(crate) fn first_crossing(points: &[DVec2], slabs: &Slabs) -> Option<(usize, 
     None
 }
 
-/// Twice the signed area of a triangle: positive if it is counter-clockwise.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    (b - a).perp_dot(c - a)
-}
-
 /// Whether the path a → b → c returns upon itself at b.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     turn(a, b, c) == 0.0 && (b - a).dot(c - b) < 0.0
@@ -65,15 +61,4 @@ fn meet((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
         return low.cmple(other_high).all() && other_low.cmple(high).all();
     }
     true
-}
-
-/// Where the segments a–b and c–d cross in their interiors, as shares of either.
-pub(crate) fn crossing(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<(f64, f64)> {
-    let opposite = |p: f64, q: f64| (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0);
-    let (abc, abd) = (turn(a, b, c), turn(a, b, d));
-    if !opposite(abc, abd) {
-        return None;
-    }
-    let (cda, cdb) = (turn(c, d, a), turn(c, d, b));
-    opposite(cda, cdb).then(|| (cda / (cda - cdb), abc / (abc - abd)))
 }

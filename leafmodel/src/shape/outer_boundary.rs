@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::crossing::crossing;
+use super::segments::crossing;
 
 /// The outer boundary of the closed polyline `points`, counter-clockwise, starting at `points[0]`.
 ///

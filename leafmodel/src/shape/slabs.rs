@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::crossing::crossing;
+use super::segments::crossing;
 
 /// Which edges of a closed polygon reach into which of its horizontal slabs.
 #[derive(Clone, Debug, PartialEq)]

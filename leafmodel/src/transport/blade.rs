@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::contour::{contour, first_hit, is_inside, place, smoothed};
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
-use super::vein_network::VeinStyle;
+use super::vein_style::{VeinStyle, check};
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::VenationNetwork;
 
@@ -139,18 +139,6 @@ impl TransportLeaf {
             is_walled: false,
         })
     }
-}
-
-pub(crate) fn check(
-    key: &'static str,
-    value: f64,
-    low: f64,
-    high: f64,
-    range: &'static str,
-) -> Result<(), TransportError> {
-    let good = (low..=high).contains(&value);
-    good.then_some(())
-        .ok_or(TransportError::OutOfRange { key, value, range })
 }
 
 #[cfg(test)]

@@ -7,13 +7,13 @@
 
 use glam::DVec2;
 
-use super::blade::{Frame, check};
+use super::blade::Frame;
 use super::cells::Cell;
 use super::contour::place;
 use super::growth::Outgrown;
 use super::leaf::TransportLeaf;
 use super::plan::{Ladder, TransportError, TransportPlan};
-use super::vein_network::VeinStyle;
+use super::vein_style::{VeinStyle, check};
 use super::walls::Walls;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;

@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use super::blade::{Frame, check};
+use super::blade::Frame;
 use super::contour::place;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
+use super::vein_style::VeinStyle;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order;
@@ -16,29 +17,6 @@ const VEIN_TETHER: f64 = 0.4;
 
 /// Rounds of smoothing of veins.
 const VEIN_ROUNDS: usize = 3;
-
-/// How veins are drawn from weights.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VeinStyle {
-    /// Radius of the midrib at the base, mm, 0.0001 to 100. Elsewhere `r ∝ w^½`.
-    pub base_radius_mm: f64,
-    /// Veins that supply fewer cells are left out; with 1 every cell has a vein. 1 to 1 000 000.
-    pub least_cells: u32,
-}
-
-impl VeinStyle {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TransportError::OutOfRange`].
-    pub fn validate(&self) -> Result<(), TransportError> {
-        let radius = self.base_radius_mm;
-        check("base_radius_mm", radius, 1e-4, 100.0, "0.0001 to 100 mm")?;
-        let least = f64::from(self.least_cells);
-        check("least_cells", least, 1.0, 1e6, "1 to 1000000")
-    }
-}
 
 impl TransportLeaf {
     /// The veins, in the frame of [`TransportLeaf::outline`] for the same length.

@@ -8,6 +8,7 @@
 mod mesh;
 mod shapes;
 mod spectra;
+mod units;
 mod xml;
 
 use std::fs;
@@ -138,7 +139,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         if let Some(map) = map {
             let path = folder.join(format!(
                 "maps/{}.exr",
-                xml::material_id(scene, world, number)
+                units::material_id(scene, world, number)
             ));
             openexr::write(&map_picture(map), &path)?;
         }

@@ -1,13 +1,15 @@
 //! Meshes, placed by instances: what rays are traced against.
 
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3, Vec3A};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::bounds::Bounds;
+pub use super::hit::Hit;
 use super::instance::Instance;
 use super::memory;
 use super::mesh::TriangleMesh;
+use super::placement::{Carrier, Placement};
 use super::ray::Ray;
 use super::surface::SurfacePoint;
 use super::triangle::TriangleBlock;
@@ -26,23 +28,6 @@ pub struct Geometry {
     /// Of each leaf of `tree` its instance.
     carriers: Vec<Carrier>,
     level: Level,
-}
-
-/// Where a ray meets the geometry first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance in lengths of the ray's direction.
-    pub t: f32,
-    /// Number of the instance.
-    pub instance: u32,
-    /// Number of the triangle in the instance's mesh.
-    pub triangle: u32,
-    /// Weight of the triangle's second vertex.
-    pub b1: f32,
-    /// Weight of the triangle's third vertex.
-    pub b2: f32,
-    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the cache there.
-    place: u32,
 }
 
 /// Why meshes and instances were refused.
@@ -93,52 +78,6 @@ struct TracedMesh {
     blocks: Vec<TriangleBlock>,
     /// Boxes that hold the mesh closer than the tree's own box does once they are turned.
     hull: Vec<Bounds>,
-}
-
-/// An instance with what is computed from it. "Local" is the frame in which its mesh is traced.
-#[derive(Clone, Debug)]
-pub(super) struct Placement {
-    instance: Instance,
-    /// Local to world.
-    pub(super) linear: DMat3,
-    pub(super) offset: DVec3,
-    /// Takes normals to the world.
-    pub(super) normals: DMat3,
-    /// The same in single precision, for directions that are made unit.
-    pub(super) linear_f32: Mat3,
-    pub(super) normals_f32: Mat3,
-    carrier: Carrier,
-}
-
-/// What a ray needs to know of an instance, in one line of the cache.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-struct Carrier {
-    /// World to local, as rays are carried.
-    linear: Mat3,
-    offset: Vec3,
-    mesh: u32,
-    instance: u32,
-}
-
-impl Carrier {
-    /// The ray in the local frame, with the same `t`.
-    #[inline(always)]
-    fn carry(&self, ray: &Ray) -> (Vec3A, Vec3A) {
-        let [x, y, z] = [
-            Vec3A::from(self.linear.x_axis),
-            Vec3A::from(self.linear.y_axis),
-            Vec3A::from(self.linear.z_axis),
-        ];
-        let (o, d) = (ray.origin, ray.direction);
-        (
-            x * Vec3A::splat(o.x)
-                + y * Vec3A::splat(o.y)
-                + z * Vec3A::splat(o.z)
-                + Vec3A::from(self.offset),
-            x * Vec3A::splat(d.x) + y * Vec3A::splat(d.y) + z * Vec3A::splat(d.z),
-        )
-    }
 }
 
 impl Placement {

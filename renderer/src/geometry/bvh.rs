@@ -5,9 +5,9 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
+use super::binary_tree::BinaryNode;
 use super::bounds::Bounds;
 use super::scramble::scramble;
-use super::wide_tree::BinaryNode;
 
 /// Share of the nodes that are tried elsewhere after clustering.
 const REINSERTION: f32 = 0.02;

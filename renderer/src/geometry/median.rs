@@ -1,7 +1,7 @@
 //! Binary trees by halving: slower to trace than clustered ones, but their depth is known beforehand.
 
+use super::binary_tree::BinaryNode;
 use super::bounds::Bounds;
-use super::wide_tree::BinaryNode;
 
 /// A binary tree over finite boxes, at least one, of depth ⌈log₂ n⌉: halves at the median centre along the longest
 /// side of the centres, ties by number.

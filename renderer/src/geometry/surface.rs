@@ -2,8 +2,9 @@
 
 use glam::{Mat3, Vec2, Vec3};
 
-use super::assembly::{Hit, Placement};
+use super::hit::Hit;
 use super::mesh::TriangleMesh;
+use super::placement::Placement;
 use super::ray::Ray;
 
 /// Half the distance between 1 and the next `f32`: the relative error of one rounding.

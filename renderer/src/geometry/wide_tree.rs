@@ -10,8 +10,6 @@ mod build;
 mod cut;
 mod pack;
 
-pub(super) use build::BinaryNode;
-
 /// Levels of nodes that a tree may have; deeper ones are built anew by halving.
 const MAX_DEPTH: usize = 18;
 

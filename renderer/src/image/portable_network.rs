@@ -150,10 +150,7 @@ mod tests {
         let light: Vec<f32> = (0..256)
             .flat_map(|i| picture.layers.iter().map(move |layer| layer.data[i]))
             .collect();
-        assert_eq!(
-            tone::to_bytes(&light, 0.0, crate::scene::description::Tone::Linear),
-            rgb
-        );
+        assert_eq!(tone::to_bytes(&light, 0.0, tone::Tone::Linear), rgb);
         assert_eq!(picture.layers[0].data[255], 1.0);
         // 188 is the well-known encoding of half the light.
         assert!((picture.layers[0].data[188] - 0.5).abs() < 0.004);

@@ -1,6 +1,13 @@
 //! From linear light to what a screen shows.
 
-use crate::scene::description::Tone;
+/// Curve before the sRGB encoding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// None: colours can be measured in the PNG.
+    Linear,
+    /// Highlights roll off as on film.
+    Filmic,
+}
 
 /// Encodes linear sRGB as 8-bit values: exposure 2^EV, the curve, the sRGB encoding, rounding.
 ///

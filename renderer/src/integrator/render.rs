@@ -4,27 +4,16 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::film::{FEATURE_SAMPLES, Film, FilmError, PixelSums};
-use crate::integrator::effort::{self, Effort};
+use crate::integrator::effort::Effort;
 use crate::integrator::features::{self, Sight};
+pub use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::noise::{self, NoiseWatch};
 use crate::integrator::path;
+use crate::integrator::trial;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::Spectrum;
-
-/// Which samples of which picture.
-#[derive(Clone, Copy, Debug)]
-pub struct Job {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Samples a pixel.
-    pub spp: u32,
-    /// Seed of every random number.
-    pub seed: u64,
-}
 
 /// What ends a render before every pixel has all the samples of its [`Job`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -123,7 +112,7 @@ pub fn render_until(
     let mut watch = halt
         .noise
         .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.colour));
-    let effort = effort::choose(world, job, layout, stop);
+    let effort = trial::choose(world, job, layout, stop);
     let pass = PassOfPaths {
         world,
         job,

@@ -10,6 +10,11 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Pigments;
 use leafmodel::solid::SolidPlan;
 
+pub use crate::camera::view::View as Camera;
+pub use crate::image::tone::Tone;
+pub use crate::spectrum::recorded::{Band, FilmKind};
+pub use crate::spectrum::written::Spectrum;
+
 /// A whole scene.
 #[derive(Clone, Debug)]
 pub struct Description {
@@ -37,32 +42,6 @@ pub struct Description {
     pub lights: Vec<Named<Light>>,
     /// What stands in the scene.
     pub objects: Vec<Named<Object>>,
-}
-
-/// A spectrum as written. What it means (reflectance, radiance …) is said where it is used.
-#[derive(Clone, Debug)]
-pub enum Spectrum {
-    /// The same value at every wavelength.
-    Constant(f64),
-    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values outside.
-    Table {
-        /// (nm, value) pairs.
-        points: Vec<(f64, f64)>,
-        /// Whether the end values hold outside the table.
-        extrapolate: bool,
-    },
-    /// CIE standard illuminant D65, relative, 1 at 560 nm, times a factor.
-    D65 {
-        /// Value at 560 nm.
-        scale: f64,
-    },
-    /// Planck's law, relative, 1 at 560 nm, times a factor.
-    Blackbody {
-        /// Temperature, K.
-        kelvin: f64,
-        /// Value at 560 nm.
-        scale: f64,
-    },
 }
 
 impl Description {
@@ -107,30 +86,6 @@ pub struct Film {
     pub kind: FilmKind,
 }
 
-/// Colour or bands.
-#[derive(Clone, Debug)]
-pub enum FilmKind {
-    /// Linear sRGB through CIE 1931 2°, from wavelengths in this range (nm).
-    Rgb {
-        /// First and last wavelength, nm.
-        range_nm: [f64; 2],
-    },
-    /// Mean spectral radiance over each band.
-    Spectral {
-        /// The bands, 1 to 32.
-        bands: Vec<Band>,
-    },
-}
-
-/// A box-shaped band.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
-    /// Middle, nm.
-    pub center_nm: f64,
-    /// Full width, nm; 0 is a single wavelength.
-    pub width_nm: f64,
-}
-
 /// How the PNG is made from the film.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture {
@@ -138,32 +93,6 @@ pub struct Picture {
     pub exposure_ev: f64,
     /// Curve before the sRGB encoding.
     pub tone: Tone,
-}
-
-/// Curve before the sRGB encoding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tone {
-    /// None: colours can be measured in the PNG.
-    Linear,
-    /// Highlights roll off as on film.
-    Filmic,
-}
-
-/// A perspective camera with a thin lens.
-#[derive(Clone, Debug)]
-pub struct Camera {
-    /// Middle of the lens, m.
-    pub position: DVec3,
-    /// Point that comes to the middle of the picture, m.
-    pub look_at: DVec3,
-    /// Upward direction, any length.
-    pub up: DVec3,
-    /// Vertical field of view, rad.
-    pub vertical_fov: f64,
-    /// Radius of the lens, m; 0 is a pinhole.
-    pub lens_radius: f64,
-    /// Distance of the sharp plane along the axis, m.
-    pub focus_distance: f64,
 }
 
 /// How light is followed.

@@ -25,7 +25,7 @@ use leafmodel::leaf::LeafPlan;
 use thiserror::Error;
 
 use self::bytes::{parts_from, to_bytes};
-use super::plants::{LeafParts, PlantError};
+use super::plants::parts::{LeafParts, PlantError};
 use crate::image::atomic;
 
 /// The first bytes of a file.

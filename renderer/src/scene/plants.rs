@@ -1,24 +1,27 @@
 //! The seam to leafmodel: grown leaves and bodies become meshes and materials, millimetres become metres.
 
+pub(super) mod parts;
+
 use std::sync::Arc;
 
-use glam::{DAffine3, Vec2, Vec3};
+use glam::{DAffine3, Vec2};
 use leafmodel::blade::stalk::StalkMesh;
-use leafmodel::compound::{CompoundError, WholeLeaf};
-use leafmodel::leaf::{Leaf, LeafError, LeafPlan};
+use leafmodel::compound::WholeLeaf;
+use leafmodel::leaf::{Leaf, LeafPlan};
 use leafmodel::optics::solid::ReflectanceTable;
-use leafmodel::optics::{Contents, Texel};
 use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
 
+use self::parts::{LeafParts, MapParts, MeshParts};
+pub use self::parts::{Piece, PlantError};
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
 use crate::material::solid::{SolidMaterial, SolidTissue};
+use crate::scene::coat::coat_of;
 use crate::scene::description;
 use crate::scene::plant_cache::PlantCache;
-use crate::scene::world::build_coat;
 use crate::spectrum::Curve;
 
 /// A grown leaf, ready to be placed: petiole, rachis and leaflets, or one blade alone.
@@ -30,31 +33,6 @@ pub struct GrownLeaf {
     pub materials: Vec<LeafMaterial>,
     /// What stands where; one at least.
     pub pieces: Vec<Piece>,
-}
-
-/// A part of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
-    /// Which of [`GrownLeaf::meshes`].
-    pub mesh: usize,
-    /// Which of [`GrownLeaf::materials`].
-    pub material: usize,
-    /// From the mesh to the leaf, metres; may mirror.
-    pub to_leaf: DAffine3,
-}
-
-/// Why a leaf cannot be grown.
-#[derive(Debug, Error)]
-pub enum PlantError {
-    /// The plan cannot be carried out.
-    #[error(transparent)]
-    Leaf(#[from] CompoundError),
-    /// The contents of its stalks cannot be told.
-    #[error(transparent)]
-    Stalks(#[from] LeafError),
-    /// The blade's mesh is refused.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
 }
 
 /// Why a body of solid tissue cannot be grown.
@@ -93,40 +71,9 @@ pub fn grow_solid(
         map.texels,
     ));
     let optics = solid.optics;
-    let coat = build_coat(optics.coat);
+    let coat = coat_of(optics.coat);
     let material = SolidMaterial::new(tissue, palette, optics.tissue, table, coat);
     Ok((mesh, material))
-}
-
-/// What a leaf has grown into, in metres: the numbers that a [`GrownLeaf`] is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct LeafParts {
-    /// As [`GrownLeaf::meshes`].
-    pub(super) meshes: Vec<MeshParts>,
-    /// The contents of the different blades.
-    pub(super) maps: Vec<MapParts>,
-    /// What stalks are made of, if there are any.
-    pub(super) stalk: Option<Contents>,
-    /// As [`GrownLeaf::pieces`].
-    pub(super) pieces: Vec<Piece>,
-}
-
-/// The numbers of a mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MeshParts {
-    pub(super) positions: Vec<Vec3>,
-    pub(super) normals: Vec<Vec3>,
-    /// None for stalks, which are the same everywhere.
-    pub(super) uvs: Option<Vec<Vec2>>,
-    pub(super) triangles: Vec<[u32; 3]>,
-}
-
-/// The numbers of a map of contents.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MapParts {
-    pub(super) width: usize,
-    pub(super) height: usize,
-    pub(super) texels: Vec<Texel>,
 }
 
 /// Grows a leaf whose pigments are those of `palette`, or takes it from `cache` if it is there.
@@ -145,7 +92,7 @@ pub fn grow(
         None => grow()?,
     };
     let ratio = Curve::from_description(&leaf.abaxial_ratio);
-    let coats = leaf.coats.map(build_coat);
+    let coats = leaf.coats.map(coat_of);
     let material =
         |tissue| LeafMaterial::new(tissue, palette.clone(), ratio.clone(), coats.clone());
     let maps = parts.maps.into_iter();

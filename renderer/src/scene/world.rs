@@ -17,7 +17,6 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::lights::build_light;
-pub(in crate::scene) use self::materials::build_coat;
 use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
 pub(crate) use self::placing::matrix_of;

@@ -1,10 +1,10 @@
 //! A spectrum ready for evaluation along paths.
 
-use crate::scene::description;
+use super::written;
 use crate::spectrum::cie;
+use crate::spectrum::grid::Wavelengths;
 use crate::spectrum::lanes::Lanes;
 use crate::spectrum::planck;
-use crate::spectrum::wavelengths::Wavelengths;
 
 /// A function of wavelength: constant, or linear between points and constant outside them.
 ///
@@ -33,14 +33,14 @@ pub enum Curve {
 
 impl Curve {
     /// The spectrum that a scene describes.
-    pub fn from_description(spectrum: &description::Spectrum) -> Self {
+    pub fn from_description(spectrum: &written::Spectrum) -> Self {
         match spectrum {
-            description::Spectrum::Constant(value) => Self::Constant(*value as f32),
-            description::Spectrum::Table { points, .. } => Self::from_points(points),
-            description::Spectrum::D65 { scale } => {
+            written::Spectrum::Constant(value) => Self::Constant(*value as f32),
+            written::Spectrum::Table { points, .. } => Self::from_points(points),
+            written::Spectrum::D65 { scale } => {
                 Self::uniform(300.0, 1.0, 530, |nm| scale * cie::d65(nm) / cie::d65(560.0))
             }
-            description::Spectrum::Blackbody { kelvin, scale } => {
+            written::Spectrum::Blackbody { kelvin, scale } => {
                 let reference = planck::radiance(560.0, *kelvin);
                 Self::uniform(300.0, 1.0, 2300, |nm| {
                     scale * planck::radiance(nm, *kelvin) / reference

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::spectrum::curve::Curve;
+use crate::spectrum::grid::{WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
-use crate::spectrum::wavelengths::{WavelengthGrid, Wavelengths};
 
 /// Some values at each wavelength of a grid: by row of the grid, value and lane.
 #[derive(Clone, PartialEq)]
@@ -96,8 +96,9 @@ impl Spectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::description::FilmKind;
-    use crate::spectrum::wavelengths::{ROWS, WavelengthSampler};
+    use crate::spectrum::WavelengthSampler;
+    use crate::spectrum::grid::ROWS;
+    use crate::spectrum::recorded::FilmKind;
 
     #[test]
     fn a_tabulated_spectrum_has_the_values_of_its_curve() {

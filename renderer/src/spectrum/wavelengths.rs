@@ -4,65 +4,11 @@
 //! shares of the distribution, so some 0.2 nm apart in a colour picture. What depends on wavelength
 //! alone is tabulated for each of them ([`Table`]) and never worked out along a path.
 
-use crate::scene::description::{Band, FilmKind};
+use super::recorded::{Band, FilmKind};
 use crate::spectrum::cie;
+pub use crate::spectrum::grid::{ROWS, WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
 use crate::spectrum::tabulated::Table;
-
-/// Sets of wavelengths that paths choose from.
-pub const ROWS: usize = 256;
-
-/// Marks wavelengths that are in no row of the picture's grid.
-const NO_ROW: u32 = u32::MAX;
-
-/// The wavelengths of one path, nm.
-#[derive(Clone, Copy, Debug)]
-pub struct Wavelengths<const N: usize> {
-    /// A vacuum wavelength for each lane, nm.
-    pub nm: [f32; N],
-    row: u32,
-}
-
-impl<const N: usize> Wavelengths<N> {
-    /// Any wavelengths, nm: every spectrum is worked out for them anew.
-    pub fn new(nm: [f32; N]) -> Self {
-        Self { nm, row: NO_ROW }
-    }
-
-    /// Number of the row of the picture's grid that they are; beyond all rows if they are none.
-    #[inline]
-    pub(super) fn row(&self) -> usize {
-        self.row as usize
-    }
-}
-
-/// The sets of wavelengths of a picture.
-#[derive(Clone, Debug)]
-pub struct WavelengthGrid {
-    lanes: usize,
-    /// By row and lane, nm.
-    nm: Box<[f32]>,
-}
-
-impl WavelengthGrid {
-    fn new(lanes: usize, mut nm: impl FnMut(usize, usize) -> f32) -> Self {
-        let places = (0..ROWS).flat_map(|row| (0..lanes).map(move |lane| (row, lane)));
-        Self {
-            lanes,
-            nm: places.map(|(row, lane)| nm(row, lane)).collect(),
-        }
-    }
-
-    /// Wavelengths in a set.
-    pub fn lanes(&self) -> usize {
-        self.lanes
-    }
-
-    /// The wavelengths, row by row, nm.
-    pub fn nm(&self) -> &[f32] {
-        &self.nm
-    }
-}
 
 /// Draws wavelengths and turns the radiance found at them into film values.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! On a surface that grows, room decides how many cells divide where.
 
+use crate::mosaic::live::Live;
 use crate::mosaic::patch::PatchFinder;
-use crate::mosaic::simulation::Live;
 use crate::mosaic::surface::Surface;
 use crate::venation::chance::{Use, bits, uniform};
 

@@ -17,7 +17,7 @@ use crate::scene::plants::Piece;
 use crate::scene::world::{World, matrix_of};
 
 use super::spectra::Spectra;
-use super::xml::{UNITS_PER_METRE, material_id};
+use super::units::{UNITS_PER_METRE, material_id};
 
 /// A mesh of the world, or its mirror image in x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

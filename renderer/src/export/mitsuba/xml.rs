@@ -19,30 +19,11 @@ use crate::scene::world::{MaterialOwner, World};
 use super::absorption_file;
 use super::shapes::{self, MeshFile};
 use super::spectra::{self, Spectra};
+use super::units::{UNITS_PER_METRE, material_id};
 
 /// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse, either way from the
 /// middle.
 const SUN_DISTANCE: f64 = 1e5;
-
-/// Mitsuba's units a metre: the exported scene is in millimetres.
-///
-/// Mitsuba moves the origin of every new ray off its surface by 9e-5 (1 + largest coordinate). In metres that is a
-/// tenth of a millimetre, as much as veins stand out from a leaf, and light would pass under them (0.25 % of the mean
-/// in a close-up). In millimetres it is some micrometres. Radiance does not depend on the unit.
-pub(super) const UNITS_PER_METRE: f64 = 1000.0;
-
-/// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are numbered from 2.
-pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> String {
-    match world.owners[number] {
-        MaterialOwner::Scene(material) => format!("material-{}", scene.materials[material].name),
-        MaterialOwner::Leaf { leaf, part: 0 } => format!("leaf-{}", scene.leaves[leaf].name),
-        MaterialOwner::Leaf { leaf, part } => {
-            // A point is in no name of a scene.
-            format!("leaf-{}.{}", scene.leaves[leaf].name, part + 1)
-        }
-        MaterialOwner::Solid(solid) => format!("solid-{}", scene.solids[solid].name),
-    }
-}
 
 /// Where in the export the picture of an environment light lies.
 pub(super) fn environment_file(light: &str, file: &Path) -> String {

@@ -6,15 +6,7 @@ use super::super::{bvh, median, memory};
 use super::cut::{Cheapest, Cut, ThreeLevels};
 use super::pack;
 use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
-
-/// A node of the binary tree that a [`WideTree`] is made from. The root is node 0.
-#[derive(Clone, Copy, Debug)]
-pub(in super::super) enum BinaryNode {
-    /// One box of the input.
-    Leaf(u32),
-    /// Two nodes.
-    Inner([u32; 2]),
-}
+use crate::geometry::binary_tree::{BinaryNode, upwards};
 
 impl WideTree {
     /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
@@ -91,17 +83,4 @@ fn bounds_of(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Bounds> {
         };
     }
     bounds
-}
-
-/// The nodes of a binary tree, children before their parents.
-pub(super) fn upwards(binary: &[BinaryNode]) -> impl Iterator<Item = u32> + use<> {
-    let mut order = Vec::with_capacity(binary.len());
-    let mut open = vec![0_u32];
-    while let Some(node) = open.pop() {
-        order.push(node);
-        if let BinaryNode::Inner(children) = binary[node as usize] {
-            open.extend(children);
-        }
-    }
-    order.into_iter().rev()
 }

@@ -1,7 +1,7 @@
 //! Which nodes of a binary tree become the children of a wide node.
 
 use super::super::bounds::Bounds;
-use super::build::{BinaryNode, upwards};
+use crate::geometry::binary_tree::{BinaryNode, upwards};
 use crate::simd::{LANES, Stack};
 
 /// At most eight binary nodes.

@@ -1,3 +1,4 @@
+use crate::geometry::binary_tree::BinaryNode;
 use glam::Vec3;
 
 use super::super::testing::Numbers;

@@ -10,6 +10,7 @@
 //! Rows are read on all threads. Of those that are wrong the first [`MOST_TOLD`] are told and the others counted, so
 //! that a report of a million rows is as short and as quick as one of ten.
 
+mod column_names;
 mod columns;
 mod npy;
 mod row_error;

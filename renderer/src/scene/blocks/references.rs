@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
-use leafmodel::document::names::{Names, singular};
+use leafmodel::document::sections::{Names, singular};
 
 use crate::scene::description::{Description, Light, ObjectShape};
 

@@ -15,7 +15,7 @@ use leafmodel::document::tree::{Entry, Node, Table, Value};
 use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{finite_at, list, number, number_at, wrong_length, wrong_type};
 
-use super::table_file::read_table_file;
+use super::table_file::{Rows, read_table_file};
 use crate::scene::description::Spectrum;
 
 /// A spectrum, by what it is used for.
@@ -153,14 +153,6 @@ const D65_NM: [f64; 2] = [300.0, 830.0];
 const FACTORS: Limits = Limits::above(0.0, 1e12);
 /// Temperatures of black bodies.
 const KELVIN: Limits = Limits::closed(100.0, 1e6);
-
-/// Rows of a table, each with its place.
-#[derive(Debug, Default)]
-pub(super) struct Rows {
-    pub(super) points: Vec<(f64, f64)>,
-    /// Places of the wavelength and of the value.
-    pub(super) places: Vec<[Place; 2]>,
-}
 
 impl SpectrumOf {
     fn form(self, cx: &Context, node: &Node, key: &str, path: String) -> Option<Spectrum> {

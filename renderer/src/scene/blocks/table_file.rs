@@ -4,7 +4,13 @@ use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::source::{Place, escaped, line_of_byte};
 
-use super::spectrum::Rows;
+/// Rows of a table, each with its place.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) points: Vec<(f64, f64)>,
+    /// Places of the wavelength and of the value.
+    pub(super) places: Vec<[Place; 2]>,
+}
 
 /// Reads a table file: columns parted by comma, semicolon, tab or spaces, one line of names on
 /// top if wanted, `#` before comments, empty lines left out.

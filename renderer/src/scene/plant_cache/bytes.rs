@@ -3,7 +3,7 @@
 use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::optics::{Contents, PerConstituent};
 
-use crate::scene::plants::{LeafParts, MapParts, MeshParts, Piece};
+use crate::scene::plants::parts::{LeafParts, MapParts, MeshParts, Piece};
 
 /// The leaf as bytes.
 pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {

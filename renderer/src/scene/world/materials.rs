@@ -6,12 +6,12 @@ use leafmodel::optics::solid::ReflectanceTable;
 
 use super::WorldError;
 use crate::bsdf::dielectric::Dielectric;
-use crate::bsdf::leaf::Coat;
 use crate::material::Material;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
 use crate::scene::assets;
+use crate::scene::coat::coat_of;
 use crate::scene::description::{self, Description};
 use crate::spectrum::{Curve, WavelengthGrid};
 
@@ -89,7 +89,7 @@ pub(super) fn build_material(
                 tissue,
                 known.palettes.of(pigments),
                 Curve::from_description(abaxial_ratio),
-                coats.map(build_coat),
+                coats.map(coat_of),
             )))
         }
         description::Material::Solid {
@@ -110,17 +110,8 @@ pub(super) fn build_material(
                 palette,
                 optics.tissue,
                 table,
-                build_coat(optics.coat),
+                coat_of(optics.coat),
             )))
         }
     })
-}
-
-/// A coat with its tables.
-pub(in crate::scene) fn build_coat(coat: description::Coat) -> Coat {
-    Coat::new(
-        coat.eta as f32,
-        coat.alpha_across as f32,
-        coat.alpha_along as f32,
-    )
 }

@@ -3,56 +3,15 @@
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::Table;
+use super::column_names::{
+    AXES, COUNT, NAMES, POSITION, QUATERNION, ROTATION, SCALE, SHAPE, UNIT_TOLERANCE, limits,
+};
 use super::row_error::RowError;
-use crate::scene::blocks::camera::COORDINATES_M;
-use crate::scene::blocks::object::{ANGLES_DEG, SCALES, turn};
+use crate::scene::blocks::placement::turn;
 use crate::scene::description::InstancePlace;
 use leafmodel::document::context::{ENOUGH, QUOTED};
-use leafmodel::document::limits::Limits;
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
-
-/// Names of the columns, in the order in which a [`Row`] keeps their numbers.
-pub(super) const NAMES: [&str; COUNT] = [
-    "x_m",
-    "y_m",
-    "z_m",
-    "rotate_x_deg",
-    "rotate_y_deg",
-    "rotate_z_deg",
-    "quaternion_w",
-    "quaternion_x",
-    "quaternion_y",
-    "quaternion_z",
-    "scale",
-    "scale_x",
-    "scale_y",
-    "scale_z",
-    "shape",
-];
-
-/// How many columns there are.
-pub(super) const COUNT: usize = 15;
-const POSITION: usize = 0;
-const ROTATION: usize = 3;
-pub(super) const QUATERNION: usize = 6;
-const SCALE: usize = 10;
-const AXES: usize = 11;
-/// Which of the object's shapes a row is.
-pub(super) const SHAPE: usize = 14;
-
-/// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do not.
-const UNIT_TOLERANCE: f64 = 0.01;
-
-/// What a column's numbers may be; shapes are looked up instead.
-pub(super) fn limits(column: usize) -> Limits {
-    match column {
-        POSITION..ROTATION => COORDINATES_M,
-        ROTATION..QUATERNION => ANGLES_DEG,
-        QUATERNION..SCALE => Limits::closed(-1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE),
-        _ => SCALES,
-    }
-}
 
 /// Which columns a file has, in its order.
 #[derive(Debug)]

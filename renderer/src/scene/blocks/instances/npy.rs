@@ -12,7 +12,8 @@ mod header;
 use rayon::prelude::*;
 
 use self::header::{Array, Field};
-use super::columns::{Header, Row, SHAPE};
+use super::column_names::SHAPE;
+use super::columns::{Header, Row};
 use super::row_error::RowError;
 use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;

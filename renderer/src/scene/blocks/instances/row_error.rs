@@ -1,7 +1,7 @@
 //! What can be wrong with a row of a table of instances, and how a report tells it.
 
 use super::Table;
-use super::columns::{NAMES, QUATERNION, SHAPE, limits};
+use super::column_names::{NAMES, QUATERNION, SHAPE, limits};
 use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::nearest::nearest;

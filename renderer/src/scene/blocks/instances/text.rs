@@ -4,7 +4,8 @@
 
 use rayon::prelude::*;
 
-use super::columns::{Header, HeaderError, Row, SHAPE};
+use super::column_names::SHAPE;
+use super::columns::{Header, HeaderError, Row};
 use super::row_error::RowError;
 use super::{Rows, Table, WrongRow};
 use crate::scene::description::InstancePlace;

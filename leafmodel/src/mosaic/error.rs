@@ -1,0 +1,122 @@
+//! Why there is no mosaic.
+
+use thiserror::Error;
+
+use super::control::ControlError;
+use super::surface::SurfaceError;
+
+/// Why a plan cannot be grown.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MosaicError {
+    /// A number outside its range.
+    #[error("{field} is {value}, outside {range}")]
+    OutOfRange {
+        /// Which number.
+        field: String,
+        /// What it is.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A plan without cell types, or with more than there are numbers for.
+    #[error("there are {count} cell types; a mosaic has 1 to 1000")]
+    Types {
+        /// How many there are.
+        count: usize,
+    },
+    /// A row with more or fewer numbers than types.
+    #[error("{field} of type \"{name}\" has {length} numbers; there are {types} types")]
+    RowLength {
+        /// Which row.
+        field: &'static str,
+        /// Whose it is.
+        name: String,
+        /// Its length.
+        length: usize,
+        /// What its length should be.
+        types: usize,
+    },
+    /// Probabilities that do not make one.
+    #[error("{field} sum to {}, not to 1", (1e9 * sum).round() / 1e9)]
+    NotOne {
+        /// Which ones.
+        field: String,
+        /// Their sum.
+        sum: f64,
+    },
+    /// Adhesion that depends on who asks.
+    #[error(
+        "adhesion of \"{first}\" to \"{second}\" is {there}, of \"{second}\" to \"{first}\" {back}; the two have to be equal"
+    )]
+    Asymmetric {
+        /// One type.
+        first: String,
+        /// The other type.
+        second: String,
+        /// Adhesion of the first to the second.
+        there: f64,
+        /// Adhesion of the second to the first.
+        back: f64,
+    },
+    /// A cylinder that steers nothing sensible.
+    #[error("control {number} (from 0): {error}")]
+    Control {
+        /// Which of the plan's controls.
+        number: usize,
+        /// What is wrong with it.
+        error: ControlError,
+    },
+    /// Blocked areas that leave no room.
+    #[error("the blocked areas leave no room for cells: {tries} throws found none")]
+    AllBlocked {
+        /// How many throws were made.
+        tries: u32,
+    },
+    /// More cells than can be handled.
+    #[error(
+        "on day {day} there are more than {most} cells; make the days fewer or the divisions rarer"
+    )]
+    TooManyCells {
+        /// When.
+        day: f64,
+        /// How many can be handled.
+        most: usize,
+    },
+    /// A type that divides so often that there would be more cells than can be handled.
+    #[error(
+        "cells of type \"{name}\" divide every {division_days} days: after {days} days there would be more than {most}; make the days \
+         fewer or the divisions rarer"
+    )]
+    Overcrowded {
+        /// The type.
+        name: String,
+        /// Its mean time between divisions.
+        division_days: f64,
+        /// The days of the plan.
+        days: f64,
+        /// How many cells can be handled.
+        most: usize,
+    },
+    /// A surface that cannot be grown on.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Growing was stopped.
+    #[error("stopped")]
+    Stopped,
+}
+
+pub(super) fn in_range(
+    field: &str,
+    value: f64,
+    good: bool,
+    range: &'static str,
+) -> Result<(), MosaicError> {
+    if good {
+        return Ok(());
+    }
+    Err(MosaicError::OutOfRange {
+        field: field.to_owned(),
+        value,
+        range,
+    })
+}

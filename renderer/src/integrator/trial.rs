@@ -1,0 +1,266 @@
+//! How much work goes into a path's first vertex and what comes after it, chosen by measurement.
+//!
+//! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is most of the noise, under a
+//! lamp among ten thousand leaves it is next to none of it, and most of the time; there the shadows are most of the noise. So a
+//! few candidates are tried on a sample of the pixels, before the picture and apart from it, and the one with the least
+//! error × work is taken: first of the numbers of light samples, then, with that number, of the rest.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::integrator::effort::Effort;
+use crate::integrator::job::Job;
+use crate::integrator::layers::{Layout, MOST_CHANNELS};
+use crate::integrator::path;
+use crate::sampling::stream::Stream;
+use crate::scene::world::World;
+
+/// Numbers of light samples that are tried, with the pair of `WITHOUT_TRIAL`.
+const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
+
+/// Thresholds of roulette with numbers of branches that are tried, from the most work to the least.
+const PAIRS: [(f32, u32); 6] = [(0.03, 4), (0.06, 3), (0.1, 2), (0.2, 1), (0.4, 1), (1.0, 1)];
+
+/// For pictures too small to try anything.
+const WITHOUT_TRIAL: Effort = Effort {
+    roulette_below: 0.1,
+    branches: 2,
+    light_samples: 2,
+};
+
+/// Samples that a trial takes of a pixel: enough for their even spread to show.
+const SAMPLES: u32 = 16;
+
+/// Independent estimates of a pixel, whose difference is the error.
+const ESTIMATES: u64 = 2;
+
+/// Trials take one path for so many of the picture.
+const SHARE: u64 = 16;
+
+/// Pixels of a trial; fewer cannot tell the candidates apart, more are not needed.
+const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
+
+/// Work of a path beside its rays (camera, film), in rays: an estimate, not measured.
+const WORK_OF_A_PATH: f64 = 1.0;
+
+/// The effort for a picture: what the scene says, else what a trial finds best. The same for any number of threads.
+pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool) -> Effort {
+    let given = |candidate: Effort| {
+        let integrator = &world.integrator;
+        Effort {
+            roulette_below: integrator
+                .roulette_below
+                .map_or(candidate.roulette_below, |given| given as f32),
+            branches: integrator.branches.unwrap_or(candidate.branches),
+            light_samples: integrator.light_samples.unwrap_or(candidate.light_samples),
+        }
+    };
+    let without_trial = given(WITHOUT_TRIAL);
+    let choices = |candidates: Vec<Effort>| {
+        let mut candidates: Vec<_> = candidates.into_iter().map(given).collect();
+        candidates.dedup();
+        candidates
+    };
+    let by_light_samples = if world.selection.is_empty() {
+        vec![without_trial]
+    } else {
+        let of = |&light_samples| Effort {
+            light_samples,
+            ..WITHOUT_TRIAL
+        };
+        choices(LIGHT_SAMPLES.iter().map(of).collect())
+    };
+    let by_pair = |best: Effort| {
+        let of = |&(roulette_below, branches)| Effort {
+            roulette_below,
+            branches,
+            ..best
+        };
+        choices(PAIRS.iter().map(of).collect())
+    };
+    let tried = by_light_samples.len() + by_pair(without_trial).len();
+    let paths = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
+    let of_a_pixel = tried as u64 * ESTIMATES * u64::from(SAMPLES);
+    let pixels = (paths / SHARE / of_a_pixel).min(*PIXELS.end());
+    if pixels < *PIXELS.start() {
+        return without_trial;
+    }
+    let trial = Trial {
+        world,
+        job,
+        layout,
+        pixels: pixels as u32,
+        stop,
+    };
+    // Broken off: what is chosen does not matter any more.
+    trial
+        .best(&by_light_samples)
+        .and_then(|best| trial.best(&by_pair(best)))
+        .unwrap_or(without_trial)
+}
+
+/// What one candidate did in one pixel.
+struct Outcome {
+    /// Means of the channels, by estimate.
+    means: [Vec<f64>; ESTIMATES as usize],
+    rays: u64,
+}
+
+struct Trial<'a> {
+    world: &'a World,
+    job: &'a Job,
+    layout: Layout,
+    pixels: u32,
+    stop: &'a AtomicBool,
+}
+
+impl Trial<'_> {
+    /// The candidate with the least error × work, of at least one; `None` if the trial was broken off.
+    fn best(&self, candidates: &[Effort]) -> Option<Effort> {
+        if let [only] = candidates {
+            return Some(*only);
+        }
+        let tried: Option<Vec<_>> = (0..self.pixels)
+            .into_par_iter()
+            .map(|number| {
+                (!self.stop.load(Ordering::Relaxed)).then(|| self.pixel(number, candidates))
+            })
+            .collect();
+        Some(candidates[least(&costs(&tried?, candidates.len()))])
+    }
+
+    /// What each candidate does in the pixel of a number. All of them draw the same random numbers, so that what they have
+    /// in common is not between them.
+    fn pixel(&self, number: u32, candidates: &[Effort]) -> Vec<Outcome> {
+        let [x, y, ..] = Stream::new(self.job.seed, u32::MAX, u32::MAX, number).next4();
+        let pixel = [
+            ((x * self.job.width as f32) as u32).min(self.job.width - 1),
+            ((y * self.job.height as f32) as u32).min(self.job.height - 1),
+        ];
+        let of = |&effort: &Effort| match self.world.wavelengths.grid().lanes() {
+            4 => self.outcome::<4>(pixel, effort),
+            8 => self.outcome::<8>(pixel, effort),
+            16 => self.outcome::<16>(pixel, effort),
+            _ => self.outcome::<32>(pixel, effort),
+        };
+        candidates.iter().map(of).collect()
+    }
+
+    fn outcome<const N: usize>(&self, [x, y]: [u32; 2], effort: Effort) -> Outcome {
+        let channels = self.layout.beauty;
+        let mut values = [0.0; MOST_CHANNELS];
+        let mut rays = 0;
+        let means = std::array::from_fn(|estimate| {
+            // Far from the seeds that people choose, so that the picture's own numbers are others.
+            let seed = self.job.seed ^ (0x5eed_0000_0000_0000 + estimate as u64);
+            let mut sums = vec![0.0_f64; channels];
+            for sample in 0..SAMPLES {
+                let mut stream = Stream::new(seed, x, y, sample);
+                let (wavelengths, found) =
+                    path::of_pixel::<N>(self.world, effort, x, y, &mut stream);
+                let values = &mut values[..channels];
+                let sampler = &self.world.wavelengths;
+                sampler.film_values(&wavelengths, &found.radiance, values);
+                rays += u64::from(found.rays);
+                // The film rejects such a sample, too.
+                if values.iter().all(|value| value.is_finite()) {
+                    for (sum, &value) in sums.iter_mut().zip(values.iter()) {
+                        *sum += f64::from(value) / f64::from(SAMPLES);
+                    }
+                }
+            }
+            sums
+        });
+        Outcome { means, rays }
+    }
+}
+
+/// Error × work of each candidate. Error is the mean over pixels and channels of the variance, relative to the square of the
+/// pixel's mean and of a tenth of the picture's.
+fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
+    let channels = tried[0][0].means[0].len();
+    // Of all candidates together: what each is measured by must not be its own luck.
+    let mean = |pixel: &[Outcome], channel: usize| {
+        let means = pixel.iter().flat_map(|outcome| &outcome.means);
+        means.map(|means| means[channel]).sum::<f64>() / (candidates * ESTIMATES as usize) as f64
+    };
+    let floors: Vec<_> = (0..channels)
+        .map(|channel| {
+            let sum: f64 = tried.iter().map(|pixel| mean(pixel, channel)).sum();
+            (0.1 * sum / tried.len() as f64).powi(2)
+        })
+        .collect();
+    (0..candidates)
+        .map(|candidate| {
+            let (mut error, mut rays) = (0.0, 0.0);
+            for pixel in tried {
+                let Outcome { means, rays: of } = &pixel[candidate];
+                rays += *of as f64;
+                for (channel, floor) in floors.iter().enumerate() {
+                    let scale = mean(pixel, channel).powi(2) + floor;
+                    if scale > 0.0 {
+                        error += (means[0][channel] - means[1][channel]).powi(2) / scale;
+                    }
+                }
+            }
+            let paths = (tried.len() as u64 * ESTIMATES * u64::from(SAMPLES)) as f64;
+            error * (rays + WORK_OF_A_PATH * paths)
+        })
+        .collect()
+}
+
+/// The place of the least number; of equal ones the first, which is the more thorough one.
+fn least(numbers: &[f64]) -> usize {
+    let mut best = 0;
+    for (place, number) in numbers.iter().enumerate() {
+        if *number < numbers[best] {
+            best = place;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An outcome of one channel.
+    fn outcome(first: f64, second: f64, rays: u64) -> Outcome {
+        Outcome {
+            means: [vec![first], vec![second]],
+            rays,
+        }
+    }
+
+    #[test]
+    fn the_cost_is_relative_variance_times_work() {
+        let paths = ESTIMATES * u64::from(SAMPLES);
+        // A bright and a dark pixel; the second candidate has half the difference for three times the rays.
+        let pixel = |mean: f64| {
+            vec![
+                outcome(mean * 0.9, mean * 1.1, paths),
+                outcome(mean * 0.95, mean * 1.05, 3 * paths),
+            ]
+        };
+        let costs = costs(&[pixel(10.0), pixel(1.0)], 2);
+        // The floor is (0.1 × 5.5)².
+        let floor = 0.55_f64.powi(2);
+        let error = 4.0 / (100.0 + floor) + 0.04 / (1.0 + floor);
+        let expected = [
+            error * 2.0 * 2.0 * paths as f64,
+            error / 4.0 * 4.0 * 2.0 * paths as f64,
+        ];
+        for (cost, expected) in costs.iter().zip(expected) {
+            assert!((cost / expected - 1.0).abs() < 1e-12, "{costs:?}");
+        }
+        assert_eq!(least(&costs), 1);
+    }
+
+    #[test]
+    fn a_black_picture_takes_the_first_candidate() {
+        let costs = costs(&[vec![outcome(0.0, 0.0, 5), outcome(0.0, 0.0, 3)]], 2);
+        assert_eq!(costs, [0.0, 0.0]);
+        assert_eq!(least(&costs), 0);
+    }
+}

@@ -1,0 +1,65 @@
+//! What plants have grown into, as numbers that can be kept.
+
+use glam::{DAffine3, Vec2, Vec3};
+use leafmodel::compound::CompoundError;
+use leafmodel::leaf::LeafError;
+use leafmodel::optics::{Contents, Texel};
+use thiserror::Error;
+
+use crate::geometry::MeshError;
+
+/// A part of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Which of [`GrownLeaf::meshes`].
+    pub mesh: usize,
+    /// Which of [`GrownLeaf::materials`].
+    pub material: usize,
+    /// From the mesh to the leaf, metres; may mirror.
+    pub to_leaf: DAffine3,
+}
+
+/// Why a leaf cannot be grown.
+#[derive(Debug, Error)]
+pub enum PlantError {
+    /// The plan cannot be carried out.
+    #[error(transparent)]
+    Leaf(#[from] CompoundError),
+    /// The contents of its stalks cannot be told.
+    #[error(transparent)]
+    Stalks(#[from] LeafError),
+    /// The blade's mesh is refused.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// What a leaf has grown into, in metres: the numbers that a [`GrownLeaf`] is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::scene) struct LeafParts {
+    /// As [`GrownLeaf::meshes`].
+    pub(in crate::scene) meshes: Vec<MeshParts>,
+    /// The contents of the different blades.
+    pub(in crate::scene) maps: Vec<MapParts>,
+    /// What stalks are made of, if there are any.
+    pub(in crate::scene) stalk: Option<Contents>,
+    /// As [`GrownLeaf::pieces`].
+    pub(in crate::scene) pieces: Vec<Piece>,
+}
+
+/// The numbers of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::scene) struct MeshParts {
+    pub(in crate::scene) positions: Vec<Vec3>,
+    pub(in crate::scene) normals: Vec<Vec3>,
+    /// None for stalks, which are the same everywhere.
+    pub(in crate::scene) uvs: Option<Vec<Vec2>>,
+    pub(in crate::scene) triangles: Vec<[u32; 3]>,
+}
+
+/// The numbers of a map of contents.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::scene) struct MapParts {
+    pub(in crate::scene) width: usize,
+    pub(in crate::scene) height: usize,
+    pub(in crate::scene) texels: Vec<Texel>,
+}

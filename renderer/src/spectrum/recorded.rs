@@ -1,0 +1,25 @@
+//! Which wavelengths a film records.
+
+/// Colour or bands.
+#[derive(Clone, Debug)]
+pub enum FilmKind {
+    /// Linear sRGB through CIE 1931 2°, from wavelengths in this range (nm).
+    Rgb {
+        /// First and last wavelength, nm.
+        range_nm: [f64; 2],
+    },
+    /// Mean spectral radiance over each band.
+    Spectral {
+        /// The bands, 1 to 32.
+        bands: Vec<Band>,
+    },
+}
+
+/// A box-shaped band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Middle, nm.
+    pub center_nm: f64,
+    /// Full width, nm; 0 is a single wavelength.
+    pub width_nm: f64,
+}

@@ -1,0 +1,27 @@
+//! Spectra as a scene writes them; what is made of them is a [`Curve`](super::Curve).
+
+/// A spectrum as written. What it means (reflectance, radiance …) is said where it is used.
+#[derive(Clone, Debug)]
+pub enum Spectrum {
+    /// The same value at every wavelength.
+    Constant(f64),
+    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values outside.
+    Table {
+        /// (nm, value) pairs.
+        points: Vec<(f64, f64)>,
+        /// Whether the end values hold outside the table.
+        extrapolate: bool,
+    },
+    /// CIE standard illuminant D65, relative, 1 at 560 nm, times a factor.
+    D65 {
+        /// Value at 560 nm.
+        scale: f64,
+    },
+    /// Planck's law, relative, 1 at 560 nm, times a factor.
+    Blackbody {
+        /// Temperature, K.
+        kelvin: f64,
+        /// Value at 560 nm.
+        scale: f64,
+    },
+}

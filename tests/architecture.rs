@@ -1,0 +1,236 @@
+//! What `docs/src/architecture.md` says of who may import whom.
+//!
+//! Imports are read from `use` lines outside of tests. A file and those in the folder of its name
+//! are one room's wall: between them both ways are allowed.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A module's path from the crate's root.
+type Module = Vec<String>;
+
+/// The files of a crate but for tests, and what each imports from which of the others.
+struct House {
+    imports: BTreeMap<Module, BTreeSet<Module>>,
+}
+
+impl House {
+    fn of(krate: &str) -> Self {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("..")
+            .join(krate)
+            .join("src");
+        let mut texts = BTreeMap::new();
+        read(&root, &mut Vec::new(), &mut texts);
+        let modules: BTreeSet<Module> = texts.keys().cloned().collect();
+        let imports = texts
+            .iter()
+            .map(|(module, text)| {
+                let found = paths(text).into_iter();
+                let found = found.filter_map(|path| resolved(module, &path, &modules));
+                (
+                    module.clone(),
+                    found.filter(|other| other != module).collect(),
+                )
+            })
+            .collect();
+        Self { imports }
+    }
+
+    /// Modules that import each other in a loop through the one given, itself first.
+    fn circle(&self, start: &Module) -> Option<Vec<String>> {
+        let mut before: BTreeMap<&Module, &Module> = BTreeMap::new();
+        let mut open = vec![start];
+        while let Some(module) = open.pop() {
+            for other in &self.imports[module] {
+                let one_room = other.starts_with(module) || module.starts_with(other);
+                if one_room {
+                    continue;
+                }
+                if other == start {
+                    let mut names = vec![module.join("::")];
+                    let mut at = module;
+                    while let Some(earlier) = before.get(at) {
+                        at = earlier;
+                        names.push(at.join("::"));
+                    }
+                    return Some(names);
+                }
+                if !before.contains_key(other) {
+                    before.insert(other, module);
+                    open.push(other);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Reads the files of a folder under their modules' paths.
+fn read(folder: &Path, module: &mut Module, texts: &mut BTreeMap<Module, String>) {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("sources are part of the repository")
+        .map(|entry| entry.expect("the folder is readable").path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        let stem = path.file_stem().and_then(|stem| stem.to_str());
+        let stem = stem.expect("names are ASCII").to_owned();
+        if stem == "tests" || stem == "testing" {
+            continue;
+        }
+        let is_root = stem == "lib" || stem == "main";
+        if !is_root {
+            module.push(stem);
+        }
+        if path.is_dir() {
+            read(&path, module, texts);
+        } else if path.extension().is_some_and(|ending| ending == "rs") && !is_root {
+            let text = fs::read_to_string(&path).expect("sources are UTF-8");
+            let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+            texts.insert(module.clone(), text[..tests].to_owned());
+        }
+        if !is_root {
+            module.pop();
+        }
+    }
+}
+
+/// The paths that `use` lines name.
+fn paths(text: &str) -> Vec<Vec<String>> {
+    let mut found = Vec::new();
+    let mut is_for_tests = false;
+    for piece in text.split_inclusive(';') {
+        let lines = piece
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
+        let code: String = lines.collect::<Vec<_>>().join(" ");
+        is_for_tests |= code.contains("#[cfg(test)]");
+        let Some(start) = code.find("use ").filter(|start| {
+            let before = code[..*start].trim_end();
+            before.is_empty() || before.ends_with(['}', ']', ')']) || before.ends_with("pub")
+        }) else {
+            is_for_tests = false;
+            continue;
+        };
+        let tree = code[start + 4..].trim_end_matches(';').trim();
+        if !std::mem::take(&mut is_for_tests) {
+            expand("", tree, &mut found);
+        }
+    }
+    found
+}
+
+/// The single paths of a tree `a::{b, c::d}`.
+fn expand(prefix: &str, tree: &str, found: &mut Vec<Vec<String>>) {
+    if let Some(brace) = tree.find('{') {
+        let inner = tree[brace + 1..].trim_end().trim_end_matches('}');
+        let prefix = format!("{prefix}{}", &tree[..brace]);
+        let (mut depth, mut from) = (0, 0);
+        for (index, letter) in inner.char_indices() {
+            match letter {
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                ',' if depth == 0 => {
+                    expand(&prefix, inner[from..index].trim(), found);
+                    from = index + 1;
+                }
+                _ => {}
+            }
+        }
+        let last = inner[from..].trim();
+        if !last.is_empty() {
+            expand(&prefix, last, found);
+        }
+        return;
+    }
+    let path = format!("{prefix}{tree}");
+    let path = path.split(" as ").next().unwrap_or_default();
+    found.push(
+        path.split("::")
+            .map(|part| part.trim().to_owned())
+            .collect(),
+    );
+}
+
+/// The module of this crate that a path leads into.
+fn resolved(module: &Module, path: &[String], modules: &BTreeSet<Module>) -> Option<Module> {
+    let mut rest = path;
+    let mut at = match rest.first().map(String::as_str)? {
+        "crate" => Module::new(),
+        "self" => module.clone(),
+        "super" => {
+            let mut above = module.clone();
+            while rest.first().is_some_and(|part| part == "super") {
+                above.pop();
+                rest = &rest[1..];
+            }
+            return deepest(above, rest, modules);
+        }
+        _ => return None,
+    };
+    rest = &rest[1..];
+    at = deepest(at, rest, modules)?;
+    Some(at)
+}
+
+fn deepest(mut at: Module, rest: &[String], modules: &BTreeSet<Module>) -> Option<Module> {
+    for part in rest {
+        at.push(part.clone());
+        if !modules.contains(&at) {
+            at.pop();
+            break;
+        }
+    }
+    modules.contains(&at).then_some(at)
+}
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    for krate in ["leafmodel", "renderer"] {
+        let house = House::of(krate);
+        assert!(
+            house.imports.len() > 100,
+            "{krate}: {}",
+            house.imports.len()
+        );
+        let some = house.imports.values().map(BTreeSet::len).sum::<usize>();
+        assert!(
+            some > 300,
+            "{krate} has only {some} imports: they are not read"
+        );
+        let circles: Vec<_> = house
+            .imports
+            .keys()
+            .filter_map(|module| house.circle(module))
+            .collect();
+        assert!(circles.is_empty(), "{krate}: {circles:#?}");
+    }
+}
+
+#[test]
+fn what_is_below_a_scene_imports_nothing_from_it() {
+    let house = House::of("renderer");
+    for (module, imports) in &house.imports {
+        let below = [
+            "spectrum", "camera", "image", "geometry", "sampling", "bsdf", "film",
+        ];
+        if !below.contains(&module[0].as_str()) {
+            continue;
+        }
+        let above = imports.iter().find(|other| other[0] == "scene");
+        assert!(above.is_none(), "{} imports {above:?}", module.join("::"));
+    }
+}
+
+#[test]
+fn documents_know_nothing_of_leaves() {
+    let house = House::of("leafmodel");
+    for (module, imports) in &house.imports {
+        if module[0] == "document" {
+            let other = imports.iter().find(|other| other[0] != "document");
+            assert!(other.is_none(), "{} imports {other:?}", module.join("::"));
+        }
+    }
+}
