@@ -23,7 +23,7 @@ pub struct Geometry {
     meshes: Vec<TracedMesh>,
     placements: Vec<Placement>,
     tree: WideTree,
-    /// Of each leaf of `tree` its instance.
+    /// The instance of each leaf of `tree`.
     carriers: Vec<Carrier>,
     level: Level,
 }
@@ -41,7 +41,8 @@ pub struct Hit {
     pub b1: f32,
     /// Weight of the triangle's third vertex.
     pub b2: f32,
-    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the cache there.
+    /// Block and lane in which the mesh's tree stores the triangle. Its corners are still in the
+    /// processor's cache.
     place: u32,
 }
 
@@ -80,7 +81,7 @@ pub enum GeometryError {
 /// 8 and 0.63 with 64, and fewer of them are entered in vain; with 256 rays are no more than 3 % faster than with 64.
 const HULL_BOXES: usize = 128;
 
-/// Instances and tree nodes share 32 bits.
+/// Numbers of instances and of tree nodes share 32 bits.
 const MOST_INSTANCES: usize = 1 << 29;
 
 /// A mesh with its tree, in the mesh's frame moved so that the middle of its bounds is the origin: a leaf far away in
@@ -91,7 +92,7 @@ struct TracedMesh {
     center: Vec3,
     tree: WideTree,
     blocks: Vec<TriangleBlock>,
-    /// Boxes that hold the mesh closer than the tree's own box does once they are turned.
+    /// Boxes that, once turned, enclose the mesh more closely than the tree's own box does.
     hull: Vec<Bounds>,
 }
 
@@ -102,7 +103,7 @@ pub(super) struct Placement {
     /// Local to world.
     pub(super) linear: DMat3,
     pub(super) offset: DVec3,
-    /// Takes normals to the world.
+    /// Carries normals to the world.
     pub(super) normals: DMat3,
     /// The same in single precision, for directions that are made unit.
     pub(super) linear_f32: Mat3,

@@ -1,9 +1,11 @@
 //! How much work goes into a path's first vertex and what comes after it, chosen by measurement.
 //!
-//! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is most of the noise, under a
-//! lamp among ten thousand leaves it is next to none of it, and most of the time; there the shadows are most of the noise. So a
-//! few candidates are tried on a sample of the pixels, before the picture and apart from it, and the one with the least
-//! error × work is taken: first of the numbers of light samples, then, with that number, of the rest.
+//! Which effort is best differs from scene to scene. On a leaf close up in the sun, light between
+//! leaves causes most of the noise. Under a lamp among ten thousand leaves it causes hardly any
+//! noise but takes most of the time, and shadows cause most of the noise. So a few candidates are
+//! tried on a sample of the pixels, before the picture and apart from it, and the one with the
+//! least error × work is taken: first of the numbers of light samples, then, with that number, of
+//! the rest.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

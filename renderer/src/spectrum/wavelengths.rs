@@ -29,7 +29,8 @@ impl<const N: usize> Wavelengths<N> {
         Self { nm, row: NO_ROW }
     }
 
-    /// Number of the row of the picture's grid that they are; beyond all rows if they are none.
+    /// Number of the row of the picture's grid that holds them; a number beyond all rows if none
+    /// does.
     #[inline]
     pub(super) fn row(&self) -> usize {
         self.row as usize
@@ -78,7 +79,8 @@ enum Kind {
         range_nm: [f64; 2],
         /// Linear sRGB that radiance 1 at each wavelength stands for, times the number of rows.
         weights: Table,
-        /// Shares of x̄, ȳ and z̄ that each wavelength stands for, times the number of rows: all ones make one, on average.
+        /// Shares of x̄, ȳ and z̄ that each wavelength stands for, times the number of rows. With a
+        /// throughput of 1 in every lane each sum is 1 on average.
         seen: Table,
     },
     /// Bands: one lane a band.
@@ -269,8 +271,9 @@ impl WavelengthSampler {
         }
     }
 
-    /// How much the film sees of light that a share `throughput` at drawn wavelengths is left of: about 1 of all ones. Of a colour
-    /// film that is the greatest of the three shares of x̄, ȳ and z̄, of bands the greatest lane.
+    /// Share of light that the film still sees after the factor `throughput` at drawn wavelengths;
+    /// about 1 if all lanes are 1. On a colour film it is the greatest of the three shares of x̄, ȳ
+    /// and z̄, on bands the greatest lane.
     #[inline]
     pub fn brightness<const N: usize>(
         &self,
