@@ -22,7 +22,7 @@ pub(super) const ANGLES_DEG: Limits = Limits::closed(-3600.0, 3600.0);
 pub(super) const SCALES: Limits = Limits::above(0.0, 1e6);
 
 impl Object {
-    /// An object of which nothing is said.
+    /// An object with all defaults.
     pub(super) fn nowhere() -> Self {
         Self {
             shapes: Vec::new(),

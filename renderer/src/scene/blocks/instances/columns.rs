@@ -38,7 +38,7 @@ const ROTATION: usize = 3;
 pub(super) const QUATERNION: usize = 6;
 const SCALE: usize = 10;
 const AXES: usize = 11;
-/// Which of the object's shapes a row is.
+/// The column that says which of the object's shapes stands there.
 pub(super) const SHAPE: usize = 14;
 
 /// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do not.
@@ -57,7 +57,7 @@ pub(super) fn limits(column: usize) -> Limits {
 /// Which columns a file has, in its order.
 #[derive(Debug)]
 pub(super) struct Header {
-    /// Of each field its column.
+    /// The column of each field.
     pub(super) columns: Vec<usize>,
 }
 
@@ -171,7 +171,7 @@ impl Row {
         }
     }
 
-    /// Takes what is wrong with the row beside its numbers.
+    /// Records an error of the row that is not about one of its numbers.
     pub(super) fn fail(&mut self, error: RowError) {
         self.errors.push(error);
     }
