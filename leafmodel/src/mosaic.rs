@@ -1,8 +1,8 @@
 //! Clonal mosaics: cells that divide on a surface, and the pattern that their clones leave.
 //!
-//! Cells are thrown on a surface at random, each of a type. They repel one another as far as their types do not adhere,
-//! and divide at the rate of their type; a child lies beside its parent, so that the descendants of one cell, its clone,
-//! stay together and make a blotch or a stripe.
+//! Cells are thrown on a surface at random, each of a type. They repel one another, the less the
+//! more their types adhere, and divide at the rate of their type. A child lies beside its parent,
+//! so the descendants of one cell, its clone, stay together and make a blotch or a stripe.
 //!
 //! - **In**: a [`Surface`], and a plan of cell types.
 //! - **Out**: cells on the surface with their types and clones.

@@ -2,7 +2,8 @@
 //!
 //! - **In**: a shape, what its outer tissue holds, and a mosaic if it has one.
 //! - **Out**: a mesh with texture coordinates, and a map of contents over them.
-//! - **Always true**: contents are per area of the surface, of the tissue down to the depth that the optics are told.
+//! - **Always true**: contents are per area of the surface. They are those of the tissue down to
+//!   the depth that the optics use.
 //! - **Left out**: the inside.
 //!
 //! ```

@@ -1,15 +1,17 @@
 //! A leaf grown as the cheapest transport network.
 //!
-//! Water comes in at the root and goes to square cells. It is cheaper to carry much together (`α`) and to carry it
-//! straight on (`β`). A cell comes into being wherever what it earns, `ε` per area, pays for its transport; then cells look for
-//! better parents; and as `ε` rises, the leaf grows. Its shape and its veins are what comes of that.
+//! Water comes in at the root and goes to square cells. It is cheaper to carry much together (`α`)
+//! and to carry it straight on (`β`). A cell comes into being wherever what it earns, `ε` per area,
+//! pays for its transport; then cells look for better parents; and as `ε` rises, the leaf grows.
+//! Shape and veins follow from that.
 //!
 //! - **In**: a [`TransportPlan`].
 //! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a network as of any other leaf.
 //!   A [`FilledPlan`] turns it around: the outline is given, and the network that supplies it is looked for.
 //! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent (in mirrored leaves of a
 //!   pair) makes the transport cheaper; with even light both sides are mirror images; same plan and seed, same bits.
-//! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is cheapest among its neighbours.
+//! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is
+//!   only cheaper than all that differ from it by one parent.
 //!
 //! # Source
 //!

@@ -150,7 +150,7 @@ impl<const N: usize> View<'_, N> {
 }
 
 impl<'a, const N: usize> Bsdf<'a, N> {
-    /// The surface seen from `wo`; `None` from within its plane, where nothing is to be seen.
+    /// The surface seen from `wo`; `None` if `wo` lies in its plane.
     #[inline]
     pub fn seen_from(&self, wo: Vec3) -> Option<View<'a, N>> {
         match self {

@@ -7,7 +7,7 @@
 //!   sample with a number that is not finite is rejected whole and counted, one beyond ±2³⁰ is clamped and counted.
 //!   All pixels of a block have the same number of samples.
 //! - **Memory**: 32 bytes a channel, 4 of coverage and 8 or 4 a feature ([`Sum`]) for each pixel.
-//! - **Left out**: what channels and features are; whoever makes a film knows.
+//! - **Left out**: what channels and features mean; the maker of the film knows.
 
 mod block;
 mod features;

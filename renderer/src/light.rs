@@ -2,8 +2,9 @@
 //!
 //! - **In**: a point that is lit, random numbers.
 //! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its density over solid angle.
-//! - **Always true**: what [`Light::sample`] draws, [`Light::at_infinity`] and [`AreaLight::pdf`] know the density of; a light
-//!   that says it is found by bounces only is never sampled.
+//! - **Always true**: [`Light::at_infinity`] and [`AreaLight::pdf`] give the density of what
+//!   [`Light::sample`] draws. A light whose density is 0 is found by bounces only and never
+//!   sampled.
 //!
 //! ```
 //! use glam::{Vec2, Vec3};
@@ -71,7 +72,8 @@ pub struct LightSample<const N: usize> {
 }
 
 impl Light {
-    /// Draws light arriving at `receiver` from part number `part`: a patch of an area, 0 of the others; `u` picks a place on it.
+    /// Draws light arriving at `receiver` from the light's part number `part`: a patch of an area
+    /// light, 0 for the other lights. `u` picks a place on it.
     pub fn sample<const N: usize>(
         &self,
         part: usize,

@@ -1,7 +1,8 @@
 //! Ageing by the calendar: when tissue at a place begins to age, and what it then holds from day to day.
 //!
-//! A [`Delay`] makes a day of a place; a [`Course`] makes contents of the days that have gone by since. `docs/src/theory/ageing.md`
-//! has the equations, and of every number whether it was measured or is our estimate.
+//! A [`Delay`] gives the day on which a place begins to age; a [`Course`] gives its contents from
+//! the number of days since. `docs/src/theory/ageing.md` has the equations, and of every number
+//! whether it was measured or is our estimate.
 
 use glam::DVec2;
 
@@ -14,7 +15,8 @@ use crate::venation::network::VeinSegment;
 /// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine red-senescing species).
 pub const ANTHOCYANIN_BELOW: f64 = 20.0;
 
-/// How many days later something begins at one place than where it begins first: the sum of all terms, each ≥ 0.
+/// Number of days by which something begins at a place later than at the first place: the sum of
+/// all terms, each ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
     /// Days by which tissue at veins comes after tissue far from them; negative: before. −1000 to 1000.
@@ -38,7 +40,7 @@ pub struct Delay {
 }
 
 impl Delay {
-    /// Everywhere at once.
+    /// No delay: every place begins at once.
     pub const NONE: Self = Self {
         veins_days: 0.0,
         veins_reach_mm: 1.0,
@@ -51,7 +53,7 @@ impl Delay {
         deaths_days: 0.0,
     };
 
-    /// What no place's delay exceeds, days.
+    /// An upper bound of the delay at any place, days.
     pub fn most(&self) -> f64 {
         self.veins_days.abs()
             + self.margin_days

@@ -52,11 +52,13 @@ impl ContentsMap {
         Self::paint_layered(&place, tissue, None, &[], None, map_size, seed)
     }
 
-    /// As [`ContentsMap::paint`], of a leaf with a mosaic and layers that has aged: the mosaic stands in for the tissue's lamina, layers change the tissue between veins, what they bring ages, then
+    /// As [`ContentsMap::paint`], of a leaf with a mosaic and layers that has aged: the mosaic
+    /// replaces the tissue's lamina, layers change the tissue between veins, the result ages, then
     /// come the factors of veins and the mottle.
     ///
-    /// The field goes on two texels beyond the margin, so that no seam shows where a look-up straddles it; texels farther out, which no
-    /// blade asks for, repeat the nearest of their row.
+    /// The field is computed up to two texels beyond the margin, so that a look-up across the
+    /// margin shows no seam. No look-up reaches texels farther out; they repeat the nearest texel
+    /// of their row.
     ///
     /// # Errors
     ///
@@ -327,7 +329,7 @@ mod tests {
         assert_eq!(refused(&flat, 64), "side of the frame");
     }
 
-    /// A number of a range for each constituent.
+    /// A number for each constituent, within a range.
     fn of_each(range: Range<f64>) -> impl Strategy<Value = PerConstituent<f64>> {
         let values = prop::array::uniform::<_, { Constituent::COUNT }>(range);
         values.prop_map(PerConstituent::new)

@@ -15,7 +15,8 @@ pub(super) struct Coverage {
 }
 
 impl Coverage {
-    /// Of a closed margin (mm) on a map of `width × height` texels over a frame; without a margin all of it.
+    /// The coverage of a closed margin (mm) on a map of `width × height` texels over a frame.
+    /// Without a margin every texel is covered.
     pub(super) fn new(margin: &[DVec2], frame: &UvFrame, [width, height]: [usize; 2]) -> Self {
         let mut coverage = Self {
             width,

@@ -6,10 +6,12 @@ use super::frame::UvFrame;
 
 /// Distances to segments over a frame.
 ///
-/// A grid knows the segment nearest to the centre of each cell: cells that a segment crosses are seeded with it, two sweeps hand
-/// candidates on to all eight neighbours, compared by true distance (the vector distance transform of \[danielsson1980\]). A query takes the
-/// least of the exact distances to the segments of the four cells around it. It is never less than the true distance, and more only where a segment
-/// is nearest to no centre nearby, which costs less than a cell's width.
+/// A grid knows the segment nearest to the centre of each cell: cells that a segment crosses are
+/// seeded with it, two sweeps hand candidates on to all eight neighbours, compared by true distance
+/// (the vector distance transform of \[danielsson1980\]). A query takes the least of the exact
+/// distances to the segments of the four cells around it. It is never less than the true distance.
+/// It is more only where the nearest segment is nearest to no cell centre nearby; the error is then
+/// below a cell's width.
 ///
 /// \[danielsson1980\] Computer Graphics and Image Processing 14:227.
 #[derive(Clone, Debug)]

@@ -40,7 +40,7 @@ pub enum AgeSource {
 }
 
 impl Senescence {
-    /// Latest day that a leaf can be told of.
+    /// Latest day that a leaf may have.
     pub const LATEST_DAY: f64 = 1e4;
 
     /// Checks every number.
@@ -112,7 +112,7 @@ impl Senescence {
     }
 }
 
-/// An ageing leaf: where its tissue is how far.
+/// An ageing leaf: how far its tissue has aged at each place.
 #[derive(Clone, Debug)]
 pub struct Withering(Way);
 

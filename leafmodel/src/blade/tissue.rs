@@ -14,7 +14,8 @@ pub struct Tissue {
     pub lamina: Contents,
     /// How they change in veins; structure stays at least 1.
     pub vein_factors: VeinFactors,
-    /// Radius, mm, from which a vein counts as fully developed; finer ones take part of the factors.
+    /// Radius, mm, from which a vein counts as fully developed. The factors act only partly on
+    /// finer veins.
     pub full_vein_radius_mm: f64,
     /// Width, mm, over which a vein's edge (bundle sheath extension) blends into the lamina, > 0.
     pub sheath_width_mm: f64,
@@ -28,7 +29,7 @@ impl Tissue {
     /// Size of patches where nothing is said, mm.
     pub const MOTTLE_SCALE_MM: f64 = 1.0;
 
-    /// Tissue of which only the contents are said: usual veins, no mottle.
+    /// Tissue with these contents, the usual veins and no mottle.
     pub fn of(lamina: Contents) -> Self {
         Self {
             lamina,

@@ -5,7 +5,8 @@ use glam::DVec2;
 use super::{CompoundError, CompoundLeaf, StalkKind};
 use crate::shape::outline::Outline;
 
-/// By how far a leaflet may reach over an axis, in lengths of the leaflet: what rounding does to a base on it.
+/// How far a leaflet may reach over an axis, in lengths of the leaflet: a tolerance for rounding at
+/// a base that lies on the axis.
 const TOUCH: f64 = 1e-6;
 
 /// Refuses leaflets that overlap each other or lie over an axis.

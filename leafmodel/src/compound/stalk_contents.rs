@@ -7,8 +7,9 @@ use crate::optics::{Contents, PerConstituent};
 use crate::venation::network::VeinSegment;
 
 impl WholeLeaf {
-    /// What petiole and rachis hold, the same everywhere: what a fully developed vein at a blade's base does. They age as the tissue
-    /// there, those of a compound leaf as the mean of its different blades.
+    /// What petiole and rachis hold, the same everywhere: the contents of a fully developed vein at
+    /// a blade's base. They age as the tissue there does. Stalks of a compound leaf age as the mean
+    /// of its different blades.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! A leaf with all that belongs to it, in space: blades, stalks, and where each blade stands.
+//! A whole leaf in space: blades, stalks, and the place of each blade.
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 
@@ -10,7 +10,7 @@ use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
 use crate::venation::chance::{Use, bits, uniform};
 
-/// Numbers of chance for the tilts of leaflets, behind those for their seeds.
+/// Random numbers for the tilts of leaflets come after those for their seeds.
 const FIRST_TILT: u64 = 1 << 32;
 /// By how much the foot of the whole leaf is thicker, and over how many radii.
 const FOOT: f64 = 0.35;

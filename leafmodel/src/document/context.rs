@@ -13,11 +13,11 @@ use super::tree::Node;
 /// Longest piece of the file that a message repeats, in characters.
 pub const QUOTED: usize = 60;
 
-/// Errors after which no more are kept, and entries among which suggestions are looked for: a
-/// file that was made to be slow must not be.
+/// Most errors that are kept, and most entries that are searched for suggestions. A malicious file
+/// must not slow the program down.
 pub const ENOUGH: usize = 1000;
 
-/// Something that is allowed and hardly meant.
+/// Something that is allowed but probably not meant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
     /// Stable name of its kind.

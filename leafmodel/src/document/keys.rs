@@ -56,9 +56,9 @@ struct Reading<'p> {
     block: Block<'p>,
     /// The preset whose values stand beneath those of the file.
     base: Option<Rc<str>>,
-    /// Errors before this block.
+    /// Number of errors before this block.
     errors: usize,
-    /// Whether the keys that nobody asked for were judged already.
+    /// Whether unknown keys were already reported.
     is_judged: bool,
 }
 

@@ -14,7 +14,7 @@ use super::source::{Place, escaped};
 use super::tree::{Entry, Node, Table, Value};
 use super::values::{integer_at, listed, number_at, numbers_at, text_at, wrong_type};
 
-/// What a survey of the keys reads where a block is left out.
+/// What a survey of the keys reads in place of a block that is left out.
 static NOTHING: Table = Table(Vec::new());
 
 /// A table of the file under its full name.

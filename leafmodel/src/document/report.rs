@@ -85,7 +85,7 @@ impl fmt::Display for DocumentErrors {
 
 impl std::error::Error for DocumentErrors {}
 
-/// Something in a scene that is allowed and hardly meant.
+/// Something in a scene that is allowed but probably not meant.
 ///
 /// `Display` gives the report without colours.
 #[derive(Clone, Debug)]

@@ -52,7 +52,7 @@ pub enum Is {
         of: BlockSchema,
         /// How many there are at most.
         most: usize,
-        /// Whether they are those of the list around them, described there.
+        /// Whether the keys are those of the enclosing list, which are described there.
         again: bool,
     },
 }

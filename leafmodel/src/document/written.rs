@@ -75,13 +75,13 @@ impl Written {
         found.map(|entry| &entry.item)
     }
 
-    /// What is left without that which stands in the `defaults` too; what is required stays.
+    /// Removes what equals the `defaults`; required keys stay.
     pub fn without_defaults(self, defaults: &Self) -> Self {
         self.without(defaults, true)
     }
 
-    /// What has to stand beside the name of a preset to make this of it; `None` if that cannot be said, since the preset has
-    /// something that this lacks.
+    /// The keys that make this block when they stand beside the name of a preset; `None` if there
+    /// are none, because the preset has something that this block lacks.
     pub fn beside_preset(self, preset: &Self) -> Option<Self> {
         self.has_all_of(preset).then(|| self.without(preset, false))
     }

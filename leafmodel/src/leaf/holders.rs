@@ -1,4 +1,4 @@
-//! Which part of a plan brings which contents.
+//! Which part of a plan contributes which contents.
 
 use super::LeafPlan;
 use crate::blade::layers::{Change, Layer, Mode};
@@ -16,7 +16,7 @@ impl LeafPlan {
     /// The keys of two parts of the plan of which the first brings anthocyanins and the second betalains, which no plant
     /// holds together, wherever on the leaf they lie; the same twice if one part brings both.
     ///
-    /// A layer that takes the place of a pigment everywhere makes that of the parts below it void.
+    /// A layer that replaces a pigment everywhere cancels that pigment in the parts below it.
     pub fn anthocyanins_beside_betalains(&self) -> Option<[String; 2]> {
         let holders = self.holders();
         let first = |wanted: &[Constituent]| {

@@ -90,7 +90,7 @@ fn continuation(skeleton: &Skeleton, edge: u32, order: u8) -> Option<u32> {
     Some(same.fold(first, better))
 }
 
-/// Where a vein is after `length`, or its end.
+/// The point of a vein at distance `length` from its start, or its end.
 fn follow(skeleton: &Skeleton, edge: u32, length: f64) -> DVec2 {
     let order = skeleton.edge(edge).order;
     let (mut edge, mut left) = (edge, length);

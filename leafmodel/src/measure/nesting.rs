@@ -14,7 +14,7 @@ pub(super) struct Nesting {
     pub(super) strahler: u32,
 }
 
-/// Takes veins away, finest first, and notes which loops become one.
+/// Removes veins, finest first, and records which loops merge.
 ///
 /// Veins are taken from junction to junction, with their mean radius; equal ones in the order of their numbers. Veins towards
 /// the outside stay, so that groups of areoles that share no vein have trees of their own; all are counted together.

@@ -1,4 +1,4 @@
-//! Who leads to whom, and where veins run.
+//! Which edges meet at a node, and in which direction veins run.
 
 use glam::DVec2;
 

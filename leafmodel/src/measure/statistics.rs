@@ -1,14 +1,15 @@
-//! Means and medians of what may be nothing.
+//! Means and medians of lists that may be empty.
 
 /// Bins in which [`mode`] counts.
 const BINS: usize = 64;
 
-/// Arithmetic mean; none of nothing.
+/// Arithmetic mean; `None` for an empty list.
 pub(super) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Median, for an even count the mean of the middle two; none of nothing. Reorders the values.
+/// Median, for an even count the mean of the middle two; `None` for an empty list. Reorders the
+/// values.
 pub(super) fn median(values: &mut [f64]) -> Option<f64> {
     let count = values.len();
     if count == 0 {

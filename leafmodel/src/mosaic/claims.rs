@@ -12,7 +12,7 @@ use super::statistics::{area_shares, labels_at};
 use super::voronoi::Voronoi;
 use super::{Mosaic, MosaicPlan, Surface, SurfacePoint};
 
-/// The background's label in what the measures see.
+/// Label of the background for the measures.
 const BACKGROUND: u32 = 0;
 /// The foreground's.
 const FOREGROUND: u32 = 1;

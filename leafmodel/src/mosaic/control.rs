@@ -11,19 +11,20 @@ use thiserror::Error;
 
 pub use self::image::ControlImage;
 
-/// A cylinder about (a part of) the surface, an image wrapped round it, and what the image steers. Outside the cylinder nothing
-/// is changed.
+/// A cylinder about (a part of) the surface, an image wrapped round it, and what the image steers.
+/// It changes nothing outside the cylinder.
 ///
-/// A point's angle about the axis (over `2π`, from 0 to 1 anticlockwise as seen against the axis) and its height (0 at `from`,
-/// 1 at `to`) say where in the image it lies. Angle 0 lies towards +x; if the axis runs along x, towards +y. If the surface
-/// grows, points count where they will be when it is grown.
+/// A point's angle about the axis (over `2π`, from 0 to 1 anticlockwise as seen against the axis)
+/// and its height (0 at `from`, 1 at `to`) say where in the image it lies. Angle 0 lies towards +x;
+/// if the axis runs along x, towards +y. If the surface grows, a point counts at its place on the
+/// full-grown surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CylinderControl {
     /// Where the axis starts, mm.
     pub from: DVec3,
     /// Where the axis ends, mm.
     pub to: DVec3,
-    /// Radius, mm; none: all that lies between the two ends.
+    /// Radius, mm; without one the cylinder is unlimited between its two ends.
     pub radius_mm: Option<f64>,
     /// The image.
     pub image: ControlImage,

@@ -14,7 +14,8 @@ const LARGE_MEAN: f64 = 1e5;
 /// `exp(-mean)` of parts above this would lose digits.
 const PART: f64 = 500.0;
 
-/// After how many relaxation events, 1 or more, a cell divides: Poisson distributed about `mean`. None if never.
+/// Number of relaxation events, at least 1, after which a cell divides: Poisson distributed with
+/// mean `mean`. None if never.
 ///
 /// Draws of 0 count as 1: a cell has to be there before it divides.
 pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64> {

@@ -36,7 +36,7 @@ struct Border {
     kinds: [u16; 2],
 }
 
-/// Which types of cells a surface has where.
+/// The types of cells at every point of a surface.
 #[derive(Clone, Debug)]
 pub struct TypeField {
     voronoi: Voronoi,
@@ -147,8 +147,8 @@ impl TypeField {
         self.bare.is_some()
     }
 
-    /// Whether controls let no cell be at a point: tissue there is not of the mosaic, and what is said of its types is only what the
-    /// nearest cells are.
+    /// Whether controls admit no cell at a point. The tissue there is not part of the mosaic; types
+    /// reported for it are those of the nearest cells.
     pub fn is_bare(&self, point: &SurfacePoint) -> bool {
         self.bare.as_ref().is_some_and(|bare| {
             let at = bare.surface.position(point);

@@ -18,10 +18,11 @@ use super::relaxation::{Bonds, Relaxation, free_walk};
 use super::surface::{Ancestry, Surface, SurfacePoint};
 use crate::venation::chance::{Use, bits, uniform};
 
-/// Throws for one initial cell before its surface counts as blocked.
+/// Number of attempts to place an initial cell before the surface counts as blocked.
 const THROWS: u32 = 1000;
 
-/// Tries to lie outside blocked areas that a child has before it lies where its parent is.
+/// Number of attempts to place a child outside blocked areas; after them it lies at its parent's
+/// place.
 const CHILD_TRIES: u64 = 16;
 
 /// Faces are cut until no edge is longer than this, over the radius.

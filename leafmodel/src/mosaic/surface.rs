@@ -19,7 +19,8 @@ pub use self::subdivide::Ancestry;
 /// No face: the far side of a margin.
 const NONE: u32 = u32::MAX;
 
-/// A face whose area is below this share of its longest edge's square has no plane of its own.
+/// A face has no plane of its own if its area is below this share of the square of its longest
+/// edge.
 const LEAST_SHARE: f64 = 1e-12;
 
 /// Why a mesh is no surface that cells can live on. Points are in millimetres; faces count from 0.

@@ -1,9 +1,10 @@
 //! Cells as polygons: each face cut into the parts that lie nearest to each cell.
 //!
-//! Distances are those of the plane into which a face's surroundings unfold ([`super::patch`]), so never through space. Within a
-//! face the tessellation is exact; on curved surfaces two faces may unfold a far cell a little differently, and a border may
-//! then jump by as much at their edge. Far from all cells (in areas where controls let none be) a face does not search for itself: it
-//! takes over the cells that its neighbours nearer to cells have found.
+//! Distances are those of the plane into which a face's surroundings unfold ([`super::patch`]), so
+//! never through space. Within a face the tessellation is exact; on curved surfaces two faces may
+//! unfold a far cell a little differently, and a border may then jump by as much at their edge. Far
+//! from all cells (in areas where controls admit none) a face does not search by itself. It takes
+//! the cells that its neighbours nearer to the cells have found.
 //!
 //! - **In**: a [`Surface`] and the places of the cells.
 //! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas, neighbours.

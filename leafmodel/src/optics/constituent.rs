@@ -1,7 +1,8 @@
 //! What a leaf is made of, as far as it decides its optics.
 //!
-//! A [`Constituent`] is one of the numbers that PROSPECT-D takes, or a betalain. All that is known of one wherever it is written, read
-//! or told (names, keys, units, ranges, what is taken where a file leaves it out) stands here, in one row of [`Constituent`]'s table.
+//! A [`Constituent`] is one of the numbers that PROSPECT-D takes, or a betalain. One row of
+//! [`Constituent`]'s table defines each: names, keys, unit, range, and the value if a file leaves
+//! it out. Reading, writing and reports use that row.
 
 /// The structure of a leaf, or a substance in it.
 ///
@@ -36,7 +37,7 @@ struct Facts {
     meaning: &'static str,
     symbol: &'static str,
     unit: &'static str,
-    /// What a table says for the unit of a number without one.
+    /// What a table shows as the unit of a number without a unit.
     counted_in: &'static str,
     range: [f64; 2],
     if_left_out: Option<f64>,
@@ -45,7 +46,7 @@ struct Facts {
     is_prospect_d: bool,
 }
 
-/// A pigment in µg cm⁻² that PROSPECT-D does not have, of which there is none unless a file says so.
+/// A pigment in µg cm⁻² that PROSPECT-D does not have. A leaf holds none unless a file says so.
 const PIGMENT: Facts = Facts {
     name: "",
     key: "",

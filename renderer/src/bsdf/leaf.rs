@@ -91,7 +91,8 @@ pub struct LeafBsdf<'a, const N: usize> {
     tissue: Tissue<N>,
 }
 
-/// A leaf at one point, seen from one direction: what all directions of light have in common.
+/// A leaf at one point, seen from one direction. Holds what does not depend on the direction of the
+/// light.
 #[derive(Clone, Debug)]
 pub struct LeafView<'a, const N: usize> {
     /// Coats of the side of the view, and of the other.
@@ -143,14 +144,14 @@ impl<const N: usize> Tissue<N> {
         tissue
     }
 
-    /// All of it, to be kept in a table.
+    /// Its numbers, to be stored in a table.
     pub fn to_lanes(self) -> [Lanes<N>; 4] {
         let [r_a, r_b] = self.reflectance;
         let [t_ab, t_ba] = self.transmittance;
         [r_a, r_b, t_ab, t_ba]
     }
 
-    /// What [`Tissue::to_lanes`] gave.
+    /// The inverse of [`Tissue::to_lanes`].
     #[inline]
     pub fn from_lanes([r_a, r_b, t_ab, t_ba]: [Lanes<N>; 4]) -> Self {
         Self {

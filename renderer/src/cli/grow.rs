@@ -224,7 +224,7 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
     })
 }
 
-/// As much of a leaf as is asked for.
+/// The parts of a leaf that the outputs need.
 enum Grown {
     /// Its different laminas, of a simple leaf the one.
     Flat {
@@ -289,7 +289,7 @@ impl Grown {
         }
     }
 
-    /// All of it in the plane, if that is more than the lamina.
+    /// The whole leaf in the plane, if it is more than one lamina.
     fn flat(&self, plan: &LeafPlan) -> Result<Option<FlatLeaf>, Failure> {
         let laminas: Vec<&Lamina> = match self {
             Self::Flat { laminas, .. } => laminas.iter().collect(),

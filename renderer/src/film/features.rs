@@ -3,7 +3,7 @@
 //! - **In**: for each sample that met something, a number per feature.
 //! - **Out**: means over the covered ones of a pixel's first [`FEATURE_SAMPLES`] samples, or what sample 0 met.
 //! - **Always true**: all that is kept is integers that add up, so films merge by addition alone.
-//! - **Left out**: what the features are; whoever makes a film says how each is kept.
+//! - **Left out**: what the features mean; the maker of the film says how each is kept.
 
 use super::fixed::nearest;
 

@@ -3,7 +3,7 @@
 //! - **In**: finite `f32`s, each a whole number of at most 24 bits times a power of two.
 //! - **Out**: integers in units of a power of two; a shift or an exact product gives each, so there is no rounding but the one
 //!   stated.
-//! - **Left out**: numbers that are not finite; whoever calls has sorted them out.
+//! - **Left out**: numbers that are not finite; the caller has rejected them.
 
 /// Bits behind the point of sums and of sums of squares. (With fewer, the variance of dim pixels would vanish.)
 pub(super) const FRACTION_BITS: i32 = 64;

@@ -9,7 +9,7 @@ use super::binary_tree::BinaryNode;
 use super::bounds::Bounds;
 use super::scramble::scramble;
 
-/// Share of the nodes that are tried elsewhere after clustering.
+/// Share of the nodes that are reinserted at another place after clustering.
 const REINSERTION: f32 = 0.02;
 
 /// Boxes that the builder sees are wider than ours by up to this share of their longest side.

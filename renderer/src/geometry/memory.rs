@@ -4,8 +4,8 @@
     allow(unsafe_code, reason = "a hint to the kernel about memory of our own")
 )]
 
-/// An empty vector with room for so many values, in pages of 2 MiB where the system gives such: with small ones each
-/// look into a large tree also looks for where its page lies.
+/// An empty vector with this capacity, in pages of 2 MiB if the system has them. With small pages,
+/// each access to a large tree also costs a search for the page's address.
 pub(super) fn room_for<T>(count: usize) -> Vec<T> {
     let room = Vec::with_capacity(count);
     ask_for_huge_pages(&room);

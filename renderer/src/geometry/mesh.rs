@@ -8,7 +8,8 @@ use thiserror::Error;
 use super::bounds::Bounds;
 use super::scramble::scramble;
 
-/// Coordinates beyond this (m) leave `f32` no detail worth rendering, and its squares come near overflow.
+/// Beyond this coordinate (m) `f32` resolves no detail worth rendering, and squares come near
+/// overflow.
 const FARTHEST: f32 = 1e9;
 
 /// Face numbers and tree nodes share 32 bits.
@@ -250,7 +251,7 @@ impl TriangleMesh {
         })
     }
 
-    /// Vertices, m. Those that no face names may be anything.
+    /// Vertices, m. Vertices that no face uses may hold any value.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }

@@ -8,7 +8,7 @@ use crate::simd::{Eight, Row};
 /// Planes of boxes, by plane (min x, y, z, max x, y, z) and box.
 pub(super) type BoxPlanes = [Row; 6];
 
-/// A row of [`BoxPlanes`]. An enum, so that the compiler knows that it is one.
+/// A row of [`BoxPlanes`]. It is an enum, so that the compiler needs no bounds check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Plane {
     MinX,
@@ -26,7 +26,8 @@ const PLANES: [[Plane; 2]; 3] = [
     [Plane::MinZ, Plane::MaxZ],
 ];
 
-/// Planes that a ray meets first, by the axes (a bit each) along which it runs down.
+/// Planes that a ray meets first, indexed by the axes (a bit each) along which its direction is
+/// negative.
 const NEAR_PLANES: [[Plane; 3]; 8] = {
     let mut planes = [[Plane::MinX; 3]; 8];
     let mut down = 0;

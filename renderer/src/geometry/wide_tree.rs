@@ -63,7 +63,7 @@ impl WideNode {
 
 /// What is done at the leaves of a tree.
 pub(super) trait Visitor {
-    /// Asks for the memory of a leaf that is likely to be visited soon.
+    /// Prefetches the memory of a leaf that is likely to be visited soon.
     fn fetch(&self, leaf: u32);
 
     /// Visits a leaf whose box the ray enters at `enter`; gives the new limit, −∞ to end the walk.
@@ -97,7 +97,8 @@ impl WideTree {
         &self.bounds
     }
 
-    /// Boxes, at most `most` (≥ 1) of them, that together hold everything: those of the lowest nodes that get by with so few.
+    /// At most `most` (≥ 1) boxes that together enclose everything: those of the lowest nodes of
+    /// the tree of which so few suffice.
     pub(super) fn hull(&self, most: usize) -> Vec<Bounds> {
         // (box, code of the node or leaf)
         let mut hull = vec![(self.bounds, if self.nodes.is_empty() { LEAF } else { 0 })];
@@ -184,7 +185,7 @@ impl WideTree {
         }
     }
 
-    /// Asks for the memory of a child that is likely to be visited soon.
+    /// Prefetches the memory of a child that is likely to be visited soon.
     #[inline(always)]
     fn ask_for<E: Eight>(&self, e: E, child: u32, visitor: &impl Visitor) {
         if child & LEAF == 0 {

@@ -133,7 +133,7 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     Ok(bytes)
 }
 
-/// Refuses what would not come back as it went in.
+/// Refuses pictures that would not read back as they were written.
 fn check(picture: &Picture) -> Result<(), ImageError> {
     let refuse = |what: String| Err(ImageError::Inconsistent { what });
     let channels = picture.layers.len() as u64;

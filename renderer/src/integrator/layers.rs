@@ -2,9 +2,9 @@
 //!
 //! - **In**: the kind of film.
 //! - **Out**: [`LAYERS`], and of a film's [`Layout`] what its pixels keep and where each layer's numbers are.
-//! - **Always true**: whatever adds samples, merges films, develops pictures or says what a pixel takes goes by this table;
-//!   so does the book, which a test compares with it. A new layer is an entry here, and where it shows something new of what a
-//!   ray met, a [`Quantity`].
+//! - **Always true**: code that adds samples, merges films, develops pictures or says how many
+//!   bytes a pixel takes reads this table. A test compares the book with it. A new layer is an
+//!   entry here, and where it shows something new of what a ray met, a [`Quantity`].
 //! - **Left out**: how numbers are added up, see [`crate::film`].
 
 use glam::DVec3;
@@ -64,7 +64,8 @@ pub enum Source {
         /// The least and the most that the picture shows.
         within: [f64; 2],
     },
-    /// What another layer of three features means to the camera; 0 where nothing is covered.
+    /// A number that the camera gives to the mean of another layer of three features; 0 where
+    /// nothing is covered.
     OfPoint {
         /// Name of the other layer, whose films have this one.
         layer: &'static str,

@@ -1,13 +1,15 @@
 //! When a block of pixels has enough samples.
 //!
-//! At 16, 32, 64, … samples the luminance of every pixel is compared with what it was at half as many. Half the difference of
-//! two halves scatters as their mean does, if the halves are independent; low-discrepancy halves complement one another, so
-//! the mean is better than that, and the estimate errs to the safe side.
+//! At 16, 32, 64, … samples the luminance of every pixel is compared with what it was at half as
+//! many. Half the difference of two independent halves has the variance of their mean.
+//! Low-discrepancy halves complement one another, so their mean is better than that, and the
+//! estimate errs to the safe side.
 //!
 //! - **In**: the film's sums at these borders, and the relative error that is aimed at.
 //! - **Out**: for each block the number of samples at which it stops.
-//! - **Always true**: a decision depends on sums of all the samples up to a border and on nothing else, so neither threads
-//!   nor the clock show. A block's pixels are its jury: 64 independent differences, so luck does not stop it.
+//! - **Always true**: a decision depends on the sums of all samples up to a border and on nothing
+//!   else, so it does not depend on threads or time. A block is judged by 64 independent
+//!   differences, one a pixel, so it does not stop by luck.
 //! - **Left out**: light that none of the first samples of a block met.
 
 use rayon::prelude::*;

@@ -49,9 +49,9 @@ pub struct Rendered {
     pub effort: Effort,
     /// Rays traced, shadow rays included, without those of the trial that chose the effort.
     pub rays: u64,
-    /// Why no more was rendered.
+    /// Why the render ended.
     pub ended: Ended,
-    /// What was found of the noise, if something watched it.
+    /// The noise that was found, if a noise was aimed at.
     pub noise: Option<Noise>,
 }
 

@@ -122,7 +122,7 @@ impl EnvironmentLight {
         [azimuth - azimuth.floor(), polar.min(1.0 - f32::EPSILON)]
     }
 
-    /// A direction, about as often as it is bright.
+    /// A direction, drawn with a density about in proportion to its brightness.
     pub fn sample<const N: usize>(
         &self,
         wavelengths: &Wavelengths<N>,

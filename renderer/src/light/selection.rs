@@ -23,7 +23,8 @@ pub struct LightSelection {
 struct Pictures {
     lights: Box<[usize]>,
     by_irradiance: Piecewise1d,
-    /// All of theirs, on a surface that faces half of the surroundings: rough, W m⁻² nm⁻¹.
+    /// Irradiance of all these pictures on a surface that sees half of the surroundings: a rough
+    /// value, W m⁻² nm⁻¹.
     irradiance: f32,
 }
 

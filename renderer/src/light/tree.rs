@@ -2,9 +2,10 @@
 //!
 //! - **In**: [`Emitter`]s, which bound where each light is, where it shines and how brightly; a [`Receiver`]; a random number.
 //! - **Out**: the number of one light, and the probability of any from any receiver.
-//! - **Always true**: a light that can send light to the receiver, from either side, has a probability above zero;
-//!   [`LightTree::probability`] is that with which [`LightTree::choose`] chooses. The probabilities from one receiver sum to 1, less
-//!   that of a node which may have a light that shines there and turns out to have none: then nothing is chosen.
+//! - **Always true**: a light that can send light to the receiver, from either side, has a
+//!   probability above zero; [`LightTree::probability`] is that with which [`LightTree::choose`]
+//!   chooses. The probabilities from one receiver sum to 1, or less: a node may seem to hold a
+//!   light that shines there and turn out to hold none, and then nothing is chosen.
 //! - **Left out**: shadows, and what the surface does with light beside its cosine.
 //!
 //! # Source
@@ -32,7 +33,7 @@ const TOLERANCE: f32 = 1e-3;
 /// Least cosine in an importance, lest rounding to zero hide a light.
 const LEAST_COSINE: f32 = 1e-4;
 
-/// Bounds of a light: of one that shines from a sphere, around an axis.
+/// Bounds of a light: a sphere that holds it, and a cone around an axis that holds its directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitter {
     /// Centre of a sphere around all points that shine, world, m.
@@ -183,7 +184,8 @@ impl Node {
         self.child[k] = child;
     }
 
-    /// A bound on what each child may send to a receiver, but that its distance is taken from its centre and at least its radius.
+    /// An estimate of what each child may send to a receiver. It would be a bound, but the distance
+    /// is that to the child's centre, and at least its radius.
     ///
     /// The importance of \[conty2018\], with cosines instead of angles.
     fn importances(&self, receiver: &Receiver) -> [f32; WIDTH] {

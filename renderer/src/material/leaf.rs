@@ -19,7 +19,7 @@ pub struct LeafMaterial {
     abaxial_ratio: Spectrum,
     /// Adaxial and abaxial coat.
     coats: [Coat; 2],
-    /// Of a leaf that is the same everywhere what its tissue does.
+    /// What the tissue does, tabulated, if the leaf is the same everywhere.
     uniform: Option<Table>,
 }
 

@@ -1,6 +1,6 @@
 //! Solid tissue: what decides its reflectance, and its coat.
 //!
-//! It reflects as a leaf that lets nothing through: `docs/src/theory/solid-tissue.md` has the model.
+//! It reflects as a leaf that transmits nothing: `docs/src/theory/solid-tissue.md` has the model.
 
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub struct SolidMaterial {
     table: Arc<ReflectanceTable>,
     /// A body is seen from outside; a sheet of it looks alike from both sides.
     coats: [Coat; 2],
-    /// Of a body that is the same everywhere what its tissue does.
+    /// What the tissue does, tabulated, if the body is the same everywhere.
     uniform: Option<Table>,
 }
 

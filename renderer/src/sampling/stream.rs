@@ -64,7 +64,8 @@ impl Stream {
         }
     }
 
-    /// Goes to set number `set`, so that what one event leaves unused does not shift the next one's numbers.
+    /// Goes to set number `set`, so that numbers which one event leaves unused do not shift those
+    /// of the next event.
     pub fn seek(&mut self, set: u32) {
         self.set = set;
     }

@@ -87,7 +87,7 @@ pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<L
     read_leaves(cx, tree, &others, leaf::leaf)
 }
 
-/// What a scene file may hold.
+/// The schema of a scene file.
 pub(crate) fn schema() -> BlockSchema {
     Keys::describe(|keys| scene(&mut Description::empty("", String::new()), keys))
 }

@@ -23,9 +23,9 @@ use super::description::{Description, Leaf, Named, Solid};
 pub struct Loaded {
     /// The scene.
     pub description: Description,
-    /// What is allowed and hardly meant.
+    /// Warnings: what is allowed but probably not meant.
     pub warnings: Vec<Warning>,
-    /// The files that it names, without links and `..`; nothing should be written over them.
+    /// The files that it names, as resolved paths. No output may overwrite them.
     pub inputs: Vec<PathBuf>,
 }
 

@@ -1,7 +1,7 @@
 //! Grown leaves kept in a folder, for scenes that are rendered again and again: turntables, other light, other cameras.
 //!
-//! A file holds one leaf, and is named by a digest of its plan. It begins with the whole plan and the program that wrote
-//! it, and ends with a check sum, so that a leaf is only ever taken for what it is.
+//! A file holds one leaf, and is named by a digest of its plan. It begins with the whole plan and
+//! the program that wrote it, and ends with a check sum. So a file is never taken for another leaf.
 //!
 //! - **In**: a plan, and how to grow it.
 //! - **Out**: the leaf's numbers, from the file or grown.

@@ -29,9 +29,10 @@ use crate::spectrum::Curve;
 pub struct GrownLeaf {
     /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial side +z.
     pub meshes: Vec<TriangleMesh>,
-    /// Content maps and coats of the different blades, then, if there are stalks, what those are made of.
+    /// Materials (maps of contents and coats) of the different blades, then the material of the
+    /// stalks, if there are any.
     pub materials: Vec<LeafMaterial>,
-    /// What stands where; one at least.
+    /// The pieces with their places; at least one.
     pub pieces: Vec<Piece>,
 }
 

@@ -47,7 +47,7 @@ pub struct World {
     pub pieces: Pieces,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
-    /// Whose each material is.
+    /// What each material belongs to.
     pub owners: Vec<MaterialOwner>,
     /// What pigments leaves have, each choice once.
     pub palettes: Palettes,
@@ -61,18 +61,19 @@ pub struct World {
     pub filter: PixelFilter,
     /// How long paths get.
     pub integrator: description::Integrator,
-    /// What paths carry.
+    /// Wavelengths that paths carry.
     pub wavelengths: WavelengthSampler,
     /// Notes for the person who renders: dropped faces, clamped reflectance.
     pub notes: Vec<String>,
 }
 
-/// Whose a material is.
+/// What a material belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialOwner {
     /// That of the scene with this number.
     Scene(usize),
-    /// That of the leaf with the number `leaf`; its different blades have the first parts, stalks the last.
+    /// A material of the leaf with the number `leaf`. Its different blades come first, its stalks
+    /// last.
     Leaf {
         /// Index into [`Description::leaves`].
         leaf: usize,
@@ -143,7 +144,8 @@ impl World {
         Self::build_with(scene, None)
     }
 
-    /// As [`World::build`], but takes from `cache` the leaves that are there, and puts there those that are not.
+    /// As [`World::build`], but reads leaves from `cache` if they are there, and writes there those
+    /// that are not.
     ///
     /// # Errors
     ///

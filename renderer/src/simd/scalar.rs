@@ -1,4 +1,4 @@
-//! Without vector instructions: what the others are measured by.
+//! Without vector instructions: the reference for the other levels.
 
 use super::{Eight, LANES, Row};
 

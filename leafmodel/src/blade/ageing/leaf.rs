@@ -1,5 +1,5 @@
-//! Ageing made ready for the millions of points of a map: each distance is looked up once, and no more of a delay is added up than
-//! decides.
+//! Ageing made ready for the millions of points of a map: each distance is looked up once, and
+//! terms of a delay are added only until the outcome is clear.
 
 use glam::DVec2;
 
@@ -10,7 +10,7 @@ use crate::optics::{Constituent, Contents};
 use crate::transport::DeathField;
 use crate::venation::chance::{self, Use};
 
-/// The distances that two delays ask for, each field there once.
+/// The fields of distances that two delays need, each stored once.
 #[derive(Clone, Debug)]
 struct Surroundings {
     margin: Option<Distances>,
@@ -92,7 +92,8 @@ impl DelayField {
         }
     }
 
-    /// Days, ≥ 0; if they are `enough` or more, some number that is so too, for all terms are ≥ 0.
+    /// Days, ≥ 0. If the delay is at least `enough`, any number of at least `enough` may be
+    /// returned; all terms are ≥ 0.
     fn at(&self, near: &mut Near<'_>, enough: f64) -> f64 {
         let delay = &self.delay;
         let mut days = 0.0;

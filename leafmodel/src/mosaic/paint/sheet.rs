@@ -12,7 +12,8 @@ const MOST_SQUARES: f64 = 160.0;
 /// Width of the grid beyond the sheet, as a share of its extent: further out the nearest margin is approximate.
 const BEYOND: f64 = 0.1;
 
-/// A mosaic on one or both faces of a flat sheet in the plane z = 0, asked by places of that plane.
+/// A mosaic on one or both faces of a flat sheet in the plane z = 0, looked up by places of that
+/// plane.
 #[derive(Clone, Debug)]
 pub struct SheetField {
     field: TypeField,
@@ -102,7 +103,7 @@ impl SheetField {
         }
     }
 
-    /// The mosaic asked.
+    /// The mosaic that is looked up.
     pub fn field(&self) -> &TypeField {
         &self.field
     }

@@ -1,8 +1,9 @@
 //! The surface cut into blocks of faces that share one patch.
 //!
-//! Where faces are small against the radius, a patch for each would hold the same hundreds of faces again and again. So
-//! neighbouring faces that lie nearly in a plane are put together, as far as a share of the radius reaches; the patch of the
-//! middle one serves all. On surfaces that bend without stretching nothing is lost by that.
+//! Where faces are small against the radius, the patches of neighbouring faces would hold nearly
+//! the same hundreds of faces. So neighbouring faces that lie nearly in a plane form a block, up to
+//! a size that is a share of the radius. The patch of the middle face serves the whole block. On
+//! surfaces that bend without stretching nothing is lost by that.
 
 use glam::DVec2;
 use rayon::prelude::*;

@@ -1,13 +1,14 @@
 //! The repulsion that a cell feels from many others: the innermost loop.
 //!
-//! Single precision, places relative to the block and in units of the radius: seven digits of a force whose direction chance
-//! has had a say in are enough, and twice as many fit into a register. Only sums, products, a root and a quotient, each
-//! rounded as IEEE 754 wants it, in an order that the code fixes: the same bits everywhere.
+//! Single precision, places relative to the block and in units of the radius: seven digits are
+//! enough for a force whose direction is partly random, and twice as many numbers fit into a
+//! register. Only sums, products, a root and a quotient, each rounded as IEEE 754 wants it, in an
+//! order that the code fixes: the same bits everywhere.
 
 /// Cells that are handled side by side.
 const LANES: usize = 8;
 
-/// Farther away than any cell is.
+/// A distance greater than that of any cell.
 const FAR: f32 = 1e9;
 
 /// Two cells nearer than this (squared, in radii) push one another in no direction; it also stands for a cell itself.

@@ -1,4 +1,4 @@
-//! On a surface that grows, room decides how many cells divide where.
+//! On a growing surface the room decides how many cells divide in each region.
 
 use crate::mosaic::live::Live;
 use crate::mosaic::patch::PatchFinder;

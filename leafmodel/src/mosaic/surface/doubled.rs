@@ -5,9 +5,10 @@ use super::{NONE, Surface, SurfaceError};
 impl Surface {
     /// A sheet doubled: its own faces, then as many turned over, the two joined along the margin.
     ///
-    /// Face `f` of a sheet of `n` faces keeps its number; `n + f` lies behind it, with the second and third corner exchanged.
-    /// Both sides are at the same place in space, but on the surface a point and the one behind it are as far apart as the
-    /// way round the margin. So that the adaxial and the abaxial face of a leaf have cells of their own.
+    /// Face `f` of a sheet of `n` faces keeps its number; `n + f` lies behind it, with the second
+    /// and third corner exchanged. Both sides are at the same place in space, but on the surface a
+    /// point and the one behind it are as far apart as the way round the margin. With it the
+    /// adaxial and the abaxial face of a leaf have cells of their own.
     ///
     /// # Errors
     ///

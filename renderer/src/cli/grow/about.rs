@@ -1,4 +1,4 @@
-//! What a preset is, and where its numbers are from.
+//! What a preset is, and where its numbers come from.
 
 use leafmodel::species;
 use leafmodel::species::colours::{ColouredLeaf, coloured};

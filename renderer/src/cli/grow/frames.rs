@@ -49,7 +49,8 @@ fn no_stages(error: &LeafError) -> Failure {
     Failure::bad(format!("--frames: {error}"))
 }
 
-/// A stage with its petiole, if the leaf has one: as much shorter and thinner as the leaf is shorter than it will be.
+/// A stage with its petiole, if the leaf has one. Its length and radius are reduced in proportion
+/// to the leaf's length at that time.
 fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage {
     let Some(petiole) = &plan.petiole else {
         return stage;

@@ -1,4 +1,4 @@
-//! What is odd about a grown leaf, though nothing forbids it.
+//! Warnings about a grown leaf: what is allowed but odd.
 
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};

@@ -9,7 +9,7 @@ use crate::cli::arguments::OpticsArguments;
 use crate::cli::columns::in_columns;
 use leafmodel::document::nearest::nearest;
 
-/// A leaf of which nothing is said.
+/// The default leaf.
 const DEFAULT: Contents = Contents::of(&[
     (Constituent::Structure, 1.5),
     (Constituent::Chlorophyll, 40.0),

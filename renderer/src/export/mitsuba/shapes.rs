@@ -1,4 +1,5 @@
-//! What stands in the scene: each mesh once, and what stands in several places once, as a group with instances.
+//! The objects of the scene. Each mesh is written once, and so is a shape in several places: as a
+//! group with instances.
 //!
 //! A shape that stands in one place is written as such, with each of its parts. One that stands in several becomes a
 //! `shapegroup` that holds its parts, and an `instance` for each place: Mitsuba then keeps one copy of its triangles.

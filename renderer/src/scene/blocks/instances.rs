@@ -7,8 +7,8 @@
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
 //! - **Left out**: what the rows mean together. Instances may overlap.
 //!
-//! Rows are read on all threads. Of those that are wrong the first [`MOST_TOLD`] are told and the others counted, so
-//! that a report of a million rows is as short and as quick as one of ten.
+//! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others
+//! counted. So a report on a million rows is as short and as quick as one on ten.
 
 mod column_names;
 mod columns;
@@ -45,7 +45,7 @@ struct Table<'a> {
     /// The path as written, safe to print.
     name: String,
     shapes: &'a ShapeNames,
-    /// Of each name its place in the list; `None` if it is there more than once.
+    /// The place of each name in the list; `None` if the list has it more than once.
     numbers: BTreeMap<&'a str, Option<u32>>,
     /// Local to world of the frame in which the rows are given.
     frame: DMat4,

@@ -218,9 +218,8 @@ fn map_file(keys: &mut Keys<'_>) -> PathBuf {
         "file",
         &mut file,
         PATH,
-        "Channels `structure`, `chlorophyll`, \
-        `carotenoids`, `anthocyanins`, `brown`, `water`, `dry_matter`, in the units above, over \
-        uv; the first row of the picture is v = 0.",
+        "A channel for each of the contents, by its name without the unit, over uv; those of betalains may \
+         be absent; the first row of the picture is v = 0.",
     );
     file
 }

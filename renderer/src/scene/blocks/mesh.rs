@@ -69,7 +69,7 @@ const KINDS: [Variant<Mesh>; 3] = [
 ];
 
 impl Mesh {
-    /// A sphere of which nothing is said.
+    /// A sphere with all defaults.
     pub(super) fn unit_sphere() -> Self {
         Self::Sphere {
             radius: 1.0,

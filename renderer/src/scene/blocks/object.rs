@@ -16,7 +16,7 @@ use super::report;
 use crate::scene::description::{Object, ObjectShape};
 
 impl Object {
-    /// An object of which nothing is said.
+    /// An object with all defaults.
     pub(super) fn nowhere() -> Self {
         Self {
             shapes: Vec::new(),

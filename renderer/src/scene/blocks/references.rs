@@ -1,4 +1,4 @@
-//! What blocks of a scene must be to one another.
+//! Conditions between the blocks of a scene.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::scene::description::{Description, Light, ObjectShape};
 /// Sections whose blocks others name.
 pub(super) const SECTIONS: [&str; 5] = ["meshes", "materials", "leaves", "solids", "objects"];
 
-/// Checks what the scene has as a whole; `keys` are those at its top.
+/// Checks the scene as a whole; `keys` are those at its top.
 pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;
@@ -61,7 +61,7 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
     }
 }
 
-/// Blocks that nothing refers to are allowed, and mostly a slip.
+/// Warns of blocks that nothing refers to: they are allowed, but mostly a slip.
 fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;

@@ -8,13 +8,13 @@ use leafmodel::plan_file::{self, require_prospect, usual_solid};
 
 use crate::scene::description::{Coat, Solid, SolidOptics};
 
-/// Depth that contents are spread over where nothing is said, mm.
+/// Default of the depth over which contents are spread, mm.
 const DEPTH_MM: f64 = 1.0;
-/// GGX roughness of the skin where nothing is said.
+/// Default of the GGX roughness of the skin.
 const COAT_ALPHA: f64 = 0.3;
 
 impl SolidOptics {
-    /// Optics of which nothing is said.
+    /// Optics with all defaults.
     pub(crate) fn usual() -> Self {
         Self {
             tissue: Tissue {
@@ -32,7 +32,7 @@ impl SolidOptics {
 }
 
 impl Solid {
-    /// A body of which nothing is said.
+    /// A body with all defaults.
     pub(crate) fn usual() -> Self {
         Self {
             plan: usual_solid(),
@@ -52,7 +52,7 @@ pub(crate) fn solid(solid: &mut Solid, keys: &mut Keys<'_>) {
     plan_file::solid(&mut solid.plan, keys);
 }
 
-/// What becomes of light in solid tissue.
+/// The keys of the optics of solid tissue.
 pub(super) fn optics(optics: &mut SolidOptics, keys: &mut Keys<'_>) {
     let SolidOptics { tissue, coat } = optics;
     let limits = Number(Limits::closed(0.001, 1000.0));

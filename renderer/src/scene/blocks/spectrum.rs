@@ -330,7 +330,7 @@ fn checked_table(
     })
 }
 
-/// The unit in which wavelengths that are no nanometres probably are.
+/// A guess at the unit of wavelengths that cannot be nanometres.
 fn unit_of_wavelengths(points: &[(f64, f64)]) -> Option<&'static str> {
     let (first, last) = (points.first()?.0, points.last()?.0);
     (first > 0.1 && last < 100.0)

@@ -57,7 +57,7 @@ fn doubles(out: &mut Vec<u8>, values: &[f64]) {
     out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
 }
 
-/// The leaf of which these are the bytes, all of them; none if they are no leaf's.
+/// The leaf that these bytes encode; `None` if they encode none or some are left over.
 pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
     let mut rest = Rest(bytes);
     let meshes = rest.list(|rest| {
@@ -119,7 +119,7 @@ impl<'a> Rest<'a> {
         usize::try_from(u64::from_le_bytes(bytes)).ok()
     }
 
-    /// As many of something as a count says that stands before them.
+    /// A list whose length stands before it.
     fn list<T>(&mut self, mut one: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         (0..self.count()?).map(|_| one(self)).collect()
     }

@@ -1,4 +1,4 @@
-//! What is odd about a scene's materials and shows only once files are read and leaves are grown.
+//! Notes about a scene's materials that are possible only once files are read and leaves are grown.
 
 use super::MaterialOwner;
 use leafmodel::optics::Contents;
@@ -8,7 +8,7 @@ use crate::material::leaf::LeafTissue;
 use crate::material::solid::SolidTissue;
 use crate::scene::description::Description;
 
-/// Tells of leaves and solid tissue whose coat reflects more than the whole should, each once.
+/// Notes leaves and solid tissue whose coat alone reflects more than the whole should, each once.
 pub(super) fn on_coats(
     scene: &Description,
     materials: &[Material],
@@ -50,7 +50,7 @@ pub(super) fn on_coats(
     notes.into_iter().map(|(_, note)| note).collect()
 }
 
-/// Tells of maps with betalains and anthocyanins. At which texels each lies does not matter: no plant holds both.
+/// Notes maps with both betalains and anthocyanins, in whichever texels: no plant holds both.
 pub(super) fn on_maps<'m>(
     materials: impl IntoIterator<Item = (&'m str, &'m Material)>,
 ) -> Vec<String> {

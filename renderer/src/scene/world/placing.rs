@@ -1,4 +1,4 @@
-//! Shapes put at their places: instances of meshes, and what each of them is.
+//! Puts shapes at their places: instances of meshes, with the object, material and light of each.
 
 use std::ops::Index;
 
@@ -8,17 +8,17 @@ use crate::geometry::Instance;
 use crate::scene::description::{Description, InstancePlace, ObjectShape};
 use crate::scene::plants::Piece;
 
-/// What shapes consist of, meshes and materials by their numbers in the world.
+/// The parts of every shape, with meshes and materials as numbers in the world.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
-    /// Of each grown leaf its parts; one at least.
+    /// The parts of each grown leaf; at least one.
     pub leaves: Vec<Vec<Piece>>,
     /// Each grown body.
     pub solids: Vec<Piece>,
 }
 
 impl Pieces {
-    /// The parts of a shape; one at least.
+    /// The parts of a shape; at least one.
     pub fn of(&self, shape: ObjectShape) -> Vec<Piece> {
         match shape {
             ObjectShape::Mesh { mesh, material } => vec![Piece {
@@ -76,7 +76,7 @@ impl WorldObjects {
         self.instances[instance as usize].place
     }
 
-    /// Lets an instance, the only one of its part, be a light.
+    /// Makes an instance a light. It must be the only instance of its part.
     pub(super) fn shine(&mut self, instance: usize, light: usize) {
         self.parts[self.instances[instance].part as usize].light = Some(light);
     }
@@ -104,7 +104,7 @@ impl Index<usize> for WorldObjects {
 pub(super) struct Placed {
     pub(super) instances: Vec<Instance>,
     pub(super) objects: WorldObjects,
-    /// Of each object the number of its first instance.
+    /// The number of each object's first instance.
     pub(super) first: Vec<usize>,
 }
 
@@ -126,8 +126,9 @@ impl Placed {
 
 /// Instances of every shape of the scene.
 ///
-/// First come the objects that stand in one place, each with one part, then the other parts of those, then objects
-/// with instances. Equally near hits go to the smaller number, so the order is part of what a picture shows.
+/// They come in this order: the first part of each object that stands in one place, the other parts
+/// of these objects, then objects with instances. Of equally near hits the smaller number wins, so
+/// the order affects the picture.
 pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
     let mut placed = Placed {
         first: vec![0; scene.objects.len()],
@@ -177,7 +178,7 @@ pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
     placed
 }
 
-/// From a part's mesh to the world, if `to_world` takes its shape there.
+/// Transform from a part's mesh to the world, given the transform `to_world` of its shape.
 fn carried(to_world: DMat4, piece: &Piece) -> Affine3A {
     Affine3A::from_mat4((to_world * DMat4::from(piece.to_leaf)).as_mat4())
 }

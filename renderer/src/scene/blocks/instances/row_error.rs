@@ -18,7 +18,7 @@ pub(super) enum RowError {
         /// How many the header has.
         wanted: usize,
     },
-    /// It is so long that it is no row.
+    /// It is too long to be a row.
     TooLong {
         /// Its bytes.
         bytes: usize,
