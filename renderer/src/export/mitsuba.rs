@@ -5,7 +5,10 @@
 //! Environment pictures are upsampled to spectra by Mitsuba's own method, so scenes with one cannot be
 //! compared band by band.
 
+mod bsdf;
+mod emitter;
 mod mesh;
+mod plugin;
 mod shapes;
 mod spectra;
 mod xml;
@@ -145,7 +148,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     }
     for light in &scene.lights {
         if let Light::Environment { file, .. } = &light.value {
-            let path = folder.join(xml::environment_file(&light.name, file));
+            let path = folder.join(emitter::environment_file(&light.name, file));
             fs::copy(file, &path).map_err(|source| ExportError::Write { path, source })?;
         }
     }
