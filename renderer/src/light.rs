@@ -28,6 +28,7 @@ pub mod distant;
 pub mod environment;
 pub mod patch;
 pub mod selection;
+pub mod spot;
 pub mod tree;
 
 use std::f32::consts::PI;
@@ -36,6 +37,7 @@ use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
+use spot::SpotLight;
 use tree::Emitter;
 
 /// The lights, a closed set.
@@ -49,6 +51,8 @@ pub enum Light {
     Environment(EnvironmentLight),
     /// A surface that shines.
     Area(AreaLight),
+    /// A point that shines into a cone.
+    Spot(SpotLight),
 }
 
 /// A point that is lit.
@@ -108,6 +112,10 @@ impl Light {
                 let radiance = light.radiance().mean_over(range_nm);
                 Sampled::ByParts(light.emitters(radiance).collect())
             }
+            Self::Spot(light) => {
+                let intensity = light.intensity().mean_over(range_nm);
+                Sampled::ByParts(vec![light.emitter(intensity)])
+            }
         }
     }
 
@@ -115,7 +123,7 @@ impl Light {
     pub fn is_at_infinity(&self) -> bool {
         match self {
             Self::Distant(_) | Self::Constant(_) | Self::Environment(_) => true,
-            Self::Area(_) => false,
+            Self::Area(_) | Self::Spot(_) => false,
         }
     }
 
@@ -132,6 +140,7 @@ impl Light {
             Self::Constant(_) => None,
             Self::Environment(light) => light.sample(wavelengths, u),
             Self::Area(light) => light.sample(part, receiver, wavelengths, u),
+            Self::Spot(light) => light.sample(receiver, wavelengths),
         }
     }
 
@@ -142,6 +151,7 @@ impl Light {
             Self::Constant(radiance) => radiance.tabulate(grid),
             Self::Environment(light) => light.tabulate(grid),
             Self::Area(light) => light.tabulate(grid),
+            Self::Spot(light) => light.tabulate(grid),
         }
     }
 
@@ -156,7 +166,7 @@ impl Light {
             Self::Distant(light) => light.towards(wi, wavelengths),
             Self::Constant(radiance) => Some((radiance.lanes(wavelengths), 0.0)),
             Self::Environment(light) => Some(light.towards(wi, wavelengths)),
-            Self::Area(_) => None,
+            Self::Area(_) | Self::Spot(_) => None,
         }
     }
 }
