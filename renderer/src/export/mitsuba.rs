@@ -22,11 +22,8 @@ use serde_json::json;
 use thiserror::Error;
 
 use crate::image::{ImageError, Layer, Picture, openexr};
-use crate::material::Material;
 use crate::material::contents_texture::ContentsTexture;
-use crate::material::leaf::LeafTissue;
 use crate::material::palette::Palette;
-use crate::material::solid::SolidTissue;
 use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
 
@@ -127,18 +124,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
     for (number, material) in world.materials.iter().enumerate() {
-        let map = match material {
-            Material::Leaf(leaf) => match &leaf.tissue {
-                LeafTissue::Map(map) => Some(map),
-                LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => None,
-            },
-            Material::Solid(solid) => match solid.tissue() {
-                SolidTissue::Map(map) => Some(map),
-                SolidTissue::Uniform(_) => None,
-            },
-            Material::Diffuse(_) | Material::Dielectric(_) => None,
-        };
-        if let Some(map) = map {
+        if let Some(map) = material.contents_map() {
             let path = folder.join(format!(
                 "maps/{}.exr",
                 xml::material_id(scene, world, number)

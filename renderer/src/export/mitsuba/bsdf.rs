@@ -1,9 +1,7 @@
 //! Materials.
 
-use leafmodel::optics::Contents;
-
 use crate::export::element::{Element, Layout};
-use crate::material;
+use crate::material::{self, Holds};
 use crate::scene::description::{
     Coat, Description, LeafTissue, Material, SolidOptics, SolidTissue, Spectrum,
 };
@@ -21,38 +19,28 @@ pub(super) fn bsdf(
     spectra: &mut Spectra,
 ) -> Element {
     let id = material_id(scene, world, material);
-    let leaf_bsdf = || Element::plugin("bsdf", "lamina_leaf").called(&id);
-    let solid_bsdf = || Element::plugin("bsdf", "lamina_solid").called(&id);
-    let table = match &world.materials[material] {
-        material::Material::Leaf(leaf) => absorption_file(&leaf.palette),
-        material::Material::Solid(solid) => absorption_file(solid.palette()),
-        material::Material::Diffuse(_) | material::Material::Dielectric(_) => String::new(),
+    let own = &world.materials[material];
+    let leaf_bsdf = |extrapolate| {
+        let bsdf = Element::plugin("bsdf", "lamina_leaf").called(&id);
+        tissue(bsdf, &id, own, extrapolate)
     };
-    if let MaterialOwner::Leaf { leaf, .. } = world.owners[material] {
-        let leaf = &scene.leaves[leaf].value;
-        let bsdf = leaf_bsdf();
-        let bsdf = match &world.materials[material] {
-            material::Material::Leaf(own) => match &own.tissue {
-                material::leaf::LeafTissue::Uniform(contents) => {
-                    uniform_tissue(bsdf, contents, &table, leaf.extrapolate)
-                }
-                material::leaf::LeafTissue::Map(_)
-                | material::leaf::LeafTissue::Measured { .. } => {
-                    map_tissue(bsdf, &id, &table, leaf.extrapolate)
-                }
-            },
-            material::Material::Diffuse(_)
-            | material::Material::Dielectric(_)
-            | material::Material::Solid(_) => bsdf,
-        };
-        return leaf_surface(bsdf, &leaf.abaxial_ratio, &leaf.coats, spectra);
-    }
-    if let MaterialOwner::Solid(solid) = world.owners[material] {
-        let solid = &scene.solids[solid].value;
-        let bsdf = map_tissue(solid_bsdf(), &id, &table, solid.extrapolate);
-        return solid_optics(bsdf, &solid.optics);
-    }
-    match &scene.materials[material].value {
+    let solid_bsdf = |extrapolate| {
+        let bsdf = Element::plugin("bsdf", "lamina_solid").called(&id);
+        tissue(bsdf, &id, own, extrapolate)
+    };
+    let number = match world.owners[material] {
+        MaterialOwner::Leaf { leaf, .. } => {
+            let leaf = &scene.leaves[leaf].value;
+            let bsdf = leaf_bsdf(leaf.extrapolate);
+            return leaf_surface(bsdf, &leaf.abaxial_ratio, &leaf.coats, spectra);
+        }
+        MaterialOwner::Solid(solid) => {
+            let solid = &scene.solids[solid].value;
+            return solid_optics(solid_bsdf(solid.extrapolate), &solid.optics);
+        }
+        MaterialOwner::Scene(number) => number,
+    };
+    match &scene.materials[number].value {
         Material::Diffuse { reflectance } => {
             let one_side = Element::plugin("bsdf", "diffuse");
             Element::plugin("bsdf", "twosided")
@@ -84,18 +72,14 @@ pub(super) fn bsdf(
             abaxial_ratio,
             coats,
         } => {
-            let bsdf = leaf_bsdf();
             let bsdf = match tissue {
-                LeafTissue::Contents {
-                    contents,
-                    extrapolate,
-                } => uniform_tissue(bsdf, contents, &table, *extrapolate),
-                LeafTissue::Map { extrapolate, .. } => map_tissue(bsdf, &id, &table, *extrapolate),
+                LeafTissue::Contents { extrapolate, .. } | LeafTissue::Map { extrapolate, .. } => {
+                    leaf_bsdf(*extrapolate)
+                }
                 LeafTissue::Measured {
                     reflectance,
                     transmittance,
-                } => bsdf
-                    .string("tissue", "measured")
+                } => leaf_bsdf(false)
                     .holding(spectra.element("reflectance", reflectance, 1.0))
                     .holding(spectra.element("transmittance", transmittance, 1.0)),
             };
@@ -106,37 +90,36 @@ pub(super) fn bsdf(
             pigments: _,
             optics,
         } => {
-            let bsdf = solid_bsdf();
-            let bsdf = match tissue {
-                SolidTissue::Contents {
-                    contents,
-                    extrapolate,
-                } => uniform_tissue(bsdf, contents, &table, *extrapolate),
-                SolidTissue::Map { extrapolate, .. } => map_tissue(bsdf, &id, &table, *extrapolate),
-            };
-            solid_optics(bsdf, optics)
+            let (SolidTissue::Contents { extrapolate, .. } | SolidTissue::Map { extrapolate, .. }) =
+                tissue;
+            solid_optics(solid_bsdf(*extrapolate), optics)
         }
     }
 }
 
-fn prospect(bsdf: Element, table: &str, extrapolate: bool) -> Element {
-    bsdf.string("prospect", table)
-        .boolean("extrapolate", extrapolate)
-}
-
-fn uniform_tissue(bsdf: Element, contents: &Contents, table: &str, extrapolate: bool) -> Element {
-    let bsdf = prospect(bsdf.string("tissue", "contents"), table, extrapolate);
-    let contents = (**contents).into_iter();
-    contents.fold(bsdf, |bsdf, (constituent, value)| {
-        bsdf.float(constituent.channel(), value)
-    })
-}
-
-fn map_tissue(bsdf: Element, id: &str, table: &str, extrapolate: bool) -> Element {
-    let bsdf = bsdf
-        .string("tissue", "map")
-        .string("map", format_args!("maps/{id}.exr"));
-    prospect(bsdf, table, extrapolate)
+/// Adds what tissue holds: contents, the file of a map, or that spectra tell it.
+fn tissue(bsdf: Element, id: &str, material: &material::Material, extrapolate: bool) -> Element {
+    let Some(tissue) = material.tissue() else {
+        return bsdf;
+    };
+    let prospect = |bsdf: Element| {
+        bsdf.string("prospect", absorption_file(tissue.palette))
+            .boolean("extrapolate", extrapolate)
+    };
+    match tissue.holds {
+        Holds::Contents(contents) => {
+            let bsdf = prospect(bsdf.string("tissue", "contents"));
+            let contents = (**contents).into_iter();
+            contents.fold(bsdf, |bsdf, (constituent, value)| {
+                bsdf.float(constituent.channel(), value)
+            })
+        }
+        Holds::Map(_) => {
+            let bsdf = bsdf.string("tissue", "map");
+            prospect(bsdf.string("map", format_args!("maps/{id}.exr")))
+        }
+        Holds::Unknown => bsdf.string("tissue", "measured"),
+    }
 }
 
 fn leaf_surface(
