@@ -201,6 +201,69 @@ fn a_hundred_lamps_give_the_sum_of_their_irradiances() {
     assert_agrees("100 lamps", found, 0.5 / PI * irradiance, 2e-5);
 }
 
+/// A spotlight over the floor, and the irradiance that it has at the origin by `I cos / d²`.
+fn spot(number: u32, aim: DVec3, cone_deg: f64, penumbra_deg: f64) -> (String, f64) {
+    let turn = f64::from(number);
+    let place = DVec3::new(libm::sin(turn), libm::cos(turn), 0.7 + 0.01 * turn);
+    let intensity = f64::from(1 + number % 4);
+    let block = format!(
+        "[lights.spot-{number}.spot]\nintensity_w_sr_nm = {intensity}\n\
+         position_m = [{}, {}, {}]\nlook_at_m = [{}, {}, {}]\n\
+         cone_angle_deg = {cone_deg}\npenumbra_angle_deg = {penumbra_deg}\n",
+        place.x, place.y, place.z, aim.x, aim.y, aim.z
+    );
+    let off_axis = (aim - place).angle_between(-place).to_degrees();
+    let share = if penumbra_deg > 0.0 {
+        ((cone_deg - off_axis) / penumbra_deg).clamp(0.0, 1.0)
+    } else {
+        f64::from(u8::from(off_axis < cone_deg))
+    };
+    let cos = place.z / place.length();
+    (block, share * intensity * cos / place.length_squared())
+}
+
+#[test]
+fn spots_give_the_floor_their_intensity_by_the_square_of_the_distance() {
+    let (aside, on) = (DVec3::new(0.2, 0.1, 0.0), DVec3::ZERO);
+    for (aim, cone, penumbra) in [(on, 5.0, 0.0), (aside, 60.0, 0.0), (aside, 18.0, 15.0)] {
+        let (block, irradiance) = spot(3, aim, cone, penumbra);
+        let found = mean_and_error(&floor_under(&block, 16), 0, 4);
+        // The picture is a millimetre of the floor, over which the distance changes by a thousandth.
+        let what = format!("{cone}°, {penumbra}°");
+        assert_agrees(&what, found, 0.5 / PI * irradiance, 1e-3);
+    }
+}
+
+#[test]
+fn spots_among_lamps_are_chosen_without_loss() {
+    let mut blocks = "[meshes.lamp.rectangle]\nwidth_m = 0.06\nheight_m = 0.03\n\
+        [objects.lamp]\nmesh = \"lamp\"\nmaterial = \"black\"\nposition_m = [0, 0, 1]\n\
+        rotate_deg = [180, 0, 0]\n[lights.lamp.area]\nobject = \"lamp\"\n\
+        radiance_w_m2_sr_nm = 500\n"
+        .to_owned();
+    let corners = [
+        (-0.03, -0.015),
+        (0.03, -0.015),
+        (0.03, 0.015),
+        (-0.03, 0.015),
+    ];
+    let mut irradiance = 500.0 * lambert(&corners.map(|(x, y)| DVec3::new(x, y, 1.0)));
+    let mut lit = 0;
+    for number in 0..40 {
+        let aim = DVec3::new(0.1 * f64::from(number % 9), 0.0, 0.0);
+        let (block, own) = spot(number, aim, 16.0, f64::from(number % 3) * 8.0);
+        blocks += &block;
+        irradiance += own;
+        lit += u32::from(own > 0.0);
+    }
+    assert!(
+        (10..40).contains(&lit),
+        "{lit} of 40 spots reach the origin"
+    );
+    let found = mean_and_error(&floor_under(&blocks, 256), 0, 16);
+    assert_agrees("40 spots and a lamp", found, 0.5 / PI * irradiance, 1e-3);
+}
+
 #[test]
 fn a_shining_ball_of_many_triangles_has_the_irradiance_of_a_sphere() {
     let (radius, height) = (0.3, 0.8);

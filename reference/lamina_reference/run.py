@@ -23,13 +23,21 @@ from . import variant
 from .program import program
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENES = ("flat-leaf", "furnace", "two-leaves", "textured-veins", "solid-fruit", "instances")
+SCENES = (
+    "flat-leaf",
+    "furnace",
+    "two-leaves",
+    "textured-veins",
+    "solid-fruit",
+    "instances",
+    "spots",
+)
 
 
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the six")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the seven")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"

@@ -41,4 +41,5 @@
 //! ```
 
 pub mod drawing;
+mod element;
 pub mod mitsuba;

@@ -29,12 +29,17 @@ pub mod distant;
 pub mod environment;
 pub mod patch;
 pub mod selection;
+pub mod spot;
 pub mod tree;
+
+use std::f32::consts::PI;
 
 use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
+use spot::SpotLight;
+use tree::Emitter;
 
 /// The lights, a closed set.
 #[derive(Clone, Debug)]
@@ -47,6 +52,8 @@ pub enum Light {
     Environment(EnvironmentLight),
     /// A surface that shines.
     Area(AreaLight),
+    /// A point that shines into a cone.
+    Spot(SpotLight),
 }
 
 /// A point that is lit.
@@ -65,13 +72,62 @@ pub struct LightSample<const N: usize> {
     pub wi: Vec3,
     /// Point on the light, or `None` at infinity.
     pub point: Option<Vec3>,
-    /// Radiance if nothing is in between.
+    /// Radiance if nothing is in between; of a light without extent the irradiance on a surface that
+    /// faces it, W m⁻² nm⁻¹.
     pub radiance: Lanes<N>,
-    /// Density over solid angle, sr⁻¹.
+    /// Density over solid angle, sr⁻¹; 1 of a light without extent.
     pub pdf: f32,
+    /// Whether the light has no extent, so that no bounce ever finds it.
+    pub is_point: bool,
+}
+
+/// How it is decided whether a light is sampled at a point.
+#[derive(Clone, Debug)]
+pub enum Sampled {
+    /// Never: bounces find it best.
+    Never,
+    /// Always, for it is small and strong.
+    Always,
+    /// As one of those that surround the scene.
+    Around {
+        /// On a surface that faces half of the surroundings: rough, W m⁻² nm⁻¹.
+        irradiance: f32,
+    },
+    /// Part by part, each by what it may send to the point.
+    ByParts(Vec<Emitter>),
 }
 
 impl Light {
+    /// How it is decided whether this light is sampled, on a film of the given range of wavelengths.
+    pub fn sampled(&self, range_nm: [f64; 2]) -> Sampled {
+        match self {
+            Self::Distant(_) => Sampled::Always,
+            Self::Constant(_) => Sampled::Never,
+            Self::Environment(light) => {
+                let radiance = light.mean_brightness() * light.white().mean_over(range_nm);
+                Sampled::Around {
+                    irradiance: PI * radiance,
+                }
+            }
+            Self::Area(light) => {
+                let radiance = light.radiance().mean_over(range_nm);
+                Sampled::ByParts(light.emitters(radiance).collect())
+            }
+            Self::Spot(light) => {
+                let intensity = light.intensity().mean_over(range_nm);
+                Sampled::ByParts(vec![light.emitter(intensity)])
+            }
+        }
+    }
+
+    /// Whether a ray that meets nothing may find it.
+    pub fn is_at_infinity(&self) -> bool {
+        match self {
+            Self::Distant(_) | Self::Constant(_) | Self::Environment(_) => true,
+            Self::Area(_) | Self::Spot(_) => false,
+        }
+    }
+
     /// Draws light arriving at `receiver` from the light's part number `part`: a patch of an area
     /// light, 0 for the other lights. `u` picks a place on it.
     pub fn sample<const N: usize>(
@@ -86,6 +142,7 @@ impl Light {
             Self::Constant(_) => None,
             Self::Environment(light) => light.sample(wavelengths, u),
             Self::Area(light) => light.sample(part, receiver, wavelengths, u),
+            Self::Spot(light) => light.sample(receiver, wavelengths),
         }
     }
 
@@ -96,6 +153,7 @@ impl Light {
             Self::Constant(radiance) => radiance.tabulate(grid),
             Self::Environment(light) => light.tabulate(grid),
             Self::Area(light) => light.tabulate(grid),
+            Self::Spot(light) => light.tabulate(grid),
         }
     }
 
@@ -110,7 +168,12 @@ impl Light {
             Self::Distant(light) => light.towards(wi, wavelengths),
             Self::Constant(radiance) => Some((radiance.lanes(wavelengths), 0.0)),
             Self::Environment(light) => Some(light.towards(wi, wavelengths)),
-            Self::Area(_) => None,
+            Self::Area(_) | Self::Spot(_) => None,
         }
     }
+}
+
+/// Angle between unit vectors, also where it is small, rad.
+fn angle(a: Vec3, b: Vec3) -> f32 {
+    2.0 * libm::atan2f((a - b).length(), (a + b).length())
 }

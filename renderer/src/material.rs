@@ -20,12 +20,15 @@ pub mod palette;
 pub mod solid;
 
 use glam::Vec2;
+use leafmodel::optics::Contents;
 
 use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
 use crate::spectrum::{Spectrum, WavelengthGrid, Wavelengths};
-use leaf::LeafMaterial;
-use solid::SolidMaterial;
+use contents_texture::ContentsTexture;
+use leaf::{LeafMaterial, LeafTissue};
+use palette::Palette;
+use solid::{SolidMaterial, SolidTissue};
 
 /// The materials, a closed set.
 #[derive(Clone, Debug)]
@@ -40,7 +43,84 @@ pub enum Material {
     Solid(Box<SolidMaterial>),
 }
 
+/// What a material that is tissue holds, whatever the tissue: all that others want to know of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Tissue<'m> {
+    /// What its pigments are.
+    pub palette: &'m Palette,
+    /// What it holds.
+    pub holds: Holds<'m>,
+}
+
+/// What tissue holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Holds<'m> {
+    /// The same everywhere.
+    Contents(&'m Contents),
+    /// Contents by place.
+    Map(&'m ContentsTexture),
+    /// Unknown: its spectra were measured.
+    Unknown,
+}
+
+/// A coat that alone reflects more than the whole should.
+#[derive(Clone, Copy, Debug)]
+pub struct ExceedingCoat {
+    /// Where it does, nm.
+    pub nm: f64,
+    /// What the coat is called.
+    pub coat: &'static str,
+    /// What the whole is called.
+    pub whole: &'static str,
+}
+
 impl Material {
+    /// What it holds, if it is tissue.
+    pub fn tissue(&self) -> Option<Tissue<'_>> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) => None,
+            Self::Leaf(leaf) => Some(Tissue {
+                palette: &leaf.palette,
+                holds: match &leaf.tissue {
+                    LeafTissue::Uniform(contents) => Holds::Contents(contents),
+                    LeafTissue::Map(map) => Holds::Map(map),
+                    LeafTissue::Measured { .. } => Holds::Unknown,
+                },
+            }),
+            Self::Solid(solid) => Some(Tissue {
+                palette: solid.palette(),
+                holds: match solid.tissue() {
+                    SolidTissue::Uniform(contents) => Holds::Contents(contents),
+                    SolidTissue::Map(map) => Holds::Map(map),
+                },
+            }),
+        }
+    }
+
+    /// The map of what it holds, if it has one.
+    pub fn contents_map(&self) -> Option<&ContentsTexture> {
+        match self.tissue()?.holds {
+            Holds::Map(map) => Some(map),
+            Holds::Contents(_) | Holds::Unknown => None,
+        }
+    }
+
+    /// Its coat, if that reflects more than the whole should at a wavelength of the range.
+    pub fn exceeding_coat(&self, range_nm: [f64; 2]) -> Option<ExceedingCoat> {
+        let (exceeds, coat, whole) = match self {
+            Self::Diffuse(_) | Self::Dielectric(_) => return None,
+            Self::Leaf(leaf) => {
+                let exceeds = leaf.coat_exceeds_reflectance(range_nm);
+                (exceeds, "the adaxial coat", "the leaf")
+            }
+            Self::Solid(solid) => {
+                let exceeds = solid.coat_exceeds_reflectance(range_nm);
+                (exceeds, "the coat", "the solid tissue")
+            }
+        };
+        exceeds.map(|nm| ExceedingCoat { nm, coat, whole })
+    }
+
     /// Works out what depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         match self {

@@ -241,6 +241,18 @@ fn spectra_are_read_in_every_form() {
             ..
         }
     ));
+    let Light::Spot {
+        position,
+        cone_angle,
+        penumbra_angle,
+        intensity: Spectrum::D65 { scale: 2.0 },
+        ..
+    } = &scene.lights[5].value
+    else {
+        panic!("the spot is {:?}", scene.lights[5].value);
+    };
+    assert_eq!(*position, DVec3::new(0.0, 0.0, 3.0));
+    assert_near(cone_angle - penumbra_angle, std::f64::consts::PI / 9.0);
 }
 
 #[test]

@@ -5,7 +5,10 @@
 //! Environment pictures are upsampled to spectra by Mitsuba's own method, so scenes with one cannot be
 //! compared band by band.
 
+mod bsdf;
+mod emitter;
 mod mesh;
+mod plugin;
 mod shapes;
 mod spectra;
 mod units;
@@ -20,11 +23,8 @@ use serde_json::json;
 use thiserror::Error;
 
 use crate::image::{ImageError, Layer, Picture, openexr};
-use crate::material::Material;
 use crate::material::contents_texture::ContentsTexture;
-use crate::material::leaf::LeafTissue;
 use crate::material::palette::Palette;
-use crate::material::solid::SolidTissue;
 use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
 
@@ -125,18 +125,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
         fs::create_dir(&path).map_err(|source| ExportError::Write { path, source })?;
     }
     for (number, material) in world.materials.iter().enumerate() {
-        let map = match material {
-            Material::Leaf(leaf) => match &leaf.tissue {
-                LeafTissue::Map(map) => Some(map),
-                LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => None,
-            },
-            Material::Solid(solid) => match solid.tissue() {
-                SolidTissue::Map(map) => Some(map),
-                SolidTissue::Uniform(_) => None,
-            },
-            Material::Diffuse(_) | Material::Dielectric(_) => None,
-        };
-        if let Some(map) = map {
+        if let Some(map) = material.contents_map() {
             let path = folder.join(format!(
                 "maps/{}.exr",
                 units::material_id(scene, world, number)
@@ -146,7 +135,7 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
     }
     for light in &scene.lights {
         if let Light::Environment { file, .. } = &light.value {
-            let path = folder.join(xml::environment_file(&light.name, file));
+            let path = folder.join(emitter::environment_file(&light.name, file));
             fs::copy(file, &path).map_err(|source| ExportError::Write { path, source })?;
         }
     }

@@ -390,7 +390,8 @@ fn direct<const N: usize>(
         return (Lanes::ZERO, 0);
     }
     let light_pdf = sample.pdf * choice.expected;
-    let weight = mis::power(light_pdf, pdf) / light_pdf;
+    let by_bounce = if sample.is_point { 0.0 } else { pdf };
+    let weight = mis::power(light_pdf, by_bounce) / light_pdf;
     let mut added = vertex.throughput * scattered * sample.radiance * weight;
     // Unbiased: what was gathered before does not depend on this sample.
     if let Some(coin) = coin {

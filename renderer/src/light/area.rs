@@ -69,6 +69,7 @@ impl AreaLight {
             point: Some(sample.point),
             radiance: self.radiance.lanes(wavelengths),
             pdf: sample.pdf,
+            is_point: false,
         })
     }
 

@@ -51,6 +51,7 @@ impl DistantLight {
             point: None,
             radiance: self.radiance.lanes(wavelengths),
             pdf: 1.0 / self.solid_angle,
+            is_point: false,
         }
     }
 

@@ -136,6 +136,7 @@ impl EnvironmentLight {
             point: None,
             radiance: self.radiance(uv, wavelengths),
             pdf: density / (2.0 * PI * PI * sin_theta),
+            is_point: false,
         })
     }
 

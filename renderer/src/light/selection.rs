@@ -1,7 +1,7 @@
 //! Which lights are sampled at a point.
 
 use crate::light::tree::LightTree;
-use crate::light::{Light, Receiver};
+use crate::light::{Light, Receiver, Sampled};
 use crate::sampling::distribution::Piecewise1d;
 
 /// Lights sorted by how they are sampled.
@@ -68,24 +68,20 @@ impl LightSelection {
         let (mut emitters, mut parts) = (Vec::new(), Vec::new());
         let mut first_leaf = vec![0; lights.len()];
         for (number, light) in lights.iter().enumerate() {
-            match light {
-                Light::Distant(_) => {
-                    always.push(number);
-                    at_infinity.push(number);
-                }
-                Light::Constant(_) => at_infinity.push(number),
-                Light::Environment(light) => {
-                    at_infinity.push(number);
+            if light.is_at_infinity() {
+                at_infinity.push(number);
+            }
+            match light.sampled(range_nm) {
+                Sampled::Never => {}
+                Sampled::Always => always.push(number),
+                Sampled::Around { irradiance } => {
                     pictures.push(number);
-                    let radiance = light.mean_brightness() * light.white().mean_over(range_nm);
-                    irradiances.push(std::f32::consts::PI * radiance);
+                    irradiances.push(irradiance);
                 }
-                Light::Area(light) => {
+                Sampled::ByParts(own) => {
                     first_leaf[number] = parts.len() as u32;
-                    emitters.extend(light.emitters(light.radiance().mean_over(range_nm)));
-                    parts.extend(
-                        (0..light.patches().len()).map(|part| (number as u32, part as u32)),
-                    );
+                    parts.extend((0..own.len()).map(|part| (number as u32, part as u32)));
+                    emitters.extend(own);
                 }
             }
         }

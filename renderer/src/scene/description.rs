@@ -295,6 +295,20 @@ pub enum Light {
         /// W m⁻² sr⁻¹ nm⁻¹.
         radiance: Spectrum,
     },
+    /// A point that shines into a cone.
+    Spot {
+        /// The point, m.
+        position: DVec3,
+        /// Point on the cone's axis, m; not the light's own.
+        look_at: DVec3,
+        /// Half angle from which on there is no light, rad, > 0.
+        cone_angle: f64,
+        /// Width of the edge inside the cone, over which intensity falls to 0 linearly in the angle, rad,
+        /// at most `cone_angle`.
+        penumbra_angle: f64,
+        /// Radiant intensity on the axis, W sr⁻¹ nm⁻¹.
+        intensity: Spectrum,
+    },
 }
 
 /// Meshes, leaves or bodies put into the scene: one in one place, or any number as instances.

@@ -9,14 +9,16 @@
 //! the file holds the mirror image of the mesh.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat4, DVec3};
 
+use crate::export::element::{Document, Element, Layout};
 use crate::scene::description::{Description, Light, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::{World, matrix_of};
 
+use super::emitter;
+use super::plugin::matrix;
 use super::spectra::Spectra;
 use super::units::{UNITS_PER_METRE, material_id};
 
@@ -62,13 +64,12 @@ type Kind = (ObjectShape, bool);
 
 /// Writes all shapes, and gives the meshes that they name.
 pub(super) fn write(
-    xml: &mut String,
+    document: &mut Document,
     scene: &Description,
     world: &World,
     spectra: &mut Spectra,
 ) -> BTreeSet<MeshFile> {
     let mut writer = Writer {
-        xml,
         scene,
         world,
         meshes: BTreeSet::new(),
@@ -93,25 +94,23 @@ pub(super) fn write(
         for (place, kind, to_world) in places(&object.value) {
             let mut id = format!("object-{}", object.name);
             if object.value.instances.is_some() {
-                let _ = write!(id, ".{}", place + 1);
+                id += &format!(".{}", place + 1);
             }
             if radiance.is_none() && counts[&kind] > 1 {
                 if groups.insert(kind) {
-                    writer.group(kind);
+                    document.add(&writer.group(kind));
                 }
-                writer.instance(&id, kind, to_world);
+                document.add(&writer.instance(&id, kind, to_world));
                 continue;
             }
-            let emitter = radiance.map_or_else(String::new, |radiance| {
-                let radiance = spectra.element("radiance", radiance, 1.0);
-                format!("  <emitter type=\"area\">\n  {radiance}  </emitter>\n")
-            });
+            let emitter = radiance.map(|radiance| emitter::area(radiance, 1.0, spectra));
             for (part, piece) in world.pieces.of(kind.0).iter().enumerate() {
                 let id = match part {
                     0 => id.clone(),
                     part => format!("{id}.part-{}", part + 1),
                 };
-                writer.mesh(&id, piece, to_world, &emitter);
+                let mesh = writer.mesh(&id, piece, to_world);
+                document.add(&mesh.holding_all(emitter.clone()));
             }
         }
     }
@@ -144,7 +143,6 @@ fn mirror() -> DMat4 {
 }
 
 struct Writer<'a> {
-    xml: &'a mut String,
     scene: &'a Description,
     world: &'a World,
     meshes: BTreeSet<MeshFile>,
@@ -152,7 +150,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in metres.
-    fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4, emitter: &str) {
+    fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4) -> Element {
         let mut to_world = to_world * DMat4::from(piece.to_leaf);
         let file = MeshFile {
             mesh: piece.mesh,
@@ -163,29 +161,30 @@ impl Writer<'_> {
         }
         self.meshes.insert(file);
         let mesh = self.world.geometry.mesh(piece.mesh as u32);
-        let _ = write!(
-            self.xml,
-            "<shape type=\"ply\" id=\"{id}\">\n  <string name=\"filename\" value=\"{}\"/>\n  \
-             <boolean name=\"face_normals\" value=\"{}\"/>\n{}  <ref id=\"{}\"/>\n{emitter}</shape>\n",
-            file.path(self.scene, self.world),
-            mesh.normals().is_none(),
-            transform(DMat4::from_scale(DVec3::splat(UNITS_PER_METRE)) * to_world),
-            material_id(self.scene, self.world, piece.material)
-        );
+        let to_world = DMat4::from_scale(DVec3::splat(UNITS_PER_METRE)) * to_world;
+        Element::plugin("shape", "ply")
+            .called(id)
+            .string("filename", file.path(self.scene, self.world))
+            .boolean("face_normals", mesh.normals().is_none())
+            .placed([matrix(to_world)])
+            .referring(material_id(self.scene, self.world, piece.material))
     }
 
     /// All parts of a shape, in millimetres.
-    fn group(&mut self, kind: Kind) {
+    fn group(&mut self, kind: Kind) -> Element {
         let id = self.group_id(kind);
-        let _ = writeln!(self.xml, "<shape type=\"shapegroup\" id=\"{id}\">");
         let to_group = if kind.1 { mirror() } else { DMat4::IDENTITY };
-        for (part, piece) in self.world.pieces.of(kind.0).iter().enumerate() {
-            self.mesh(&format!("{id}.part-{}", part + 1), piece, to_group, "");
-        }
-        self.xml.push_str("</shape>\n");
+        let pieces = self.world.pieces.of(kind.0);
+        let parts = pieces.iter().enumerate();
+        let parts = parts
+            .map(|(part, piece)| self.mesh(&format!("{id}.part-{}", part + 1), piece, to_group));
+        Element::plugin("shape", "shapegroup")
+            .called(&id)
+            .holding_all(parts)
+            .laid_out(Layout::Level)
     }
 
-    fn instance(&mut self, id: &str, kind: Kind, to_world: DMat4) {
+    fn instance(&self, id: &str, kind: Kind, to_world: DMat4) -> Element {
         let to_world = if kind.1 {
             to_world * mirror()
         } else {
@@ -194,12 +193,10 @@ impl Writer<'_> {
         // Group and world are both in millimetres.
         let millimetres = DMat4::from_scale(DVec3::splat(UNITS_PER_METRE));
         let metres = DMat4::from_scale(DVec3::splat(UNITS_PER_METRE.recip()));
-        let group = self.group_id(kind);
-        let _ = write!(
-            self.xml,
-            "<shape type=\"instance\" id=\"{id}\">\n  <ref id=\"{group}\"/>\n{}</shape>\n",
-            transform(millimetres * to_world * metres)
-        );
+        Element::plugin("shape", "instance")
+            .called(id)
+            .referring(self.group_id(kind))
+            .placed([matrix(millimetres * to_world * metres)])
     }
 
     fn group_id(&self, (shape, mirrored): Kind) -> String {
@@ -215,21 +212,4 @@ impl Writer<'_> {
         let image = if mirrored { ".mirrored" } else { "" };
         format!("group-{name}{image}")
     }
-}
-
-fn transform(matrix: DMat4) -> String {
-    format!(
-        "  <transform name=\"to_world\">\n    <matrix value=\"{}\"/>\n  </transform>\n",
-        row_major(matrix.as_mat4())
-    )
-}
-
-fn row_major(matrix: Mat4) -> String {
-    let values: Vec<String> = matrix
-        .transpose()
-        .to_cols_array()
-        .iter()
-        .map(f32::to_string)
-        .collect();
-    values.join(" ")
 }

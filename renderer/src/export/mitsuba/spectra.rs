@@ -1,5 +1,6 @@
 //! Spectra and bands as Mitsuba takes them.
 
+use crate::export::element::Element;
 use crate::scene::description::{Band, Spectrum};
 use crate::spectrum::{cie, planck};
 
@@ -25,32 +26,20 @@ pub(super) struct Spectra {
 }
 
 impl Spectra {
-    /// The element `<spectrum name=…>` of a spectrum times a factor, with a line end.
-    pub(super) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> String {
+    /// The parameter `<spectrum name=…>` of a spectrum times a factor.
+    pub(super) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> Element {
+        let element = Element::new("spectrum").with("name", name);
         let points = points(spectrum, factor);
         // Mitsuba refuses tables without any mass.
         if points.iter().all(|point| point.1 == 0.0) {
-            return format!("<spectrum name=\"{name}\" value=\"0\"/>\n");
+            return element.with("value", 0);
         }
         if points.len() <= MOST_INLINE {
-            let values: Vec<String> = points
-                .iter()
-                .map(|(nm, value)| format!("{nm}:{value}"))
-                .collect();
-            return format!(
-                "<spectrum name=\"{name}\" value=\"{}\"/>\n",
-                values.join(", ")
-            );
+            let values = points.iter().map(|(nm, value)| format!("{nm}:{value}"));
+            return element.with("value", values.collect::<Vec<_>>().join(", "));
         }
-        let lines: Vec<String> = points
-            .iter()
-            .map(|(nm, value)| format!("{nm} {value}"))
-            .collect();
-        let text = lines.join(
-            "
-",
-        ) + "
-";
+        let lines = points.iter().map(|(nm, value)| format!("{nm} {value}\n"));
+        let text: String = lines.collect();
         let number = self
             .files
             .iter()
@@ -61,7 +50,7 @@ impl Spectra {
                 self.files.len() - 1
             });
         let file = &self.files[number].0;
-        format!("<spectrum name=\"{name}\" filename=\"spectra/{file}\"/>\n")
+        element.with("filename", format!("spectra/{file}"))
     }
 }
 
@@ -104,7 +93,7 @@ fn points(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
 ///
 /// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any of them. Written
 /// with two points only, a narrow band could fall between the points of that resampling.
-pub(super) fn response(number: usize, band: &Band) -> String {
+pub(super) fn response(number: usize, band: &Band) -> Element {
     let width = if band.width_nm > 0.0 {
         band.width_nm
     } else {
@@ -112,12 +101,11 @@ pub(super) fn response(number: usize, band: &Band) -> String {
     };
     let (low, high) = (band.center_nm - 0.5 * width, band.center_nm + 0.5 * width);
     let values = vec![(1.0 / width).to_string(); RESPONSE_INTERVALS + 1].join(", ");
-    format!(
-        "    <spectrum type=\"regular\" name=\"band_{number:02}\">\n      \
-         <float name=\"wavelength_min\" value=\"{low}\"/>\n      \
-         <float name=\"wavelength_max\" value=\"{high}\"/>\n      \
-         <string name=\"values\" value=\"{values}\"/>\n    </spectrum>\n"
-    )
+    Element::plugin("spectrum", "regular")
+        .with("name", format!("band_{number:02}"))
+        .float("wavelength_min", low)
+        .float("wavelength_max", high)
+        .string("values", values)
 }
 
 #[cfg(test)]
@@ -141,12 +129,13 @@ mod tests {
             kelvin: 5800.0,
             scale: 1.0,
         };
-        let first = spectra.element("radiance", &sun, 2.0);
-        assert_eq!(first, spectra.element("radiance", &sun, 2.0));
-        assert_eq!(
-            first,
-            "<spectrum name=\"radiance\" filename=\"spectra/spectrum-0.spd\"/>\n"
-        );
+        for _ in 0..2 {
+            let element = spectra.element("radiance", &sun, 2.0);
+            assert_eq!(
+                element.to_string(),
+                "<spectrum name=\"radiance\" filename=\"spectra/spectrum-0.spd\"/>"
+            );
+        }
         assert_eq!(spectra.files.len(), 1);
         assert_eq!(spectra.files[0].1.lines().count(), 2301);
         assert!(
@@ -159,7 +148,8 @@ mod tests {
     fn black_is_written_as_a_number_since_mitsuba_refuses_empty_tables() {
         let mut spectra = Spectra::default();
         let black = spectra.element("reflectance", &Spectrum::Constant(0.0), 1.0);
-        assert_eq!(black, "<spectrum name=\"reflectance\" value=\"0\"/>\n");
+        let expected = "<spectrum name=\"reflectance\" value=\"0\"/>";
+        assert_eq!(black.to_string(), expected);
     }
 
     #[test]
@@ -170,7 +160,8 @@ mod tests {
                 center_nm: 550.0,
                 width_nm: 10.0,
             },
-        );
+        )
+        .to_string();
         assert!(text.contains("name=\"band_03\""));
         assert!(text.contains("\"wavelength_min\" value=\"545\""));
         assert!(text.contains("\"wavelength_max\" value=\"555\""));

@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::{CHILD_BITS, Emitter, IS_LIGHT, LightTree, Node, WIDTH};
+use crate::light::angle;
 
 /// Bins along an axis.
 const BINS: usize = 16;
@@ -254,9 +255,4 @@ fn around(items: &[Item]) -> Emitter {
             .fold(0.0, f32::max),
         intensity: summary.intensity,
     }
-}
-
-/// Angle between unit vectors, also where it is small, rad.
-fn angle(a: Vec3, b: Vec3) -> f32 {
-    2.0 * libm::atan2f((a - b).length(), (a + b).length())
 }

@@ -1,4 +1,4 @@
-//! `[lights.NAME.…]`: distant, constant, environment, area.
+//! `[lights.NAME.…]`: distant, constant, environment, area, spot.
 
 use glam::DVec3;
 use leafmodel::document::context::QUOTED;
@@ -24,7 +24,7 @@ pub(super) fn light(light: &mut Light, keys: &mut Keys<'_>) {
     keys.kind(light, &KINDS);
 }
 
-const KINDS: [Variant<Light>; 4] = [
+const KINDS: [Variant<Light>; 5] = [
     Variant {
         name: "distant",
         about: "A disc at infinity, like the sun.",
@@ -130,7 +130,67 @@ const KINDS: [Variant<Light>; 4] = [
             }
         },
     },
+    Variant {
+        name: "spot",
+        about: "A point that shines into a cone.",
+        new: || Light::Spot {
+            position: DVec3::ZERO,
+            look_at: DVec3::NEG_Z,
+            cone_angle: 20.0_f64.to_radians(),
+            penumbra_angle: 0.0,
+            intensity: DARK,
+        },
+        is: |light| matches!(light, Light::Spot { .. }),
+        declare: |light, keys| {
+            if let Light::Spot {
+                position,
+                look_at,
+                cone_angle,
+                penumbra_angle,
+                intensity,
+            } = light
+            {
+                let about = "Radiant intensity on the axis: at 1 m, the irradiance on a surface \
+                    that faces the light.";
+                keys.required("intensity_w_sr_nm", intensity, SpectrumOf::Emission, about);
+                let coordinates = Vector(COORDINATES_M);
+                keys.required("position_m", position, coordinates, "Where it is.");
+                let about = "Point that it aims at; not where it is.";
+                keys.required("look_at_m", look_at, coordinates, about);
+                let limits = Degrees(Limits::closed(0.1, 180.0));
+                let about = "Half angle of the cone, outside of which there is no light; 180 is a \
+                    point that shines everywhere.";
+                keys.key("cone_angle_deg", cone_angle, limits, about);
+                let limits = Degrees(Limits::closed(0.0, 180.0));
+                let about = "Width of the edge inside the cone, over which the light fades out; 0 \
+                    is sharp. At most `cone_angle_deg`.";
+                keys.key("penumbra_angle_deg", penumbra_angle, limits, about);
+                check_cone(*position, *look_at, [*cone_angle, *penumbra_angle], keys);
+                refuse_darkness(intensity, keys);
+            }
+        },
+    },
 ];
+
+/// Reports a cone without a direction, and an edge that is wider than its cone.
+fn check_cone(position: DVec3, look_at: DVec3, [cone, penumbra]: [f64; 2], keys: &Keys<'_>) {
+    if !keys.is_sound() {
+        return;
+    }
+    // Nearer than this the direction would consist of rounding errors.
+    if (look_at - position).length() <= 1e-9 * position.length().max(1e-3) {
+        let error = DocumentError::BadView {
+            problem: "the light shines at the point where it stands",
+            help: "move `position_m` or `look_at_m`",
+        };
+        report(keys, "look_at_m", error);
+    }
+    if penumbra > cone {
+        let problem = "the edge of the light is wider than its cone".to_owned();
+        let help = "write at most the value of `cone_angle_deg`, 20 if that is left out";
+        keys.refuse(&["penumbra_angle_deg"], problem, help);
+    }
+}
 
 /// `towards`, or `elevation_deg` and `azimuth_deg`.
 fn direction(towards: &mut DVec3, keys: &mut Keys<'_>) {

@@ -6,6 +6,7 @@ use crate::light::Light;
 use crate::light::area::AreaLight;
 use crate::light::distant::DistantLight;
 use crate::light::environment::EnvironmentLight;
+use crate::light::spot::SpotLight;
 use crate::scene::assets;
 use crate::scene::description;
 use crate::spectrum::Curve;
@@ -68,5 +69,18 @@ pub(super) fn build_light<'i>(
                 Curve::from_description(radiance),
             ))
         }
+        description::Light::Spot {
+            position,
+            look_at,
+            cone_angle,
+            penumbra_angle,
+            intensity,
+        } => Light::Spot(SpotLight::new(
+            position.as_vec3(),
+            (look_at - position).normalize().as_vec3(),
+            *cone_angle,
+            *penumbra_angle,
+            Curve::from_description(intensity),
+        )),
     })
 }

@@ -3,9 +3,7 @@
 use super::MaterialOwner;
 use leafmodel::optics::Contents;
 
-use crate::material::Material;
-use crate::material::leaf::LeafTissue;
-use crate::material::solid::SolidTissue;
+use crate::material::{ExceedingCoat, Material};
 use crate::scene::description::Description;
 
 /// Notes leaves and solid tissue whose coat alone reflects more than the whole should, each once.
@@ -17,19 +15,8 @@ pub(super) fn on_coats(
 ) -> Vec<String> {
     let mut notes: Vec<(String, String)> = Vec::new();
     for (material, owner) in materials.iter().zip(owners) {
-        let (exceeds, what) = match material {
-            Material::Leaf(leaf) => {
-                let what = ["the adaxial coat", "the leaf"];
-                (leaf.coat_exceeds_reflectance(range_nm), what)
-            }
-            Material::Solid(solid) => {
-                let what = ["the coat", "the solid tissue"];
-                (solid.coat_exceeds_reflectance(range_nm), what)
-            }
-            Material::Diffuse(_) | Material::Dielectric(_) => continue,
-        };
-        let [coat, whole] = what;
-        if let Some(nm) = exceeds {
+        if let Some(exceeding) = material.exceeding_coat(range_nm) {
+            let ExceedingCoat { nm, coat, whole } = exceeding;
             let name = match owner {
                 MaterialOwner::Scene(number) => {
                     format!("materials.{}", scene.materials[*number].name)
@@ -54,18 +41,11 @@ pub(super) fn on_coats(
 pub(super) fn on_maps<'m>(
     materials: impl IntoIterator<Item = (&'m str, &'m Material)>,
 ) -> Vec<String> {
-    let mixes = |material: &Material| match material {
-        // Contents are at least 0, so their means tell whether any texel has some.
-        Material::Leaf(leaf) => match &leaf.tissue {
-            LeafTissue::Map(map) => map.mean().mixes_betalains_and_anthocyanins(),
-            // Told where the contents are read.
-            LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => false,
-        },
-        Material::Solid(solid) => match solid.tissue() {
-            SolidTissue::Map(map) => map.mean().mixes_betalains_and_anthocyanins(),
-            SolidTissue::Uniform(_) => false,
-        },
-        Material::Diffuse(_) | Material::Dielectric(_) => false,
+    // Contents are at least 0, so their means tell whether any texel has some. Uniform ones are told
+    // of where they are read.
+    let mixes = |material: &Material| {
+        let map = material.contents_map();
+        map.is_some_and(|map| map.mean().mixes_betalains_and_anthocyanins())
     };
     materials
         .into_iter()
@@ -84,7 +64,7 @@ mod tests {
     use super::*;
     use crate::bsdf::leaf::Coat;
     use crate::material::contents_texture::ContentsTexture;
-    use crate::material::leaf::LeafMaterial;
+    use crate::material::leaf::{LeafMaterial, LeafTissue};
     use crate::material::palette::Palette;
     use crate::spectrum::Curve;
     use leafmodel::optics::Constituent;
