@@ -1,4 +1,5 @@
-//! What needs both crates, statistics or pictures: one program, because to link one for each file takes longer than to run it.
+//! What needs both crates, statistics or pictures: one program, because to link one for each file
+//! takes longer than to run it.
 
 mod architecture;
 mod determinism;

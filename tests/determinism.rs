@@ -117,8 +117,8 @@ fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_a_given_one_is_kep
     assert_eq!((roulette_below, branches, light_samples), (0.3, 7, 3));
 }
 
-/// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators or spectra do; then
-/// the test prints the new one, and the commit says why.
+/// What the light of the scene adds up to, bit for bit. It changes when random numbers, estimators
+/// or spectra do; then the test prints the new one, and the commit says why.
 const LIGHT: u64 = 0x81ee_3da7_22bd_69ac;
 
 #[test]
@@ -202,7 +202,8 @@ fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
         let text = SCENE.to_owned()
             + "[integrator]\nroulette_below = 0.1\nbranches = 2\nlight_samples = 2\n";
         let (stopped, bytes) = rendered_of(&text, 2, 1 << 20, halt);
-        // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done for 0.2 at once.
+        // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done
+        // for 0.2 at once.
         let [_, most] = stopped.film.drawn_range();
         if noise.is_none() {
             assert_eq!(stopped.ended, Ended::Time);

@@ -1,5 +1,6 @@
-//! The light of the scenes stays what it was: `UPDATE_GOLDENS=1 cargo test --release -p lamina-tests golden` makes the
-//! pictures in `goldens/` anew.
+//! The light of the scenes stays what it was:
+//! `UPDATE_GOLDENS=1 cargo test --release -p lamina-tests golden` makes the pictures in `goldens/`
+//! anew.
 
 use std::path::{Path, PathBuf};
 

@@ -28,8 +28,9 @@ const RECTANGLE: [[Vec3; 3]; 2] = [
     ],
 ];
 
-/// Points around a patch about the origin in the plane z = 0: above it near and far, over an edge, near a corner, beside it
-/// close to the plane, and where its solid angle is all but the half space.
+/// Points around a patch about the origin in the plane z = 0: above it near and far, over an edge,
+/// near a corner, beside it close to the plane, and where its solid angle is all but the half
+/// space.
 const RECEIVERS: [Vec3; 8] = [
     Vec3::new(0.1, -0.1, 0.5),
     Vec3::new(3.0, 40.0, 60.0),
@@ -43,8 +44,9 @@ const RECEIVERS: [Vec3; 8] = [
 
 /// Compares drawn points with the told density, in cells of equal area on the patch.
 ///
-/// The unit square of places on the patch, laid around the sphere without change of area, stands in for the directions
-/// that the test wants: so its cells are as fine on a patch that is far or seen edge-on.
+/// The unit square of places on the patch, laid around the sphere without change of area, stands in
+/// for the directions that the test wants: so its cells are as fine on a patch that is far or seen
+/// edge-on.
 fn outcome(patch: &Patch, receiver: &Receiver, factor: impl Fn(f32) -> f32) -> Outcome {
     let test = ChiSquare {
         rings: 24,
@@ -63,14 +65,16 @@ fn outcome(patch: &Patch, receiver: &Receiver, factor: impl Fn(f32) -> f32) -> O
         Vec2::new(azimuth - azimuth.floor(), 0.5 - 0.5 * w.z)
     };
     let sample = |draw: usize| {
-        // A pixel each: points of one pixel are spread more evenly than chance, and would hide what is wrong.
+        // A pixel each: points of one pixel are spread more evenly than chance, and would hide what
+        // is wrong.
         let mut stream = Stream::new(11, draw as u32, 0, 0);
         let [x, y, ..] = stream.next4();
         let point = patch.sample(receiver, Vec2::new(x, y))?.point;
         Some(to_sphere(match patch {
             Patch::Rectangle(_) => Vec2::new(0.5 * point.x + 0.5, point.y + 0.5),
             Patch::Triangle(_) => {
-                // Weights of the triangle's second and third corner, and `warp::triangle` backwards.
+                // Weights of the triangle's second and third corner, and `warp::triangle`
+                // backwards.
                 let third = point.y + 0.5;
                 let sum = 0.5 * (point.x + 1.0);
                 Vec2::new(sum * sum, third / sum)
@@ -132,7 +136,8 @@ fn a_density_that_ripples_by_a_fifth_is_found() {
     }
 }
 
-/// Irradiance at the origin with normal +z from a polygon of radiance 1 above it, by Lambert's formula.
+/// Irradiance at the origin with normal +z from a polygon of radiance 1 above it, by Lambert's
+/// formula.
 fn lambert(corners: &[DVec3]) -> f64 {
     let mut sum = 0.0;
     for (i, a) in corners.iter().enumerate() {
@@ -228,7 +233,8 @@ fn spots_give_the_floor_their_intensity_by_the_square_of_the_distance() {
     for (aim, cone, penumbra) in [(on, 5.0, 0.0), (aside, 60.0, 0.0), (aside, 18.0, 15.0)] {
         let (block, irradiance) = spot(3, aim, cone, penumbra);
         let found = mean_and_error(&floor_under(&block, 16), 0, 4);
-        // The picture is a millimetre of the floor, over which the distance changes by a thousandth.
+        // The picture is a millimetre of the floor, over which the distance changes by a
+        // thousandth.
         let what = format!("{cone}°, {penumbra}°");
         assert_agrees(&what, found, 0.5 / PI * irradiance, 1e-3);
     }

@@ -99,7 +99,8 @@ fn hex(share: impl Fn(f64) -> f64) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// What the numbers of a preset that are not 0 rest on, in words. That N is fitted where contents are measured is said below the table.
+/// What the numbers of a preset that are not 0 rest on, in words. That N is fitted where contents
+/// are measured is said below the table.
 fn rests_on(preset: &Preset) -> String {
     let usual = |constituent: Constituent, basis: PresetBasis| {
         basis == preset.basis

@@ -106,7 +106,8 @@ radiance_w_m2_sr_nm = 3
 "
     );
     let camera = "position_m = [0.6, 0, 0.1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 0.2";
-    // Four quarters of a rectangle above the corner of each (Howell's catalogue, differential element to parallel rectangle).
+    // Four quarters of a rectangle above the corner of each (Howell's catalogue, differential
+    // element to parallel rectangle).
     let a = 0.5 / 0.5_f64;
     let root = (1.0 + a * a).sqrt();
     let quarter = 1.0 / (2.0 * PI) * 2.0 * (a / root) * (a / root).atan();
@@ -131,7 +132,8 @@ fn a_closed_glowing_room_has_the_radiance_of_the_geometric_series() {
 fn stopping_at_a_noise_leaves_the_mean_as_it_is_and_reaches_the_noise() {
     let blocks = glowing_room("0.6", 0.4);
     let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
-    // Every pixel's radiance is 1, and roulette at every bounce makes paths of very different lengths of it.
+    // Every pixel's radiance is 1, and roulette at every bounce makes paths of very different
+    // lengths of it.
     let text = scene(camera, "roulette_below = 1", &blocks).replace("spp = 64", "spp = 4096");
     for aim in [0.1, 0.05, 0.03] {
         let halt = Halt {
@@ -160,8 +162,9 @@ fn stopping_at_a_noise_leaves_the_mean_as_it_is_and_reaches_the_noise() {
             "{what}: error {error:.4}, estimate {estimate:.4}, {:.0} samples",
             spp / count
         );
-        // Here samples are nearly independent, so the estimate has no margin, and blocks that stop at a low one are picked.
-        // 4,096 pixels tell errors to 1.1 %: four of that, twice, leave 10 %.
+        // Here samples are nearly independent, so the estimate has no margin, and blocks that stop
+        // at a low one are picked. 4,096 pixels tell errors to 1.1 %: four of that, twice, leave 10
+        // %.
         assert!(error <= 1.1 * aim && error <= 1.1 * estimate, "{what}");
         assert!(error >= 0.4 * aim, "{what}: samples are wasted");
     }
@@ -183,7 +186,8 @@ fn roulette_leaves_the_mean_as_it_is() {
 
 #[test]
 fn branches_leave_the_mean_as_it_is() {
-    // All is lossless under a sky of 1, so whatever way light takes between ball and floor, 1 arrives.
+    // All is lossless under a sky of 1, so whatever way light takes between ball and floor, 1
+    // arrives.
     let blocks = "
 [materials.white.diffuse]
 reflectance = 1
@@ -252,8 +256,8 @@ radiance_w_m2_sr_nm = 1
 
 #[test]
 fn a_leaf_between_sun_and_camera_glows_with_its_transmittance() {
-    // Lit at normal incidence and seen at normal incidence from behind: f = c(A,B) (1 − E_A)(1 − E_B) / π, which for two
-    // equal coats is T (1 − E) / ((1 − Ē) π).
+    // Lit at normal incidence and seen at normal incidence from behind: f = c(A,B) (1 − E_A)(1 −
+    // E_B) / π, which for two equal coats is T (1 − E) / ((1 − Ē) π).
     let blocks = "
 [materials.leaf.leaf]
 abaxial_ratio = 1

@@ -53,7 +53,8 @@ fn furnace_error(alpha: f32, factor: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Greatest deviation of a leaf's R and T at normal incidence on the adaxial face from what it was made of.
+/// Greatest deviation of a leaf's R and T at normal incidence on the adaxial face from what it was
+/// made of.
 fn integrating_sphere_error(alpha: f32, factor: f64) -> f64 {
     let coats = coats(alpha);
     let mut worst = 0.0_f64;
@@ -259,8 +260,8 @@ fn a_rough_dielectric_obeys_the_reciprocity_of_refraction() {
         let other = renderer::sampling::warp::cosine_hemisphere(Vec2::new(c, d));
         let down = Vec3::new(other.x, other.y, -other.z);
         let (there, back) = (glass.eval(up, down), glass.eval(down, up));
-        // f(wo, wi) η_i² = f(wi, wo) η_o², here with 1 above and 1.5 below.
-        // The half vector of nearly opposite directions is a small difference of them: single precision leaves 1 %.
+        // f(wo, wi) η_i² = f(wi, wo) η_o², here with 1 above and 1.5 below. The half vector of
+        // nearly opposite directions is a small difference of them: single precision leaves 1 %.
         assert!(
             (there * 2.25 - back).abs() <= 1e-2 * back.abs().max(1e-6),
             "{up} {down}: {there} {back}"

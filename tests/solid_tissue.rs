@@ -69,7 +69,8 @@ fn diffuse(bsdf: &Bsdf<'_, 4>, lane: usize) -> f64 {
     (0..steps).map(share).sum::<f64>() / f64::from(steps)
 }
 
-/// Rows of half-spaces in the table of anchors: index, albedo, reflectance at normal and at diffuse incidence.
+/// Rows of half-spaces in the table of anchors: index, albedo, reflectance at normal and at diffuse
+/// incidence.
 fn anchors() -> Vec<[f64; 4]> {
     let table = include_str!("data/transport_anchors.csv");
     let rows = table
@@ -111,7 +112,8 @@ fn the_material_gives_back_the_half_spaces_of_the_anchors() {
 
 #[test]
 fn under_diffuse_light_the_material_is_somewhat_darker_than_the_half_space() {
-    // The half-space reflects more at grazing incidence than a Lambertian tissue: what the model leaves out, in figures.
+    // The half-space reflects more at grazing incidence than a Lambertian tissue: what the model
+    // leaves out, in figures.
     let space = HalfSpace::new(ETA);
     for albedo in [0.5, 0.9, 0.99, 0.999] {
         let material = watery(fruit(), albedo, smooth(ETA));

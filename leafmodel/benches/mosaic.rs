@@ -1,8 +1,9 @@
 //! How long mosaics take: `cargo bench -p leafmodel --bench mosaic`.
 //!
-//! Two threads. The rows of Table I of the clonal mosaic's paper (\[binsfeld2011\]), each on a body of its own kind and to its last
-//! day: cells grow, and are tessellated and blended into tissue. And one relaxed day of ten thousand and of a hundred
-//! thousand cells that do not divide, each with the same number of neighbours.
+//! Two threads. The rows of Table I of the clonal mosaic's paper (\[binsfeld2011\]), each on a body
+//! of its own kind and to its last day: cells grow, and are tessellated and blended into tissue.
+//! And one relaxed day of ten thousand and of a hundred thousand cells that do not divide, each
+//! with the same number of neighbours.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! How long outlines and their measures take: `cargo bench -p leafmodel --bench shape`.
 //!
-//! One thread. The growth algorithm's Figs. 3b and 8d, the same with curved veins and unlike halves, a maple of five
-//! lobes; and the measures of that.
+//! One thread. The growth algorithm's Figs. 3b and 8d, the same with curved veins and unlike
+//! halves, a maple of five lobes; and the measures of that.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -1,11 +1,12 @@
 //! How long veins take to grow: `cargo bench -p leafmodel`.
 //!
 //! One thread. The rows are those of Table 1 of Runions et al. 2005 at 10 units of the table to a
-//! segment, the poplar ten times finer, the broad leaf of the first scene, and a leaf that grows at its
-//! margin, whose sources wait by the hundred before a long front of veins. The poplar by length shows how time grows
-//! with the number of nodes: each row has about ten times the nodes of the one before. "Slow growth" are leaves that grow little
-//! in a step, so that thousands of sources wait far ahead of the veins; the names of the large ones end in "large", and they take
-//! minutes in all: `cargo bench -p leafmodel --bench venation -- "slow growth"`.
+//! segment, the poplar ten times finer, the broad leaf of the first scene, and a leaf that grows at
+//! its margin, whose sources wait by the hundred before a long front of veins. The poplar by length
+//! shows how time grows with the number of nodes: each row has about ten times the nodes of the one
+//! before. "Slow growth" are leaves that grow little in a step, so that thousands of sources wait
+//! far ahead of the veins; the names of the large ones end in "large", and they take minutes in
+//! all: `cargo bench -p leafmodel --bench venation -- "slow growth"`.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -146,7 +147,8 @@ fn slow_cottonwood(length: f64, initial: f64, kill_distance: f64) -> impl Fn(&mu
     }
 }
 
-/// The poplar at one unit of the paper's table to a segment, with the table's own growth step and darts.
+/// The poplar at one unit of the paper's table to a segment, with the table's own growth step and
+/// darts.
 fn poplar_of_the_table(auxin: &mut AuxinPlan) {
     auxin.darts_per_area = 200e-6;
     if let Growth::Isogonic { length_step, .. } = &mut auxin.growth {

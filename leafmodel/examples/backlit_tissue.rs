@@ -1,8 +1,9 @@
-//! A drawn venation held against the light: contents map → PROSPECT-D → a picture of the transmittance.
+//! A drawn venation held against the light: contents map → PROSPECT-D → a picture of the
+//! transmittance.
 //!
-//! `cargo run --release -p leafmodel --example backlit_tissue -- out.ppm [texels]` writes transmittance at 650, 550 and
-//! 450 nm as red, green and blue of a PPM, each times two and gamma-encoded, and the seconds that painting took
-//! to stderr.
+//! `cargo run --release -p leafmodel --example backlit_tissue -- out.ppm [texels]` writes
+//! transmittance at 650, 550 and 450 nm as red, green and blue of a PPM, each times two and
+//! gamma-encoded, and the seconds that painting took to stderr.
 
 use std::io::Write as _;
 use std::time::Instant;
@@ -93,7 +94,8 @@ fn inside(point: DVec2) -> bool {
     (0.0..LENGTH_MM).contains(&point.y) && point.x.abs() < half_width(point.y / LENGTH_MM)
 }
 
-/// Midrib, eight pairs of arched secondaries, tertiaries across, and a hexagonal net of minor veins.
+/// Midrib, eight pairs of arched secondaries, tertiaries across, and a hexagonal net of minor
+/// veins.
 fn venation() -> Vec<VeinSegment> {
     let mut veins = Vec::new();
     let midrib = |t: f64| DVec2::new(0.0, LENGTH_MM * t);

@@ -1,7 +1,8 @@
 //! The growth rate curve beside the leaf that it brings forth (Fig. 2 of \[young2010\]), as CSV.
 //!
-//! `cargo run --release -p leafmodel --example growth_rates -- [young-3b]` writes for each row of cells of the named form its
-//! place along the midrib, its lateral growth rate per step, and its half width at maturity in lengths of the midrib.
+//! `cargo run --release -p leafmodel --example growth_rates -- [young-3b]` writes for each row of
+//! cells of the named form its place along the midrib, its lateral growth rate per step, and its
+//! half width at maturity in lengths of the midrib.
 
 use std::io::Write as _;
 

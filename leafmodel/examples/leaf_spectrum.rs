@@ -1,8 +1,9 @@
 //! From what a leaf holds to what it reflects and transmits, by PROSPECT-D, as CSV.
 //!
-//! `cargo run --release -p leafmodel --example leaf_spectrum -- [N Cab Car Canth Cbrown Cw Cm]`: the model's seven inputs, plates,
-//! three pigments (µg cm⁻²), brown pigments, water (cm) and dry matter (g cm⁻²); without them a green leaf. A row of the standard
-//! output holds reflectance, transmittance and absorptance for light at near-normal incidence, at each nm from 400 to 2500.
+//! `cargo run --release -p leafmodel --example leaf_spectrum -- [N Cab Car Canth Cbrown Cw Cm]`:
+//! the model's seven inputs, plates, three pigments (µg cm⁻²), brown pigments, water (cm) and dry
+//! matter (g cm⁻²); without them a green leaf. A row of the standard output holds reflectance,
+//! transmittance and absorptance for light at near-normal incidence, at each nm from 400 to 2500.
 
 use std::error::Error;
 use std::io::Write as _;

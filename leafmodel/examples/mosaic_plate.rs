@@ -1,4 +1,5 @@
-//! Draws a melon's stripes on a sphere and a cube, and noise on a cap, as SVG; times tessellation, atlas and painting.
+//! Draws a melon's stripes on a sphere and a cube, and noise on a cap, as SVG; times tessellation,
+//! atlas and painting.
 //!
 //! `cargo run --release -p leafmodel --example mosaic_plate -- FOLDER`
 

@@ -1,7 +1,9 @@
-//! A leaf within a margin of one's own: `cargo run --release -p leafmodel --example own_outline -- [margin.svg [leaf.svg]]`.
+//! A leaf within a margin of one's own:
+//! `cargo run --release -p leafmodel --example own_outline -- [margin.svg [leaf.svg]]`.
 //!
-//! The margin is the first path of an SVG file, traced from a scan for example; without a file it is the drawing below. The veins
-//! are those of a birch. The measures go to the standard output as CSV, the leaf is drawn into the second file if one is named.
+//! The margin is the first path of an SVG file, traced from a scan for example; without a file it
+//! is the drawing below. The veins are those of a birch. The measures go to the standard output as
+//! CSV, the leaf is drawn into the second file if one is named.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -12,7 +14,8 @@ use leafmodel::measure::{Value, measure};
 use leafmodel::shape::svg_path::SvgContour;
 use leafmodel::species;
 
-/// A blade as a drawing program would save it. The lowest point becomes the base, the highest the apex.
+/// A blade as a drawing program would save it. The lowest point becomes the base, the highest the
+/// apex.
 const DRAWN: &str = r#"<svg xmlns="http://www.w3.org/2000/svg">
     <path d="M50 95 C80 88 96 52 74 30 C66 22 58 18 50 5 C42 18 34 22 26 30 C4 52 20 88 50 95 Z"/>
 </svg>"#;

@@ -1,7 +1,9 @@
-//! Two parameters of the veins against what is measured: `cargo run --release -p leafmodel --example parameter_sweep -- [seeds]`.
+//! Two parameters of the veins against what is measured:
+//! `cargo run --release -p leafmodel --example parameter_sweep -- [seeds]`.
 //!
-//! Each kill distance is combined with each birth distance of auxin sources (in vein segments), and each pair with several seeds.
-//! A leaf is a row of the CSV on the standard output. Leaves grow on all threads; the rows are the same on any number of them.
+//! Each kill distance is combined with each birth distance of auxin sources (in vein segments), and
+//! each pair with several seeds. A leaf is a row of the CSV on the standard output. Leaves grow on
+//! all threads; the rows are the same on any number of them.
 
 use std::error::Error;
 use std::io::Write as _;

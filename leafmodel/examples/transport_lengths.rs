@@ -1,7 +1,8 @@
-//! Prints the table of Fig. 6 of \[xia2007\] with our leaf's lengths, as CSV: `cargo run --release -p leafmodel --example transport_lengths`.
+//! Prints the table of Fig. 6 of \[xia2007\] with our leaf's lengths, as CSV:
+//! `cargo run --release -p leafmodel --example transport_lengths`.
 //!
-//! Lengths of the secondary veins of the leaf in the photograph (mean of both sides), of the paper's leaf and of Example 4, cm, of
-//! leaves 4.5 cm long, numbered from the base.
+//! Lengths of the secondary veins of the leaf in the photograph (mean of both sides), of the
+//! paper's leaf and of Example 4, cm, of leaves 4.5 cm long, numbered from the base.
 
 #![allow(
     clippy::print_stdout,

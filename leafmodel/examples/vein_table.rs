@@ -1,8 +1,10 @@
-//! A network of veins as a table, for R or pandas: `cargo run --release -p leafmodel --example vein_table -- [preset [seed]]`.
+//! A network of veins as a table, for R or pandas:
+//! `cargo run --release -p leafmodel --example vein_table -- [preset [seed]]`.
 //!
-//! The standard output holds a CSV with a row for each piece of vein between two neighbouring nodes: its nodes, where they are
-//! (mm, the leaf's base at 0, 0 and the midrib along y), its order (1 is the midrib), mean radius and length. The measures of the
-//! whole network go to the standard error.
+//! The standard output holds a CSV with a row for each piece of vein between two neighbouring
+//! nodes: its nodes, where they are (mm, the leaf's base at 0, 0 and the midrib along y), its order
+//! (1 is the midrib), mean radius and length. The measures of the whole network go to the standard
+//! error.
 
 use std::error::Error;
 use std::io::Write as _;

@@ -1,12 +1,13 @@
 //! The lamina in space: mesh, relief, and what the tissue holds where.
 //!
-//! [`BladeMesh::build`] cuts the flat lamina into triangles that follow the margin and the major veins, raises the veins,
-//! and bends the whole. [`petiole`] gives it a stalk.
+//! [`BladeMesh::build`] cuts the flat lamina into triangles that follow the margin and the major
+//! veins, raises the veins, and bends the whole. [`petiole`] gives it a stalk.
 //!
 //! - **In**: an outline, the veins, a [`BladeForm`].
 //! - **Out**: a [`BladeMesh`] in millimetres, base at the origin, midrib along +y, adaxial side +z.
 //! - **Always true**: what [`BladeMesh::validate`] checks: no cracks, no flipped or folded faces.
-//! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each vertex).
+//! - **Left out**: the two surfaces of a sheet with thickness (thickness is a number at each
+//!   vertex).
 //!
 //! ```
 //! use leafmodel::blade::{BladeForm, BladeMesh};
@@ -57,9 +58,11 @@ pub(crate) use sheet::even_sheet;
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BladeForm {
-    /// Angle by which each half is raised about the midrib, towards the adaxial side (0 flat), −1.4 to 1.4.
+    /// Angle by which each half is raised about the midrib, towards the adaxial side (0 flat), −1.4
+    /// to 1.4.
     pub fold: f64,
-    /// Angle through which the midrib bends from base to apex, towards the abaxial side (0 straight), −6.2 to 6.2.
+    /// Angle through which the midrib bends from base to apex, towards the abaxial side (0
+    /// straight), −6.2 to 6.2.
     pub curl: f64,
     /// Amplitude of the wave along the margin as a share of the leaf's length, 0 to 0.5.
     pub ruffle: f64,

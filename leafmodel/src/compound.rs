@@ -1,10 +1,12 @@
 //! Compound leaves: leaflets on a rachis, flat and in space.
 //!
 //! - **In**: a [`CompoundForm`]: how leaflets are arranged; and the plan of the largest one.
-//! - **Out**: a [`CompoundLeaf`]: leaflets with their places in the plane, and the stalks as polylines with radii; drawn flat as
-//!   one network ([`FlatLeaf`]), or in space ([`WholeLeaf`]): blades, tubes, and where each blade stands. Lengths are millimetres;
-//!   the petiole starts at the origin and goes along +y.
-//! - **Always true**: flat, no leaflet crosses another or a stalk but its own; stalks taper; the same plan gives the same leaf.
+//! - **Out**: a [`CompoundLeaf`]: leaflets with their places in the plane, and the stalks as
+//!   polylines with radii; drawn flat as one network ([`FlatLeaf`]), or in space ([`WholeLeaf`]):
+//!   blades, tubes, and where each blade stands. Lengths are millimetres; the petiole starts at the
+//!   origin and goes along +y.
+//! - **Always true**: flat, no leaflet crosses another or a stalk but its own; stalks taper; the
+//!   same plan gives the same leaf.
 //! - **Left out**: leaves whose leaflets overlap in nature. They are refused.
 //!
 //! ```
@@ -44,7 +46,8 @@ pub const MOST_LEAFLETS: usize = 2000;
 /// A leaflet in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLeaflet {
-    /// Which of [`CompoundForm::variants`] it is; their plans are at the size of the largest leaflet ([`leaflet_plans`]).
+    /// Which of [`CompoundForm::variants`] it is; their plans are at the size of the largest
+    /// leaflet ([`leaflet_plans`]).
     pub variant: u32,
     /// Where its stalk leaves the axis.
     pub foot: DVec2,
@@ -56,7 +59,8 @@ pub struct PlacedLeaflet {
     pub from_axis: f64,
     /// By how much to scale the plan's leaf, in (0, 1].
     pub scale: f64,
-    /// Whether it is the mirror image (x negated first): leaflets on the left are, so that unlike halves match.
+    /// Whether it is the mirror image (x negated first): leaflets on the left are, so that unlike
+    /// halves match.
     pub mirrored: bool,
 }
 
@@ -139,7 +143,8 @@ impl CompoundForm {
     ///
     /// # Errors
     ///
-    /// [`CompoundError`], naming the parameter and its range, or which leaflets are in each other's way.
+    /// [`CompoundError`], naming the parameter and its range, or which leaflets are in each other's
+    /// way.
     pub fn arrange(&self, leaflet: &LeafPlan) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
         // Only light that is uneven by chance gives leaflets margins of their own.
@@ -151,7 +156,8 @@ impl CompoundForm {
         self.arrange_within(leaflet, &outlines?)
     }
 
-    /// As [`CompoundForm::arrange`], for leaflets with these margins, one for each variant or one for all.
+    /// As [`CompoundForm::arrange`], for leaflets with these margins, one for each variant or one
+    /// for all.
     ///
     /// # Errors
     ///

@@ -9,7 +9,8 @@
 //! - **Out**: the values, or a report of everything that is wrong ([`report::DocumentErrors`]).
 //! - **Always true**: numbers are finite and in range; no file outside the document's folder is
 //!   touched.
-//! - **Left out**: what the blocks mean. Leaves are in [`crate::plan_file`], scenes in the renderer.
+//! - **Left out**: what the blocks mean. Leaves are in [`crate::plan_file`], scenes in the
+//!   renderer.
 
 pub mod assets;
 pub mod context;

@@ -1,7 +1,9 @@
 //! Margin and veins as text for other programs.
 //!
-//! - **In**: an [`Outline`](crate::shape::outline::Outline), or several of a compound leaf, and a [`VenationNetwork`](crate::venation::network::VenationNetwork).
-//! - **Out**: [`svg`] to draw, [`graphml`] for graph programs, [`json`] with everything, [`geojson`] for programs that know maps.
+//! - **In**: an [`Outline`](crate::shape::outline::Outline), or several of a compound leaf, and a
+//!   [`VenationNetwork`](crate::venation::network::VenationNetwork).
+//! - **Out**: [`svg`] to draw, [`graphml`] for graph programs, [`json`] with everything,
+//!   [`geojson`] for programs that know maps.
 //! - **Always true**: lengths are millimetres, apex up; the same network gives the same bytes.
 //!   `json` and `graphml` hold every number in full, the others are rounded to 10⁻⁴ mm.
 //! - **Left out**: the blade in space, and tissue.
@@ -33,8 +35,8 @@ pub use self::graphml::graphml;
 pub use self::json::json;
 pub use self::svg::{SvgStyle, svg, svg_within};
 
-/// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after Okabe and Ito); finer orders than there
-/// are colours share the last.
+/// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after
+/// Okabe and Ito); finer orders than there are colours share the last.
 pub const ORDER_COLOURS: [[u8; 3]; 7] = [
     [0, 0, 0],
     [213, 94, 0],

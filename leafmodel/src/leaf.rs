@@ -62,7 +62,8 @@ pub struct LeafPlan {
     pub tissue: Tissue,
     /// What lies on the tissue between veins, the later on top.
     pub layers: Vec<Layer>,
-    /// Cells of several types, each with contents of its own, in place of the tissue's lamina; layers come on top.
+    /// Cells of several types, each with contents of its own, in place of the tissue's lamina;
+    /// layers come on top.
     pub mosaic: Option<MosaicPattern>,
     /// How far it has aged; a leaf in summer has not.
     pub senescence: Option<Senescence>,
@@ -70,8 +71,8 @@ pub struct LeafPlan {
     pub form: BladeForm,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
     pub petiole: Option<PetiolePlan>,
-    /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`] grows the one leaflet,
-    /// [`WholeLeaf::grow`](crate::compound::WholeLeaf::grow) all of them.
+    /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`]
+    /// grows the one leaflet, [`WholeLeaf::grow`](crate::compound::WholeLeaf::grow) all of them.
     pub compound: Option<CompoundForm>,
     /// What the pigments of its contents are; the whole leaf has the same.
     pub pigments: Pigments,
@@ -181,12 +182,13 @@ impl Leaf {
         Self::from_lamina_unless(plan, plan.grow_lamina_unless(is_stopped)?, is_stopped)
     }
 
-    /// Blade and contents of a lamina that the plan has brought forth, or nothing if `is_stopped` says so while a mosaic grows.
+    /// Blade and contents of a lamina that the plan has brought forth, or nothing if `is_stopped`
+    /// says so while a mosaic grows.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (of [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) too),
-    /// [`LeafError::Tissue`].
+    /// [`LeafError::Blade`], [`LeafError::Mosaic`] (of
+    /// [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) too), [`LeafError::Tissue`].
     pub fn from_lamina_unless(
         plan: &LeafPlan,
         lamina: Lamina,

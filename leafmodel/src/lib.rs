@@ -5,9 +5,11 @@
 //!
 //! # A tour
 //!
-//! A leaf starts as a plan ([`leaf::LeafPlan`]): every number that decides it, with its unit. [`species`] holds plans of birch, maple,
-//! oak and others, and a plan is data: change what you want to know about. [`Leaf::grow`](leaf::Leaf::grow) carries it out. The margin
-//! ([`shape`]) comes first, then the veins ([`venation`], [`transport`]), then the blade in space with what its tissue holds ([`blade`]).
+//! A leaf starts as a plan ([`leaf::LeafPlan`]): every number that decides it, with its unit.
+//! [`species`] holds plans of birch, maple, oak and others, and a plan is data: change what you
+//! want to know about. [`Leaf::grow`](leaf::Leaf::grow) carries it out. The margin ([`shape`])
+//! comes first, then the veins ([`venation`], [`transport`]), then the blade in space with what its
+//! tissue holds ([`blade`]).
 //!
 //! ```
 //! use leafmodel::export::{SvgStyle, svg};
@@ -60,7 +62,8 @@
 //! | variegation by cells that divide | [`mosaic`] |
 //! | reflectance and transmittance from contents | [`optics`] |
 //!
-//! `leafmodel/examples` has whole programs: a leaf within one's own margin, a sweep of two parameters, a network as CSV, a spectrum.
+//! `leafmodel/examples` has whole programs: a leaf within one's own margin, a sweep of two
+//! parameters, a network as CSV, a spectrum.
 
 pub mod blade;
 pub mod compound;

@@ -2,9 +2,10 @@
 //!
 //! - **In**: an [`Outline`]; for veins also a [`VenationNetwork`] and the exponent of Murray's law.
 //! - **Out**: [`Measures`]: a list of keys, units and values, from which JSON and a table are made.
-//! - **Always true**: no value is NaN or infinite; what does not exist (the median area of no areoles) is missing.
-//!   The same network gives the same bits on every machine.
-//! - **Left out**: what images show only after clearing and staining: vein widths are those of the model.
+//! - **Always true**: no value is NaN or infinite; what does not exist (the median area of no
+//!   areoles) is missing. The same network gives the same bits on every machine.
+//! - **Left out**: what images show only after clearing and staining: vein widths are those of the
+//!   model.
 //!
 //! `docs/src/theory/measures.md` defines every measure.
 //!
@@ -48,7 +49,8 @@ use crate::venation::areole::{Areole, Areoles, areoles};
 use crate::venation::chance::{Use, uniform};
 use crate::venation::network::VenationNetwork;
 
-/// A vein that ends within so many segments of the margin ends there, and is no veinlet that ends freely inside the blade.
+/// A vein that ends within so many segments of the margin ends there, and is no veinlet that ends
+/// freely inside the blade.
 const MARGIN_SEGMENTS: f64 = 2.0;
 
 /// Points of the blade at which the distance to the nearest vein is measured.
@@ -67,7 +69,8 @@ pub enum Value {
     Count(u64),
     /// A finite number, or nothing where the leaf has nothing to measure.
     Number(Option<f64>),
-    /// Several numbers that belong together: one an order, from order 1, or the coefficients of a series.
+    /// Several numbers that belong together: one an order, from order 1, or the coefficients of a
+    /// series.
     List(Vec<f64>),
 }
 
@@ -104,8 +107,8 @@ pub fn shape(outline: &Outline) -> Measures {
 
 /// Measures the shape and the veins of a leaf.
 ///
-/// `murray_exponent` is the exponent `n` for which `murray_ratio_median` is taken; without a finite one above 0 that value is
-/// missing. Takes about as long as finding the areoles twice.
+/// `murray_exponent` is the exponent `n` for which `murray_ratio_median` is taken; without a finite
+/// one above 0 that value is missing. Takes about as long as finding the areoles twice.
 pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f64) -> Measures {
     let found = areoles(network);
     let edges: Vec<[u32; 2]> = found
@@ -298,8 +301,8 @@ impl Measures {
         Json::Object(members.collect::<Map<String, Json>>())
     }
 
-    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a dash; long lists are
-    /// cut short.
+    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a
+    /// dash; long lists are cut short.
     pub fn table(&self) -> String {
         let text = |value: &Value| match value {
             Value::Count(count) => count.to_string(),

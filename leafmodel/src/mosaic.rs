@@ -6,7 +6,8 @@
 //!
 //! - **In**: a [`Surface`], and a plan of cell types.
 //! - **Out**: cells on the surface with their types and clones.
-//! - **Always true**: distances are measured on the surface, faces unfolded into a plane ([`patch`]), never through space.
+//! - **Always true**: distances are measured on the surface, faces unfolded into a plane
+//!   ([`patch`]), never through space.
 //! - **Left out**: what genes do inside a cell.
 //!
 //! ```

@@ -78,8 +78,8 @@ const SURFACE: [&str; 3] = ["abaxial_ratio", "adaxial", "abaxial"];
 ///
 /// # Errors
 ///
-/// [`DocumentErrors`] with everything that is wrong with the leaves and the overrides; what else the
-/// file holds is not looked at.
+/// [`DocumentErrors`] with everything that is wrong with the leaves and the overrides; what else
+/// the file holds is not looked at.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Vec<Named<LeafPlan>>, DocumentErrors> {
     leaves_of(Opened::file(path, overrides, schema)?)
 }
@@ -137,7 +137,8 @@ const SECTIONS: [&str; 10] = [
     "objects",
 ];
 
-/// Reads the section `leaves` of a file whose other `sections` are left alone. Errors are left in the context.
+/// Reads the section `leaves` of a file whose other `sections` are left alone. Errors are left in
+/// the context.
 pub fn read_leaves<T: From<LeafPlan>>(
     cx: &Context,
     tree: &Table,
@@ -237,8 +238,8 @@ pub fn leaf_to_toml(name: &str, plan: &LeafPlan, extent: Extent) -> String {
     file_of("leaves", name, written(plan, extent))
 }
 
-/// As [`leaf_to_toml`], but with the name of a preset and what differs from it; all of it if the plan lacks something that
-/// the preset has, or there is no such preset.
+/// As [`leaf_to_toml`], but with the name of a preset and what differs from it; all of it if the
+/// plan lacks something that the preset has, or there is no such preset.
 pub fn leaf_beside_preset(name: &str, plan: &LeafPlan, preset: &str) -> String {
     let found = species::find(preset).map(|preset| written(&preset.plan(), Extent::All));
     let beside = found.and_then(|preset| written(plan, Extent::All).beside_preset(&preset));
@@ -265,8 +266,8 @@ fn written(plan: &LeafPlan, extent: Extent) -> Written {
     }
 }
 
-/// A block `[solids.NAME]` that reads back to the same body where the files that it names are; `declare` has all keys of the
-/// block, the plan's among them.
+/// A block `[solids.NAME]` that reads back to the same body where the files that it names are;
+/// `declare` has all keys of the block, the plan's among them.
 pub fn solid_to_toml<T>(
     name: &str,
     solid: &mut T,

@@ -45,7 +45,8 @@ const GUTTER: u32 = 3;
 const BAND: usize = 128;
 /// Edges where there is no mosaic, over the root of the area.
 const PLAIN_EDGE: f64 = 0.02;
-/// Edges that a mosaic's suit at most instead of one: borders between cells are sought face by face.
+/// Edges that a mosaic's suit at most instead of one: borders between cells are sought face by
+/// face.
 const MOST_PER_SPACING: f64 = 3.0;
 
 /// Everything that decides a body.

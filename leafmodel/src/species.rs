@@ -2,7 +2,8 @@
 //!
 //! - **In**: a name, as in `lamina grow poplar`.
 //! - **Out**: a [`LeafPlan`] with every number in it.
-//! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and changed.
+//! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and
+//!   changed.
 //!
 //! ```
 //! use leafmodel::species::{self, PRESETS};
@@ -96,8 +97,8 @@ pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Species have [`leaf_traits`]; these
-/// numbers are the middle of what is usual (`docs/src/theory/tissue.md`).
+/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Species have
+/// [`leaf_traits`]; these numbers are the middle of what is usual (`docs/src/theory/tissue.md`).
 fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
     let veinlet = venation.veinlet_radius_mm;
     LeafPlan {

@@ -6,16 +6,19 @@
 //! Shape and veins follow from that.
 //!
 //! - **In**: a [`TransportPlan`].
-//! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a network as of any other leaf.
-//!   A [`FilledPlan`] turns it around: the outline is given, and the network that supplies it is looked for.
-//! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent (in mirrored leaves of a
-//!   pair) makes the transport cheaper; with even light both sides are mirror images; same plan and seed, same bits.
+//! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a
+//!   network as of any other leaf. A [`FilledPlan`] turns it around: the outline is given, and the
+//!   network that supplies it is looked for.
+//! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent
+//!   (in mirrored leaves of a pair) makes the transport cheaper; with even light both sides are
+//!   mirror images; same plan and seed, same bits.
 //! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is
 //!   only cheaper than all that differ from it by one parent.
 //!
 //! # Source
 //!
-//! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is settled.
+//! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is
+//! settled.
 //!
 //! ```
 //! use leafmodel::transport::{Ladder, TransportPlan};

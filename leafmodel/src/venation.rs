@@ -1,18 +1,20 @@
 //! Veins: networks drawn towards auxin, and their widths.
 //!
 //! Auxin sources appear in the lamina away from veins; veins grow towards the sources; sources that
-//! veins have reached are used up; and the lamina grows meanwhile, which makes room for more. [`grow`] runs
-//! that loop, gives each vein its width and its order, and returns the network.
+//! veins have reached are used up; and the lamina grows meanwhile, which makes room for more.
+//! [`grow`] runs that loop, gives each vein its width and its order, and returns the network.
 //!
 //! - **In**: an [`Outline`], a [`AuxinPlan`], a seed.
 //! - **Out**: a [`VenationNetwork`] in millimetres, in the frame of the outline.
-//! - **Always true**: every node lies inside the outline; every vein is connected to an origin; the network passes its own
-//!   [`VenationNetwork::validate`]; the same input gives the same bits on every machine.
+//! - **Always true**: every node lies inside the outline; every vein is connected to an origin; the
+//!   network passes its own [`VenationNetwork::validate`]; the same input gives the same bits on
+//!   every machine.
 //! - **Left out**: growth of the blade in answer to its veins.
 //!
 //! # Source
 //!
-//! \[runions2005\]; `docs/src/theory/venation.md` tells what it leaves open and how that is settled.
+//! \[runions2005\]; `docs/src/theory/venation.md` tells what it leaves open and how that is
+//! settled.
 //!
 //! ```
 //! use glam::DVec2;
@@ -142,8 +144,8 @@ pub struct Stage {
     pub network: VenationNetwork,
 }
 
-/// Grows the veins of a leaf and keeps what they were after each of `steps`; 0 is before the first. A step beyond
-/// the last gives the full-grown leaf. Stages come in the order of `steps`.
+/// Grows the veins of a leaf and keeps what they were after each of `steps`; 0 is before the first.
+/// A step beyond the last gives the full-grown leaf. Stages come in the order of `steps`.
 ///
 /// # Errors
 ///
@@ -203,7 +205,8 @@ fn develop(
     ))
 }
 
-/// Whether a plan can be carried out on an outline, without doing it: refuses what [`grow`] refuses.
+/// Whether a plan can be carried out on an outline, without doing it: refuses what [`grow`]
+/// refuses.
 ///
 /// # Errors
 ///
@@ -253,7 +256,8 @@ fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result
     AuxinPlan::validate_darts(free * area)
 }
 
-/// Refuses growth that comes from nowhere: a young leaf far larger than the full-grown one, or without any size.
+/// Refuses growth that comes from nowhere: a young leaf far larger than the full-grown one, or
+/// without any size.
 fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let Some(first) = clock.tissue_map(0) else {
         return Ok(());
@@ -361,7 +365,8 @@ fn simulate<I: Influence>(
 }
 
 impl Grown {
-    /// With veins from the base to all origins: the base is node 0 then, and all others count on from 1.
+    /// With veins from the base to all origins: the base is node 0 then, and all others count on
+    /// from 1.
     fn joined(mut self) -> Self {
         self.positions.insert(0, DVec2::ZERO);
         self.births.insert(0, 0);
@@ -408,7 +413,8 @@ impl Grown {
             .iter()
             .enumerate()
             .map(|(i, &[from, to])| {
-                // A lateral starts as wide as it goes on; only the vein itself tapers where it gives one off.
+                // A lateral starts as wide as it goes on; only the vein itself tapers where it
+                // gives one off.
                 let continues = orders.continuations[from as usize] == Some(i as u32);
                 let start = if continues {
                     radius(flows.nodes[from as usize])

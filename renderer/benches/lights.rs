@@ -1,8 +1,9 @@
 //! Error and time of scenes with one, sixteen and a thousand lamps.
 //!
-//! `cargo bench -p renderer --bench lights [-- NAME…]` renders each scene with several seeds on one thread and prints the
-//! error of a picture (variance over seeds ÷ mean², the worst hundredth of the pixels left out), the rays of a path, the
-//! processor's time that a picture took, and the efficiency 1 ÷ (error × seconds), of which more is better.
+//! `cargo bench -p renderer --bench lights [-- NAME…]` renders each scene with several seeds on one
+//! thread and prints the error of a picture (variance over seeds ÷ mean², the worst hundredth of
+//! the pixels left out), the rays of a path, the processor's time that a picture took, and the
+//! efficiency 1 ÷ (error × seconds), of which more is better.
 
 use std::io::Write;
 use std::path::Path;
@@ -121,7 +122,8 @@ fn ball(segments: u32) -> String {
     )
 }
 
-/// `side`² lamps (of 1,024 the first 1,000) over the floor, turned all ways and of power from 1 to 10.
+/// `side`² lamps (of 1,024 the first 1,000) over the floor, turned all ways and of power from 1 to
+/// 10.
 fn grid(side: usize, width: f64) -> String {
     let mut text = format!("[meshes.lamp.rectangle]\nwidth_m = {width}\nheight_m = {width}\n");
     for i in 0..(side * side).min(1000) {

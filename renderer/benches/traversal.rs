@@ -5,7 +5,8 @@
 //! 500,000 triangles, and 1,000 instances.
 //!
 //! With arguments it is Lamina's side of `reference/bench/rates`, which compares with Embree:
-//! `LEAF.ply PLACEMENTS.f32|- RAYS closest|occluded ROUNDS`, as told in `reference/bench/README.md`.
+//! `LEAF.ply PLACEMENTS.f32|- RAYS closest|occluded ROUNDS`, as told in
+//! `reference/bench/README.md`.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};

@@ -1,10 +1,10 @@
 //! How light is scattered at a point of a surface.
 //!
-//! - **In**: directions `wo`, `wi` in the local frame, unit, away from the surface, +z the shading normal on the
-//!   adaxial (outer) side, +y along ∂p/∂v.
+//! - **In**: directions `wo`, `wi` in the local frame, unit, away from the surface, +z the shading
+//!   normal on the adaxial (outer) side, +y along ∂p/∂v.
 //! - **Out**: `f` without the cosine, sr⁻¹, a value a lane; densities over solid angle.
-//! - **Always true**: energy is not created; all but the dielectric are reciprocal; a density never depends
-//!   on wavelength.
+//! - **Always true**: energy is not created; all but the dielectric are reciprocal; a density never
+//!   depends on wavelength.
 //!
 //! ```
 //! use glam::{Vec2, Vec3};
@@ -191,7 +191,8 @@ impl<'a, const N: usize> Bsdf<'a, N> {
         }
     }
 
-    /// Share of light that the surface scatters, whatever the direction: in [0, 1], free of the view.
+    /// Share of light that the surface scatters, whatever the direction: in [0, 1], free of the
+    /// view.
     pub fn albedo(&self) -> Lanes<N> {
         match self {
             Self::Diffuse(reflectance) => *reflectance,

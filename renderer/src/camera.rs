@@ -74,8 +74,8 @@ impl Camera {
         DMat3::from_cols(right, right.cross(forward), forward)
     }
 
-    /// The ray through a point of the film in pixels, (0, 0) being the upper left corner, from a point of the
-    /// lens given by `lens` in the unit square. Its direction is a unit vector.
+    /// The ray through a point of the film in pixels, (0, 0) being the upper left corner, from a
+    /// point of the lens given by `lens` in the unit square. Its direction is a unit vector.
     pub fn ray(&self, film: Vec2, lens: Vec2) -> Ray {
         let ndc = film / self.size * 2.0 - Vec2::ONE;
         let direction = self.forward + self.right * (ndc.x * self.half_extent.x)

@@ -1,7 +1,7 @@
 //! The `lamina` command: parse, call the library, print reports.
 //!
-//! stdout carries the paths of what was written and nothing else; stderr the rest. Exit codes: 0 done, 1 the
-//! system failed us, 2 bad input, 130 interrupted with the work saved.
+//! stdout carries the paths of what was written and nothing else; stderr the rest. Exit codes: 0
+//! done, 1 the system failed us, 2 bad input, 130 interrupted with the work saved.
 //!
 //! ```
 //! use std::process::ExitCode;

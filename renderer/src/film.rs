@@ -1,11 +1,12 @@
 //! Radiance and first hits in, means and variances out.
 //!
-//! - **In**: samples, each a value per channel and, where the camera ray met something, a number per feature, block of pixels
-//!   by block.
-//! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features over covered samples.
-//! - **Always true**: sums are integers, so they do not depend on the order or grouping in which samples arrive; a
-//!   sample with a number that is not finite is rejected whole and counted, one beyond ±2³⁰ is clamped and counted.
-//!   All pixels of a block have the same number of samples.
+//! - **In**: samples, each a value per channel and, where the camera ray met something, a number
+//!   per feature, block of pixels by block.
+//! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features
+//!   over covered samples.
+//! - **Always true**: sums are integers, so they do not depend on the order or grouping in which
+//!   samples arrive; a sample with a number that is not finite is rejected whole and counted, one
+//!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
 //! - **Memory**: 32 bytes a channel, 4 of coverage and 8 or 4 a feature ([`Sum`]) for each pixel.
 //! - **Left out**: what channels and features mean; the maker of the film knows.
 
@@ -67,8 +68,8 @@ pub enum FilmError {
 
 /// Sums for every pixel.
 ///
-/// One run of memory for each kind of sum, in the order of blocks, and in a block of rows: what is exposed together
-/// lies together.
+/// One run of memory for each kind of sum, in the order of blocks, and in a block of rows: what is
+/// exposed together lies together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     width: u32,
@@ -188,8 +189,8 @@ impl Film {
         self.map(|pixel| pixel.mean(channel) as f32)
     }
 
-    /// Lets `expose` add samples to every block, spread over the current thread pool. Which thread exposes a block does
-    /// not show.
+    /// Lets `expose` add samples to every block, spread over the current thread pool. Which thread
+    /// exposes a block does not show.
     pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
         let (width, height, channels) = (self.width, self.height, self.channels);
         let (across, words) = (self.blocks_across(), &self.words);
@@ -244,8 +245,8 @@ impl Film {
         self.faults.merge(&found);
     }
 
-    /// Adds another film's samples. Sums add up exactly, whichever samples the films have; they should have no sample
-    /// in common.
+    /// Adds another film's samples. Sums add up exactly, whichever samples the films have; they
+    /// should have no sample in common.
     ///
     /// # Panics
     ///

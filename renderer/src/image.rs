@@ -1,9 +1,12 @@
 //! Pictures and their files: `OpenEXR` for data, PNG for looking at.
 //!
-//! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or bytes that are not trusted.
-//! - **Out**: files that are whole or not there, and the same bytes for the same picture; or a [`Picture`].
-//! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old one. A header that
-//!   claims more than 2²⁸ pixels or 4 GiB is refused before anything is allocated for it.
+//! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or bytes that are not
+//!   trusted.
+//! - **Out**: files that are whole or not there, and the same bytes for the same picture; or a
+//!   [`Picture`].
+//! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old
+//!   one. A header that claims more than 2²⁸ pixels or 4 GiB is refused before anything is
+//!   allocated for it.
 //! - **Left out**: deep data, several parts (the first is read), mip levels (the largest is read).
 //!
 //! ```

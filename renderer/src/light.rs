@@ -1,7 +1,8 @@
 //! Where light comes from.
 //!
 //! - **In**: a point that is lit, random numbers.
-//! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its density over solid angle.
+//! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its
+//!   density over solid angle.
 //! - **Always true**: [`Light::at_infinity`] and [`AreaLight::pdf`] give the density of what
 //!   [`Light::sample`] draws. A light whose density is 0 is found by bounces only and never
 //!   sampled.
@@ -61,7 +62,8 @@ pub enum Light {
 pub struct Receiver {
     /// Where it is, world, m.
     pub position: Vec3,
-    /// Unit normal, world. Light counts by the size of its cosine with it, from either side: a leaf transmits.
+    /// Unit normal, world. Light counts by the size of its cosine with it, from either side: a leaf
+    /// transmits.
     pub normal: Vec3,
 }
 
@@ -72,8 +74,8 @@ pub struct LightSample<const N: usize> {
     pub wi: Vec3,
     /// Point on the light, or `None` at infinity.
     pub point: Option<Vec3>,
-    /// Radiance if nothing is in between; of a light without extent the irradiance on a surface that
-    /// faces it, W m⁻² nm⁻¹.
+    /// Radiance if nothing is in between; of a light without extent the irradiance on a surface
+    /// that faces it, W m⁻² nm⁻¹.
     pub radiance: Lanes<N>,
     /// Density over solid angle, sr⁻¹; 1 of a light without extent.
     pub pdf: f32,
@@ -98,7 +100,8 @@ pub enum Sampled {
 }
 
 impl Light {
-    /// How it is decided whether this light is sampled, on a film of the given range of wavelengths.
+    /// How it is decided whether this light is sampled, on a film of the given range of
+    /// wavelengths.
     pub fn sampled(&self, range_nm: [f64; 2]) -> Sampled {
         match self {
             Self::Distant(_) => Sampled::Always,
@@ -157,8 +160,8 @@ impl Light {
         }
     }
 
-    /// Radiance from infinity along the unit direction `wi` (towards the light), and the density with which
-    /// [`Light::sample`] draws that direction; `None` if the light is not there.
+    /// Radiance from infinity along the unit direction `wi` (towards the light), and the density
+    /// with which [`Light::sample`] draws that direction; `None` if the light is not there.
     pub fn at_infinity<const N: usize>(
         &self,
         wi: Vec3,

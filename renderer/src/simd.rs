@@ -144,7 +144,8 @@ impl Level {
             Kind::Scalar => task.run(Scalar),
             #[cfg(target_arch = "x86_64")]
             Kind::Sse2 => task.run(x86::Sse2),
-            // SAFETY: `Level` has no public constructor; `all` makes this one where AVX2 is detected.
+            // SAFETY: `Level` has no public constructor; `all` makes this one where AVX2 is
+            // detected.
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2 => unsafe { x86::with_avx2(task) },
             #[cfg(target_arch = "aarch64")]

@@ -1,4 +1,5 @@
-//! What is made from the declarations of the blocks: the schema that is committed, and the tables of the book.
+//! What is made from the declarations of the blocks: the schema that is committed, and the tables
+//! of the book.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,5 @@
-//! What tissue holds and reflects is as the file says: bodies of solid tissue, pigments, and what never occurs together.
+//! What tissue holds and reflects is as the file says: bodies of solid tissue, pigments, and what
+//! never occurs together.
 
 use glam::DVec3;
 use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};

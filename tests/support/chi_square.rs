@@ -43,7 +43,8 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// The significance for one of `tests` tests such that all together err with probability `level` (Šidák).
+/// The significance for one of `tests` tests such that all together err with probability `level`
+/// (Šidák).
 pub fn sidak(level: f64, tests: usize) -> f64 {
     1.0 - libm::pow(1.0 - level, 1.0 / tests as f64)
 }

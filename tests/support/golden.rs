@@ -1,8 +1,9 @@
 //! Small pictures that are kept, and whether a new one shows the same light.
 //!
-//! A golden holds, for each pixel and channel, the mean over pictures of different seeds and the deviation of one picture
-//! from it. A new picture is one more draw: pixels, regions and the whole are compared in units of that deviation.
-//! Any change of random numbers passes, any change of light fails that is greater than the noise of a region.
+//! A golden holds, for each pixel and channel, the mean over pictures of different seeds and the
+//! deviation of one picture from it. A new picture is one more draw: pixels, regions and the whole
+//! are compared in units of that deviation. Any change of random numbers passes, any change of
+//! light fails that is greater than the noise of a region.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -22,14 +23,16 @@ const SEED: u64 = 1000;
 const REGIONS: [usize; 2] = [4, 3];
 /// Deviations from which a pixel counts as far off.
 const FAR: f64 = 3.0;
-/// Share of pixels that may be far off, over the largest share among the pictures that a golden is made of, each against the
-/// others. What is normal depends on the scene: light that few paths find has long tails.
+/// Share of pixels that may be far off, over the largest share among the pictures that a golden is
+/// made of, each against the others. What is normal depends on the scene: light that few paths find
+/// has long tails.
 const FAR_MARGIN: f64 = 1.5;
 /// Attribute with that largest share.
 const FAR_ATTRIBUTE: &str = "farShare";
 /// Probability that a right picture fails by its regions.
 const LEVEL: f64 = 0.01;
-/// Largest change of a region that may go unseen, over its mean: a golden with more noise says too little.
+/// Largest change of a region that may go unseen, over its mean: a golden with more noise says too
+/// little.
 const UNSEEN: f64 = 0.01;
 /// Rounding of single precision, as a share of the value.
 const ROUNDING: f64 = 1e-5;
@@ -52,7 +55,8 @@ pub struct Verdict {
     pub far: [f64; 2],
     /// Deviations of the region that is furthest off, and the most that is allowed.
     pub region: [f64; 2],
-    /// Largest change of a region that could go unseen, over its mean: the median over regions and channels.
+    /// Largest change of a region that could go unseen, over its mean: the median over regions and
+    /// channels.
     pub unseen: f64,
 }
 
@@ -64,8 +68,9 @@ impl Verdict {
 }
 
 impl Golden<'_> {
-    /// Renders the scene anew and compares; with `UPDATE_GOLDENS=1` renders the golden itself. A picture that
-    /// fails is left in `folder`, beside the golden and their difference in deviations.
+    /// Renders the scene anew and compares; with `UPDATE_GOLDENS=1` renders the golden itself. A
+    /// picture that fails is left in `folder`, beside the golden and their difference in
+    /// deviations.
     ///
     /// # Panics
     ///
@@ -230,7 +235,8 @@ pub fn compare(golden: &Picture, picture: &Picture) -> Verdict {
     verdict
 }
 
-/// Difference, its deviation and the golden's mean for each pixel; what is not finite is infinitely far off.
+/// Difference, its deviation and the golden's mean for each pixel; what is not finite is infinitely
+/// far off.
 fn differences(golden: &Picture, picture: &Picture, channel: usize) -> Vec<(f64, f64, f64)> {
     let layer = |picture: &Picture, name: &str| {
         let name = format!("{name}.{channel}");

@@ -45,7 +45,8 @@ pub fn mean_of(rendered: &Rendered, channel: usize) -> f64 {
     means.iter().sum::<f64>() / means.len() as f64
 }
 
-/// Mean of one channel over all pixels and seeds, and the standard error of that mean from the scatter over seeds.
+/// Mean of one channel over all pixels and seeds, and the standard error of that mean from the
+/// scatter over seeds.
 ///
 /// Seeds are independent; samples within a picture are not, being of low discrepancy.
 pub fn mean_and_error(text: &str, channel: usize, seeds: u64) -> (f64, f64) {

@@ -1,4 +1,5 @@
-//! Ageing by the calendar: when tissue at a place begins to age, and what it then holds from day to day.
+//! Ageing by the calendar: when tissue at a place begins to age, and what it then holds from day to
+//! day.
 //!
 //! A [`Delay`] gives the day on which a place begins to age; a [`Course`] gives its contents from
 //! the number of days since. `docs/src/theory/ageing.md` has the equations, and of every number
@@ -12,14 +13,16 @@ use super::tissue::TissueError;
 use crate::optics::{Constituent, Contents};
 use crate::venation::network::VeinSegment;
 
-/// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine red-senescing species).
+/// Chlorophyll, µg cm⁻², below which leaves make anthocyanin in autumn (\[lee2003\], abstract: nine
+/// red-senescing species).
 pub const ANTHOCYANIN_BELOW: f64 = 20.0;
 
 /// Number of days by which something begins at a place later than at the first place: the sum of
 /// all terms, each ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
-    /// Days by which tissue at veins comes after tissue far from them; negative: before. −1000 to 1000.
+    /// Days by which tissue at veins comes after tissue far from them; negative: before. −1000 to
+    /// 1000.
     pub veins_days: f64,
     /// Distance, mm, over which that falls to 1/e, 0.01 to 1000.
     pub veins_reach_mm: f64,
@@ -35,7 +38,8 @@ pub struct Delay {
     pub noise_days: f64,
     /// Size of those patches, mm, 0.01 to 1000.
     pub noise_scale_mm: f64,
-    /// Days by which the cell of a transport leaf that dies last comes after the one that dies first, 0 to 1000.
+    /// Days by which the cell of a transport leaf that dies last comes after the one that dies
+    /// first, 0 to 1000.
     pub deaths_days: f64,
 }
 
@@ -99,21 +103,25 @@ pub struct Course {
     pub onset: Delay,
     /// Days after which half of the chlorophyll is gone, 0.1 to 1000.
     pub half_days: f64,
-    /// Steepness of that loss: a logistic whose exponent is this much at `half_days`, 0.1 to 50. Small is nearly first-order decay.
+    /// Steepness of that loss: a logistic whose exponent is this much at `half_days`, 0.1 to 50.
+    /// Small is nearly first-order decay.
     pub steepness: f64,
     /// Chlorophyll that stays, µg cm⁻², 0 to 1000; less if there was less.
     pub chlorophyll_rest: f64,
-    /// Share of carotenoids that goes with chlorophyll (violaxanthin and other xanthophylls), 0 to 1.
+    /// Share of carotenoids that goes with chlorophyll (violaxanthin and other xanthophylls), 0 to
+    /// 1.
     pub labile_carotenoids: f64,
     /// How many times longer the others last than chlorophyll, 1 to 100.
     pub persistence: f64,
     /// Anthocyanins that are made, µg cm⁻², 0 to 1000: what there is in the end, if there was less.
     pub anthocyanins: f64,
-    /// Days in which all but 1/e of that is made once chlorophyll has fallen below [`ANTHOCYANIN_BELOW`], 0.1 to 1000.
+    /// Days in which all but 1/e of that is made once chlorophyll has fallen below
+    /// [`ANTHOCYANIN_BELOW`], 0.1 to 1000.
     pub anthocyanin_days: f64,
     /// Brown pigments of tissue without chlorophyll that is still alive, 0 to 100.
     pub brown: f64,
-    /// Factor on structure, 1 to 10, on water, 0 to 1, and on dry matter, 0 to 1, where chlorophyll is gone.
+    /// Factor on structure, 1 to 10, on water, 0 to 1, and on dry matter, 0 to 1, where chlorophyll
+    /// is gone.
     pub structure_factor: f64,
     /// See `structure_factor`.
     pub water_factor: f64,
@@ -189,7 +197,8 @@ impl Course {
         Ok(())
     }
 
-    /// Days after which chlorophyll has fallen from `start` to [`ANTHOCYANIN_BELOW`]; infinite if it never does.
+    /// Days after which chlorophyll has fallen from `start` to [`ANTHOCYANIN_BELOW`]; infinite if
+    /// it never does.
     fn days_to_anthocyanin(&self, start: f64, decay: Decay) -> f64 {
         if start <= ANTHOCYANIN_BELOW {
             return 0.0;
@@ -202,7 +211,8 @@ impl Course {
         self.half_days * (1.0 + libm::log(odds) / decay.steepness)
     }
 
-    /// What tissue holds, still alive, `age` days after it began to age. At 0 and before, `living` itself.
+    /// What tissue holds, still alive, `age` days after it began to age. At 0 and before, `living`
+    /// itself.
     #[must_use]
     pub fn senescent(&self, living: Contents, age: f64) -> Contents {
         self.decayed(living, age, Decay::new(self.steepness))

@@ -1,7 +1,7 @@
 //! Courses of ageing by name.
 //!
-//! Half times, reaches and delays are estimates by eye; what is left of pigments is chosen so that leaves end near the contents that
-//! `docs/src/theory/ageing.md` lists with their sources.
+//! Half times, reaches and delays are estimates by eye; what is left of pigments is chosen so that
+//! leaves end near the contents that `docs/src/theory/ageing.md` lists with their sources.
 
 use super::ageing::{Course, Delay};
 use crate::optics::Constituent::{Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water};

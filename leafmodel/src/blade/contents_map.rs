@@ -29,8 +29,9 @@ pub struct ContentsMap {
 impl ContentsMap {
     /// Paints a leaf's tissue.
     ///
-    /// The longer side has `map_size` (16 to 8192) texels, the shorter so many that texels are about square.
-    /// The field goes on over all of the frame. Rows do not depend on each other; the same input gives the same bits.
+    /// The longer side has `map_size` (16 to 8192) texels, the shorter so many that texels are
+    /// about square. The field goes on over all of the frame. Rows do not depend on each other; the
+    /// same input gives the same bits.
     ///
     /// # Errors
     ///
@@ -259,9 +260,10 @@ mod tests {
 
     #[test]
     fn a_vein_thinner_than_a_texel_takes_the_same_chlorophyll_at_any_resolution() {
-        // 0.02 mm radius and 0.02 mm sheath, texels from 0.005 to 0.625 mm. At exactly 45° all rows have one
-        // phase and the texels' diagonals are nearer to each other than the tent is made for: at worst
-        // 2 sinc²(√2) = 9.4 % off in one row. Elsewhere a row is off by chance, and eight rows hardly.
+        // 0.02 mm radius and 0.02 mm sheath, texels from 0.005 to 0.625 mm. At exactly 45° all rows
+        // have one phase and the texels' diagonals are nearer to each other than the tent is made
+        // for: at worst 2 sinc²(√2) = 9.4 % off in one row. Elsewhere a row is off by chance, and
+        // eight rows hardly.
         let tissue = Tissue {
             sheath_width_mm: 0.02,
             ..GREEN

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::frame::UvFrame;
 
-/// Texels beyond the margin that are painted too, so that what is blended between texels is the leaf's own.
+/// Texels beyond the margin that are painted too, so that what is blended between texels is the
+/// leaf's own.
 const BEYOND: usize = 2;
 
 /// A flag for each texel.
@@ -78,7 +79,8 @@ impl Coverage {
     }
 }
 
-/// Lets each texel that is not covered take the value of the nearest in its row that is; a row with none is left as it is.
+/// Lets each texel that is not covered take the value of the nearest in its row that is; a row with
+/// none is left as it is.
 pub(super) fn extend<T: Copy>(texels: &mut [T], covered: &[bool]) {
     let found: Vec<usize> = (0..covered.len()).filter(|&i| covered[i]).collect();
     let mut next = 0;

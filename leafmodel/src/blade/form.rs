@@ -1,8 +1,10 @@
 //! The lamina bent in space: ruffle, fold and curl, as one smooth map.
 //!
-//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the lamina; if the lamina is
-//! the map of a curved blade, it is brought onto that; then it is moved by the fold about the midrib, then by the curl along it. Each step has continuous first derivatives, so
-//! the blade has no crease. Lengths across the midrib are kept by the fold and lengths along it by the curl.
+//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the
+//! lamina; if the lamina is the map of a curved blade, it is brought onto that; then it is moved by
+//! the fold about the midrib, then by the curl along it. Each step has continuous first
+//! derivatives, so the blade has no crease. Lengths across the midrib are kept by the fold and
+//! lengths along it by the curl.
 
 use glam::{DVec2, DVec3};
 
@@ -10,18 +12,20 @@ use super::BladeForm;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 
-/// Distance from the midrib, over the leaf's length, at which the fold has reached tanh 1 = 76 % of its angle.
+/// Distance from the midrib, over the leaf's length, at which the fold has reached tanh 1 = 76 % of
+/// its angle.
 const FOLD_ROUNDING: f64 = 0.03;
 /// Entries of the fold's table on each side.
 const FOLD_STEPS: usize = 1024;
 /// Places along the leaf at which its width is known.
 const WIDTH_BINS: usize = 128;
-/// The width used for the ruffle is averaged over this share of the length, which hides lobes and teeth.
+/// The width used for the ruffle is averaged over this share of the length, which hides lobes and
+/// teeth.
 const WIDTH_BLUR: f64 = 0.08;
 /// Least width for the ruffle, over the greatest.
 const LEAST_WIDTH: f64 = 0.35;
-/// By how much the waves of the left margin are ahead of those of the right one, radians: real margins
-/// are not mirror images.
+/// By how much the waves of the left margin are ahead of those of the right one, radians: real
+/// margins are not mirror images.
 const LEFT_AHEAD: f64 = 1.9;
 
 /// The map from the flat lamina into space.
@@ -85,8 +89,8 @@ impl Bending {
     }
 }
 
-/// The bend across the midrib: the lamina turns by `angle · tanh(x / w)`, which is an arc near the midrib and
-/// straight away from it.
+/// The bend across the midrib: the lamina turns by `angle · tanh(x / w)`, which is an arc near the
+/// midrib and straight away from it.
 #[derive(Debug)]
 struct Fold {
     angle: f64,
@@ -108,7 +112,8 @@ impl Fold {
         let mut at = DVec2::ZERO;
         for i in 0..=FOLD_STEPS {
             let x = step * i as f64;
-            // Simpson's rule: the step is far below the rounding, the error below 1e-12 of the width.
+            // Simpson's rule: the step is far below the rounding, the error below 1e-12 of the
+            // width.
             let sum = fold.along(x) + 4.0 * fold.along(x + 0.5 * step) + fold.along(x + step);
             at += sum * (step / 6.0);
             fold.table.push(at);
@@ -122,14 +127,16 @@ impl Fold {
         DVec2::new(libm::cos(turned), libm::sin(turned))
     }
 
-    /// Where a point `x` from the midrib along the lamina and `height` over it is in the plane across the midrib.
+    /// Where a point `x` from the midrib along the lamina and `height` over it is in the plane
+    /// across the midrib.
     fn place(&self, x: f64, height: f64) -> (f64, f64) {
         let side = if x < 0.0 { -1.0 } else { 1.0 };
         let x = x.abs();
         let i = ((x / self.step) as usize).min(FOLD_STEPS);
         let (left, right) = (self.step * i as f64, self.step * (i + 1) as f64);
         let t = (x - left) / self.step;
-        // Cubic through both ends with the exact directions there: continuous slopes between entries.
+        // Cubic through both ends with the exact directions there: continuous slopes between
+        // entries.
         let (from, to) = (self.table[i], self.table[i + 1]);
         let (d_from, d_to) = (self.along(left) * self.step, self.along(right) * self.step);
         let at = from
@@ -194,8 +201,8 @@ impl Ruffle {
     }
 }
 
-/// Greatest distance of the margin from the midrib in each bin along the leaf, blurred by a Gaussian of
-/// `sigma` bins, and not below a share of the greatest.
+/// Greatest distance of the margin from the midrib in each bin along the leaf, blurred by a
+/// Gaussian of `sigma` bins, and not below a share of the greatest.
 fn half_widths(outline: &Outline, low: f64, bin: f64, sigma: f64) -> Vec<f64> {
     let mut raw = vec![0.0_f64; WIDTH_BINS];
     let points = outline.points();

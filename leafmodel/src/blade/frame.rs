@@ -4,8 +4,8 @@ use glam::DVec2;
 
 /// The bounding box of a margin, in millimetres, and the texture coordinates over it.
 ///
-/// `u = (x − min.x) / size.x` and `v = (y − min.y) / size.y`: both run from 0 to 1 over the box, and
-/// `v` grows with `y`, from the leaf's base to its apex.
+/// `u = (x − min.x) / size.x` and `v = (y − min.y) / size.y`: both run from 0 to 1 over the box,
+/// and `v` grows with `y`, from the leaf's base to its apex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvFrame {
     /// The corner with the least x and y, mm.
@@ -17,8 +17,9 @@ pub struct UvFrame {
 impl UvFrame {
     /// The bounding box of a margin given as points in millimetres.
     ///
-    /// A margin without area has no coordinates across its flat direction; its side is then taken as the
-    /// smallest positive number, so that the frame stays finite (`uv` of every margin point is 0 there).
+    /// A margin without area has no coordinates across its flat direction; its side is then taken
+    /// as the smallest positive number, so that the frame stays finite (`uv` of every margin point
+    /// is 0 there).
     #[must_use]
     pub fn around(margin: &[DVec2]) -> Self {
         let Some(&first) = margin.first() else {
@@ -36,7 +37,8 @@ impl UvFrame {
         }
     }
 
-    /// Texture coordinates of a point given in millimetres; outside 0 to 1 for points outside the box.
+    /// Texture coordinates of a point given in millimetres; outside 0 to 1 for points outside the
+    /// box.
     #[must_use]
     pub fn uv(&self, point: DVec2) -> DVec2 {
         (point - self.min) / self.size

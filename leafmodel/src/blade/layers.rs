@@ -1,7 +1,8 @@
 //! Layers of contents: what lies where on the lamina, each on top of those before.
 //!
-//! A layer is a change of contents, a [`Mask`] that says where, and a share: where it weighs `w`, the contents `C` below it become
-//! `C + (C′ − C) w`. Layers make what the living lamina holds between veins; ageing, veins and the mottle come after, in this order.
+//! A layer is a change of contents, a [`Mask`] that says where, and a share: where it weighs `w`,
+//! the contents `C` below it become `C + (C′ − C) w`. Layers make what the living lamina holds
+//! between veins; ageing, veins and the mottle come after, in this order.
 
 use std::sync::Arc;
 

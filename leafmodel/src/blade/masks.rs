@@ -15,8 +15,8 @@ use super::tissue::TissueError;
 
 /// A picture over the box of a leaf, decoded.
 ///
-/// Texel centres are at `((column + ½) / width, (row + ½) / height)` of the leaf's [`UvFrame`], row 0 at the least y; between them values
-/// are blended linearly, beyond them the outermost goes on.
+/// Texel centres are at `((column + ½) / width, (row + ½) / height)` of the leaf's [`UvFrame`], row
+/// 0 at the least y; between them values are blended linearly, beyond them the outermost goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture<const N: usize> {
     /// The file that it came from, as the plan names it.
@@ -103,7 +103,8 @@ pub enum Mask {
         /// Width of the edge, mm, 0.001 to 1000.
         softness_mm: f64,
     },
-    /// Nothing before one place along the midrib, all after another: 0 is the base, 1 the apex, and either may come first.
+    /// Nothing before one place along the midrib, all after another: 0 is the base, 1 the apex, and
+    /// either may come first.
     BaseToTip {
         /// Where there is nothing of it, 0 to 1.
         from: f64,

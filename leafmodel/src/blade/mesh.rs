@@ -47,7 +47,8 @@ pub enum MeshDefect {
         /// Number of the triangle.
         triangle: usize,
     },
-    /// A vertex has a number that is not finite, a normal that is not of unit length, or no thickness.
+    /// A vertex has a number that is not finite, a normal that is not of unit length, or no
+    /// thickness.
     #[error("vertex {vertex} has a bad number")]
     BadVertex {
         /// Number of the vertex.
@@ -59,7 +60,8 @@ pub enum MeshDefect {
         /// Number of the vertex.
         vertex: usize,
     },
-    /// An edge with more than two faces, or with two that do not run along it in opposite directions.
+    /// An edge with more than two faces, or with two that do not run along it in opposite
+    /// directions.
     #[error("the edge from vertex {from} to vertex {to} is used twice in the same direction")]
     Edge {
         /// Its first vertex.
@@ -73,7 +75,8 @@ pub enum MeshDefect {
         /// How many closed curves it has, or 0 if it branches.
         loops: usize,
     },
-    /// A triangle that is clockwise or without area on the flat lamina, or turned away from its normals in space.
+    /// A triangle that is clockwise or without area on the flat lamina, or turned away from its
+    /// normals in space.
     #[error("triangle {triangle} is turned over")]
     TurnedOver {
         /// Number of the triangle.
@@ -89,18 +92,18 @@ pub enum MeshDefect {
     },
 }
 
-/// Share by which the areas of triangles and outline may differ: the margin is kept but for points nearer to
-/// each other than a thousandth of an edge.
+/// Share by which the areas of triangles and outline may differ: the margin is kept but for points
+/// nearer to each other than a thousandth of an edge.
 const SAME_AREA: f64 = 1e-6;
 
 impl BladeMesh {
-    /// Makes the blade of a leaf: cuts the lamina within `outline` into triangles with the major veins of
-    /// `network` as edges, raises those veins, and bends the whole.
+    /// Makes the blade of a leaf: cuts the lamina within `outline` into triangles with the major
+    /// veins of `network` as edges, raises those veins, and bends the whole.
     ///
     /// # Errors
     ///
-    /// [`BladeError`] if a field of `form` is out of range, if the mesh would be too large, or if the form
-    /// turns the blade inside out.
+    /// [`BladeError`] if a field of `form` is out of range, if the mesh would be too large, or if
+    /// the form turns the blade inside out.
     pub fn build(
         outline: &Outline,
         network: &VenationNetwork,
@@ -110,7 +113,8 @@ impl BladeMesh {
         Self::from_veins(outline, &veins, network.map(), form)
     }
 
-    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces belong together where ends have the same bits.
+    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces belong together
+    /// where ends have the same bits.
     ///
     /// # Errors
     ///
@@ -176,9 +180,10 @@ impl BladeMesh {
         0.5 * (b - a).perp_dot(c - a)
     }
 
-    /// Checks what every mesh must satisfy: all numbers finite, normals of unit length, every vertex used; each
-    /// edge with one face or two that agree in sense; the border one closed curve; no triangle turned over on the
-    /// lamina or in space; and the flat triangles covering `outline_area` (mm²) within 1e-6 of it.
+    /// Checks what every mesh must satisfy: all numbers finite, normals of unit length, every
+    /// vertex used; each edge with one face or two that agree in sense; the border one closed
+    /// curve; no triangle turned over on the lamina or in space; and the flat triangles covering
+    /// `outline_area` (mm²) within 1e-6 of it.
     ///
     /// # Errors
     ///
@@ -288,8 +293,8 @@ fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Mean of the normals of the faces at each vertex, weighted by their angles there: independent of how a flat
-/// part is cut into triangles.
+/// Mean of the normals of the faces at each vertex, weighted by their angles there: independent of
+/// how a flat part is cut into triangles.
 fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {

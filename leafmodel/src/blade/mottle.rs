@@ -2,11 +2,12 @@
 
 use glam::DVec2;
 
-/// Gradient noise of two octaves with values in [−1, 1], mean 0, continuous with its second derivative.
+/// Gradient noise of two octaves with values in [−1, 1], mean 0, continuous with its second
+/// derivative.
 ///
-/// Gradients sit on the corners of a square lattice (Perlin 1985), one of 16 directions each, taken from a hash
-/// of seed, octave and corner; between corners a quintic blends them (Perlin 2002). The second octave has half
-/// the size and half the height.
+/// Gradients sit on the corners of a square lattice (Perlin 1985), one of 16 directions each, taken
+/// from a hash of seed, octave and corner; between corners a quintic blends them (Perlin 2002). The
+/// second octave has half the size and half the height.
 ///
 /// \[perlin1985\] ACM SIGGRAPH 19(3):287; \[perlin2002\] ACM TOG 21(3):681.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,8 @@ impl Mottle {
         }
     }
 
-    /// The noise whose lattice repeats after so many cells (≥ 1) of `scale_mm`, as that of Perlin 1985 does after the 256 of its table.
+    /// The noise whose lattice repeats after so many cells (≥ 1) of `scale_mm`, as that of Perlin
+    /// 1985 does after the 256 of its table.
     #[must_use]
     pub fn repeating(self, cells: u32) -> Self {
         Self {
@@ -56,7 +58,8 @@ impl Mottle {
         let repeat = |octaves_down: u32| self.repeat.map(|cells| i64::from(cells) << octaves_down);
         let sum =
             (octave(whole, place, repeat(0)) + 0.5 * octave(half, 2.0 * place, repeat(1))) / 1.5;
-        // Gradient noise seldom comes near its bounds; this spreads it, with slope 3/2 at 0 and 0 at ±1.
+        // Gradient noise seldom comes near its bounds; this spreads it, with slope 3/2 at 0 and 0
+        // at ±1.
         let bounded = sum.clamp(-1.0, 1.0);
         bounded * (1.5 - 0.5 * bounded * bounded)
     }
@@ -84,8 +87,8 @@ fn octave(state: u64, place: DVec2, repeat: Option<i64>) -> f64 {
     std::f64::consts::SQRT_2 * (low + y * (high - low))
 }
 
-/// 64 well mixed bits for a corner come from its octave, column and row, one after the other: the finaliser of `SplitMix64`
-/// (Steele et al. 2014) over each.
+/// 64 well mixed bits for a corner come from its octave, column and row, one after the other: the
+/// finaliser of `SplitMix64` (Steele et al. 2014) over each.
 fn mixed(state: u64, number: u64) -> u64 {
     let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

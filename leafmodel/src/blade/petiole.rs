@@ -1,9 +1,10 @@
 //! The petiole: a stalk that goes on as the midrib.
 //!
-//! From the stem it comes along −y to the base at the origin, where the blade's own midrib leaves along +y. The blade begins inside the
-//! tube, its raised midrib too. Beyond the base the tube follows the thickest vein and gets ever thinner. Its abaxial side stays outside
-//! the relief all along, its adaxial side sinks through the blade once, so that it ends as a fine point that lies on the midrib from
-//! below. How far and how fast is by eye.
+//! From the stem it comes along −y to the base at the origin, where the blade's own midrib leaves
+//! along +y. The blade begins inside the tube, its raised midrib too. Beyond the base the tube
+//! follows the thickest vein and gets ever thinner. Its abaxial side stays outside the relief all
+//! along, its adaxial side sinks through the blade once, so that it ends as a fine point that lies
+//! on the midrib from below. How far and how fast is by eye.
 
 mod midrib;
 
@@ -18,7 +19,8 @@ use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 use midrib::Midrib;
 
-/// Length of the joint in radii of the petiole, and its least and greatest share of the leaf's length.
+/// Length of the joint in radii of the petiole, and its least and greatest share of the leaf's
+/// length.
 const JOINT_RADII: f64 = 14.0;
 const JOINT_SHARE: [f64; 2] = [0.03, 0.2];
 /// Pieces of the joint.
@@ -27,13 +29,15 @@ const JOINT_PIECES: usize = 24;
 const END_RADIUS: f64 = 0.05;
 /// By how much of its radius the tube at the base reaches beyond the ridge of the midrib, at least.
 const BEYOND_RIDGE: f64 = 0.25;
-/// Least radius at the base over the height of the ridge there: the tube holds the end of the blade from the ridge up.
+/// Least radius at the base over the height of the ridge there: the tube holds the end of the blade
+/// from the ridge up.
 const HOLDS: f64 = 0.75;
-/// Share of the joint after which the tube has sunk, and the share of its diameter that is then beyond the ridge: a touch
-/// more than all, so that nothing of it is left on the adaxial side.
+/// Share of the joint after which the tube has sunk, and the share of its diameter that is then
+/// beyond the ridge: a touch more than all, so that nothing of it is left on the adaxial side.
 const SUNK_AT: f64 = 0.9;
 const SUNK: f64 = 1.02;
-/// Over how many radii before the base the tube makes ready for the joint, over half its length at most.
+/// Over how many radii before the base the tube makes ready for the joint, over half its length at
+/// most.
 const READY_RADII: f64 = 7.0;
 /// Places across the tube at which the relief is looked up, on each side.
 const ACROSS: i32 = 4;
@@ -51,7 +55,8 @@ pub struct PetiolePlan {
     pub length: f64,
     /// Radius, mm, 0.001 to 100; as the midrib at its base if `None`.
     pub radius_mm: Option<f64>,
-    /// Angle by which it has bent towards the abaxial side at its foot, radians, −3 to 3; 0 is straight.
+    /// Angle by which it has bent towards the abaxial side at its foot, radians, −3 to 3; 0 is
+    /// straight.
     pub curl: f64,
 }
 
@@ -149,7 +154,8 @@ impl PetiolePlan {
             .expect("a smooth bend of a straight line has no kinks, and radii are above 0"))
     }
 
-    /// Distances from the base of the points of the tube behind it, from the foot on: even ones, and closer ones where the radius changes.
+    /// Distances from the base of the points of the tube behind it, from the foot on: even ones,
+    /// and closer ones where the radius changes.
     fn places(&self, length: f64, foot: f64, ready: f64) -> Vec<f64> {
         let pieces = PIECES.max((self.curl.abs() / PIECE_ANGLE).ceil());
         let mut backs: Vec<f64> = (1..=pieces as u32)

@@ -1,10 +1,10 @@
 //! Delaunay refinement: points added until every triangle is small and well shaped.
 //!
-//! Ruppert's scheme with a size field. A triangle that is too large or too pointed gets a new vertex at its
-//! circumcentre; a forced edge that is too long, or has a vertex within the circle on it, is halved. Departures:
-//! corners more pointed than 60° are left as they are, edges that end in one are cut at powers of
-//! two from it (so that its two arms do not halve each other in turn), and no edge is cut below a share of the
-//! target length, which makes sure of an end.
+//! Ruppert's scheme with a size field. A triangle that is too large or too pointed gets a new
+//! vertex at its circumcentre; a forced edge that is too long, or has a vertex within the circle on
+//! it, is halved. Departures: corners more pointed than 60° are left as they are, edges that end in
+//! one are cut at powers of two from it (so that its two arms do not halve each other in turn), and
+//! no edge is cut below a share of the target length, which makes sure of an end.
 //!
 //! # Source
 //!
@@ -120,8 +120,8 @@ impl<'a> Refinement<'a> {
         self.next[a] as usize == b || self.next[b] as usize == a
     }
 
-    /// Adds vertices until nothing is left to do. Forced edges first: circumcentres must not be tried
-    /// while edges are in the way that will be cut anyhow.
+    /// Adds vertices until nothing is left to do. Forced edges first: circumcentres must not be
+    /// tried while edges are in the way that will be cut anyhow.
     pub(super) fn run(&mut self, limit: usize) -> Result<(), BladeError> {
         // A triangulation has twice as many triangles as vertices.
         while self.next.len() <= limit / 2 {
@@ -200,7 +200,8 @@ impl<'a> Refinement<'a> {
     }
 
     fn force(&mut self, a: u32, b: u32) {
-        // The piece lies, up to rounding, where a forced edge lay: nothing can cross it but its other piece.
+        // The piece lies, up to rounding, where a forced edge lay: nothing can cross it but its
+        // other piece.
         if self.cdt.can_add_constraint(handle(a), handle(b)) {
             self.cdt.add_constraint(handle(a), handle(b));
         }
@@ -235,7 +236,8 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// Gives a bad triangle inside the leaf a vertex at its circumcentre, or cuts the edges in its way.
+    /// Gives a bad triangle inside the leaf a vertex at its circumcentre, or cuts the edges in its
+    /// way.
     fn improve(&mut self, [a, b, c]: [u32; 3]) {
         let Some(start) = self.cdt.get_edge_from_neighbors(handle(a), handle(b)) else {
             return;
@@ -285,8 +287,8 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// Forced edges that have `p` within their circle or hide it: those around the faces whose circumcircle
-    /// holds it.
+    /// Forced edges that have `p` within their circle or hide it: those around the faces whose
+    /// circumcircle holds it.
     fn edges_in_the_way(
         &self,
         start: spade::handles::FixedDirectedEdgeHandle,

@@ -1,7 +1,8 @@
 //! Veins that stand out on the abaxial side.
 //!
-//! The sheet is displaced towards −z along major veins: a ridge on the abaxial side, a groove on the adaxial
-//! one. The profile across a vein is one period of a cosine, so that it starts and ends flat.
+//! The sheet is displaced towards −z along major veins: a ridge on the abaxial side, a groove on
+//! the adaxial one. The profile across a vein is one period of a cosine, so that it starts and ends
+//! flat.
 
 use std::f64::consts::PI;
 
@@ -13,7 +14,8 @@ use crate::venation::network::VeinSegment;
 
 /// Half-width of the mound in radii of the vein: the bundle sheath reaches beyond the vein itself.
 const HALF_WIDTH: f64 = 1.5;
-/// Veins rise to their full height while their radius goes from the least one meshed to this many times it.
+/// Veins rise to their full height while their radius goes from the least one meshed to this many
+/// times it.
 const FULL_AT: f64 = 1.5;
 
 /// Height of the veins over the lamina.

@@ -12,7 +12,8 @@ use crate::transport::DeathField;
 pub struct Senescence {
     /// What decides which tissue dies first, and how far it has come.
     pub source: AgeSource,
-    /// Width of the transition from living to dead, in the unit of the source: 0.001 to 1 of the revenue, 0.001 to 1000 days.
+    /// Width of the transition from living to dead, in the unit of the source: 0.001 to 1 of the
+    /// revenue, 0.001 to 1000 days.
     pub blend: f64,
     /// Contents of dead tissue between veins; veins change them as they do those of living tissue.
     pub contents: Contents,
@@ -25,14 +26,17 @@ pub struct Senescence {
     reason = "a leaf has one, and what copies freely is easier to change"
 )]
 pub enum AgeSource {
-    /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of \[xia2007\]).
+    /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of
+    /// \[xia2007\]).
     Revenue {
-        /// What cells earn now, as a share of what they earned when the leaf was full-grown: 1 is summer, 0 all are dead.
+        /// What cells earn now, as a share of what they earned when the leaf was full-grown: 1 is
+        /// summer, 0 all are dead.
         share: f64,
     },
     /// Days of a course, at each place from when that begins to age.
     Day {
-        /// Days since the leaf began to age where it does so first, 0 to 10000; at 0 it has not aged.
+        /// Days since the leaf began to age where it does so first, 0 to 10000; at 0 it has not
+        /// aged.
         day: f64,
         /// What happens meanwhile, and where first.
         course: Course,
@@ -79,7 +83,8 @@ impl Senescence {
 }
 
 impl Senescence {
-    /// The day from which on all tissue is dead, if it ages by days; may come after [`Senescence::LATEST_DAY`].
+    /// The day from which on all tissue is dead, if it ages by days; may come after
+    /// [`Senescence::LATEST_DAY`].
     pub fn last_day(&self) -> Option<f64> {
         match self.source {
             AgeSource::Revenue { .. } => None,
@@ -129,7 +134,8 @@ enum Way {
 }
 
 impl Withering {
-    /// Ageing of the leaf that `place` describes; `deaths` tells when its cells die, if it has any, and `seed` which patches come first.
+    /// Ageing of the leaf that `place` describes; `deaths` tells when its cells die, if it has any,
+    /// and `seed` which patches come first.
     ///
     /// `None` if it cannot be told without cells.
     pub fn new(
@@ -170,7 +176,8 @@ impl Withering {
         })
     }
 
-    /// How dead the tissue at a point (mm) is: 0 alive, 1 dead, a smooth step over the blend between.
+    /// How dead the tissue at a point (mm) is: 0 alive, 1 dead, a smooth step over the blend
+    /// between.
     pub fn dead_share(&self, point: DVec2) -> f64 {
         match &self.0 {
             Way::Revenue {

@@ -9,12 +9,13 @@ use super::triangulate::triangulate;
 use super::{BladeForm, mesh::MOST_TRIANGLES};
 use crate::shape::outline::Outline;
 
-/// Points (mm, the outline's frame) and counter-clockwise triangles, no edge longer than `max_edge_mm`.
+/// Points (mm, the outline's frame) and counter-clockwise triangles, no edge longer than
+/// `max_edge_mm`.
 ///
 /// # Errors
 ///
-/// [`BladeError::OutOfRange`] for an edge outside 0.001 to 10000 mm, [`BladeError::TooFine`] for a sheet of too many
-/// triangles.
+/// [`BladeError::OutOfRange`] for an edge outside 0.001 to 10000 mm, [`BladeError::TooFine`] for a
+/// sheet of too many triangles.
 pub(crate) fn even_sheet(
     outline: &Outline,
     max_edge_mm: f64,

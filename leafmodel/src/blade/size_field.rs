@@ -10,10 +10,11 @@ use crate::venation::network::VeinSegment;
 const EDGE_PER_RADIUS: f64 = 0.6;
 /// Growth of the edge per unit of distance from a vein.
 const GRADING: f64 = 0.3;
-/// Half-width, in radii, over which the edge stays as short as on the vein's axis: that of the mound.
+/// Half-width, in radii, over which the edge stays as short as on the vein's axis: that of the
+/// mound.
 const PLATEAU: f64 = 1.5;
-/// Delaunay triangles have edges up to twice their circumradius: aiming at this share of the longest
-/// edge allowed keeps them below it.
+/// Delaunay triangles have edges up to twice their circumradius: aiming at this share of the
+/// longest edge allowed keeps them below it.
 const AIM: f64 = 0.75;
 /// No vein asks for edges shorter than this share of the longest.
 const SHORTEST: f64 = 1.0 / 16.0;

@@ -1,8 +1,9 @@
 //! The major veins as edges for the mesh: chains cut to the mesh's own lengths, clipped and welded.
 //!
-//! A network as grown has nodes far closer together than a mesh needs, joins at any angle, and comes near
-//! the margin; taken as it is it would force slivers. So chains are resampled to the target edge length, points
-//! that would stand too close are welded into one, and veins end shortly before the margin.
+//! A network as grown has nodes far closer together than a mesh needs, joins at any angle, and
+//! comes near the margin; taken as it is it would force slivers. So chains are resampled to the
+//! target edge length, points that would stand too close are welded into one, and veins end shortly
+//! before the margin.
 
 use std::collections::BTreeMap;
 
@@ -24,12 +25,14 @@ const CLEARANCE: f64 = 0.6;
 pub(super) struct Skeleton {
     /// Places, no two of them close.
     pub(super) points: Vec<DVec2>,
-    /// Pairs of points, lower number first, each pair once. Edges may still cross: the mesh takes the first of them.
+    /// Pairs of points, lower number first, each pair once. Edges may still cross: the mesh takes
+    /// the first of them.
     pub(super) edges: Vec<[u32; 2]>,
 }
 
 impl Skeleton {
-    /// The skeleton of these veins inside `outline`. Thicker veins keep their course, thinner ones give way.
+    /// The skeleton of these veins inside `outline`. Thicker veins keep their course, thinner ones
+    /// give way.
     pub(super) fn new(outline: &Outline, size: &SizeField, veins: &[VeinSegment]) -> Self {
         let graph = Graph::new(outline, size, veins);
         let mut welder = Welder::new(size.longest());
@@ -144,7 +147,8 @@ impl Welder {
 
 /// Points along a polyline at its target lengths, both ends included.
 fn resampled(points: &[DVec2], size: &SizeField) -> Vec<DVec2> {
-    // Arc length in units of the target, so that equal steps are edges of the right length everywhere.
+    // Arc length in units of the target, so that equal steps are edges of the right length
+    // everywhere.
     let mut measure = vec![0.0];
     for pair in points.windows(2) {
         let target = size.at(pair[0].midpoint(pair[1]));
@@ -215,7 +219,8 @@ impl Graph {
         graph
     }
 
-    /// Every edge once, in chains between nodes where other than two edges meet; thickest chain first.
+    /// Every edge once, in chains between nodes where other than two edges meet; thickest chain
+    /// first.
     fn chains(&self) -> Vec<Chain> {
         let mut used = vec![false; self.edges.len()];
         let mut chains = Vec::new();

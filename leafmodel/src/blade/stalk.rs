@@ -17,7 +17,8 @@ pub struct StalkMesh {
     pub positions: Vec<DVec3>,
     /// Unit normals, outward.
     pub normals: Vec<DVec3>,
-    /// Texture coordinates: one half, and the share of the way from the tube's first end to its last.
+    /// Texture coordinates: one half, and the share of the way from the tube's first end to its
+    /// last.
     pub uvs: Vec<DVec2>,
     /// Diameter of the tube at each vertex, > 0.
     pub thickness_mm: Vec<f64>,
@@ -72,10 +73,12 @@ pub enum StalkDefect {
 }
 
 impl StalkMesh {
-    /// A tube along `points` with a radius at each of them (both mm) and a hemisphere on either end, about the end points.
+    /// A tube along `points` with a radius at each of them (both mm) and a hemisphere on either
+    /// end, about the end points.
     ///
-    /// Cross-sections are regular polygons whose sides lie at most 10 µm inside the circle, 8 to 48 of them; they are carried
-    /// along without twist (parallel transport). Bends must be wide against the radius, or the inner side folds.
+    /// Cross-sections are regular polygons whose sides lie at most 10 µm inside the circle, 8 to 48
+    /// of them; they are carried along without twist (parallel transport). Bends must be wide
+    /// against the radius, or the inner side folds.
     ///
     /// # Errors
     ///
@@ -148,8 +151,9 @@ impl StalkMesh {
         self.thickness_mm.push(thickness_mm);
     }
 
-    /// A circle of latitude `up` on the sphere about `centre` whose pole lies towards `axis`. Rings run counter-clockwise seen from
-    /// the tube's far end; on its near end, whose pole looks the other way, that is `against` the axis.
+    /// A circle of latitude `up` on the sphere about `centre` whose pole lies towards `axis`. Rings
+    /// run counter-clockwise seen from the tube's far end; on its near end, whose pole looks the
+    /// other way, that is `against` the axis.
     fn ring(
         &mut self,
         sides: usize,
@@ -207,7 +211,8 @@ impl StalkMesh {
         areas.sum()
     }
 
-    /// Checks what every tube must satisfy: each edge has one triangle on either side, and triangles look the way normals do.
+    /// Checks what every tube must satisfy: each edge has one triangle on either side, and
+    /// triangles look the way normals do.
     ///
     /// # Errors
     ///
@@ -244,7 +249,8 @@ impl StalkMesh {
     }
 }
 
-/// Sides of a polygon that stands for a circle of this radius, mm: its sagitta is `r (1 − cos(π/n))`.
+/// Sides of a polygon that stands for a circle of this radius, mm: its sagitta is
+/// `r (1 − cos(π/n))`.
 fn sides(radius: f64) -> usize {
     let [fewest, most] = SIDES;
     if radius <= 2.0 * SAGITTA_MM {

@@ -123,13 +123,15 @@ impl Tissue {
         TissueError::unless(valid, "mottle_scale_mm", scale, "from 0.01 to 1000")
     }
 
-    /// Contents where veins cover the lamina as `cover` says and the mottle has the value `mottle`, in [−1, 1].
+    /// Contents where veins cover the lamina as `cover` says and the mottle has the value `mottle`,
+    /// in [−1, 1].
     ///
-    /// Each of the contents is `C (1 + (f − 1) w)`, with its value `C` between veins, its factor `f` and the
-    /// veins' weight `w`. Structure, water and dry matter, where `f > 1`, are `C (1 + (f − 1)(w + e))`: they
-    /// come with a vein's thickness, so that their surplus goes on growing with the radius (`e`,
-    /// [`VeinCover::excess`]) while the concentrations of pigments do not. Chlorophyll and carotenoids are
-    /// multiplied by `1 + mottle share × mottle`. Structure is at least 1, the others at least 0.
+    /// Each of the contents is `C (1 + (f − 1) w)`, with its value `C` between veins, its factor
+    /// `f` and the veins' weight `w`. Structure, water and dry matter, where `f > 1`, are
+    /// `C (1 + (f − 1)(w + e))`: they come with a vein's thickness, so that their surplus goes on
+    /// growing with the radius (`e`, [`VeinCover::excess`]) while the concentrations of pigments do
+    /// not. Chlorophyll and carotenoids are multiplied by `1 + mottle share × mottle`. Structure is
+    /// at least 1, the others at least 0.
     #[must_use]
     pub fn contents(&self, cover: VeinCover, mottle: f64) -> Contents {
         self.contents_of(self.lamina, cover, mottle)

@@ -1,7 +1,7 @@
 //! A flat lamina cut into triangles whose edges follow the margin and the major veins.
 //!
-//! Constrained Delaunay triangulation of margin and [`Skeleton`], refined by [`super::refine`], with the
-//! inside told from the outside by crossing the margin.
+//! Constrained Delaunay triangulation of margin and [`Skeleton`], refined by [`super::refine`],
+//! with the inside told from the outside by crossing the margin.
 
 use glam::DVec2;
 use spade::Triangulation as _;
@@ -12,10 +12,11 @@ use super::size_field::SizeField;
 use super::skeleton::Skeleton;
 use crate::shape::outline::Outline;
 
-/// Neighbours on the margin closer than this share of the longest edge become one point: so short an
-/// edge carries no shape, but would not survive single precision.
+/// Neighbours on the margin closer than this share of the longest edge become one point: so short
+/// an edge carries no shape, but would not survive single precision.
 const SHORTEST_MARGIN_EDGE: f64 = 1e-3;
-/// Area of a triangle over that of the square on its edge, on average over refined meshes (measured).
+/// Area of a triangle over that of the square on its edge, on average over refined meshes
+/// (measured).
 const TRIANGLE_SHARE: f64 = 0.4;
 
 /// A flat triangulation.

@@ -7,9 +7,11 @@ use super::vein_cover::VeinCover;
 use super::vein_profile::{Profile, strength};
 use crate::venation::network::VeinSegment;
 
-/// The veins of a leaf, sorted into a uniform grid of cells that each know every segment within reach.
+/// The veins of a leaf, sorted into a uniform grid of cells that each know every segment within
+/// reach.
 ///
-/// A query looks at one cell only and is exact: it gives what a search over all segments would, to the bit.
+/// A query looks at one cell only and is exact: it gives what a search over all segments would, to
+/// the bit.
 #[derive(Clone, Debug)]
 pub struct VeinField {
     profile: Profile,
@@ -77,13 +79,13 @@ impl Segment {
 }
 
 impl VeinField {
-    /// Sorts the veins. With `texel_mm` > 0 the field is averaged over texels of that width, so that veins thinner
-    /// than a texel are neither lost nor broken; with 0 it is the field itself.
+    /// Sorts the veins. With `texel_mm` > 0 the field is averaged over texels of that width, so
+    /// that veins thinner than a texel are neither lost nor broken; with 0 it is the field itself.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or a radius not
-    /// above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
+    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
+    /// a radius not above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
     pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
         tissue.validate()?;
         let valid = (0.0..=1e5).contains(&texel_mm);
@@ -112,8 +114,8 @@ impl VeinField {
             (min, max) = (DVec2::ZERO, DVec2::ZERO);
         }
         let size = max - min;
-        // About a cell a segment, none much smaller than what the finest veins reach anyway, and never
-        // more than 4096 a side.
+        // About a cell a segment, none much smaller than what the finest veins reach anyway, and
+        // never more than 4096 a side.
         let even = (size.x * size.y / segments.len().max(1) as f64).sqrt();
         let cell = even
             .max(0.5 * (profile.sheath + profile.texel))
@@ -174,7 +176,8 @@ impl VeinField {
         )
     }
 
-    /// How far veins cover the tissue at a point given in millimetres: the strongest of those nearby.
+    /// How far veins cover the tissue at a point given in millimetres: the strongest of those
+    /// nearby.
     #[must_use]
     pub fn cover(&self, point: DVec2) -> VeinCover {
         // Outside the grid nothing reaches, and the nearest cell's segments say so themselves.

@@ -1,20 +1,23 @@
 //! How strongly a vein shows across its width, and how that is kept in a map of coarse texels.
 
-/// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in [0, 1].
+/// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in
+/// [0, 1].
 ///
-/// The exponent with which finer veins count less is one half by eye (no measurement known to us): with 1 the finest net all
-/// but vanishes beside the secondaries, with less than 0.3 all orders look alike.
+/// The exponent with which finer veins count less is one half by eye (no measurement known to us):
+/// with 1 the finest net all but vanishes beside the secondaries, with less than 0.3 all orders
+/// look alike.
 pub(super) fn strength(radius: f64, full_radius: f64) -> f64 {
     // A square root, unlike a power, is exact on every machine.
     (radius / full_radius).min(1.0).sqrt()
 }
 
-/// Weight across a vein: 1 up to the radius `r`, then `1 − (3u² − 2u³)` with `u = (d − r) / s` down to 0 at
-/// `r + s`; continuous with its first derivative.
+/// Weight across a vein: 1 up to the radius `r`, then `1 − (3u² − 2u³)` with `u = (d − r) / s` down
+/// to 0 at `r + s`; continuous with its first derivative.
 ///
-/// With a texel width `h` it is the same profile averaged under a tent of half-width `h` (two texels wide, as
-/// bilinear look-up will use the map). What the vein covers in all, `∫ w dd = 2r + s`, is then kept in a
-/// row of texels whatever their size, and a vein thinner than a texel is wide and faint instead of broken.
+/// With a texel width `h` it is the same profile averaged under a tent of half-width `h` (two
+/// texels wide, as bilinear look-up will use the map). What the vein covers in all,
+/// `∫ w dd = 2r + s`, is then kept in a row of texels whatever their size, and a vein thinner than
+/// a texel is wide and faint instead of broken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     /// Sheath width `s`, mm, > 0.
@@ -38,7 +41,8 @@ impl Profile {
         if d - h >= r + self.sheath {
             return 0.0;
         }
-        // The tent hardly changes so smooth a profile, and second differences would lose their digits.
+        // The tent hardly changes so smooth a profile, and second differences would lose their
+        // digits.
         if h < 1e-3 * self.sheath {
             return self.sharp(d, r);
         }
@@ -53,7 +57,8 @@ impl Profile {
         1.0 - u * u * (3.0 - 2.0 * u)
     }
 
-    /// `∫₀^d ∫₀^x w(y) dy dx`, even in `d`: its second difference over `h` is the average under the tent.
+    /// `∫₀^d ∫₀^x w(y) dy dx`, even in `d`: its second difference over `h` is the average under the
+    /// tent.
     fn second_integral(self, d: f64, r: f64) -> f64 {
         let s = self.sheath;
         if d <= r {
@@ -65,8 +70,9 @@ impl Profile {
         inside + (r + 0.5 * s) * beyond
     }
 
-    /// What a vein of radius `r` has beyond a full one at the distance `d` from its axis: `r / r_full − 1` on the
-    /// axis, falling as `(1 − (d/r)²)²` to 0 at the vein's edge; 0 for veins up to `r_full`.
+    /// What a vein of radius `r` has beyond a full one at the distance `d` from its axis:
+    /// `r / r_full − 1` on the axis, falling as `(1 − (d/r)²)²` to 0 at the vein's edge; 0 for
+    /// veins up to `r_full`.
     ///
     /// A vein narrower than the texels is widened to 1.5 texels and lowered in proportion.
     pub(super) fn excess(self, d: f64, r: f64, full_radius: f64) -> f64 {

@@ -21,7 +21,8 @@ struct Insertion {
     size: f64,
 }
 
-/// A point on an axis that starts at `base` towards `heading`, is `length` long and turns evenly; with its direction there.
+/// A point on an axis that starts at `base` towards `heading`, is `length` long and turns evenly;
+/// with its direction there.
 fn on_arc(base: DVec2, heading: f64, length: f64, turn: f64, along: f64) -> (DVec2, f64) {
     let turned = turn * along / length;
     // Chord of the arc: sin(t/2)/(t/2) of its length, half-way between the directions.
@@ -162,7 +163,8 @@ impl Builder<'_> {
         self.plan.stalk_radius_mm * flow.sqrt()
     }
 
-    /// A leaflet and its stalk; gives what it needs of its rachis, in units of the largest leaflet's.
+    /// A leaflet and its stalk; gives what it needs of its rachis, in units of the largest
+    /// leaflet's.
     fn leaflet(&mut self, insertion: &Insertion, scale: f64) -> f64 {
         let angle = insertion.heading + insertion.angle;
         let stalk = self.plan.petiolule * scale * self.unit;

@@ -10,12 +10,14 @@ use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 /// Nodes of stalks nearer to each other than this are one, mm.
 const SAME_MM: f64 = 1e-7;
 
-/// A leaf in the plane, mm: a simple one with its petiole along −y, a compound one with its petiole's foot at the origin.
+/// A leaf in the plane, mm: a simple one with its petiole along −y, a compound one with its
+/// petiole's foot at the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatLeaf {
     /// The margin of each blade.
     pub outlines: Vec<Outline>,
-    /// Stalks, then the veins of each blade, as one graph that leads away from the petiole's foot. Stalks are of order 1.
+    /// Stalks, then the veins of each blade, as one graph that leads away from the petiole's foot.
+    /// Stalks are of order 1.
     pub network: VenationNetwork,
 }
 
@@ -38,7 +40,8 @@ impl FlatLeaf {
         })
     }
 
-    /// A compound leaf; `laminas` are those of its different leaflets. `None` if scaling made something of no size.
+    /// A compound leaf; `laminas` are those of its different leaflets. `None` if scaling made
+    /// something of no size.
     pub fn compound(leaf: &CompoundLeaf, laminas: &[&Lamina]) -> Option<Self> {
         let mut graph = Graph::default();
         for (points, radii) in joined_stalks(leaf) {

@@ -48,7 +48,8 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
             let n = own.len();
             let outline = of(first);
             let crosses = (0..n).any(|i| outline.is_crossed_by(own[i], own[(i + 1) % n]));
-            // Margins that do not cross may still be one inside the other: then all corners of the inner are in the outer.
+            // Margins that do not cross may still be one inside the other: then all corners of the
+            // inner are in the outer.
             let around = || {
                 let other = back(
                     second,
@@ -72,7 +73,8 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
                 if from.cmpgt(*high).any() || low.cmpgt(to).any() {
                     continue;
                 }
-                // The end of a stalk may touch a base that sits on it: pieces are looked at but for a touch at their ends.
+                // The end of a stalk may touch a base that sits on it: pieces are looked at but for
+                // a touch at their ends.
                 let [a, b] = [piece[0], piece[1]].map(|p| back(leaflet, p));
                 let outline = of(leaflet);
                 let touch = (TOUCH * outline.length() / a.distance(b)).min(0.5);

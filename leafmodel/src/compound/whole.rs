@@ -40,8 +40,8 @@ pub struct WholeLeaf {
     pub flat: Option<CompoundLeaf>,
 }
 
-/// The plans of all blades of a leaf: the leaf's own, or its different leaflets at the size of the largest, each with a seed
-/// of its own and the leaflet's stalk for a petiole.
+/// The plans of all blades of a leaf: the leaf's own, or its different leaflets at the size of the
+/// largest, each with a seed of its own and the leaflet's stalk for a petiole.
 pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
     let petiole = PetiolePlan {
         length: form.petiolule,
@@ -87,7 +87,8 @@ impl WholeLeaf {
         }
     }
 
-    /// A compound leaf from its different leaflets, grown from [`leaflet_plans`], and its arrangement.
+    /// A compound leaf from its different leaflets, grown from [`leaflet_plans`], and its
+    /// arrangement.
     pub fn assembled(
         plan: &LeafPlan,
         form: &CompoundForm,
@@ -164,7 +165,8 @@ impl Bend {
         }
     }
 
-    /// Where a point of the plane goes. As [`crate::blade::BladeForm::curl`] has it, lengths are kept.
+    /// Where a point of the plane goes. As [`crate::blade::BladeForm::curl`] has it, lengths are
+    /// kept.
     fn place(&self, p: DVec2) -> DVec3 {
         let angle = self.curvature * p.y;
         if angle.abs() < 1e-6 {

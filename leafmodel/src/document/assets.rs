@@ -27,8 +27,8 @@ pub struct Triangles {
     pub dropped: Option<String>,
 }
 
-/// Decodes files. This crate reads no pictures and no meshes; a program that does hands one of these to
-/// [`Context`](super::context::Context).
+/// Decodes files. This crate reads no pictures and no meshes; a program that does hands one of
+/// these to [`Context`](super::context::Context).
 ///
 /// Every error is a piece of a sentence whose subject is the file, and what to do about it.
 pub trait Assets: Debug + Sync {

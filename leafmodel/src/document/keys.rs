@@ -67,8 +67,8 @@ struct Reading<'p> {
     reason = "a kind is made where it is used"
 )]
 impl<'p> Keys<'p> {
-    /// Reads a block; whether it has no error. With a `base`, the values are those of a preset of that name, and no key
-    /// is required.
+    /// Reads a block; whether it has no error. With a `base`, the values are those of a preset of
+    /// that name, and no key is required.
     pub fn read(block: Block<'p>, base: Option<&str>, declare: impl FnOnce(&mut Keys<'_>)) -> bool {
         Self::read_within(block, base.map(Rc::from), declare)
     }
@@ -248,7 +248,8 @@ impl<'p> Keys<'p> {
         self.inner_block(name, about, None, declare);
     }
 
-    /// A block that must be there, unless a preset stands beneath; of one of the kinds, if there are any.
+    /// A block that must be there, unless a preset stands beneath; of one of the kinds, if there
+    /// are any.
     pub fn required_block(
         &mut self,
         name: &'static str,

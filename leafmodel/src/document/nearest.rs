@@ -3,9 +3,10 @@
 /// The candidate nearest to `written`, if any is near enough to be meant.
 ///
 /// Near is an edit distance (insertions, deletions, replacements, swaps of neighbours; letters'
-/// case left out) of at most a third of the longer name, or one name being the start of the
-/// other: a key without its unit is the commonest slip. Four letters or more may also be the start of a name, up to a `-`
-/// or `_`, with one slip: `brich` is `birch-yellow`. The first of equally near ones wins.
+/// case left out) of at most a third of the longer name, or one name being the start of the other:
+/// a key without its unit is the commonest slip. Four letters or more may also be the start of a
+/// name, up to a `-` or `_`, with one slip: `brich` is `birch-yellow`. The first of equally near
+/// ones wins.
 pub fn nearest<'c>(
     written: &str,
     candidates: impl IntoIterator<Item = &'c str>,

@@ -11,8 +11,8 @@ use super::source::{Place, escaped};
 use super::tree::{Entry, Node, Table};
 use super::values::listed;
 
-/// Puts one override into a file's tree. Errors point into the override's own text, which reports show under the
-/// name of its `flag`.
+/// Puts one override into a file's tree. Errors point into the override's own text, which reports
+/// show under the name of its `flag`.
 ///
 /// Text may go without its quotes, which a shell takes away: the schema says which keys take text.
 pub fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str, schema: &BlockSchema) {
@@ -82,7 +82,8 @@ pub fn apply(cx: &Context, tree: &mut Table, flag: &str, text: &str, schema: &Bl
     }
 }
 
-/// The override with quotes around its value, if its key takes text, or if that makes a word of what else is no TOML.
+/// The override with quotes around its value, if its key takes text, or if that makes a word of
+/// what else is no TOML.
 fn with_quotes(text: &str, schema: &BlockSchema) -> Option<String> {
     let is_toml = |text: &str| DeTable::parse_recoverable(text).1.is_empty();
     let (key, value) = text.split_once('=')?;
@@ -113,7 +114,8 @@ fn takes_text(entry: &EntrySchema) -> bool {
     }
 }
 
-/// Notes a name in the second place of a path, `leaves.NAME`, that is not in the file and like one that is.
+/// Notes a name in the second place of a path, `leaves.NAME`, that is not in the file and like one
+/// that is.
 fn note_new_name(cx: &Context, tree: &Table, path: &[(String, Place)]) {
     let [(section, _), (name, at), _, ..] = path else {
         return;

@@ -108,7 +108,8 @@ pub enum Type {
 }
 
 impl BlockSchema {
-    /// Adds a key that is not there yet. One of several of which one must be there is not required itself.
+    /// Adds a key that is not there yet. One of several of which one must be there is not required
+    /// itself.
     pub fn add(&mut self, mut entry: EntrySchema) {
         if self.get(&entry.key).is_none() {
             let grouped = self.groups.iter().flat_map(|group| &group.keys);

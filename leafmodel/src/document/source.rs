@@ -1,7 +1,7 @@
 //! Texts that a scene is made of, and places in them.
 //!
-//! Of a table with millions of rows only the rows that reports show are kept, each as a text of its own that knows
-//! its line.
+//! Of a table with millions of rows only the rows that reports show are kept, each as a text of its
+//! own that knows its line.
 
 use std::ops::Range;
 
@@ -35,7 +35,8 @@ impl Sources {
         self.add_excerpt(name, text, 1)
     }
 
-    /// Takes a piece of a text in, which starts in the given line of its file, and gives its number.
+    /// Takes a piece of a text in, which starts in the given line of its file, and gives its
+    /// number.
     pub fn add_excerpt(
         &mut self,
         name: impl Into<String>,

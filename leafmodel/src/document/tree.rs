@@ -49,7 +49,8 @@ pub struct Entry {
 }
 
 impl Value {
-    /// Whether both are the same, wherever they stand. A whole number is the same with and without a point.
+    /// Whether both are the same, wherever they stand. A whole number is the same with and without
+    /// a point.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Text(a), Self::Text(b)) | (Self::Other(_, a), Self::Other(_, b)) => a == b,

@@ -11,9 +11,11 @@ use crate::venation::network::VenationNetwork;
 
 /// Margin, veins and areoles as a `GeoJSON` `FeatureCollection`.
 ///
-/// Coordinates are millimetres in the frame of the outline, **not** degrees on the Earth as RFC 7946 has it; the member `coordinate_unit` says so.
-/// Each feature's property `kind` is `margin`, `vein` (a `LineString` from junction to junction, with `order`, `radius_mm_mean`,
-/// `length_mm`) or `areole` (a `Polygon` with `area_mm2`, `perimeter_mm`, `circularity`; nets inside it are no holes in it).
+/// Coordinates are millimetres in the frame of the outline, **not** degrees on the Earth as RFC
+/// 7946 has it; the member `coordinate_unit` says so. Each feature's property `kind` is `margin`,
+/// `vein` (a `LineString` from junction to junction, with `order`, `radius_mm_mean`, `length_mm`)
+/// or `areole` (a `Polygon` with `area_mm2`, `perimeter_mm`, `circularity`; nets inside it are no
+/// holes in it).
 pub fn geojson(outlines: &[Outline], network: &VenationNetwork) -> String {
     let mut text = String::from(
         "{\"type\":\"FeatureCollection\",\n\

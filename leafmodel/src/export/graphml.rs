@@ -18,8 +18,9 @@ const KEYS: [(&str, &str, &str); 8] = [
 
 /// The network as `GraphML`: a directed graph, edges leading away from the petiole.
 ///
-/// Nodes are `n0`, `n1`, … by number and carry `x_mm`, `y_mm` and `born_step`; edges carry `length_mm`, `radius_from_mm`, `radius_to_mm`
-/// and `order`; the graph carries `segment_mm`. All are names of `GraphML` keys.
+/// Nodes are `n0`, `n1`, … by number and carry `x_mm`, `y_mm` and `born_step`; edges carry
+/// `length_mm`, `radius_from_mm`, `radius_to_mm` and `order`; the graph carries `segment_mm`. All
+/// are names of `GraphML` keys.
 pub fn graphml(network: &VenationNetwork) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\

@@ -11,9 +11,10 @@ use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 
 /// Margin and network as JSON, every number in full.
 ///
-/// `nodes` and `edges` are objects of columns of equal length (`x_mm`, `y_mm`, `born_step`; `from`, `to`, `radius_from_mm`,
-/// `radius_to_mm`, `order`), which takes half the room of a list of objects and loads into tables as it is. Nodes are numbered from 0.
-/// `areoles` is a list of objects, there only if asked for. The margin is `outline`; a compound leaf has the list `outlines` instead.
+/// `nodes` and `edges` are objects of columns of equal length (`x_mm`, `y_mm`, `born_step`; `from`,
+/// `to`, `radius_from_mm`, `radius_to_mm`, `order`), which takes half the room of a list of objects
+/// and loads into tables as it is. Nodes are numbered from 0. `areoles` is a list of objects, there
+/// only if asked for. The margin is `outline`; a compound leaf has the list `outlines` instead.
 pub fn json(outlines: &[Outline], network: &VenationNetwork, with_areoles: bool) -> String {
     let margin = |outline: &Outline| {
         let points: Vec<[f64; 2]> = outline.points().iter().map(DVec2::to_array).collect();
@@ -80,7 +81,8 @@ pub fn json(outlines: &[Outline], network: &VenationNetwork, with_areoles: bool)
     text + "\n}\n"
 }
 
-/// A list of values. One at a time is made into a JSON value, since all together would take many times the room of the text.
+/// A list of values. One at a time is made into a JSON value, since all together would take many
+/// times the room of the text.
 fn column<T>(items: &[T], value: impl Fn(&T) -> Value) -> String {
     let mut text = String::from("[");
     for (number, item) in items.iter().enumerate() {

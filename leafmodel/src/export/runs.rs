@@ -3,7 +3,8 @@
 use crate::venation::network::VenationNetwork;
 use crate::venation::topology::Topology;
 
-/// Edges that follow each other from a junction or origin to the next junction or tip, all of one order.
+/// Edges that follow each other from a junction or origin to the next junction or tip, all of one
+/// order.
 #[derive(Clone, Debug)]
 pub struct Runs {
     starts: Vec<u32>,
@@ -16,7 +17,8 @@ impl Runs {
         let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
         let topology = Topology::new(network.nodes().len(), &ends);
         let order = |edge: u32| network.edges()[edge as usize].order;
-        // The edge in which another goes on, or from which it comes, at a node where nothing else is.
+        // The edge in which another goes on, or from which it comes, at a node where nothing else
+        // is.
         let passing = |node: u32| match (topology.entering(node), topology.leaving(node)) {
             (&[before], &[after]) if order(before) == order(after) => Some((before, after)),
             _ => None,

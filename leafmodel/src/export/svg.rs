@@ -30,15 +30,16 @@ pub struct SvgStyle {
 
 /// Margin and veins as SVG 1.1, in millimetres, apex up.
 ///
-/// There is a group for each order, finest first, so that coarse veins lie on top. Stretches of a vein with one width are
-/// one stroked path; where a vein tapers it is a filled outline.
+/// There is a group for each order, finest first, so that coarse veins lie on top. Stretches of a
+/// vein with one width are one stroked path; where a vein tapers it is a filled outline.
 pub fn svg(outline: &Outline, network: &VenationNetwork, style: SvgStyle) -> String {
     let outlines = std::slice::from_ref(outline);
     svg_within(outline.bounds(), outlines, network, style)
 }
 
-/// The same with a page for another blade, by the lower left and upper right corner of its [`Outline::bounds`]: pictures of
-/// a leaf while it grows have one scale on the page of the full-grown one. A compound leaf has several margins.
+/// The same with a page for another blade, by the lower left and upper right corner of its
+/// [`Outline::bounds`]: pictures of a leaf while it grows have one scale on the page of the
+/// full-grown one. A compound leaf has several margins.
 pub fn svg_within(
     (low, high): (DVec2, DVec2),
     outlines: &[Outline],
@@ -142,7 +143,8 @@ fn width_of(width: f64) -> f64 {
     (width * 1e6).round() / 1e6
 }
 
-/// The outline of a vein that tapers, its end rounded; its start lies under the round end of what it comes from.
+/// The outline of a vein that tapers, its end rounded; its start lies under the round end of what
+/// it comes from.
 fn taper(text: &mut String, from: DVec2, to: DVec2, radii: [f64; 2]) {
     let aside = (to - from).perp().normalize_or_zero();
     let [start, end] = radii;

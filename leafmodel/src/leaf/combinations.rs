@@ -7,7 +7,8 @@ use crate::shape::svg_path::SvgContour;
 use crate::species::find;
 use crate::transport::{FilledPlan, VeinStyle};
 
-/// A leaf as one would trace it from a photograph: oblique, with one lobe more on its right, drawn upside down.
+/// A leaf as one would trace it from a photograph: oblique, with one lobe more on its right, drawn
+/// upside down.
 const TRACED: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M210 30 C260 90 330 120 300 190 \
     C360 200 380 260 300 330 C290 390 250 420 205 470 C150 430 90 380 80 300 C70 200 150 120 210 30 Z\"/></svg>";
 

@@ -12,12 +12,14 @@ use crate::venation::arcuate::ArcuateVeins;
 pub enum Fields {
     /// `Vein`, `Net` and `Fac` of veins that are splines: 0 or 1, 0 or 1, and 0 to 1.
     Arcuate(ArcuateVeins),
-    /// `death`: at which share of the full-grown leaf's revenue the cells there die as it falls, 1 first, 0 last.
+    /// `death`: at which share of the full-grown leaf's revenue the cells there die as it falls, 1
+    /// first, 0 last.
     Deaths(DeathField),
 }
 
 impl LeafPlan {
-    /// The fields of a lamina that this plan has brought forth, if its veins or its margin have any.
+    /// The fields of a lamina that this plan has brought forth, if its veins or its margin have
+    /// any.
     ///
     /// # Errors
     ///
@@ -37,7 +39,8 @@ impl LeafPlan {
         }
     }
 
-    /// Where the cells of a lamina die first, if it has any; those that its veins supply come before those of its margin.
+    /// Where the cells of a lamina die first, if it has any; those that its veins supply come
+    /// before those of its margin.
     pub(super) fn death_field(&self, lamina: &Lamina) -> Result<Option<DeathField>, LeafError> {
         Ok(match (&lamina.filled, &lamina.cells) {
             (Some(blade), _) => Some(blade.death_field()),
@@ -87,8 +90,8 @@ mod tests {
             let middle = segment.from.lerp(segment.to, 0.5);
             fields.at(middle, &mut values);
             assert_eq!(values[1], 1.0, "near a vein at {middle}");
-            // Chords lie within a hundredth of a millimetre of their splines, and finest ends are thinner. Where a lateral
-            // leaves the midrib, it is the midrib's height that counts.
+            // Chords lie within a hundredth of a millimetre of their splines, and finest ends are
+            // thinner. Where a lateral leaves the midrib, it is the midrib's height that counts.
             if segment.radius_from > 0.05 && segment.radius_to > 0.05 {
                 assert!(values[0] == 1.0 && values[2] > 0.0, "{middle}: {values:?}");
             }

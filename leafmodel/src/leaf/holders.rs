@@ -13,8 +13,9 @@ const BETALAINS: [Constituent; 2] = [Constituent::Betacyanins, Constituent::Beta
 type Holder = (String, PerConstituent<f64>);
 
 impl LeafPlan {
-    /// The keys of two parts of the plan of which the first brings anthocyanins and the second betalains, which no plant
-    /// holds together, wherever on the leaf they lie; the same twice if one part brings both.
+    /// The keys of two parts of the plan of which the first brings anthocyanins and the second
+    /// betalains, which no plant holds together, wherever on the leaf they lie; the same twice if
+    /// one part brings both.
     ///
     /// A layer that replaces a pigment everywhere cancels that pigment in the parts below it.
     pub fn anthocyanins_beside_betalains(&self) -> Option<[String; 2]> {

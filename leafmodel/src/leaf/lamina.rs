@@ -7,7 +7,8 @@ use crate::transport::{FilledBlade, TransportLeaf};
 use crate::venation::network::VenationNetwork;
 use crate::venation::{self, grow_unless};
 
-/// A leaf before it is bent. Lengths are millimetres; the base is the origin, the midrib goes along +y.
+/// A leaf before it is bent. Lengths are millimetres; the base is the origin, the midrib goes along
+/// +y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamina {
     /// The margin.
@@ -62,7 +63,8 @@ impl LeafPlan {
     ///
     /// # Errors
     ///
-    /// As [`LeafPlan::grow_lamina`], and [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
+    /// As [`LeafPlan::grow_lamina`], and
+    /// [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
         let (outline, cells) = self.outline.grow_with_cells(self.length_mm, self.seed)?;
         let mut filled = None;

@@ -103,8 +103,8 @@ impl OutlinePlan {
         }
     }
 
-    /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters to transport leaves in uneven
-    /// light only.
+    /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters
+    /// to transport leaves in uneven light only.
     ///
     /// # Errors
     ///

@@ -9,12 +9,13 @@ use crate::mosaic::pattern::LaminaPattern;
 use crate::venation::network::VeinSegment;
 
 impl LeafPlan {
-    /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`] around its margin.
+    /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`]
+    /// around its margin.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Mosaic`], [`LeafError::Tissue`], [`LeafError::NoRevenue`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped)
-    /// when `is_stopped` says so.
+    /// [`LeafError::Mosaic`], [`LeafError::Tissue`], [`LeafError::NoRevenue`];
+    /// [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) when `is_stopped` says so.
     pub fn paint(
         &self,
         lamina: &Lamina,
@@ -25,11 +26,13 @@ impl LeafPlan {
         self.paint_with(lamina, pattern.as_ref())
     }
 
-    /// The mosaic of the plan on a lamina that the plan has brought forth, if it has one: the same on all days and for maps of all sizes.
+    /// The mosaic of the plan on a lamina that the plan has brought forth, if it has one: the same
+    /// on all days and for maps of all sizes.
     ///
     /// # Errors
     ///
-    /// [`LeafError::Mosaic`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) when `is_stopped` says so.
+    /// [`LeafError::Mosaic`]; [`MosaicError::Stopped`](crate::mosaic::MosaicError::Stopped) when
+    /// `is_stopped` says so.
     pub fn grow_pattern(
         &self,
         lamina: &Lamina,
@@ -41,7 +44,8 @@ impl LeafPlan {
         Ok(pattern.transpose()?)
     }
 
-    /// As [`LeafPlan::paint`], with the mosaic that [`LeafPlan::grow_pattern`] gave for this lamina.
+    /// As [`LeafPlan::paint`], with the mosaic that [`LeafPlan::grow_pattern`] gave for this
+    /// lamina.
     ///
     /// # Errors
     ///
@@ -66,7 +70,8 @@ impl LeafPlan {
         )?)
     }
 
-    /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of its margin.
+    /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of
+    /// its margin.
     pub(crate) fn withering(
         &self,
         lamina: &Lamina,

@@ -21,8 +21,8 @@ pub struct LeafStage {
 impl LeafPlan {
     /// The last step of growth of a lamina that this plan has brought forth; the first is 0.
     ///
-    /// Steps are those of the veins that grow towards auxin; those in which the revenue of a transport leaf rises or, if it rises from
-    /// event to event, the cells that come.
+    /// Steps are those of the veins that grow towards auxin; those in which the revenue of a
+    /// transport leaf rises or, if it rises from event to event, the cells that come.
     ///
     /// # Errors
     ///

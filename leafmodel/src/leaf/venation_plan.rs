@@ -4,8 +4,8 @@ use crate::transport::{FilledPlan, VeinStyle};
 use crate::venation::arcuate::ArcuatePlan;
 use crate::venation::plan::AuxinPlan;
 
-/// How the veins of a leaf come to be. Each kind goes with every contour, but that [`VenationPlan::Cells`] needs the cells of a
-/// transport leaf.
+/// How the veins of a leaf come to be. Each kind goes with every contour, but that
+/// [`VenationPlan::Cells`] needs the cells of a transport leaf.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VenationPlan {
     /// They grow towards sources of auxin.
@@ -45,7 +45,8 @@ impl VenationPlan {
         }
     }
 
-    /// The exponent of Murray's law that its veins keep to: the plan's own, or 2 (areas add up) where there is none.
+    /// The exponent of Murray's law that its veins keep to: the plan's own, or 2 (areas add up)
+    /// where there is none.
     pub fn murray_exponent(&self) -> f64 {
         self.auxin().map_or(2.0, |plan| plan.murray_exponent)
     }

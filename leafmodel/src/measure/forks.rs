@@ -54,7 +54,8 @@ impl Forks {
                 wides.push(angle_deg(arrival, wide));
                 fines.push(angle_deg(arrival, fine));
             }
-            // A vein that goes on tapers from its parent's radius to its own along its first edge: its far end counts.
+            // A vein that goes on tapers from its parent's radius to its own along its first edge:
+            // its far end counts.
             let parent = skeleton.edge(parent).radius_to;
             let shares = out.iter().map(|&e| skeleton.edge(e).radius_to / parent);
             if murray {
@@ -76,13 +77,15 @@ impl Forks {
     }
 }
 
-/// The `n > 0` for which `Σ xᵢⁿ = 1`. There is one, and only one, if all of several `xᵢ` are below 1.
+/// The `n > 0` for which `Σ xᵢⁿ = 1`. There is one, and only one, if all of several `xᵢ` are below
+/// 1.
 fn fitted_exponent(shares: &(impl Iterator<Item = f64> + Clone)) -> Option<f64> {
     let least = shares.clone().fold(f64::INFINITY, f64::min);
     if shares.clone().any(|x| x >= 1.0) {
         return None;
     }
-    // If all were as small as the least. The sum falls and is convex, so Newton's method comes from the left and stays there.
+    // If all were as small as the least. The sum falls and is convex, so Newton's method comes from
+    // the left and stays there.
     let mut n = libm::log(shares.clone().count() as f64) / -libm::log(least);
     for _ in 0..NEWTON_STEPS {
         let (mut sum, mut slope) = (-1.0, 0.0);

@@ -1,4 +1,5 @@
-//! Elliptic Fourier descriptors: a margin as a sum of ellipses, free of size, place, direction and starting point.
+//! Elliptic Fourier descriptors: a margin as a sum of ellipses, free of size, place, direction and
+//! starting point.
 //!
 //! # Source
 //!
@@ -13,15 +14,17 @@ use crate::shape::outline::Outline;
 /// Ellipses in the sum.
 pub(super) const HARMONICS: usize = 20;
 
-/// A first ellipse whose squared axes differ by less than this share is a circle, which has no direction of its own.
+/// A first ellipse whose squared axes differ by less than this share is a circle, which has no
+/// direction of its own.
 const ROUND: f64 = 1e-9;
 
 /// `a, b, c, d` of each harmonic in turn, 80 numbers: the margin is
 /// `x = Σ a cos nt + b sin nt`, `y = Σ c cos nt + d sin nt` about its mean.
 ///
-/// The unit is the first ellipse's larger half axis, which lies along x, so that the first harmonic is `1, 0, 0, d`. Of
-/// that axis' two ends the one nearer to the apex is at +x, or, where the axis lies rather across the midrib, the one to the
-/// right. If the first ellipse is a circle, +x is the direction of the midrib.
+/// The unit is the first ellipse's larger half axis, which lies along x, so that the first harmonic
+/// is `1, 0, 0, d`. Of that axis' two ends the one nearer to the apex is at +x, or, where the axis
+/// lies rather across the midrib, the one to the right. If the first ellipse is a circle, +x is the
+/// direction of the midrib.
 pub(super) fn descriptors(outline: &Outline) -> Vec<f64> {
     let ellipses = coefficients(outline.points());
     let midrib = (outline.apex() - outline.base()) / outline.length();

@@ -67,7 +67,8 @@ impl Hierarchy {
     }
 }
 
-/// The edge of an order in which a vein goes on from the end of another: the largest `r (1 + cos φ)`, as in [`crate::venation`].
+/// The edge of an order in which a vein goes on from the end of another: the largest
+/// `r (1 + cos φ)`, as in [`crate::venation`].
 fn continuation(skeleton: &Skeleton, edge: u32, order: u8) -> Option<u32> {
     let out = skeleton.topology.leaving(skeleton.edge(edge).to);
     let mut same = out
@@ -117,7 +118,8 @@ struct Midrib {
 }
 
 impl Midrib {
-    /// The midrib, if any vein of order 1 starts anywhere; of equally wide ones that nearest to the base.
+    /// The midrib, if any vein of order 1 starts anywhere; of equally wide ones that nearest to the
+    /// base.
     fn new(skeleton: &Skeleton, base: DVec2) -> Option<Self> {
         let distance = |edge: u32| (skeleton.place(skeleton.edge(edge).from) - base).length();
         let first = skeleton

@@ -14,12 +14,13 @@ pub(super) struct Extent {
     pub(super) along: (f64, f64),
     /// Largest distance across the midrib of two points of the margin at one height, mm.
     pub(super) width: f64,
-    /// That height, mm from the base; the middle of the lowest and the highest of equally wide ones.
+    /// That height, mm from the base; the middle of the lowest and the highest of equally wide
+    /// ones.
     pub(super) widest: f64,
 }
 
-/// Measures a margin across and along its midrib. Between two corners neighbouring in height both edges of the blade
-/// are straight, so that it is widest at the height of a corner.
+/// Measures a margin across and along its midrib. Between two corners neighbouring in height both
+/// edges of the blade are straight, so that it is widest at the height of a corner.
 pub(super) fn extent(outline: &Outline) -> Extent {
     let midrib = (outline.apex() - outline.base()) / outline.length();
     let in_frame = |p: &DVec2| {

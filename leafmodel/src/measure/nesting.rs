@@ -6,7 +6,8 @@ use crate::venation::areole::{Areoles, OUTSIDE};
 /// How loops are nested.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Nesting {
-    /// Mean over the inner nodes of the loop tree of smaller over larger branch, counted in areoles; in (0, 1].
+    /// Mean over the inner nodes of the loop tree of smaller over larger branch, counted in
+    /// areoles; in (0, 1].
     pub(super) mean: Option<f64>,
     /// The same, weighted by the areoles below the node less one.
     pub(super) weighted: Option<f64>,
@@ -16,8 +17,9 @@ pub(super) struct Nesting {
 
 /// Removes veins, finest first, and records which loops merge.
 ///
-/// Veins are taken from junction to junction, with their mean radius; equal ones in the order of their numbers. Veins towards
-/// the outside stay, so that groups of areoles that share no vein have trees of their own; all are counted together.
+/// Veins are taken from junction to junction, with their mean radius; equal ones in the order of
+/// their numbers. Veins towards the outside stay, so that groups of areoles that share no vein have
+/// trees of their own; all are counted together.
 pub(super) fn nesting(found: &Areoles) -> Nesting {
     let chains = found.chains();
     let mut order: Vec<(u64, u32)> = (0..chains.len() as u32)

@@ -86,7 +86,8 @@ fn an_ellipse_has_its_axes_and_its_perimeter() {
     let measures = shape(&ellipse(across, along, 4000));
     near(&measures, "width_over_length", across / along, 1e-6);
     near(&measures, "area_mm2", PI * across * along, 1e-4);
-    // Ramanujan's series h = ((a − b)/(a + b))²: π (a + b)(1 + h/4 + h²/64 + h³/256 + …), the rest below h⁴/1000.
+    // Ramanujan's series h = ((a − b)/(a + b))²: π (a + b)(1 + h/4 + h²/64 + h³/256 + …), the rest
+    // below h⁴/1000.
     let h = libm::pow((along - across) / (along + across), 2.0);
     let round = PI * (along + across) * (1.0 + h / 4.0 + h * h / 64.0 + h * h * h / 256.0);
     near(&measures, "perimeter_mm", round, 0.001);
@@ -103,8 +104,8 @@ fn a_square_has_the_descriptors_of_one() {
     near(&measures, "solidity", 1.0, 1e-15);
     near(&measures, "widest_at", 0.5, 1e-15);
     near(&measures, "perimeter_mm", 8.0, 0.0);
-    // The corners of a regular m-gon turn about its centre, so that only harmonics 1 + m j exist, as 1/(1 + m j)²; seen
-    // from the middle of a side their signs alternate.
+    // The corners of a regular m-gon turn about its centre, so that only harmonics 1 + m j exist,
+    // as 1/(1 + m j)²; seen from the middle of a side their signs alternate.
     let square_of = |k: f64| -1.0 / (k * k);
     let mut expected = vec![(1, [1.0, 0.0, 0.0, 1.0])];
     for j in 1..=5 {
@@ -154,7 +155,8 @@ fn lobes_that_pass_the_ends_of_the_midrib_count_as_extent_and_not_as_length() {
     near(&measures, "extent_over_length", 4.0, 1e-15);
     near(&measures, "width_over_length", 4.0, 1e-15);
     near(&measures, "widest_at", 3.0, 1e-15);
-    // Hull: trapezoid of widths 2 and 4, height 4; the blade misses one triangle of area 1 below and one of 4 above.
+    // Hull: trapezoid of widths 2 and 4, height 4; the blade misses one triangle of area 1 below
+    // and one of 4 above.
     near(&measures, "solidity", 7.0 / 12.0, 1e-15);
 }
 

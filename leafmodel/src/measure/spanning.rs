@@ -2,8 +2,8 @@
 
 use crate::venation::areole::Chains;
 
-/// Length of the shortest part of the veins, taken from junction to junction as wholes, that still connects what the
-/// network connects, over the length of all veins (Kruskal). None without veins.
+/// Length of the shortest part of the veins, taken from junction to junction as wholes, that still
+/// connects what the network connects, over the length of all veins (Kruskal). None without veins.
 pub(super) fn ratio(chains: &Chains) -> Option<f64> {
     let total: f64 = chains.lengths.iter().sum();
     let mut order: Vec<(u64, u32)> = chains
@@ -43,7 +43,8 @@ impl Sets {
         of
     }
 
-    /// Joins two sets; gives the leader that stays and the one that does not, or nothing if they were one.
+    /// Joins two sets; gives the leader that stays and the one that does not, or nothing if they
+    /// were one.
     pub(super) fn join(&mut self, a: u32, b: u32) -> Option<(u32, u32)> {
         let (a, b) = (self.leader(a), self.leader(b));
         let (stays, goes) = (a.min(b), a.max(b));

@@ -33,7 +33,8 @@ pub(super) fn variation(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() - 1) as f64).sqrt() / mean)
 }
 
-/// Middle of the fullest of 64 equal bins from 0 to the largest value, the first of equally full ones; values ≥ 0.
+/// Middle of the fullest of 64 equal bins from 0 to the largest value, the first of equally full
+/// ones; values ≥ 0.
 pub(super) fn mode(values: &[f64]) -> Option<f64> {
     let largest = values.iter().copied().max_by(f64::total_cmp)?;
     let width = largest / BINS as f64;

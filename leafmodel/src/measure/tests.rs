@@ -40,7 +40,8 @@ fn a_square_lattice_has_the_density_areoles_and_spanning_tree_of_one() {
     near(&measures, "areole_area_cv", 0.0);
     near(&measures, "areole_circularity_median", PI / 4.0);
     near(&measures, "freely_ending_veinlet_count", 0.0);
-    // Corners of the lattice are no junctions; the other nodes on its rim have three edges, those inside four.
+    // Corners of the lattice are no junctions; the other nodes on its rim have three edges, those
+    // inside four.
     let (rim, inside) = (4.0 * (count - 1.0), (count - 1.0) * (count - 1.0));
     near(&measures, "junction_count", rim + inside);
     near(&measures, "junction_degree_3_share", rim / (rim + inside));
@@ -55,7 +56,8 @@ fn a_square_lattice_has_the_density_areoles_and_spanning_tree_of_one() {
 fn points_between_square_veins_are_as_far_from_them_as_integrals_say() {
     let blade = rectangle((0.0, 0.0), (10.0, 10.0));
     let measures = measure(&blade, &squares(10, 1.0), 3.0);
-    // P(d > t) = (1 − 2 t)²: mean 1/6, standard deviation √(1/72), median (1 − √½)/2 where the density is 2√2.
+    // P(d > t) = (1 − 2 t)²: mean 1/6, standard deviation √(1/72), median (1 − √½)/2 where the
+    // density is 2√2.
     let error = (1.0 / 72.0 / PROBES as f64).sqrt();
     let mean = number(&measures, "vein_distance_mm_mean");
     assert!((mean - 1.0 / 6.0).abs() < 4.0 * error, "mean {mean}");
@@ -92,8 +94,8 @@ fn a_hexagonal_lattice_has_the_areoles_of_one() {
 
 #[test]
 fn a_comb_has_the_spacing_and_angles_of_its_teeth() {
-    // A midrib of 100 steps; every tenth node a tooth to the right, every twentieth one to the left, each with a
-    // shorter tooth at right angles.
+    // A midrib of 100 steps; every tenth node a tooth to the right, every twentieth one to the
+    // left, each with a shorter tooth at right angles.
     let mut places: Vec<DVec2> = (0..=100).map(|i| DVec2::new(0.0, f64::from(i))).collect();
     let mut edges: Vec<(u32, u32, f64, u8)> = (1..=100).map(|i| (i - 1, i, 1.0, 1)).collect();
     let angle = 50.0_f64.to_radians();

@@ -1,12 +1,15 @@
 //! Texture coordinates for a surface that has none: charts laid flat, packed into the unit square.
 //!
-//! Faces grow into charts while their normals agree with that of the first; a chart is seen along that
-//! normal, so that no texel shows less than cos 40° of the area that one face on shows. Boxes around the charts stand on shelves.
+//! Faces grow into charts while their normals agree with that of the first; a chart is seen along
+//! that normal, so that no texel shows less than cos 40° of the area that one face on shows. Boxes
+//! around the charts stand on shelves.
 //!
 //! - **In**: a [`Surface`], the texels along a side, and the gutter.
-//! - **Out**: texture coordinates for each corner of each face, and for each texel the place that it shows.
-//! - **Always true**: charts do not overlap by a texel's middle; texels around a chart show the surface as it goes on beyond the
-//!   chart's border, so that bilinear look-ups on both sides of a border see the same place.
+//! - **Out**: texture coordinates for each corner of each face, and for each texel the place that
+//!   it shows.
+//! - **Always true**: charts do not overlap by a texel's middle; texels around a chart show the
+//!   surface as it goes on beyond the chart's border, so that bilinear look-ups on both sides of a
+//!   border see the same place.
 //! - **Left out**: gutters for mip maps beyond the width given.
 
 mod chart;
@@ -82,7 +85,8 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Lays a surface into `texels`² texels with at least `gutter` texels (2 or more are taken) around each chart.
+    /// Lays a surface into `texels`² texels with at least `gutter` texels (2 or more are taken)
+    /// around each chart.
     ///
     /// # Errors
     ///
@@ -144,17 +148,20 @@ impl Atlas {
         self.charts
     }
 
-    /// Texels per millimetre where a chart is seen face on; elsewhere down to 0.766 of it in one direction.
+    /// Texels per millimetre where a chart is seen face on; elsewhere down to 0.766 of it in one
+    /// direction.
     pub fn texels_per_mm(&self) -> f64 {
         self.texels_per_mm
     }
 
-    /// Texture coordinates of the corners of each face, in the order of the surface's faces, 0 to 1.
+    /// Texture coordinates of the corners of each face, in the order of the surface's faces, 0 to
+    /// 1.
     pub fn uvs(&self) -> &[[DVec2; 3]] {
         &self.uvs
     }
 
-    /// The place that texel (`column`, `row`) shows, its middle at (column + ½, row + ½) / texels; none where there is no chart near.
+    /// The place that texel (`column`, `row`) shows, its middle at (column + ½, row + ½) / texels;
+    /// none where there is no chart near.
     pub fn shown(&self, column: u32, row: u32) -> Option<SurfacePoint> {
         let texel = self.shown[(row * self.texels + column) as usize];
         (texel.face != u32::MAX).then(|| {
@@ -189,7 +196,8 @@ impl Atlas {
     }
 }
 
-/// Lower corners of the charts' drawn parts in texels: boxes on shelves, tallest first. `None` if they do not fit.
+/// Lower corners of the charts' drawn parts in texels: boxes on shelves, tallest first. `None` if
+/// they do not fit.
 fn shelves(charts: &[Chart], scale: f64, texels: u32, gutter: u32) -> Option<Vec<DVec2>> {
     let boxes: Vec<[u64; 2]> = charts
         .iter()

@@ -1,7 +1,9 @@
-//! What \[binsfeld2011\] says of its figures, as tests on mosaics grown with Table I's parameters on bodies of the figures' kinds.
+//! What \[binsfeld2011\] says of its figures, as tests on mosaics grown with Table I's parameters
+//! on bodies of the figures' kinds.
 //!
-//! The table leaves out the initial shares and the switching; those used here were fitted to what the pictures show:
-//! 12 % foreground at the start and 12 % of the background's children foreground for the ageing of Fig. 5.
+//! The table leaves out the initial shares and the switching; those used here were fitted to what
+//! the pictures show: 12 % foreground at the start and 12 % of the background's children foreground
+//! for the ageing of Fig. 5.
 
 mod cap;
 mod croton;

@@ -35,7 +35,8 @@ pub struct CylinderControl {
 /// What the grey values of an image (0 to 1) steer. Cell types count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steered {
-    /// The value is the probability that an initial cell is of a type; the other types share the rest as they did.
+    /// The value is the probability that an initial cell is of a type; the other types share the
+    /// rest as they did.
     InitialType(u16),
     /// How often cells divide: at value 0 `low` times, at 1 `high` times the rate of the type.
     DivisionRate {
@@ -46,7 +47,8 @@ pub enum Steered {
         /// Factor for white, 0 to 1000.
         high: f64,
     },
-    /// How far cells of two types adhere: at value 0 `low` times, at 1 `high` times what the types say, and not above 1.
+    /// How far cells of two types adhere: at value 0 `low` times, at 1 `high` times what the types
+    /// say, and not above 1.
     Adhesion {
         /// The two types (or one twice).
         pair: [u16; 2],

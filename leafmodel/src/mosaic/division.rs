@@ -8,7 +8,8 @@ use crate::venation::chance::{Use, bits, uniform};
 /// Diameter of the disc in which a child lies, over the repulsion radius.
 pub(super) const CHILD_DISC: f64 = 0.01;
 
-/// Beyond this mean (relaxation events) the spread of a Poisson number is below a third of a per cent and left away.
+/// Beyond this mean (relaxation events) the spread of a Poisson number is below a third of a per
+/// cent and left away.
 const LARGE_MEAN: f64 = 1e5;
 
 /// `exp(-mean)` of parts above this would lose digits.
@@ -77,7 +78,8 @@ pub(super) fn child_id(parent: u64, counter: u64) -> u64 {
     bits(parent, Use::MosaicDivision, u64::MAX - counter)
 }
 
-/// Where the child lies, from its parent, for a radius of 1: uniform in a disc; `attempt` gives others.
+/// Where the child lies, from its parent, for a radius of 1: uniform in a disc; `attempt` gives
+/// others.
 pub(super) fn place_of_child(id: u64, attempt: u64) -> DVec2 {
     let u = [0, 1].map(|k| uniform(id, Use::MosaicPlace, 2 * attempt + k));
     let angle = u[1] * std::f64::consts::TAU;
@@ -96,7 +98,8 @@ mod tests {
             let draws: Vec<f64> = draws.collect();
             let average = draws.iter().sum::<f64>() / n as f64;
             let variance = draws.iter().map(|x| (x - average).powi(2)).sum::<f64>() / n as f64;
-            // Standard error of the mean √(mean/n); zeros count as one, which for mean 2 adds e⁻² = 0.135.
+            // Standard error of the mean √(mean/n); zeros count as one, which for mean 2 adds e⁻² =
+            // 0.135.
             let raised = libm::exp(-mean);
             assert!(
                 (average - mean - raised).abs() < 4.5 * (mean / n as f64).sqrt(),

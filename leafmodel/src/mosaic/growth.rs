@@ -10,8 +10,9 @@ pub enum SurfaceGrowth {
     /// It has its final size from the start. Cells divide at the rates of their types and crowd.
     #[default]
     None,
-    /// It grows in each direction from a part of its final size to that size. Cells keep their place in the tissue and their
-    /// area: a region has as many divisions as its growth makes room for, shared among its cells by the rates of their types.
+    /// It grows in each direction from a part of its final size to that size. Cells keep their
+    /// place in the tissue and their area: a region has as many divisions as its growth makes room
+    /// for, shared among its cells by the rates of their types.
     Anisotropic {
         /// Size along x, y and z at the start over the final size, 0.01 to 10.
         start: DVec3,
@@ -30,7 +31,8 @@ pub enum GrowthCourse {
     Logistic {
         /// When growth is fastest, as a share of the days, 0 to 1.
         middle: f64,
-        /// How much faster than even it is about, 1 to 100: the rate of the logistic function over the days.
+        /// How much faster than even it is about, 1 to 100: the rate of the logistic function over
+        /// the days.
         steepness: f64,
     },
 }
@@ -76,7 +78,8 @@ impl SurfaceGrowth {
         Ok(())
     }
 
-    /// Size over final size along each axis when a share of the days has gone; none if nothing grows.
+    /// Size over final size along each axis when a share of the days has gone; none if nothing
+    /// grows.
     pub(super) fn size(&self, share: f64) -> Option<DVec3> {
         match self {
             Self::None => None,

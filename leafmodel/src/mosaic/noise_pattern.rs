@@ -1,13 +1,13 @@
 //! Patterns from thresholded gradient noise: what clonal mosaics are compared with.
 //!
-//! Nothing grows here: a pattern of greater scale is another pattern, whose patches need not hold those of the smaller
-//! one, and a lattice repeats what its gradients allow.
+//! Nothing grows here: a pattern of greater scale is another pattern, whose patches need not hold
+//! those of the smaller one, and a lattice repeats what its gradients allow.
 //!
 //! # Source
 //!
-//! \[perlin2002\]: gradients towards the middles of a cube's edges, the fade of fifth degree; sum of octaves after
-//! \[perlin1985\]. Departure: gradients are drawn by hashing the lattice point with the seed, not from a table of 256,
-//! so that the noise does not repeat every 256 cells.
+//! \[perlin2002\]: gradients towards the middles of a cube's edges, the fade of fifth degree; sum
+//! of octaves after \[perlin1985\]. Departure: gradients are drawn by hashing the lattice point
+//! with the seed, not from a table of 256, so that the noise does not repeat every 256 cells.
 
 use glam::DVec3;
 
@@ -43,8 +43,8 @@ impl NoisePattern {
 
     /// Kind 1 for the share of places with the highest values, kind 0 for the others.
     ///
-    /// The threshold is the quantile of these very places, so that the share is kept to one place. Values that tie
-    /// with it are marked by the order of the places.
+    /// The threshold is the quantile of these very places, so that the share is kept to one place.
+    /// Values that tie with it are marked by the order of the places.
     pub fn kinds(&self, places: &[DVec3], seed: u64) -> Vec<u16> {
         let values: Vec<f64> = places.iter().map(|&p| self.value(p, seed)).collect();
         let mut order: Vec<usize> = (0..places.len()).collect();
@@ -140,7 +140,8 @@ mod tests {
             let step = DVec3::X * 1e-6;
             let before = PATTERN.value(p, 5) - PATTERN.value(p - step, 5);
             let after = PATTERN.value(p + step, 5) - PATTERN.value(p, 5);
-            // Both differences are the same slope times the step, but for the curvature and rounding.
+            // Both differences are the same slope times the step, but for the curvature and
+            // rounding.
             assert!((before - after).abs() < 1e-10, "{before} {after}");
         }
     }

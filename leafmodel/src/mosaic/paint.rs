@@ -1,12 +1,16 @@
-//! From cells to tissue: which types of cells a place has, blended over the edges between unlike cells.
+//! From cells to tissue: which types of cells a place has, blended over the edges between unlike
+//! cells.
 //!
-//! Inside a patch of one type its weight is 1. Over an edge between unlike cells the weights pass smoothly from one to the
-//! other over a width of choice. Edges between cells of the same type show nothing.
+//! Inside a patch of one type its weight is 1. Over an edge between unlike cells the weights pass
+//! smoothly from one to the other over a width of choice. Edges between cells of the same type show
+//! nothing.
 //!
 //! - **In**: a surface, cells with their types, the width over which types blend.
 //! - **Out**: weights of the types at any point, and what the tissue holds there.
-//! - **Always true**: weights are in [0, 1] and add up to 1; they change continuously within a face.
-//! - **Left out**: mixing is linear in contents per area, as pigments of neighbouring cells in one light path add up.
+//! - **Always true**: weights are in [0, 1] and add up to 1; they change continuously within a
+//!   face.
+//! - **Left out**: mixing is linear in contents per area, as pigments of neighbouring cells in one
+//!   light path add up.
 
 mod sheet;
 #[cfg(test)]
@@ -58,7 +62,8 @@ struct Bare {
 }
 
 impl TypeField {
-    /// Cells at `sites` whose types (below `types`) are `kinds`, blended over `blend_mm` (0 for hard edges).
+    /// Cells at `sites` whose types (below `types`) are `kinds`, blended over `blend_mm` (0 for
+    /// hard edges).
     ///
     /// Searching is per face: on a mesh whose faces hold hundreds of cells, subdivide it first.
     ///
@@ -184,9 +189,10 @@ impl TypeField {
 
     /// Weights of all types at a point, ≥ 0, sum 1, written to `weights` (one for each type).
     ///
-    /// With `d` the distance to the nearest border of a type's patches and `b` the blend's width, a type beyond the border
-    /// has `S(½ − d / b)` and the type of the place itself `S(½ + d / b)`, `S` the smooth step `3 t² − 2 t³` held at 0 and 1; where
-    /// three types meet these are divided by their sum.
+    /// With `d` the distance to the nearest border of a type's patches and `b` the blend's width, a
+    /// type beyond the border has `S(½ − d / b)` and the type of the place itself `S(½ + d / b)`,
+    /// `S` the smooth step `3 t² − 2 t³` held at 0 and 1; where three types meet these are divided
+    /// by their sum.
     ///
     /// # Panics
     ///
@@ -226,7 +232,8 @@ impl TypeField {
         }
     }
 
-    /// What the tissue holds at a point if tissue of each type holds `of_types`; `weights` is room to work in.
+    /// What the tissue holds at a point if tissue of each type holds `of_types`; `weights` is room
+    /// to work in.
     ///
     /// # Panics
     ///

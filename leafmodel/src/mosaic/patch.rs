@@ -1,13 +1,15 @@
 //! What lies near a face on the surface, unfolded into the face's plane.
 //!
-//! Faces are laid beside one another as a cut-out of paper is laid flat. In that plane distances are those along the surface,
-//! where the straight line between two points stays in the unfolded faces. On a flat sheet or one that is bent without
-//! stretching they are exact. Near a vertex where the surface is curved a face can be laid out on either side, and only
-//! the way whose distance is least is taken.
+//! Faces are laid beside one another as a cut-out of paper is laid flat. In that plane distances
+//! are those along the surface, where the straight line between two points stays in the unfolded
+//! faces. On a flat sheet or one that is bent without stretching they are exact. Near a vertex
+//! where the surface is curved a face can be laid out on either side, and only the way whose
+//! distance is least is taken.
 //!
 //! - **In**: a [`Surface`], a face, and a radius.
 //! - **Out**: a [`Patch`]: the faces within that radius and the motion that unfolds each.
-//! - **Always true**: no face occurs twice; a face comes after one that it touches; the first is the face itself.
+//! - **Always true**: no face occurs twice; a face comes after one that it touches; the first is
+//!   the face itself.
 
 #[cfg(test)]
 mod tests;
@@ -32,13 +34,14 @@ impl Patch {
         self.faces[0].0
     }
 
-    /// The faces that can hold points within the radius of any point of the base, by rising distance, the base first; and how
-    /// each one's frame lies in the frame of the base.
+    /// The faces that can hold points within the radius of any point of the base, by rising
+    /// distance, the base first; and how each one's frame lies in the frame of the base.
     pub fn faces(&self) -> &[(u32, Unfold)] {
         &self.faces
     }
 
-    /// How the frame of a face lies in the frame of the base; none if the face is not in the patch. Looks at all in turn.
+    /// How the frame of a face lies in the frame of the base; none if the face is not in the patch.
+    /// Looks at all in turn.
     #[cfg(test)]
     pub(super) fn unfold(&self, face: u32) -> Option<Unfold> {
         let found = self.faces.iter().find(|(other, _)| *other == face);
@@ -69,7 +72,8 @@ enum Hub {
 #[derive(Debug)]
 struct Entry {
     distance: f64,
-    /// Distance of the middle of the edge over which it is entered: faces round a vertex are equally near.
+    /// Distance of the middle of the edge over which it is entered: faces round a vertex are
+    /// equally near.
     middle: f64,
     face: u32,
     /// The edge of the face over which it is entered; 3 for the base.
@@ -111,13 +115,15 @@ impl<'a> PatchFinder<'a> {
         }
     }
 
-    /// The patch of a face: every face that can hold points within `radius_mm` of any of its points.
+    /// The patch of a face: every face that can hold points within `radius_mm` of any of its
+    /// points.
     pub fn patch(&mut self, face: u32, radius_mm: f64) -> Patch {
         let hub = Hub::Face(self.surface.corners(face));
         self.search(face, hub, radius_mm)
     }
 
-    /// The faces that can hold points within `radius_mm` of the disc of `hub_mm` about the middle of a face.
+    /// The faces that can hold points within `radius_mm` of the disc of `hub_mm` about the middle
+    /// of a face.
     pub fn patch_of_disc(&mut self, face: u32, hub_mm: f64, radius_mm: f64) -> Patch {
         let centre = self.surface.flat(&self.surface.centre(face));
         self.search(face, Hub::Disc(centre, hub_mm), radius_mm)

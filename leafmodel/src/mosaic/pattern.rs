@@ -12,7 +12,8 @@ use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError, SurfacePoint
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
 
-/// Cells on a surface are drawn on triangles of about this share of the distance between cells at the start.
+/// Cells on a surface are drawn on triangles of about this share of the distance between cells at
+/// the start.
 const EDGE_OVER_SPACING: f64 = 1.0;
 
 /// A mosaic whose cells hold pigments.
@@ -34,7 +35,8 @@ pub enum LeafFaces {
     /// One layer of cells: the pattern goes through the blade.
     #[default]
     Through,
-    /// Both faces, joined at the margin; a leaf holds at each point the mean of what its two faces say.
+    /// Both faces, joined at the margin; a leaf holds at each point the mean of what its two faces
+    /// say.
     Both,
 }
 
@@ -92,7 +94,8 @@ impl MosaicPattern {
         Controls(&self.plan.controls).block()
     }
 
-    /// Length of edge, mm, that suits triangles on which the mosaic is to grow, for a surface of `area` mm².
+    /// Length of edge, mm, that suits triangles on which the mosaic is to grow, for a surface of
+    /// `area` mm².
     pub fn edge_mm(&self, area: f64) -> f64 {
         EDGE_OVER_SPACING * (area / self.plan.initial_cells as f64).sqrt()
     }
@@ -156,8 +159,8 @@ pub struct LaminaPattern {
 }
 
 impl LaminaPattern {
-    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest point of it; none where controls
-    /// let no cell be. `weights` is room to work in.
+    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest
+    /// point of it; none where controls let no cell be. `weights` is room to work in.
     pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Option<Contents> {
         let field = self.sheet.field();
         if field.has_bare_places() && field.is_bare(&self.sheet.locate(point)) {
@@ -209,7 +212,8 @@ mod tests {
                 seen[class.round() as usize] += 1.0 / 1800.0;
             }
         }
-        // Faces that know nothing of one another show the foreground on just one of them for 2 p (1 − p) of the leaf.
+        // Faces that know nothing of one another show the foreground on just one of them for 2 p (1
+        // − p) of the leaf.
         let share = seen[0] + 0.5 * seen[1];
         assert!(share > 0.2 && share < 0.6, "{share}");
         let by_chance = 2.0 * share * (1.0 - share);

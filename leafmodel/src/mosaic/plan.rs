@@ -8,7 +8,8 @@ use super::growth::SurfaceGrowth;
 const TOLERANCE: f64 = 1e-6;
 /// More cells than this are refused.
 pub(super) const MOST_CELLS: usize = 4_000_000;
-/// How many times as many must be expected for a plan to be refused beforehand: chance may bring forth fewer.
+/// How many times as many must be expected for a plan to be refused beforehand: chance may bring
+/// forth fewer.
 const OVERCROWDED: f64 = 4.0;
 
 /// A kind of cell.
@@ -22,7 +23,8 @@ pub struct CellType {
     pub initial_probability: f64,
     /// For each type the probability that a child is of it; the sum is 1.
     pub switching: Vec<f64>,
-    /// For each type how far cells of both adhere: 0 (they repel in full) to 1 (not at all). As a matrix, symmetric.
+    /// For each type how far cells of both adhere: 0 (they repel in full) to 1 (not at all). As a
+    /// matrix, symmetric.
     pub adhesion: Vec<f64>,
 }
 
@@ -40,15 +42,17 @@ pub enum RadiusRule {
 ///
 /// # Source
 ///
-/// \[binsfeld2011\] gives the model and Table I; what it leaves open (`step`, the initial relaxations, four
-/// relaxations a day, adhesion 0 between types) has the values that the authors' program starts with.
+/// \[binsfeld2011\] gives the model and Table I; what it leaves open (`step`, the initial
+/// relaxations, four relaxations a day, adhesion 0 between types) has the values that the authors'
+/// program starts with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MosaicPlan {
     /// Cells at the start, 1 or more.
     pub initial_cells: usize,
     /// How long the mosaic grows, days, 0 or more.
     pub days: f64,
-    /// `w_r`: the radius within which cells repel one another over the root of the mean area of a cell, 0.1 to 10.
+    /// `w_r`: the radius within which cells repel one another over the root of the mean area of a
+    /// cell, 0.1 to 10.
     pub radius_weight: f64,
     /// `ρ`: relaxation events a day, 1 to 1000.
     pub relaxations_per_day: u32,
@@ -62,7 +66,8 @@ pub struct MosaicPlan {
     pub radius: RadiusRule,
     /// The types, one or more.
     pub types: Vec<CellType>,
-    /// Cylinders that steer what happens where; of those that steer the same, each acts on what the one before left.
+    /// Cylinders that steer what happens where; of those that steer the same, each acts on what the
+    /// one before left.
     pub controls: Vec<CylinderControl>,
     /// Whether the surface grows meanwhile.
     pub growth: SurfaceGrowth,
@@ -88,10 +93,12 @@ impl Default for MosaicPlan {
 }
 
 impl MosaicPlan {
-    /// The paper's two types, foreground (0) and background (1), which do not adhere to one another.
+    /// The paper's two types, foreground (0) and background (1), which do not adhere to one
+    /// another.
     ///
-    /// `division_days` and `adhesion` (`α_FF`, `α_BB`) are those of foreground and background, `initial_share` is that of the
-    /// foreground, and `switching` the probability that a child of a background cell is foreground.
+    /// `division_days` and `adhesion` (`α_FF`, `α_BB`) are those of foreground and background,
+    /// `initial_share` is that of the foreground, and `switching` the probability that a child of a
+    /// background cell is foreground.
     pub fn two_types(
         division_days: [f64; 2],
         adhesion: [f64; 2],
@@ -170,8 +177,8 @@ impl MosaicPlan {
         self.has_room()
     }
 
-    /// Refuses what is bound to end in [`MosaicError::TooManyCells`], which may take minutes. How far controls and the growth of the
-    /// surface hold divisions back is not known beforehand.
+    /// Refuses what is bound to end in [`MosaicError::TooManyCells`], which may take minutes. How
+    /// far controls and the growth of the surface hold divisions back is not known beforehand.
     fn has_room(&self) -> Result<(), MosaicError> {
         let steered = self.controls.iter().any(|control| match control.steers {
             Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
@@ -181,8 +188,9 @@ impl MosaicPlan {
             return Ok(());
         }
         for (number, kind) in self.types.iter().enumerate() {
-            // Of the type's own kind alone, all dividing after the mean time (Poisson's scatter makes them more) and one relaxation later
-            // than drawn: each division makes one cell into 1 + s of the type.
+            // Of the type's own kind alone, all dividing after the mean time (Poisson's scatter
+            // makes them more) and one relaxation later than drawn: each division makes one cell
+            // into 1 + s of the type.
             let wait = kind.division_days + 1.0 / f64::from(self.relaxations_per_day);
             let times = libm::exp(self.days * libm::log1p(kind.switching[number]) / wait);
             let cells = self.initial_cells as f64 * kind.initial_probability * times;

@@ -1,11 +1,12 @@
 //! Cells move apart: one relaxation event.
 //!
-//! Cells of types `a` and `b` at a distance `d` below the radius `r` push one another by `(1 − α_ab)(1 − d/r)`; each cell
-//! moves by the sum of pushes times `r` times the step's weight.
+//! Cells of types `a` and `b` at a distance `d` below the radius `r` push one another by
+//! `(1 − α_ab)(1 − d/r)`; each cell moves by the sum of pushes times `r` times the step's weight.
 //!
-//! Where cells crowd, the weight is lowered: beyond a weight of about `2/(n r²)` for `n` cells per area the moves overshoot
-//! and the cells, instead of coming to rest, are thrown to and fro. (For the mode in which cells swing most, `n w_r²` cells
-//! within `r²` act as a spring of `0.94 n r²` times the weight.) The paper does not say what its authors did about it.
+//! Where cells crowd, the weight is lowered: beyond a weight of about `2/(n r²)` for `n` cells per
+//! area the moves overshoot and the cells, instead of coming to rest, are thrown to and fro. (For
+//! the mode in which cells swing most, `n w_r²` cells within `r²` act as a spring of `0.94 n r²`
+//! times the weight.) The paper does not say what its authors did about it.
 
 mod blocks;
 mod kernel;

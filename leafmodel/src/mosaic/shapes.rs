@@ -1,8 +1,10 @@
 //! Bodies for mosaics to grow on: fruits, caps, stems, leaves as even triangle meshes.
 //!
 //! - **In**: sizes in millimetres, a profile to turn about an axis, or the outline of a leaf.
-//! - **Out**: a [`Shape`]: points, exact unit normals of the smooth body, triangles seen counter-clockwise from outside.
-//! - **Always true**: no edge longer than asked for, triangles of about the same size everywhere: no poles where they crowd.
+//! - **Out**: a [`Shape`]: points, exact unit normals of the smooth body, triangles seen
+//!   counter-clockwise from outside.
+//! - **Always true**: no edge longer than asked for, triangles of about the same size everywhere:
+//!   no poles where they crowd.
 //! - **Left out**: whether a profile given by the user crosses itself.
 
 mod lathe;
@@ -17,7 +19,8 @@ pub use lathe::lathe;
 
 /// Most triangles of one shape.
 const MOST_TRIANGLES: f64 = 4e6;
-/// Edge of an icosahedron over the radius of its sphere, times how much pressing it onto the sphere stretches its middle.
+/// Edge of an icosahedron over the radius of its sphere, times how much pressing it onto the sphere
+/// stretches its middle.
 const ICOSAHEDRON_EDGE: f64 = 1.051_462_224 / 0.794_654_472;
 
 /// A body or sheet as triangles.
@@ -99,7 +102,8 @@ pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
     ellipsoid(DVec3::splat(radius_mm), max_edge_mm)
 }
 
-/// An ellipsoid about the origin with these semi-axes, mm: a sphere stretched, so that its triangles are as unequal as its axes.
+/// An ellipsoid about the origin with these semi-axes, mm: a sphere stretched, so that its
+/// triangles are as unequal as its axes.
 ///
 /// # Errors
 ///
@@ -124,12 +128,13 @@ pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeEr
 
 /// A cube about the origin with rounded edges and corners.
 ///
-/// Edges are quarters of cylinders, corners eighths of spheres. A corner radius of half the side gives a sphere.
+/// Edges are quarters of cylinders, corners eighths of spheres. A corner radius of half the side
+/// gives a sphere.
 ///
 /// # Errors
 ///
-/// [`ShapeError::OutOfRange`] unless all are finite and above 0 and the corner radius at most half the side;
-/// [`ShapeError::TooFine`].
+/// [`ShapeError::OutOfRange`] unless all are finite and above 0 and the corner radius at most half
+/// the side; [`ShapeError::TooFine`].
 pub fn rounded_cube(
     side_mm: f64,
     corner_radius_mm: f64,
@@ -145,8 +150,8 @@ pub fn rounded_cube(
         });
     }
     let flat = 0.5 * side_mm - corner_radius_mm;
-    // Squares a little smaller than the edge allowed, as their diagonals are edges too; near corners
-    // they are lozenges with diagonals up to √3.
+    // Squares a little smaller than the edge allowed, as their diagonals are edges too; near
+    // corners they are lozenges with diagonals up to √3.
     let step = max_edge_mm / 3f64.sqrt();
     let in_flat = libm::ceil(2.0 * flat / step);
     let in_arc = libm::ceil(std::f64::consts::FRAC_PI_4 * corner_radius_mm / step).max(1.0);
@@ -225,7 +230,8 @@ pub fn rounded_cube(
     Ok(shape)
 }
 
-/// The lamina of a leaf as an even flat sheet in the plane z = 0, adaxial side +z, in the frame of the outline.
+/// The lamina of a leaf as an even flat sheet in the plane z = 0, adaxial side +z, in the frame of
+/// the outline.
 ///
 /// # Errors
 ///

@@ -68,14 +68,16 @@ impl Mosaic {
         Ok(mosaics.remove(0))
     }
 
-    /// The same mosaic at several times of one run, in the order of `days` (each from 0 to the plan's days); gives up when
-    /// `is_stopped` says so, which is asked at each relaxation event.
+    /// The same mosaic at several times of one run, in the order of `days` (each from 0 to the
+    /// plan's days); gives up when `is_stopped` says so, which is asked at each relaxation event.
     ///
-    /// The same surface, plan and seed give the same bits, whatever the threads, and whatever other days are asked for.
+    /// The same surface, plan and seed give the same bits, whatever the threads, and whatever other
+    /// days are asked for.
     ///
     /// # Errors
     ///
-    /// As [`Mosaic::grow`]; [`MosaicError::OutOfRange`] for a day outside the plan's; [`MosaicError::Stopped`].
+    /// As [`Mosaic::grow`]; [`MosaicError::OutOfRange`] for a day outside the plan's;
+    /// [`MosaicError::Stopped`].
     pub fn grow_until(
         surface: &Surface,
         plan: &MosaicPlan,

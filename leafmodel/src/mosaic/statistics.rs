@@ -1,10 +1,11 @@
 //! Measures of patterns on cells: what the claims about clonal mosaics rest on.
 //!
-//! All work on a [`Voronoi`] tessellation and a label for each cell (its kind or its clone), so that a pattern
-//! of any origin, noise for one, is measured alike.
+//! All work on a [`Voronoi`] tessellation and a label for each cell (its kind or its clone), so
+//! that a pattern of any origin, noise for one, is measured alike.
 //!
 //! - **In**: the tessellation, labels.
-//! - **Out**: shares, patches, widths, neighbourhoods against a null model, agreement of two patterns, stripe counts.
+//! - **Out**: shares, patches, widths, neighbourhoods against a null model, agreement of two
+//!   patterns, stripe counts.
 //! - **Left out**: significance beyond the mean and standard deviation of the null model.
 
 mod rings;
@@ -89,7 +90,8 @@ pub fn border_length(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
         .sum()
 }
 
-/// Mean width of the stripes or blotches of a label, mm: area over half of the border. Infinite without a border.
+/// Mean width of the stripes or blotches of a label, mm: area over half of the border. Infinite
+/// without a border.
 ///
 /// For a stripe much longer than wide that is its width, for a disc of radius r it is r.
 pub fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
@@ -102,7 +104,8 @@ pub fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
     2.0 * area / border_length(voronoi, labels_of, label)
 }
 
-/// How many pairs of neighbours have the same label, against `shuffles` random reassignments of the labels.
+/// How many pairs of neighbours have the same label, against `shuffles` random reassignments of the
+/// labels.
 pub fn neighbourhood(
     voronoi: &Voronoi,
     labels_of: &[u32],
@@ -146,7 +149,8 @@ fn alike_share(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
     alike as f64 / pairs.max(1) as f64
 }
 
-/// Share of the cells that have a neighbour of the same label, among cells whose label another cell has too.
+/// Share of the cells that have a neighbour of the same label, among cells whose label another cell
+/// has too.
 ///
 /// With clones for labels: how far clones hang together. 1 if there is no such cell.
 pub fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
@@ -200,9 +204,11 @@ pub fn labels_at(
         .collect()
 }
 
-/// Cohen's kappa of two patterns seen at the same points: 1 the same, 0 as alike as chance makes patterns of these shares.
+/// Cohen's kappa of two patterns seen at the same points: 1 the same, 0 as alike as chance makes
+/// patterns of these shares.
 ///
-/// `κ = (p_o − p_e) / (1 − p_e)` \[cohen1960\], eq. 1. 1 where both show one and the same label only.
+/// `κ = (p_o − p_e) / (1 − p_e)` \[cohen1960\], eq. 1. 1 where both show one and the same label
+/// only.
 ///
 /// # Panics
 ///
@@ -236,7 +242,8 @@ pub fn kappa(first: &[u32], second: &[u32]) -> f64 {
     }
 }
 
-/// Share of the points with `label` in the older pattern that still have it in the newer. 1 if there is none.
+/// Share of the points with `label` in the older pattern that still have it in the newer. 1 if
+/// there is none.
 pub fn contained(older: &[u32], newer: &[u32], label: u32) -> f64 {
     let (mut kept, mut all) = (0_u64, 0_u64);
     for (&old, &new) in older.iter().zip(newer) {

@@ -1,8 +1,10 @@
 //! Surfaces that cells live on: triangles, who touches whom, and a plane for each face.
 //!
 //! - **In**: any triangle mesh in millimetres: closed, or with margins (a leaf's sheet).
-//! - **Out**: a [`Surface`]: neighbours across edges, areas, a flat frame per face, and how a neighbour's frame unfolds into it.
-//! - **Always true**: an edge has one face or two, and these are turned the same way; every face has area.
+//! - **Out**: a [`Surface`]: neighbours across edges, areas, a flat frame per face, and how a
+//!   neighbour's frame unfolds into it.
+//! - **Always true**: an edge has one face or two, and these are turned the same way; every face
+//!   has area.
 //! - **Left out**: surfaces that branch (three faces at an edge) and surfaces with one side only.
 
 mod adjacency;
@@ -180,7 +182,8 @@ pub struct Surface {
 impl Surface {
     /// Takes a mesh: vertices in mm and the corners of each face.
     ///
-    /// Vertices at exactly equal positions are one (meshes with seams of texture coordinates have such); faces keep their order.
+    /// Vertices at exactly equal positions are one (meshes with seams of texture coordinates have
+    /// such); faces keep their order.
     ///
     /// # Errors
     ///
@@ -211,7 +214,8 @@ impl Surface {
         Ok(surface)
     }
 
-    /// Whether the faces around each vertex are one fan. Cells live on others too: they cross edges only, not points.
+    /// Whether the faces around each vertex are one fan. Cells live on others too: they cross edges
+    /// only, not points.
     ///
     /// # Errors
     ///
@@ -254,7 +258,8 @@ impl Surface {
         Ok(())
     }
 
-    /// The same faces and neighbours with the vertices ([`Surface::positions`], in their order) moved elsewhere.
+    /// The same faces and neighbours with the vertices ([`Surface::positions`], in their order)
+    /// moved elsewhere.
     ///
     /// # Errors
     ///
@@ -340,7 +345,8 @@ impl Surface {
         &self.faces
     }
 
-    /// The face across edge `edge` (from corner `edge` to the next) of a face; none across a margin.
+    /// The face across edge `edge` (from corner `edge` to the next) of a face; none across a
+    /// margin.
     pub fn neighbour(&self, face: u32, edge: usize) -> Option<u32> {
         let neighbour = self.neighbours[face as usize][edge];
         (neighbour != NONE).then_some(neighbour)
@@ -352,13 +358,15 @@ impl Surface {
         Some(usize::from(self.neighbour_edges[face as usize][edge]))
     }
 
-    /// How the frame of the neighbour across `edge` unfolds into the frame of the face; none across a margin.
+    /// How the frame of the neighbour across `edge` unfolds into the frame of the face; none across
+    /// a margin.
     pub fn unfold(&self, face: u32, edge: usize) -> Option<Unfold> {
         self.neighbour(face, edge)?;
         Some(self.unfolds[face as usize][edge])
     }
 
-    /// The corners of a face in its own frame, mm: the first at the origin, the second on the x axis, the third above it.
+    /// The corners of a face in its own frame, mm: the first at the origin, the second on the x
+    /// axis, the third above it.
     pub fn corners(&self, face: u32) -> [DVec2; 3] {
         self.corners[face as usize]
     }
@@ -394,7 +402,8 @@ impl Surface {
         corners[0] * u + corners[1] * v + corners[2] * w
     }
 
-    /// The point of a face at a place of its frame (mm); places outside come to the nearest weights inside.
+    /// The point of a face at a place of its frame (mm); places outside come to the nearest weights
+    /// inside.
     pub fn point(&self, face: u32, flat: DVec2) -> SurfacePoint {
         let [_, b, c] = self.corners[face as usize];
         let w = (flat.y / c.y).clamp(0.0, 1.0);
@@ -414,7 +423,8 @@ impl Surface {
         }
     }
 
-    /// A point of the surface from three numbers in [0, 1): uniform by area if they are uniform and independent.
+    /// A point of the surface from three numbers in [0, 1): uniform by area if they are uniform and
+    /// independent.
     pub fn sample(&self, u: [f64; 3]) -> SurfacePoint {
         let wanted = u[0] * self.total_area();
         let face = self.area_up_to.partition_point(|&area| area <= wanted);

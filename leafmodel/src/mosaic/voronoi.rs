@@ -7,8 +7,10 @@
 //! the cells that its neighbours nearer to the cells have found.
 //!
 //! - **In**: a [`Surface`] and the places of the cells.
-//! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas, neighbours.
-//! - **Always true**: the pieces of a face fill it and do not overlap; a cell that shares its place with none has positive area.
+//! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas,
+//!   neighbours.
+//! - **Always true**: the pieces of a face fill it and do not overlap; a cell that shares its place
+//!   with none has positive area.
 //! - **Left out**: parts of a surface that no cell can be reached from stay empty.
 
 #[cfg(test)]
@@ -240,7 +242,8 @@ fn keep_within(triangle: &[DVec2; 3], bound: f64, found: &mut Vec<(u32, DVec2)>)
     found.sort_by_key(|(cell, _)| *cell);
 }
 
-/// Faces that found no cell get those of their neighbours that have some, the nearer to cells first.
+/// Faces that found no cell get those of their neighbours that have some, the nearer to cells
+/// first.
 fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
     let mut next: Vec<u32> = (0..found.len() as u32).collect();
     loop {

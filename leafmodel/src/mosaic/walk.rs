@@ -4,13 +4,15 @@ use glam::DVec2;
 
 use super::surface::Surface;
 
-/// Edges crossed or slid along at most: a step is shorter than the repulsion radius, which few faces span.
+/// Edges crossed or slid along at most: a step is shorter than the repulsion radius, which few
+/// faces span.
 const MOST_EDGES: usize = 256;
 
-/// Where a walk of the length and direction `step` (in the frame of `face`, mm) from `at` ends: the face and the place in it.
+/// Where a walk of the length and direction `step` (in the frame of `face`, mm) from `at` ends: the
+/// face and the place in it.
 ///
-/// It goes straight on across edges, as on faces laid flat beside one another. At a margin what is left of it goes along the
-/// margin, so that it never leaves the surface.
+/// It goes straight on across edges, as on faces laid flat beside one another. At a margin what is
+/// left of it goes along the margin, so that it never leaves the surface.
 pub(super) fn walk(
     surface: &Surface,
     mut face: u32,
@@ -102,7 +104,8 @@ mod tests {
 
     #[test]
     fn round_a_closed_surface_a_walk_comes_home() {
-        // The girdle of an octahedron's four upper and lower faces, walked at mid-height of one face to itself.
+        // The girdle of an octahedron's four upper and lower faces, walked at mid-height of one
+        // face to itself.
         let surface = octahedron(1.0);
         let start = surface.centre(0);
         let from = surface.flat(&start);

@@ -1,12 +1,14 @@
 //! What betalains absorb, which PROSPECT-D does not separate.
 //!
-//! Vacuolar pigments in place of anthocyanins ([`super::Contents::NEVER_TOGETHER`] says where). The bands are Gaussians in
-//! wavelength: betacyanins those of betanin (peak 538 nm; the widths follow from the ratios of absorbance
-//! that Nilsson's photometric method of 1970 rests on, unverified), betaxanthins those of the class
-//! (peak 480 nm, width unverified). Absorptivities in solution become absorptivities in leaves by a packaging
-//! factor of 0.5, by analogy with anthocyanin, whose PROSPECT-D column is 0.41 to 0.53 of the solution's: an assumption.
+//! Vacuolar pigments in place of anthocyanins ([`super::Contents::NEVER_TOGETHER`] says where). The
+//! bands are Gaussians in wavelength: betacyanins those of betanin (peak 538 nm; the widths follow
+//! from the ratios of absorbance that Nilsson's photometric method of 1970 rests on, unverified),
+//! betaxanthins those of the class (peak 480 nm, width unverified). Absorptivities in solution
+//! become absorptivities in leaves by a packaging factor of 0.5, by analogy with anthocyanin, whose
+//! PROSPECT-D column is 0.41 to 0.53 of the solution's: an assumption.
 
-/// In-leaf over in-solution absorptivity of vacuolar pigments: an assumption, 0.4 to 0.55 are as likely.
+/// In-leaf over in-solution absorptivity of vacuolar pigments: an assumption, 0.4 to 0.55 are as
+/// likely.
 pub const PACKAGING: f64 = 0.5;
 
 /// Standard deviations of betanin's band in nm, on its blue and its red side (unverified).
@@ -105,7 +107,8 @@ pub fn betaxanthin(wavelength_nm: f64) -> f64 {
     Betaxanthin::Indicaxanthin.specific(wavelength_nm, PACKAGING)
 }
 
-/// Specific absorption (Napierian, cm² µg⁻¹) in solution from a molar absorptivity (decadic, L mol⁻¹ cm⁻¹) and a molar mass (g mol⁻¹).
+/// Specific absorption (Napierian, cm² µg⁻¹) in solution from a molar absorptivity (decadic, L
+/// mol⁻¹ cm⁻¹) and a molar mass (g mol⁻¹).
 pub fn in_solution(epsilon: f64, molar_mass: f64) -> f64 {
     epsilon * 1000.0 * std::f64::consts::LN_10 / molar_mass * 1e-6
 }

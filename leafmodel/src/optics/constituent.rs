@@ -237,7 +237,8 @@ impl Constituent {
         self.facts().range[0]
     }
 
-    /// How much there is where a file leaves it out of a leaf's contents; `None` if the file must say it.
+    /// How much there is where a file leaves it out of a leaf's contents; `None` if the file must
+    /// say it.
     pub const fn if_left_out(self) -> Option<f64> {
         self.facts().if_left_out
     }
@@ -247,7 +248,8 @@ impl Constituent {
         self.facts().is_prospect_d
     }
 
-    /// Whether it comes with a tissue's thickness, as structure, water and dry matter do. The others are pigments.
+    /// Whether it comes with a tissue's thickness, as structure, water and dry matter do. The
+    /// others are pigments.
     pub const fn is_bulk(self) -> bool {
         self.facts().is_bulk
     }

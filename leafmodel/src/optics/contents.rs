@@ -7,9 +7,11 @@ use thiserror::Error;
 use super::constituent::Constituent;
 use super::per_constituent::PerConstituent;
 
-/// What a leaf holds per leaf area, and its structure: `contents[Constituent::Water]`, in the units of [`Constituent`].
+/// What a leaf holds per leaf area, and its structure: `contents[Constituent::Water]`, in the units
+/// of [`Constituent`].
 ///
-/// [`Contents::new`] and [`Contents::checked`] refuse fewer plates than one, and less than nothing of the rest; the optics trust them.
+/// [`Contents::new`] and [`Contents::checked`] refuse fewer plates than one, and less than nothing
+/// of the rest; the optics trust them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contents(pub PerConstituent<f64>);
 
@@ -44,7 +46,8 @@ impl Contents {
         Self(self.0.with(named))
     }
 
-    /// PROSPECT-D's inputs: structure, chlorophyll, carotenoids, anthocyanins, brown, water, dry matter; nothing is checked.
+    /// PROSPECT-D's inputs: structure, chlorophyll, carotenoids, anthocyanins, brown, water, dry
+    /// matter; nothing is checked.
     pub const fn prospect_d(inputs: [f64; 7]) -> Self {
         use Constituent::{
             Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
@@ -113,10 +116,11 @@ impl Contents {
     /// \[strack2003\], abstract.
     pub const NEVER_TOGETHER: &'static str = "betalains occur in the Caryophyllales (beet, amaranths, cacti) and some mushrooms only, in place of anthocyanins: leave one out";
 
-    /// Whether there are betalains and anthocyanins in one leaf, which no plant has ([`Contents::NEVER_TOGETHER`]). Optics
-    /// computes such a leaf all the same.
+    /// Whether there are betalains and anthocyanins in one leaf, which no plant has
+    /// ([`Contents::NEVER_TOGETHER`]). Optics computes such a leaf all the same.
     ///
-    /// For a map the greatest value of each content answers for all its points: the rule holds for plants, not for points.
+    /// For a map the greatest value of each content answers for all its points: the rule holds for
+    /// plants, not for points.
     pub fn mixes_betalains_and_anthocyanins(&self) -> bool {
         let holds = |constituent| self[constituent] > 0.0;
         holds(Constituent::Anthocyanins)

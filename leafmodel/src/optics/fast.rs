@@ -18,7 +18,8 @@ use super::prospect_d::Coefficients;
 use depth::DepthTable;
 use elementary::{exp_minus_one, log_one_plus};
 
-/// Below this `1 − e^−2(α+mβ)` the pile is taken to be lossless. At such values the share absorbed is far below `f32`.
+/// Below this `1 − e^−2(α+mβ)` the pile is taken to be lossless. At such values the share absorbed
+/// is far below `f32`.
 const LOSSLESS: f32 = 1e-30;
 
 /// Below this `t` nothing comes from below the first plate, and its square must stay in range.
@@ -33,8 +34,8 @@ const FACES: usize = 3;
 /// What the faces of a plate do at `L` wavelengths, and what the constituents absorb there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PileLanes<const L: usize> {
-    /// `t_av(40°)`, `t₁₂ = t_av(90°)`, `t₂₁ = t₁₂ / n²`, then what one unit of each constituent absorbs,
-    /// in the order of [`Constituent::ABSORBING`].
+    /// `t_av(40°)`, `t₁₂ = t_av(90°)`, `t₂₁ = t₁₂ / n²`, then what one unit of each constituent
+    /// absorbs, in the order of [`Constituent::ABSORBING`].
     pub constants: [[f32; L]; CONSTANTS],
 }
 
@@ -67,7 +68,8 @@ impl<const L: usize> PileLanes<L> {
         lanes
     }
 
-    /// What contents absorb in all at each of the wavelengths, `Σ C K`; the structure does not count.
+    /// What contents absorb in all at each of the wavelengths, `Σ C K`; the structure does not
+    /// count.
     #[inline]
     pub fn absorption(&self, contents: &Texel) -> [f32; L] {
         let mut sum = [0.0; L];
@@ -101,7 +103,8 @@ impl<const L: usize> PileLanes<L> {
     }
 }
 
-/// `R`, `T` of `n` plates from the transmissivities of a plate's faces and the optical depth `−ln τ` of a layer.
+/// `R`, `T` of `n` plates from the transmissivities of a plate's faces and the optical depth
+/// `−ln τ` of a layer.
 #[inline(always)]
 fn pile(t_lit: f32, t_in: f32, t_out: f32, depth: f32, n: f32) -> (f32, f32) {
     // One plate. `absorbed` is 1 − τ to full relative accuracy.

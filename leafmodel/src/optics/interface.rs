@@ -35,7 +35,8 @@ impl Interface {
 /// # Source
 ///
 /// Closed form by Stern (1964), Applied Optics 3:111, in the arrangement of Allen (1973), Applied
-/// Optics 12:664; \[jacquemoud1990\] uses it. Tests compare it with quadrature of Fresnel's formulae.
+/// Optics 12:664; \[jacquemoud1990\] uses it. Tests compare it with quadrature of Fresnel's
+/// formulae.
 fn average_transmittance(sin_squared: f64, n: f64) -> f64 {
     let n2 = n * n;
     let plus = n2 + 1.0;

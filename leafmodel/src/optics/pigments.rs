@@ -1,13 +1,17 @@
 //! Which substances the pigment columns of [`Contents`](super::Contents) consist of.
 //!
-//! By default they are PROSPECT-D's own columns, bit for bit. Each class can instead be a mix of named pigments: bands in
-//! solution moved and scaled to what they are in leaves. That step (shift, packaging) is an assumption that the caller can
-//! set; [`figures`](Pigments::figures) says of every number where it is from and whether it was seen there.
+//! By default they are PROSPECT-D's own columns, bit for bit. Each class can instead be a mix of
+//! named pigments: bands in solution moved and scaled to what they are in leaves. That step (shift,
+//! packaging) is an assumption that the caller can set; [`figures`](Pigments::figures) says of
+//! every number where it is from and whether it was seen there.
 //!
-//! - **In**: shares by mass within a class, sums of 1; shift in cm⁻¹ or nm; packaging, in-leaf over in-solution absorptivity.
+//! - **In**: shares by mass within a class, sums of 1; shift in cm⁻¹ or nm; packaging, in-leaf over
+//!   in-solution absorptivity.
 //! - **Out**: specific absorptions, cm² µg⁻¹, ≥ 0, linear in the shares.
-//! - **Always true**: beyond the range in which a band was measured it falls smoothly to zero, within 30 nm.
-//! - **Left out**: any change of a band's shape in the leaf, sieve effects that grow with content, real chemistry of pH.
+//! - **Always true**: beyond the range in which a band was measured it falls smoothly to zero,
+//!   within 30 nm.
+//! - **Left out**: any change of a band's shape in the leaf, sieve effects that grow with content,
+//!   real chemistry of pH.
 
 mod anthocyanin;
 mod bands;
@@ -24,7 +28,8 @@ pub use carotenoid::{Carotenoid, CarotenoidMix};
 pub use chlorophyll::ChlorophyllMix;
 pub use figures::{Basis, Figure};
 
-/// What each pigment column consists of; the default is PROSPECT-D's columns, betanin and indicaxanthin.
+/// What each pigment column consists of; the default is PROSPECT-D's columns, betanin and
+/// indicaxanthin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pigments {
     /// Chlorophylls.

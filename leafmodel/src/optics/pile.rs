@@ -34,7 +34,8 @@ impl Coefficients {
 ///
 /// # Source
 ///
-/// \[jacquemoud1990\], after Stokes (1862) and Allen et al. (1969); `docs/src/theory/leaf-optics.md`.
+/// \[jacquemoud1990\], after Stokes (1862) and Allen et al. (1969);
+/// `docs/src/theory/leaf-optics.md`.
 pub fn pile(interface: &Interface, k: f64, plates: f64) -> ReflectanceTransmittance {
     let plate = Plate::new(interface, k);
     let (r_below, t_below) = below(&plate, plates - 1.0);
@@ -50,8 +51,8 @@ pub fn pile(interface: &Interface, k: f64, plates: f64) -> ReflectanceTransmitta
 /// Reflectance and transmittance of `m` (real, ≥ 0) plates in diffuse light.
 ///
 /// Stokes' solution in the form `R = sinh mβ / sinh(α + mβ)`, `T = sinh α / sinh(α + mβ)` with
-/// `sinh α = Δ / 2r`, `sinh β = Δ / 2t` and `Δ² = (1+r+t)(1+r−t)(1−r+t)(1−r−t)`. The usual form
-/// has `a = e^α`, `b = e^β` and divides differences of numbers near 1; this one is exact to rounding
+/// `sinh α = Δ / 2r`, `sinh β = Δ / 2t` and `Δ² = (1+r+t)(1+r−t)(1−r+t)(1−r−t)`. The usual form has
+/// `a = e^α`, `b = e^β` and divides differences of numbers near 1; this one is exact to rounding
 /// down to no absorption at all, where it becomes `T = t / (t + m r)`, `R = 1 − T`.
 fn below(plate: &Plate, m: f64) -> (f64, f64) {
     let (r, t) = (plate.reflectance, plate.transmittance);
@@ -62,7 +63,8 @@ fn below(plate: &Plate, m: f64) -> (f64, f64) {
     let delta = squared.sqrt();
     let alpha = libm::asinh(delta / (2.0 * r));
     let m_beta = m * libm::asinh(delta / (2.0 * t));
-    // Hyperbolic sines over each other, written with falling exponentials so that nothing overflows.
+    // Hyperbolic sines over each other, written with falling exponentials so that nothing
+    // overflows.
     let whole = libm::expm1(-2.0 * (alpha + m_beta));
     if whole == 0.0 {
         let lossless = t + m * r;

@@ -9,8 +9,8 @@ const SERIES_UP_TO: f64 = 1.0;
 
 /// Transmissivity `τ(K) = 2 E₃(K)` of a layer of absorption `K ≥ 0` for diffuse light, in [0, 1].
 ///
-/// `τ = 2 ∫₀¹ μ exp(−K/μ) dμ`, the same as `(1−K) e^−K + K² E₁(K)`, a form that loses all its digits
-/// for large `K`. Relative error below 1e-13; 1 at `K = 0`, 0 once `e^−K` underflows.
+/// `τ = 2 ∫₀¹ μ exp(−K/μ) dμ`, the same as `(1−K) e^−K + K² E₁(K)`, a form that loses all its
+/// digits for large `K`. Relative error below 1e-13; 1 at `K = 0`, 0 once `e^−K` underflows.
 ///
 /// # Source
 ///
@@ -95,8 +95,8 @@ pub struct Plate {
 impl Plate {
     /// A plate with these faces and absorption `k ≥ 0`: all reflections inside summed.
     ///
-    /// With `τ` the layer's transmissivity, `t₁₂` and `t₂₁ = t₁₂/n²` those of a face from outside and
-    /// inside, `r = 1 − t` each: `t = t₁₂ τ t₂₁ / (1 − r₂₁² τ²)`, `r = r₁₂ + r₂₁ τ t`. What is
+    /// With `τ` the layer's transmissivity, `t₁₂` and `t₂₁ = t₁₂/n²` those of a face from outside
+    /// and inside, `r = 1 − t` each: `t = t₁₂ τ t₂₁ / (1 − r₂₁² τ²)`, `r = r₁₂ + r₂₁ τ t`. What is
     /// absorbed follows by subtraction, where all that is large drops out:
     /// `1 − r − t = t₁₂ (1 − τ) / (1 − r₂₁ τ)`.
     ///

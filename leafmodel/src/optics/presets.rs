@@ -1,7 +1,7 @@
 //! Colours of leaves as contents, by name.
 //!
-//! Each is one leaf of its kind, not a mean, and says what its numbers rest on. Leaves of a species:
-//! [`crate::species`].
+//! Each is one leaf of its kind, not a mean, and says what its numbers rest on. Leaves of a
+//! species: [`crate::species`].
 
 use super::constituent::Constituent;
 use super::contents::Contents;
@@ -53,7 +53,8 @@ pub struct Preset {
 impl Preset {
     /// What one of the contents rests on.
     ///
-    /// Nobody measures a number of plates: it is fitted, with the contents as measured. A content of 0 is taken to be absent.
+    /// Nobody measures a number of plates: it is fitted, with the contents as measured. A content
+    /// of 0 is taken to be absent.
     pub fn basis_of(&self, constituent: Constituent) -> PresetBasis {
         self.each[constituent]
     }

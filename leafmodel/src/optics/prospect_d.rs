@@ -26,8 +26,9 @@ const ROWS: usize = 2101;
 pub struct Coefficients {
     /// The faces of a plate.
     pub interface: Interface,
-    /// What one unit of each constituent adds to the absorption of the whole leaf, in the inverse of the constituent's unit: chlorophyll
-    /// up to 780 nm, carotenoids up to 560 nm, anthocyanins up to 689 nm, brown pigments up to 1099 nm. The structure adds nothing.
+    /// What one unit of each constituent adds to the absorption of the whole leaf, in the inverse
+    /// of the constituent's unit: chlorophyll up to 780 nm, carotenoids up to 560 nm, anthocyanins
+    /// up to 689 nm, brown pigments up to 1099 nm. The structure adds nothing.
     pub absorption: PerConstituent<f64>,
 }
 
@@ -59,20 +60,23 @@ impl ProspectD {
     }
 
     /// As [`ProspectD::coefficients`], with the table's end values outside 400 to 2500 nm. Nothing
-    /// is published there; chlorophyll goes on absorbing below 400 nm, so the end value is a fair stand-in.
+    /// is published there; chlorophyll goes on absorbing below 400 nm, so the end value is a fair
+    /// stand-in.
     pub fn coefficients_extrapolated(wavelength_nm: f64) -> Coefficients {
         Self::coefficients_of(&Pigments::default(), wavelength_nm)
     }
 
-    /// As [`ProspectD::coefficients_extrapolated`], with pigment columns that consist of these substances
-    /// (which [`Pigments::checked`] has found good). Columns other than PROSPECT's own are linear between whole nanometres too.
+    /// As [`ProspectD::coefficients_extrapolated`], with pigment columns that consist of these
+    /// substances (which [`Pigments::checked`] has found good). Columns other than PROSPECT's own
+    /// are linear between whole nanometres too.
     pub fn coefficients_of(pigments: &Pigments, wavelength_nm: f64) -> Coefficients {
         let place = wavelength_nm.clamp(FIRST_NM, LAST_NM) - FIRST_NM;
         let row = (place.floor() as usize).min(ROWS - 2);
         let fraction = place - row as f64;
         let (low, high) = (table()[row], table()[row + 1]);
         let between = |column: usize| low[column] + fraction * (high[column] - low[column]);
-        // As a column of the table would be: linear between whole nanometres, with end values outside.
+        // As a column of the table would be: linear between whole nanometres, with end values
+        // outside.
         let band = |absorption: &dyn Fn(f64) -> f64| {
             let below = FIRST_NM + row as f64;
             let (low, high) = (absorption(below), absorption(below + 1.0));

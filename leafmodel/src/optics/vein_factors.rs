@@ -21,7 +21,8 @@ impl VeinFactors {
     }
 }
 
-/// Veins of a leaf of which nothing is said: pale, watery, dense (our choice within the ranges that `docs/src/format/leaf.md` names).
+/// Veins of a leaf of which nothing is said: pale, watery, dense (our choice within the ranges that
+/// `docs/src/format/leaf.md` names).
 impl Default for VeinFactors {
     fn default() -> Self {
         const USUAL: VeinFactors = VeinFactors::of(&[

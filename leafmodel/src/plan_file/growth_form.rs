@@ -291,7 +291,8 @@ impl Kind for VeinRows {
     }
 }
 
-/// Reports a form that each of its numbers allows and that grows to no leaf all the same; `keys` are the leaf's.
+/// Reports a form that each of its numbers allows and that grows to no leaf all the same; `keys`
+/// are the leaf's.
 pub(super) fn report(keys: &Keys<'_>, error: &GrowthFormError) {
     let (candidates, help): (&[&str], _) = match &error.problem {
         GrowthFormProblem::VeinOrder { .. } => (

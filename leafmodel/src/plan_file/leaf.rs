@@ -130,7 +130,8 @@ fn error_count(keys: &Keys<'_>) -> Option<usize> {
     (!is_survey).then(|| block.cx.error_count())
 }
 
-/// Whether a block that must be there, or stands on a preset, was read without an error since there were so many.
+/// Whether a block that must be there, or stands on a preset, was read without an error since there
+/// were so many.
 fn is_whole(keys: &Keys<'_>, block: &str, errors: Option<usize>) -> bool {
     let there = keys.base().is_some() || keys.has_path(&[block]);
     errors.is_some() && error_count(keys) == errors && there

@@ -86,9 +86,9 @@ fn meant(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |path| format!("; did you mean {path}?"))
 }
 
-/// Reads one leaf. `overridden` are `key=value` with paths from the top of the file, `settings` with paths from the leaf, or
-/// with as much of a path's end as only one key has. Where only margin and veins are wanted, `veins_alone`, the leaf's contents
-/// need not be said.
+/// Reads one leaf. `overridden` are `key=value` with paths from the top of the file, `settings`
+/// with paths from the leaf, or with as much of a path's end as only one key has. Where only margin
+/// and veins are wanted, `veins_alone`, the leaf's contents need not be said.
 ///
 /// # Errors
 ///
@@ -151,8 +151,8 @@ pub fn load_one_leaf(
         })
 }
 
-/// Every key that the leaf `name` of a file may have, paths beginning with `leaves`. Keys of blocks that are left out
-/// are among them, those of kinds that were not chosen are not.
+/// Every key that the leaf `name` of a file may have, paths beginning with `leaves`. Keys of blocks
+/// that are left out are among them, those of kinds that were not chosen are not.
 fn known_keys(opened: &Opened, name: &str) -> Vec<KnownKey> {
     let cx = Context::new(Sources::default(), opened.cx.folder.clone());
     *cx.survey.borrow_mut() = Some(Vec::new());

@@ -359,7 +359,8 @@ pub(super) fn tried(plan: &LeafPlan, keys: &Keys<'_>) -> Option<Outline> {
     }
 }
 
-/// Reports an outline that each of its numbers allows and that is none all the same, at the key to change.
+/// Reports an outline that each of its numbers allows and that is none all the same, at the key to
+/// change.
 fn report(keys: &Keys<'_>, error: &OutlinePlanError) {
     let (path, help): (&[&str], _) = match error {
         OutlinePlanError::Teeth(_) => (&["outline", "teeth"], "make the teeth lower, or fewer"),

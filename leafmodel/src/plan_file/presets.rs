@@ -49,7 +49,8 @@ impl<T> Kind for Chosen<T> {
     }
 }
 
-/// The key `preset` of a leaf. Where it is there the plan is that of the species, and no other key is required.
+/// The key `preset` of a leaf. Where it is there the plan is that of the species, and no other key
+/// is required.
 pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     let chosen = Chosen {
         kind: "preset",
@@ -65,7 +66,8 @@ pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     }
 }
 
-/// The key `preset` of contents. Where it is there they are that colour's, and no other key is required.
+/// The key `preset` of contents. Where it is there they are that colour's, and no other key is
+/// required.
 pub fn colour_preset(contents: &mut Contents, keys: &mut Keys<'_>) {
     let chosen = Chosen {
         kind: "preset",

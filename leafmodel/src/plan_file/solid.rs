@@ -93,7 +93,8 @@ pub fn held_contents(contents: &mut Contents, keys: &mut Keys<'_>) {
     warn_of_mixture(contents, keys, "this tissue holds");
 }
 
-/// Warns of anthocyanins and betalains in unlike cells of one body; what the body itself holds is told there.
+/// Warns of anthocyanins and betalains in unlike cells of one body; what the body itself holds is
+/// told there.
 fn warn_of_mixed_cells(plan: &SolidPlan, keys: &Keys<'_>) {
     let cells = plan.mosaic.iter().flat_map(|mosaic| &mosaic.contents);
     // Under a mosaic the body itself shows only where no cell may be.

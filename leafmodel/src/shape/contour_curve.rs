@@ -1,12 +1,14 @@
-//! Outlines drawn by hand: a smooth closed curve through control points, with corners where they are wanted.
+//! Outlines drawn by hand: a smooth closed curve through control points, with corners where they
+//! are wanted.
 //!
-//! - **In**: control points in shares of the midrib's length, the base at (0, 0), the apex at (0, 1), for the right
-//!   side alone or all round.
+//! - **In**: control points in shares of the midrib's length, the base at (0, 0), the apex at (0,
+//!   1), for the right side alone or all round.
 //! - **Out**: an [`Outline`] that passes through every one of them.
 //! - **Always true**: a contour given for one side is exactly mirror symmetric.
 //!
-//! Between points the curve is a Catmull–Rom cubic with chord lengths for knots, as in stretched veins. A corner has
-//! no common tangent: the curve arrives and leaves as if the point were its end.
+//! Between points the curve is a Catmull–Rom cubic with chord lengths for knots, as in stretched
+//! veins. A corner has no common tangent: the curve arrives and leaves as if the point were its
+//! end.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -17,13 +19,15 @@ use super::outline::{Outline, OutlineError};
 /// Most control points.
 const MOST_POINTS: usize = 1000;
 
-/// Farthest that a control point may lie from the base across or along the leaf, in lengths of the midrib.
+/// Farthest that a control point may lie from the base across or along the leaf, in lengths of the
+/// midrib.
 const FARTHEST: f64 = 10.0;
 
 /// A point that the contour passes through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlPoint {
-    /// Across the midrib (to the right) and along it from the base, in shares of its length, −10 to 10.
+    /// Across the midrib (to the right) and along it from the base, in shares of its length, −10 to
+    /// 10.
     pub place: [f64; 2],
     /// Whether the contour has a corner here instead of a tangent.
     pub corner: bool,
@@ -32,8 +36,9 @@ pub struct ControlPoint {
 /// A contour through control points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContourCurve {
-    /// The points in order, 3 to 1000. If mirrored, the first is the base, (0, 0), the last the apex, (0, 1), and those
-    /// between are the right side; else they go once around, in either sense.
+    /// The points in order, 3 to 1000. If mirrored, the first is the base, (0, 0), the last the
+    /// apex, (0, 1), and those between are the right side; else they go once around, in either
+    /// sense.
     pub points: Vec<ControlPoint>,
     /// Whether the left side is the mirror image of the right one.
     pub mirrored: bool,
@@ -82,8 +87,8 @@ pub enum ContourCurveError {
 }
 
 impl ContourCurve {
-    /// The outline of a leaf whose midrib measures `length_mm`; the base is at the origin, the apex at
-    /// (0, `length_mm`). Straight edges stay within 10⁻⁴ of the length of the curve.
+    /// The outline of a leaf whose midrib measures `length_mm`; the base is at the origin, the apex
+    /// at (0, `length_mm`). Straight edges stay within 10⁻⁴ of the length of the curve.
     ///
     /// # Errors
     ///
@@ -126,7 +131,8 @@ impl ContourCurve {
         )?)
     }
 
-    /// The curve between two neighbouring points, by their numbers, with those before and behind them.
+    /// The curve between two neighbouring points, by their numbers, with those before and behind
+    /// them.
     fn piece(&self, around: [DVec2; 4], from: usize, to: usize) -> Cubic {
         let [mut before, start, end, mut after] = around;
         // At a corner the curve goes on as it came.
@@ -256,8 +262,8 @@ mod tests {
             mirrored: false,
         };
         let outline = curve.grow(1.0).expect("a circle");
-        // Between two points an angle θ apart the cubic lies inside the circle, most so midway, where its radius is
-        // r (cos(θ/2) + sin θ sin(θ/2) / 4).
+        // Between two points an angle θ apart the cubic lies inside the circle, most so midway,
+        // where its radius is r (cos(θ/2) + sin θ sin(θ/2) / 4).
         let angle = std::f64::consts::TAU / f64::from(n);
         let least =
             0.5 * (libm::cos(angle / 2.0) + libm::sin(angle) * libm::sin(angle / 2.0) / 4.0);

@@ -28,22 +28,25 @@ impl Cubic {
         a * (v * v * v) + b * (3.0 * v * v * u) + c * (3.0 * v * u * u) + d * (u * u * u)
     }
 
-    /// Adds points on the curve, without its start and with its end, so that straight lines between them stay
-    /// within `tolerance` > 0 of it.
+    /// Adds points on the curve, without its start and with its end, so that straight lines between
+    /// them stay within `tolerance` > 0 of it.
     ///
-    /// A chord over a parameter step `h` is at most `h² max|B''| / 8` away, and `B''` is greatest at an end.
+    /// A chord over a parameter step `h` is at most `h² max|B''| / 8` away, and `B''` is greatest
+    /// at an end.
     pub(crate) fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         let [a, b, c, d] = self.0;
         let bend = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
-        // Rounding leaves a little bend in a line; NaN and infinity end as one piece, and are refused later.
+        // Rounding leaves a little bend in a line; NaN and infinity end as one piece, and are
+        // refused later.
         let pieces = (0.75 * bend / tolerance).sqrt().ceil().clamp(1.0, 1e4) as u32;
         let inner = (1..pieces).map(|i| self.at(f64::from(i) / f64::from(pieces)));
         points.extend(inner.chain([d]));
     }
 }
 
-/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord lengths for knots: old edges next
-/// to just subdivided ones are much longer than these, and even knots would bend the curve there.
+/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord lengths for knots: old
+/// edges next to just subdivided ones are much longer than these, and even knots would bend the
+/// curve there.
 pub(crate) fn catmull_rom(p: [DVec2; 4], u: f64) -> DVec2 {
     let chord = p[2] - p[1];
     let [leaving, arriving] = slopes(p);

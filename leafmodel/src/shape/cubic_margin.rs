@@ -13,15 +13,17 @@ use thiserror::Error;
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
 
-/// One side as a cubic Bézier spline from base to tip; the other is its mirror image. Lengths are in units of the leaf's length; the
-/// letters are the article's.
+/// One side as a cubic Bézier spline from base to tip; the other is its mirror image. Lengths are
+/// in units of the leaf's length; the letters are the article's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CubicMargin {
-    /// `Angle1`: direction of the handle at the base from the midrib, degrees, 0 to 180, both excluded.
+    /// `Angle1`: direction of the handle at the base from the midrib, degrees, 0 to 180, both
+    /// excluded.
     pub angle1_deg: f64,
     /// `L1`: length of that handle, 0.01 to 10.
     pub length1: f64,
-    /// `Angle2`: direction of the handle at the tip from the midrib, degrees, 0 to 180, both excluded.
+    /// `Angle2`: direction of the handle at the tip from the midrib, degrees, 0 to 180, both
+    /// excluded.
     pub angle2_deg: f64,
     /// `L2`: length of that handle, 0.01 to 10.
     pub length2: f64,
@@ -83,7 +85,8 @@ impl CubicMargin {
         Ok(())
     }
 
-    /// The margin of a leaf whose midrib goes from the origin to (0, `length_mm`), 0.001 to 100 000.
+    /// The margin of a leaf whose midrib goes from the origin to (0, `length_mm`), 0.001 to 100
+    /// 000.
     ///
     /// # Errors
     ///

@@ -1,13 +1,15 @@
 //! How a given lamina expands from primordium to maturity: growth that differs from place to place.
 //!
-//! Relative elementary rates of growth across and along the leaf depend on where tissue lies along the axis
-//! at the start, and on nothing else. A point that starts at `(x0, y0)` is then, `t` steps later, at
+//! Relative elementary rates of growth across and along the leaf depend on where tissue lies along
+//! the axis at the start, and on nothing else. A point that starts at `(x0, y0)` is then, `t` steps
+//! later, at
 //!
 //! `x = x0 RERGx(y0)^t`, `y = ∫₀^y0 RERGy(η)^t dη`, with `RERG = 1 + g`.
 //!
 //! - **In**: two [`RateCurve`]s, the length at the start, and that at the end.
 //! - **Out**: where tissue is at any time, and which tissue is at a place: both through one table.
-//! - **Always true**: going there and back is the identity up to rounding, since both ways read the same table.
+//! - **Always true**: going there and back is the identity up to rounding, since both ways read the
+//!   same table.
 //!
 //! # Source
 //!
@@ -22,8 +24,9 @@ const CELLS: usize = 512;
 /// Growth that has not arrived by then never will.
 const LONGEST: f64 = 1e6;
 
-/// A growth rate per step as a function of where tissue lies at the start, 0 at the base, 1 at the apex: a
-/// monotone cubic through its knots, so that it never leaves the range of neighbouring knots.
+/// A growth rate per step as a function of where tissue lies at the start, 0 at the base, 1 at the
+/// apex: a monotone cubic through its knots, so that it never leaves the range of neighbouring
+/// knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateCurve {
     /// Place and rate, places rising.
@@ -74,8 +77,8 @@ pub enum GrowthError {
 }
 
 impl RateCurve {
-    /// A curve through `[place, rate]`, places rising from 0 to 1, rates above −1 and at most 1 per step. Before the
-    /// first knot and behind the last, the rate is constant.
+    /// A curve through `[place, rate]`, places rising from 0 to 1, rates above −1 and at most 1 per
+    /// step. Before the first knot and behind the last, the rate is constant.
     ///
     /// # Errors
     ///
@@ -294,7 +297,8 @@ mod tests {
                 .sum();
             let integral = sum * y0 / f64::from(n);
             let height = map.forward(DVec2::new(0.0, y0)).y;
-            // Linear interpolation in the table is off by at most h²/8 times the slope of the integrand.
+            // Linear interpolation in the table is off by at most h²/8 times the slope of the
+            // integrand.
             let h = 10.0 / CELLS as f64;
             let rerg = |i: i32| libm::pow(1.0 + along.at(f64::from(i) * 1e-4), 30.0);
             let steepest = (0..10_000)

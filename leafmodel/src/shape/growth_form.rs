@@ -1,16 +1,20 @@
 //! Outlines that local growth rates bring forth by themselves (growth-algorithm model).
 //!
-//! Half a leaf is `N` rows of cells between midrib and margin. The midrib grows at one rate along its whole length, each row
-//! at its own rate along its own direction; exponential growth over three orders of magnitude turns small differences of
-//! rate into the shape of the leaf. Beyond that first model of the paper, the growth law may be any curve, the halves may differ,
-//! rows may bend, and the midrib may bear axes that repeat it, which makes palmate leaves.
+//! Half a leaf is `N` rows of cells between midrib and margin. The midrib grows at one rate along
+//! its whole length, each row at its own rate along its own direction; exponential growth over
+//! three orders of magnitude turns small differences of rate into the shape of the leaf. Beyond
+//! that first model of the paper, the growth law may be any curve, the halves may differ, rows may
+//! bend, and the midrib may bear axes that repeat it, which makes palmate leaves.
 //!
 //! - **In**: a [`GrowthForm`].
-//! - **Out**: an [`Outline`], base at the origin, midrib along +y; axes, vein rows and rates of growth.
-//! - **Always true**: the outline never crosses itself, and every axis ends on the blade. Holes between rows or lobes that meet
-//!   again are filled. Vein rows of one half do not cross: those that would are refused.
-//! - **Left out**: lobes do not push each other aside; where two overlap they become one. Lobes that meet below the petiole
-//!   close over it, as in a peltate leaf. Compound leaves are [`crate::compound`].
+//! - **Out**: an [`Outline`], base at the origin, midrib along +y; axes, vein rows and rates of
+//!   growth.
+//! - **Always true**: the outline never crosses itself, and every axis ends on the blade. Holes
+//!   between rows or lobes that meet again are filled. Vein rows of one half do not cross: those
+//!   that would are refused.
+//! - **Left out**: lobes do not push each other aside; where two overlap they become one. Lobes
+//!   that meet below the petiole close over it, as in a peltate leaf. Compound leaves are
+//!   [`crate::compound`].
 
 mod axes;
 mod check;
@@ -45,7 +49,8 @@ pub enum LateralGrowth {
         /// `k`, how late it falls off away from there, > 0 up to 100.
         falloff: f64,
     },
-    /// `gL` per step over the place along the axis, 0 at its base and 1 at its tip. Negative rates shrink.
+    /// `gL` per step over the place along the axis, 0 at its base and 1 at its tip. Negative rates
+    /// shrink.
     Curve(RateCurve),
 }
 
@@ -56,8 +61,9 @@ pub struct VeinRow {
     pub position: f64,
     /// Slope `s` at the axis: rise along it per unit away from it, −20 to 20, constant in growth.
     pub slope: f64,
-    /// Change of slope per axis' length away from it, −100 to 100; 0 is a straight row, above 0 the vein curves
-    /// towards the tip. It belongs to the leaf at every age, so that rows keep their shape relative to it.
+    /// Change of slope per axis' length away from it, −100 to 100; 0 is a straight row, above 0 the
+    /// vein curves towards the tip. It belongs to the leaf at every age, so that rows keep their
+    /// shape relative to it.
     pub bend: f64,
 }
 
@@ -91,13 +97,16 @@ pub struct Axis {
 /// An axis that replicates the midrib.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondaryAxis {
-    /// Where it starts along its parent, 0 at the parent's base to 1 at its tip; 0 in a palmate leaf.
+    /// Where it starts along its parent, 0 at the parent's base to 1 at its tip; 0 in a palmate
+    /// leaf.
     pub position: f64,
     /// Its direction, radians from the parent's towards the right, −π to π.
     pub angle: f64,
-    /// Whether its mirror image about the parent is there too, with the mirror images of all axes on it.
+    /// Whether its mirror image about the parent is there too, with the mirror images of all axes
+    /// on it.
     pub paired: bool,
-    /// How long it gets, in midribs, 0.01 to 100; [`SecondaryAxis::axial_rate`] is the rate of growth that makes it so.
+    /// How long it gets, in midribs, 0.01 to 100; [`SecondaryAxis::axial_rate`] is the rate of
+    /// growth that makes it so.
     pub length: f64,
     /// Its rows, and the axes on it.
     pub axis: Axis,
@@ -107,9 +116,10 @@ pub struct SecondaryAxis {
 ///
 /// # Source
 ///
-/// \[young2010\], Eqs. 1–4, and the extensions that its section V names; for palmate leaves section IV asks for "a self-similar
-/// organization in which the secondary veins replicate the midrib with autonomous growth characteristics". How axes are
-/// placed is ours. `docs/src/theory/growth-shape.md` says where this departs from the paper.
+/// \[young2010\], Eqs. 1–4, and the extensions that its section V names; for palmate leaves section
+/// IV asks for "a self-similar organization in which the secondary veins replicate the midrib with
+/// autonomous growth characteristics". How axes are placed is ours.
+/// `docs/src/theory/growth-shape.md` says where this departs from the paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrowthForm {
     /// `gy`, growth of the midrib per step, 0.001 to 1. The paper's value is 0.1.
@@ -186,8 +196,8 @@ impl From<HalfForm> for GrowthForm {
 }
 
 impl SecondaryAxis {
-    /// The rate at which the axis grows on a midrib that grows at `main_rate`: `(1 + gy) length^(1/T) − 1`, as both grow the same
-    /// `T` steps from primordia of one size.
+    /// The rate at which the axis grows on a midrib that grows at `main_rate`:
+    /// `(1 + gy) length^(1/T) − 1`, as both grow the same `T` steps from primordia of one size.
     pub fn axial_rate(&self, main_rate: f64) -> f64 {
         let per_step = libm::log1p(main_rate) / libm::log(ENLARGEMENT);
         (1.0 + main_rate) * libm::pow(self.length, per_step) - 1.0
@@ -195,16 +205,18 @@ impl SecondaryAxis {
 }
 
 impl GrowthForm {
-    /// Grows the primordium until the midrib is a thousand times longer, and scales the outcome so that the midrib measures
-    /// `length_mm`, 0.001 to 100 000.
+    /// Grows the primordium until the midrib is a thousand times longer, and scales the outcome so
+    /// that the midrib measures `length_mm`, 0.001 to 100 000.
     ///
-    /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin, over the apex
-    /// (0, `length_mm`), and down the left one; that of a leaf with axes starts at its lowest point. Growth ends in the middle
-    /// of a step, so that the enlargement is exactly 1000 (the paper: "about 1000").
+    /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin, over
+    /// the apex (0, `length_mm`), and down the left one; that of a leaf with axes starts at its
+    /// lowest point. Growth ends in the middle of a step, so that the enlargement is exactly 1000
+    /// (the paper: "about 1000").
     ///
     /// # Errors
     ///
-    /// [`GrowthFormError`], naming the parameter and its range, veins that cross, or the axis that lies apart.
+    /// [`GrowthFormError`], naming the parameter and its range, veins that cross, or the axis that
+    /// lies apart.
     ///
     /// # Source
     ///
@@ -233,8 +245,9 @@ impl GrowthForm {
         Ok(lobes.iter().map(ends).collect())
     }
 
-    /// The lines along which the vein rows of the midrib lie at maturity, from the midrib outwards: right ones from base to
-    /// tip, then left ones, mm. Where rows pass over each other a line may end inside the blade.
+    /// The lines along which the vein rows of the midrib lie at maturity, from the midrib outwards:
+    /// right ones from base to tip, then left ones, mm. Where rows pass over each other a line may
+    /// end inside the blade.
     ///
     /// # Errors
     ///
@@ -252,7 +265,8 @@ impl GrowthForm {
         Ok(lines)
     }
 
-    /// Growth of each row on one side of the midrib, from base to tip (Fig. 2: the rate below, the width above).
+    /// Growth of each row on one side of the midrib, from base to tip (Fig. 2: the rate below, the
+    /// width above).
     ///
     /// # Errors
     ///

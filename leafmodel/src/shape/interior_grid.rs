@@ -1,7 +1,8 @@
 //! The inside of an outline in coarse cells: what most points need to know, by one look-up.
 //!
-//! Cells through which the margin passes leave the question to the edges; all others lie wholly inside or
-//! wholly outside. Cells inside know how many cells there are at least to the next that is not.
+//! Cells through which the margin passes leave the question to the edges; all others lie wholly
+//! inside or wholly outside. Cells inside know how many cells there are at least to the next that
+//! is not.
 
 use glam::DVec2;
 
@@ -107,7 +108,8 @@ impl InteriorGrid {
         }
     }
 
-    /// Tells cells inside from cells outside. Neighbours in a row without the margin between are alike.
+    /// Tells cells inside from cells outside. Neighbours in a row without the margin between are
+    /// alike.
     fn tell_sides(&mut self, points: &[DVec2], slabs: &Slabs) {
         for (row, cells) in self.steps.chunks_mut(self.columns).enumerate() {
             let mut before = MARGIN;
@@ -141,8 +143,8 @@ impl InteriorGrid {
         }
     }
 
-    /// One step more than the nearest of some neighbours. They exist, for the margin lies between cells inside
-    /// and the border of the grid.
+    /// One step more than the nearest of some neighbours. They exist, for the margin lies between
+    /// cells inside and the border of the grid.
     fn relax(&mut self, at: usize, neighbours: impl Fn(usize) -> [usize; 4]) {
         let steps = self.steps[at];
         if steps != MARGIN && steps != OUTSIDE {
@@ -221,7 +223,8 @@ mod tests {
                 .count()
         };
         assert_eq!([0.0, 2.0, 4.7, 5.3, 9.0].map(told), [1000; 5]);
-        // Cells are 0.21 wide. Steps along diagonals count as one, so that 3.5 of 5 are left of the way to the margin.
+        // Cells are 0.21 wide. Steps along diagonals count as one, so that 3.5 of 5 are left of the
+        // way to the margin.
         assert!(grid.is_clear(DVec2::ZERO, DVec2::new(3.0, 0.0)));
         assert!(!grid.is_clear(DVec2::new(4.0, 0.0), DVec2::new(4.99, 0.0)));
     }

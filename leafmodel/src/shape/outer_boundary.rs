@@ -20,10 +20,12 @@ pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
     web.walk(start, last, arrival, |here, _| here == last)
 }
 
-/// The outer boundary of the union of simple counter-clockwise polygons, as far as it hangs together with the lowest point;
-/// what hangs on to that by a single point only is cut off. Holes are filled. Counter-clockwise from the lowest point.
+/// The outer boundary of the union of simple counter-clockwise polygons, as far as it hangs
+/// together with the lowest point; what hangs on to that by a single point only is cut off. Holes
+/// are filled. Counter-clockwise from the lowest point.
 ///
-/// Polygons may share corners; edges that lie on each other are not expected, and may leave a boundary that crosses itself.
+/// Polygons may share corners; edges that lie on each other are not expected, and may leave a
+/// boundary that crosses itself.
 pub(crate) fn union_boundary(polygons: &[&[DVec2]]) -> Vec<DVec2> {
     let web = Web::new(polygons);
     let lower = |&p: &usize, &q: &usize| {
@@ -92,7 +94,8 @@ impl Web {
         }
     }
 
-    /// The way along the outside from `start`, reached from `previous` in direction `arrival`, until it is `done` (here, next).
+    /// The way along the outside from `start`, reached from `previous` in direction `arrival`,
+    /// until it is `done` (here, next).
     fn walk(
         &self,
         start: usize,
@@ -111,7 +114,8 @@ impl Web {
                 break;
             }
             if let Some(at) = path.iter().position(|&corner| corner == next) {
-                // A loop closed at one point: leave it out and go on from there, as if just arrived.
+                // A loop closed at one point: leave it out and go on from there, as if just
+                // arrived.
                 path.truncate(at + 1);
             } else {
                 path.push(next);
@@ -145,7 +149,8 @@ impl Web {
     }
 }
 
-/// Pairs of edges, smaller number first, whose bounding boxes overlap and that share no corner; in rising order.
+/// Pairs of edges, smaller number first, whose bounding boxes overlap and that share no corner; in
+/// rising order.
 fn near_pairs(corners: &[DVec2], edges: &[[usize; 2]]) -> Vec<(usize, usize)> {
     let mut boxes: Vec<(DVec2, DVec2, usize)> = edges
         .iter()

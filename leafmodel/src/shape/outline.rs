@@ -6,8 +6,8 @@
 //!   the enclosed area is positive, both ends of the midrib lie on the blade.
 //!
 //! Queries are answered by the coarse cells of `shape::interior_grid` away from the margin, and
-//! near it by the horizontal slabs of `shape::slabs`: their cost is that of the few edges at the same
-//! height, not of the whole margin.
+//! near it by the horizontal slabs of `shape::slabs`: their cost is that of the few edges at the
+//! same height, not of the whole margin.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -16,13 +16,14 @@ use super::crossing::first_crossing;
 use super::interior_grid::InteriorGrid;
 use super::slabs::Slabs;
 
-/// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding only.
+/// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding
+/// only.
 const ON_BLADE: f64 = 1e-9;
 
 /// The margin of a lamina as a simple polygon, in millimetres.
 ///
-/// Coordinates: the petiole is attached at [`Outline::base`], the midrib runs from there along +y to
-/// [`Outline::apex`]. The polygon is counter-clockwise, without a repeated last point, without
+/// Coordinates: the petiole is attached at [`Outline::base`], the midrib runs from there along +y
+/// to [`Outline::apex`]. The polygon is counter-clockwise, without a repeated last point, without
 /// self-crossings, and encloses a positive area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
@@ -168,7 +169,8 @@ impl Outline {
         self.contains(p) || self.distance_to_margin(p) <= slack
     }
 
-    /// Whether the segment from `a` to `b` crosses the margin; touching it from one side is no crossing.
+    /// Whether the segment from `a` to `b` crosses the margin; touching it from one side is no
+    /// crossing.
     pub fn is_crossed_by(&self, a: DVec2, b: DVec2) -> bool {
         !self.interior.is_clear(a, b) && self.slabs.is_crossed_by(&self.points, a, b)
     }
@@ -214,7 +216,8 @@ impl Outline {
 }
 
 impl Outline {
-    /// The same margin at another time, its corners and apex moved by growth that keeps every invariant.
+    /// The same margin at another time, its corners and apex moved by growth that keeps every
+    /// invariant.
     pub(crate) fn with_points(&self, points: Vec<DVec2>, apex: DVec2) -> Self {
         let slabs = Slabs::new(&points);
         Self {
@@ -227,7 +230,8 @@ impl Outline {
     }
 }
 
-/// Area of a polygon, positive when it is counter-clockwise (shoelace formula about its first corner).
+/// Area of a polygon, positive when it is counter-clockwise (shoelace formula about its first
+/// corner).
 fn signed_area(points: &[DVec2]) -> f64 {
     let origin = points[0];
     let doubled: f64 = points
@@ -261,7 +265,8 @@ mod tests {
         Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 2.0))
     }
 
-    /// A star-shaped margin with `n` corners whose distances from the centre are hashed from `seed`.
+    /// A star-shaped margin with `n` corners whose distances from the centre are hashed from
+    /// `seed`.
     fn star(n: usize, seed: u64) -> Vec<DVec2> {
         (0..n)
             .map(|i| {

@@ -134,8 +134,8 @@ impl Slabs {
         best
     }
 
-    /// A lower bound of the squared distance from height `y` to a slab that lies below (`side` < 0) or
-    /// above it. One slab's height in 10⁹ is given away, so that rounding never hides an edge.
+    /// A lower bound of the squared distance from height `y` to a slab that lies below (`side` < 0)
+    /// or above it. One slab's height in 10⁹ is given away, so that rounding never hides an edge.
     fn gap_squared(&self, slab: usize, side: f64, y: f64) -> f64 {
         if self.per_height == 0.0 {
             return 0.0;

@@ -1,13 +1,15 @@
 //! Outlines drawn elsewhere: a path of an SVG file.
 //!
 //! - **In**: the text of the file, and which path if it is not the first.
-//! - **Out**: the contour as a polygon in the coordinates of the file, and from it an [`Outline`] of any length.
-//! - **Always true**: transforms of the path and of what it stands in are carried out; curves are followed within
-//!   10⁻⁴ of the path's extent.
-//! - **Left out**: shapes other than `path`, style sheets, and the `viewBox`, which moves and scales everything alike.
+//! - **Out**: the contour as a polygon in the coordinates of the file, and from it an [`Outline`]
+//!   of any length.
+//! - **Always true**: transforms of the path and of what it stands in are carried out; curves are
+//!   followed within 10⁻⁴ of the path's extent.
+//! - **Left out**: shapes other than `path`, style sheets, and the `viewBox`, which moves and
+//!   scales everything alike.
 //!
-//! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the highest, unless
-//! both are given.
+//! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the
+//! highest, unless both are given.
 
 mod path_data;
 
@@ -78,7 +80,8 @@ pub enum SvgError {
 }
 
 impl SvgContour {
-    /// Reads a path from the text of an SVG file; base and apex are where [`SvgContour::ends_of`] finds them.
+    /// Reads a path from the text of an SVG file; base and apex are where [`SvgContour::ends_of`]
+    /// finds them.
     ///
     /// # Errors
     ///
@@ -146,8 +149,9 @@ impl SvgContour {
         })
     }
 
-    /// Base and apex where nothing is said of them: the lowest and the highest point as one sees them, y down. Where
-    /// several points share that height, it is the middle between the outermost.
+    /// Base and apex where nothing is said of them: the lowest and the highest point as one sees
+    /// them, y down. Where several points share that height, it is the middle between the
+    /// outermost.
     pub fn ends_of(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
         let end = |sign: f64| {
             let height = |p: &[f64; 2]| sign * p[1];
@@ -162,12 +166,13 @@ impl SvgContour {
         [end(1.0), end(-1.0)]
     }
 
-    /// The outline, moved, turned and scaled so that the midrib goes from the origin to (0, `length_mm`).
+    /// The outline, moved, turned and scaled so that the midrib goes from the origin to (0,
+    /// `length_mm`).
     ///
     /// # Errors
     ///
-    /// [`OutlineError`] if the polygon crosses itself or base and apex do not lie on it. `length_mm` must be finite and
-    /// above 0.
+    /// [`OutlineError`] if the polygon crosses itself or base and apex do not lie on it.
+    /// `length_mm` must be finite and above 0.
     pub fn grow(&self, length_mm: f64) -> Result<Outline, OutlineError> {
         let seen = |p: [f64; 2]| DVec2::new(p[0], -p[1]);
         let (base, apex) = (seen(self.base), seen(self.apex));

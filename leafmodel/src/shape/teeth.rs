@@ -6,8 +6,8 @@
 //!
 //! # Source
 //!
-//! \[runions2005\], section 3.2: a toothed contour is a curve plus triangular waves of several amplitudes and
-//! frequencies. How waves lean and fade is ours.
+//! \[runions2005\], section 3.2: a toothed contour is a curve plus triangular waves of several
+//! amplitudes and frequencies. How waves lean and fade is ours.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -24,8 +24,8 @@ pub struct ToothWave {
     pub per_side: u32,
     /// How far a tooth stands out, as a share of the midrib's length, > 0 up to 0.5.
     pub height: f64,
-    /// Where the tip of a tooth points, −1 to 1: 0 gives even triangles, 1 saw teeth whose upright side faces the
-    /// apex, −1 the base.
+    /// Where the tip of a tooth points, −1 to 1: 0 gives even triangles, 1 saw teeth whose upright
+    /// side faces the apex, −1 the base.
     pub lean: f64,
     /// Share of the side, from the base, over which teeth rise to their full height, 0 to 1.
     pub fade_base: f64,
@@ -115,8 +115,8 @@ impl ToothWave {
         Ok(())
     }
 
-    /// Height at a share of the side, in shares of the midrib's length. Where a side of a tooth is upright, the
-    /// height just `before` the place or that behind it.
+    /// Height at a share of the side, in shares of the midrib's length. Where a side of a tooth is
+    /// upright, the height just `before` the place or that behind it.
     fn at(&self, share: f64, before: bool) -> f64 {
         let teeth = f64::from(self.per_side);
         let along = share * teeth;
@@ -170,10 +170,11 @@ impl ToothWave {
 
 /// The outline with teeth: every place of the margin moved outward by the sum of `waves` there.
 ///
-/// Each side is measured along the margin from base to apex. Outward is at right angles to the chord between the places
-/// a quarter of the shortest tooth before and behind, or as far as all waves together are high if that is more: so it turns
-/// gently where the margin is a polygon, and slowly enough that neighbours do not cross in a bay. Notches and tips are
-/// corners of the result, as are those of the outline.
+/// Each side is measured along the margin from base to apex. Outward is at right angles to the
+/// chord between the places a quarter of the shortest tooth before and behind, or as far as all
+/// waves together are high if that is more: so it turns gently where the margin is a polygon, and
+/// slowly enough that neighbours do not cross in a bay. Notches and tips are corners of the result,
+/// as are those of the outline.
 ///
 /// # Errors
 ///
@@ -275,7 +276,8 @@ impl Side {
     }
 }
 
-/// Points of the right and the left side of a margin, each from the place nearest to the base to that nearest to the apex.
+/// Points of the right and the left side of a margin, each from the place nearest to the base to
+/// that nearest to the apex.
 fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();

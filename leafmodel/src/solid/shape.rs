@@ -91,9 +91,10 @@ fn area(shape: &Shape) -> f64 {
     0.5 * doubled.sum::<f64>()
 }
 
-/// A mesh that has no normals with some: at each corner of a face the mean of those faces around that turn away from it by less than
-/// 45°, by area. So round things look round, and edges are sharp: across an edge a mean would lean so far from both its faces that light
-/// which falls on them could not be reflected. A point has as many vertices as normals.
+/// A mesh that has no normals with some: at each corner of a face the mean of those faces around
+/// that turn away from it by less than 45°, by area. So round things look round, and edges are
+/// sharp: across an edge a mean would lean so far from both its faces that light which falls on
+/// them could not be reflected. A point has as many vertices as normals.
 pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
     let crease = std::f64::consts::FRAC_1_SQRT_2;
     let doubled: Vec<DVec3> = faces

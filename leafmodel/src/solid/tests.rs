@@ -107,7 +107,8 @@ fn bits(at: DVec3) -> [u64; 3] {
 #[test]
 fn closed_bodies_are_watertight_and_turned_outwards() {
     for body in bodies() {
-        // Each edge of each face has one that runs along it the other way, at the same places bit for bit.
+        // Each edge of each face has one that runs along it the other way, at the same places bit
+        // for bit.
         let mut edges: BTreeMap<_, i32> = BTreeMap::new();
         let mut volume = 0.0;
         for &[a, b, c] in &body.triangles {
@@ -194,7 +195,8 @@ fn the_map_at_a_vertex_holds_what_its_cell_holds() {
 fn charts_agree_along_the_edges_where_they_meet() {
     for shape in closed_shapes() {
         let body = grow(&plan(shape, Some(pattern(3.0))));
-        // From the places of an edge's ends to the coordinates that each of its two faces has there.
+        // From the places of an edge's ends to the coordinates that each of its two faces has
+        // there.
         let mut seams: BTreeMap<_, Vec<[DVec2; 2]>> = BTreeMap::new();
         for triangle in &body.triangles {
             for corner in 0..3 {

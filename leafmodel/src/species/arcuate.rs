@@ -1,6 +1,7 @@
 //! Veins as splines: from pinnate to arcuate, and palmate (\[oslveins\]).
 //!
-//! The article names its parameters and their defaults and prints none for its pictures: all else here is by eye.
+//! The article names its parameters and their defaults and prints none for its pictures: all else
+//! here is by eye.
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;
@@ -111,7 +112,8 @@ mod tests {
     use super::*;
     use crate::leaf::Fields;
 
-    /// Mean turn of laterals towards the tip from their first piece to their last, radians, and how far up they end on average, lengths.
+    /// Mean turn of laterals towards the tip from their first piece to their last, radians, and how
+    /// far up they end on average, lengths.
     fn sweep(share: f64) -> (f64, f64) {
         let plan = between(share);
         let lamina = plan.grow_lamina().expect("a good plan");

@@ -4,7 +4,8 @@ use super::{contours, green_leaf};
 use crate::leaf::LeafPlan;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
-/// A closed net on isogonic growth that starts with a leaf long enough for its secondaries to form together.
+/// A closed net on isogonic growth that starts with a leaf long enough for its secondaries to form
+/// together.
 fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> AuxinPlan {
     AuxinPlan {
         final_length,

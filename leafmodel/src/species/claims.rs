@@ -88,12 +88,14 @@ fn mean_angle(segments: &[VeinSegment]) -> f64 {
     sum / weight
 }
 
-/// By how many degrees veins of orders 1 and 2 turn, on average, from one stretch of `scale` segments to the next.
+/// By how many degrees veins of orders 1 and 2 turn, on average, from one stretch of `scale`
+/// segments to the next.
 fn roughness(grown: &Grown, scale: usize) -> f64 {
     let network = &grown.network;
     let at = |node: u32| network.nodes()[node as usize].position;
     let edges = network.edges();
-    // The edge of the same vein that leads to where one starts; edges are sorted by the node they lead to.
+    // The edge of the same vein that leads to where one starts; edges are sorted by the node they
+    // lead to.
     let before = |i: usize| {
         let first = edges.partition_point(|edge| edge.to < edges[i].from);
         let entering = first..edges.len();
@@ -233,7 +235,8 @@ fn fig_15_isogonic_growth_gives_a_net_and_marginal_growth_ladders() {
         elongation(&net),
         elongation(&ladder)
     );
-    // Tertiaries of the net have no common direction: a twelfth of them in each 15 degrees would be even.
+    // Tertiaries of the net have no common direction: a twelfth of them in each 15 degrees would be
+    // even.
     let spread = |leaf: &Grown| {
         let mut bins = [0.0; 6];
         for s in leaf.network.segments().filter(|s| s.order >= 3) {

@@ -1,9 +1,12 @@
-//! Leaves in other colours than summer's green: what their tissues hold, each number with where it is from.
+//! Leaves in other colours than summer's green: what their tissues hold, each number with where it
+//! is from.
 //!
 //! - **In**: the name of a preset.
-//! - **Out**: its [`ColouredLeaf`], from which the preset's plan is made, so that what is told is what is grown.
+//! - **Out**: its [`ColouredLeaf`], from which the preset's plan is made, so that what is told is
+//!   what is grown.
 //! - **Always true**: every value lies within its range.
-//! - **Left out**: where the colours lie (widths of margins, delays, the parameters of mosaics), which is by eye unless the preset says otherwise.
+//! - **Left out**: where the colours lie (widths of margins, delays, the parameters of mosaics),
+//!   which is by eye unless the preset says otherwise.
 
 mod autumn;
 #[cfg(test)]
@@ -55,7 +58,8 @@ pub struct ColouredLeaf {
 /// What a tissue holds, as far as it is not what the green leaf does.
 #[derive(Clone, Copy, Debug)]
 pub struct Holding {
-    /// Which tissue: `turned` has aged and still lives, `dead` is litter, others are places or types of cells.
+    /// Which tissue: `turned` has aged and still lives, `dead` is litter, others are places or
+    /// types of cells.
     pub tissue: &'static str,
     /// The contents that differ.
     pub contents: PerConstituent<Option<Quantity>>,

@@ -1,7 +1,8 @@
 //! Presets of compound leaves.
 //!
-//! Nothing here is measured on one specimen. Kinds of leaf, usual numbers of leaflets and their lengths are general
-//! knowledge; outlines, veins, angles, stalks and forms are by eye, contents lie in the range of broad leaves.
+//! Nothing here is measured on one specimen. Kinds of leaf, usual numbers of leaflets and their
+//! lengths are general knowledge; outlines, veins, angles, stalks and forms are by eye, contents
+//! lie in the range of broad leaves.
 
 use super::contours::{curve, pointed};
 use super::green_leaf;

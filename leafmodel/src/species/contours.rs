@@ -1,4 +1,5 @@
-//! Outlines of the presets, drawn by eye after the figures' captions and the plants themselves; none is measured.
+//! Outlines of the presets, drawn by eye after the figures' captions and the plants themselves;
+//! none is measured.
 
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};

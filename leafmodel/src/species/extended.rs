@@ -1,4 +1,5 @@
-//! Leaves that need what the growth-algorithm paper names for extensions: unlike halves, veins that bend. All by eye.
+//! Leaves that need what the growth-algorithm paper names for extensions: unlike halves, veins that
+//! bend. All by eye.
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;

@@ -1,9 +1,12 @@
-//! What is known of each species' mature leaf in summer: sizes, contents, thickness, each number with where it is from.
+//! What is known of each species' mature leaf in summer: sizes, contents, thickness, each number
+//! with where it is from.
 //!
 //! - **In**: the name of a preset.
-//! - **Out**: its [`LeafTraits`], from which the preset's plan is made, so that what is told is what is grown.
+//! - **Out**: its [`LeafTraits`], from which the preset's plan is made, so that what is told is
+//!   what is grown.
 //! - **Always true**: every value lies within its range.
-//! - **Left out**: what the plan holds as forms (fold, curl, ruffle, relief): all of that is by eye.
+//! - **Left out**: what the plan holds as forms (fold, curl, ruffle, relief): all of that is by
+//!   eye.
 
 pub(super) mod coloured;
 mod others;
@@ -227,7 +230,8 @@ impl LeafTraits {
         ]
     }
 
-    /// The plan of a leaf of this species with another outline and venation than its preset's, perhaps.
+    /// The plan of a leaf of this species with another outline and venation than its preset's,
+    /// perhaps.
     pub fn plan(&self, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
         let length_mm = self.length_mm.value;
         let finest = venation.veinlet_radius_mm;

@@ -10,8 +10,9 @@ mod transport;
 use super::young::{FORMS, Form};
 use super::{PlanOf, Preset};
 
-/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and shrubs, leaves in other
-/// colours, splines, the examples of Xia 2007, what goes beyond Young 2010, compound leaves, then the figures of Young 2010.
+/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and
+/// shrubs, leaves in other colours, splines, the examples of Xia 2007, what goes beyond Young 2010,
+/// compound leaves, then the figures of Young 2010.
 pub static PRESETS: &[Preset] = &joined::<{ GROWN + FORMS.len() }>();
 
 /// The presets with a function of their own.

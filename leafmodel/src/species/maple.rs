@@ -1,4 +1,5 @@
-//! A true maple: five lobes, each on an axis of its own, where Fig. 9 of Young 2010 splays the veins of one midrib.
+//! A true maple: five lobes, each on an axis of its own, where Fig. 9 of Young 2010 splays the
+//! veins of one midrib.
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;
@@ -56,7 +57,8 @@ pub fn maple() -> GrowthForm {
     midrib.into()
 }
 
-/// The leaf with a primary vein along each axis: veins start beside the petiole, each in the direction of its lobe.
+/// The leaf with a primary vein along each axis: veins start beside the petiole, each in the
+/// direction of its lobe.
 pub(super) fn plan() -> LeafPlan {
     let mut origins = vec![[0.0, 0.022]];
     for degrees in DIRECTIONS {

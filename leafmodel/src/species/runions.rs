@@ -232,8 +232,8 @@ pub(super) fn slow() -> LeafPlan {
     green_leaf(80.0, 1, contours::ovate(), venation)
 }
 
-/// Segments ten times as long change nothing but the grain: lengths and kill distance in segments fall to a tenth. So
-/// does the number of steps, and the margin still moves one segment in each.
+/// Segments ten times as long change nothing but the grain: lengths and kill distance in segments
+/// fall to a tenth. So does the number of steps, and the margin still moves one segment in each.
 pub(super) fn ginkgo() -> LeafPlan {
     const COARSER: f64 = 10.0;
     let venation = AuxinPlan {
@@ -324,7 +324,8 @@ pub(super) fn poplar_fine() -> LeafPlan {
     species(&leaf_traits::POPLAR, &fine, 24, 0.006, contours::deltoid())
 }
 
-/// A tenth of the growth a step, so that veins keep up; a tenth of the darts, so that as many fall on the same tissue.
+/// A tenth of the growth a step, so that veins keep up; a tenth of the darts, so that as many fall
+/// on the same tissue.
 pub(super) fn poplar_x10() -> LeafPlan {
     let fine = Row {
         leaf_unit: 1.0,

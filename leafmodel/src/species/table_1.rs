@@ -1,7 +1,8 @@
 //! The rows of Table 1 of Runions et al. 2005.
 //!
-//! The table gives leaf lengths in a unit that it does not name; it cannot be the vein segment (`docs/src/theory/venation.md`
-//! says why). [`Row::leaf_unit`] is our reading: so many units of the table to a segment.
+//! The table gives leaf lengths in a unit that it does not name; it cannot be the vein segment
+//! (`docs/src/theory/venation.md` says why). [`Row::leaf_unit`] is our reading: so many units of
+//! the table to a segment.
 
 use crate::shape::growth::RateCurve;
 use crate::venation::plan::{AuxinPlan, Growth, Pattern};
@@ -15,7 +16,8 @@ pub enum RowGrowth {
     Marginal(f64),
     /// "isogonic", likewise.
     Isogonic(f64),
-    /// "nonuniform": knots of the growth functions across and along the leaf, read off Fig. 5's description.
+    /// "nonuniform": knots of the growth functions across and along the leaf, read off Fig. 5's
+    /// description.
     Nonuniform(&'static [[f64; 2]], &'static [[f64; 2]]),
 }
 
@@ -43,7 +45,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// The plan of this row for another number of units to a segment; the finest veins have `veinlet_radius_mm`.
+    /// The plan of this row for another number of units to a segment; the finest veins have
+    /// `veinlet_radius_mm`.
     pub fn plan(&self, leaf_unit: f64, veinlet_radius_mm: f64) -> AuxinPlan {
         let initial_length = self.initial_length / leaf_unit;
         AuxinPlan {

@@ -1,7 +1,7 @@
 //! Presets of trees and shrubs: outline, veins, contents and blade form of a mature leaf in summer.
 //!
-//! Nothing here is measured on one specimen. Where lengths and contents come from is told by [`leaf_traits`]; outlines, plans of veins and
-//! forms are fitted by eye.
+//! Nothing here is measured on one specimen. Where lengths and contents come from is told by
+//! [`leaf_traits`]; outlines, plans of veins and forms are fitted by eye.
 
 use super::leaf_traits::{self, LeafTraits};
 use super::trees_contours as contours;
@@ -9,7 +9,8 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
-/// A closed net on isogonic growth; the young leaf is `initial_length` segments long, the grown one `final_length`.
+/// A closed net on isogonic growth; the young leaf is `initial_length` segments long, the grown one
+/// `final_length`.
 pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
     AuxinPlan {
         final_length,

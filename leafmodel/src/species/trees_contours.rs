@@ -4,7 +4,8 @@ use super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::shape::teeth::ToothWave;
 
-/// A maple's: five lobes about the petiole, each with shoulders and pointed teeth (Norway and sugar maple).
+/// A maple's: five lobes about the petiole, each with shoulders and pointed teeth (Norway and sugar
+/// maple).
 pub(super) fn maple() -> OutlinePlan {
     let right = [
         (150.0, 0.10, false),
@@ -132,7 +133,8 @@ pub(super) fn red_oak() -> OutlinePlan {
     curve(&places, &[0, 4, 9, 11, 17, 19, 24, 27], true).into()
 }
 
-/// An eastern cottonwood's: a triangle as wide as long with a cut-off base, coarse teeth that lean and a drawn-out tip.
+/// An eastern cottonwood's: a triangle as wide as long with a cut-off base, coarse teeth that lean
+/// and a drawn-out tip.
 pub(super) fn cottonwood() -> OutlinePlan {
     OutlinePlan {
         contour: pointed(&[

@@ -1,8 +1,9 @@
-//! The leaves of Xia 2007: blades that grow as the cheapest transport network, with that network as veins.
+//! The leaves of Xia 2007: blades that grow as the cheapest transport network, with that network as
+//! veins.
 //!
-//! Examples 1 and 2 have the paper's parameters. It prints none for Examples 3 and 4, and only says of Example 5 that `α` varies
-//! while `β` does not: `docs/src/theory/transport-leaf.md` tells how those here were searched for. Lengths, radii, contents and forms
-//! are ours.
+//! Examples 1 and 2 have the paper's parameters. It prints none for Examples 3 and 4, and only says
+//! of Example 5 that `α` varies while `β` does not: `docs/src/theory/transport-leaf.md` tells how
+//! those here were searched for. Lengths, radii, contents and forms are ours.
 
 use super::{green_leaf, trees};
 use crate::blade::senescence::{AgeSource, Senescence};
@@ -87,7 +88,8 @@ pub(super) fn example_4() -> LeafPlan {
     leaf(plan(4), &look)
 }
 
-/// Example 1 when its outer cells have died, which the paper foresees (Remark 3.6) and does not show.
+/// Example 1 when its outer cells have died, which the paper foresees (Remark 3.6) and does not
+/// show.
 pub(super) fn autumn() -> LeafPlan {
     let mut leaf = example_1();
     leaf.tissue.lamina[Chlorophyll] = 20.0;

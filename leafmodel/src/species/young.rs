@@ -1,7 +1,8 @@
 //! The 28 leaves of Young 2010, Figs. 3–9, by their parameters.
 //!
 //! - **Out**: a [`Form`] a figure; `shape()` is its outline's [`GrowthForm`].
-//! - **Left out**: the paper's model has no veins but those that steer growth; the presets' veins are ours.
+//! - **Left out**: the paper's model has no veins but those that steer growth; the presets' veins
+//!   are ours.
 
 #[cfg(test)]
 mod tests;
@@ -15,11 +16,12 @@ use crate::venation::plan::{AuxinPlan, Growth};
 /// Rows of cells, the paper's typical value.
 const ROWS: u16 = 150;
 
-/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. Its paired values of `a` for `n` = 1 and
-/// 2 make equal notches half-way between veins some 28 rows apart.
+/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. Its paired values
+/// of `a` for `n` = 1 and 2 make equal notches half-way between veins some 28 rows apart.
 const OAK_VEINS: [u16; 5] = [15, 45, 75, 105, 135];
 
-/// Rows, from 1, and slopes of the splayed veins of Fig. 9, which the paper does not print either: by eye.
+/// Rows, from 1, and slopes of the splayed veins of Fig. 9, which the paper does not print either:
+/// by eye.
 const MAPLE_VEINS: [(u16, f64); 4] = [(31, -0.8), (64, 0.07), (97, 0.93), (130, 1.8)];
 
 /// Secondary veins of a figure.

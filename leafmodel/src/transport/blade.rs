@@ -9,8 +9,9 @@ use super::vein_style::{VeinStyle, check};
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::VenationNetwork;
 
-/// How far a point of the margin may be smoothed away from the middle between two cells, in cells. Other parts of
-/// the margin are never nearer than 0.7, so that with the second figure they cannot meet.
+/// How far a point of the margin may be smoothed away from the middle between two cells, in cells.
+/// Other parts of the margin are never nearer than 0.7, so that with the second figure they cannot
+/// meet.
 const TETHERS: [f64; 2] = [0.45, 0.3];
 
 /// Where a blade lies in the grid, and the grid in millimetres. All but the scale is in cells.
@@ -48,9 +49,9 @@ impl Frame {
 }
 
 impl TransportLeaf {
-    /// A smooth margin around the cells: base below the root at the origin, apex where the midrib comes to the margin, `length_mm`
-    /// above it (0.001 to 100 000). If the blade has closed below the root, the base is the root itself. Holes in the leaf are
-    /// filled.
+    /// A smooth margin around the cells: base below the root at the origin, apex where the midrib
+    /// comes to the margin, `length_mm` above it (0.001 to 100 000). If the blade has closed below
+    /// the root, the base is the root itself. Holes in the leaf are filled.
     ///
     /// # Errors
     ///
@@ -59,8 +60,8 @@ impl TransportLeaf {
         Ok(self.framed(length_mm)?.1)
     }
 
-    /// Margin and veins at each of some stages, all true to the scale of the full-grown leaf of this length, with the root in one place.
-    /// Stages beyond the last are the full-grown leaf.
+    /// Margin and veins at each of some stages, all true to the scale of the full-grown leaf of
+    /// this length, with the root in one place. Stages beyond the last are the full-grown leaf.
     ///
     /// # Errors
     ///
@@ -112,7 +113,8 @@ impl TransportLeaf {
         Ok(result?)
     }
 
-    /// Base and apex: where the midrib comes to the margin, back from its first cell inside and on from its last.
+    /// Base and apex: where the midrib comes to the margin, back from its first cell inside and on
+    /// from its last.
     fn frame(&self, margin: Vec<DVec2>, midrib: &[usize]) -> Option<Frame> {
         let centre = |v: &usize| place(self.cells()[*v]);
         let inside = |v: &usize| is_inside(&margin, centre(v));

@@ -1,6 +1,7 @@
 //! Cells of a square grid, and which of them a leaf has.
 //!
-//! Everything here is counted in cells: the cell `(m, n)` has its centre at `(m h, n h)`, the root is `(0, 0)`.
+//! Everything here is counted in cells: the cell `(m, n)` has its centre at `(m h, n h)`, the root
+//! is `(0, 0)`.
 
 use std::ops::{Add, Sub};
 
@@ -122,7 +123,8 @@ impl CellIndex {
         inside.then(|| at.n as usize * self.width as usize + at.m as usize)
     }
 
-    /// Half as much room again on every side that `cell` lies beyond; a leaf one cell wide takes one row of rooms.
+    /// Half as much room again on every side that `cell` lies beyond; a leaf one cell wide takes
+    /// one row of rooms.
     fn make_room(&mut self, cell: Cell) {
         let (mut low, mut high) = (self.low, self.low + Cell::new(self.width, self.height));
         if cell.m < low.m {

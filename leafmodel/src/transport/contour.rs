@@ -1,8 +1,9 @@
 //! A smooth margin around cells.
 //!
-//! The contour runs half-way between cells of the leaf and cells outside, cuts corners, and keeps cells that touch by a
-//! corner together; it never touches itself. Then its steps are smoothed by Taubin's filter (\[taubin1995\]), which takes away
-//! what is finer than a few cells and, unlike plain averaging, does not shrink the rest.
+//! The contour runs half-way between cells of the leaf and cells outside, cuts corners, and keeps
+//! cells that touch by a corner together; it never touches itself. Then its steps are smoothed by
+//! Taubin's filter (\[taubin1995\]), which takes away what is finer than a few cells and, unlike
+//! plain averaging, does not shrink the rest.
 
 use glam::DVec2;
 
@@ -11,11 +12,12 @@ use super::cells::{Cell, CellIndex, NONE};
 /// Rounds of smoothing.
 const ROUNDS: usize = 60;
 
-/// Share by which a point moves towards the middle of its neighbours, and then away from it. Waves of more than about
-/// ten cells pass unchanged.
+/// Share by which a point moves towards the middle of its neighbours, and then away from it. Waves
+/// of more than about ten cells pass unchanged.
 const TO_AND_FRO: [f64; 2] = [0.5, -0.526];
 
-/// The outermost contour of cells that are connected by edges or corners, counter-clockwise, in cells. Holes are filled.
+/// The outermost contour of cells that are connected by edges or corners, counter-clockwise, in
+/// cells. Holes are filled.
 pub(crate) fn contour(cells: &[Cell]) -> Vec<DVec2> {
     let mut index = CellIndex::new();
     for (number, &cell) in (0..).zip(cells) {

@@ -1,7 +1,8 @@
 //! What transport costs: turning, sharing, and the two together, by their definitions.
 //!
-//! [`TransportSystem`] computes everything from cells and parents alone, in the paper's own words; the growing leaf keeps
-//! the same quantities up to date in a `Tree`, and tests hold the two against each other.
+//! [`TransportSystem`] computes everything from cells and parents alone, in the paper's own words;
+//! the growing leaf keeps the same quantities up to date in a `Tree`, and tests hold the two
+//! against each other.
 
 use super::cells::{Cell, NONE};
 
@@ -21,8 +22,8 @@ pub(crate) fn turn(beta: f64, u: Cell, v: Cell) -> f64 {
     libm::pow(squares / (dot * dot), 0.5 * beta)
 }
 
-/// A transport system by its definition: cells, and from which cell each is supplied (Definition 2.1 of
-/// \[xia2007\]). Cell 0 is the root; its parent does not matter.
+/// A transport system by its definition: cells, and from which cell each is supplied (Definition
+/// 2.1 of \[xia2007\]). Cell 0 is the root; its parent does not matter.
 ///
 /// Lengths are in the unit of `h`, weights `h²` a cell.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +36,8 @@ pub struct TransportSystem<'a> {
 }
 
 impl<'a> TransportSystem<'a> {
-    /// A system of cells and the numbers of their parents, with the parameters of its cost. Every cell must lead back to
-    /// cell 0; [`crate::transport::TransportLeaf`] gives no others.
+    /// A system of cells and the numbers of their parents, with the parameters of its cost. Every
+    /// cell must lead back to cell 0; [`crate::transport::TransportLeaf`] gives no others.
     pub(crate) fn new(cells: &'a [Cell], parents: &'a [u32], [alpha, beta, h]: [f64; 3]) -> Self {
         Self {
             cells,
@@ -62,7 +63,8 @@ impl<'a> TransportSystem<'a> {
         order
     }
 
-    /// `w(e_v)` in cells: how many are supplied through each cell, itself included (Eq. 2.4). The root's is their total number.
+    /// `w(e_v)` in cells: how many are supplied through each cell, itself included (Eq. 2.4). The
+    /// root's is their total number.
     pub fn counts(&self) -> Vec<u32> {
         let mut counts = vec![1; self.cells.len()];
         for &v in self.root_to_tip().iter().rev() {
@@ -96,7 +98,8 @@ impl<'a> TransportSystem<'a> {
             .sum()
     }
 
-    /// `P_G(x, v)` for all `v` (Definition 2.3): what `x` more at `v` would cost on the way to it; 0 at the root.
+    /// `P_G(x, v)` for all `v` (Definition 2.3): what `x` more at `v` would cost on the way to it;
+    /// 0 at the root.
     #[cfg(test)]
     pub(crate) fn potentials(&self, x: f64) -> Vec<f64> {
         let (counts, multiples) = (self.counts(), self.multiples());
@@ -112,8 +115,8 @@ impl<'a> TransportSystem<'a> {
         potentials
     }
 
-    /// `C_Ω(x)` by brute force over all cells that have a neighbour outside and the root (Eq. 3.2); infinite if no
-    /// cell can supply it.
+    /// `C_Ω(x)` by brute force over all cells that have a neighbour outside and the root (Eq. 3.2);
+    /// infinite if no cell can supply it.
     #[cfg(test)]
     pub(crate) fn expense(&self, x: Cell) -> f64 {
         let has = |cell: Cell| self.cells.contains(&cell);

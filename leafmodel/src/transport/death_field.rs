@@ -17,8 +17,9 @@ const AROUND: i32 = 3;
 
 /// At which share of the full-grown leaf's revenue tissue dies: 1 first, 0 last.
 ///
-/// Values of [`TransportLeaf::deaths`] at the centres of cells; beyond the cells, means of the nearest; between, quadratic B-splines,
-/// continuous with their first derivative. Far outside, the value at the edge of the grid.
+/// Values of [`TransportLeaf::deaths`] at the centres of cells; beyond the cells, means of the
+/// nearest; between, quadratic B-splines, continuous with their first derivative. Far outside, the
+/// value at the edge of the grid.
 #[derive(Clone, Debug)]
 pub struct DeathField {
     frame: Frame,
@@ -29,7 +30,8 @@ pub struct DeathField {
 }
 
 impl TransportLeaf {
-    /// When the tissue of this leaf dies, in the frame of [`TransportLeaf::outline`] for the same length.
+    /// When the tissue of this leaf dies, in the frame of [`TransportLeaf::outline`] for the same
+    /// length.
     ///
     /// # Errors
     ///
@@ -155,7 +157,8 @@ mod tests {
             sum += error;
             most = most.max(error);
         }
-        // A cell has 0.56 of the weight at its centre; neighbours differ by tenths at most along veins.
+        // A cell has 0.56 of the weight at its centre; neighbours differ by tenths at most along
+        // veins.
         assert!(
             sum / (deaths.len() as f64) < 0.03 && most < 0.5,
             "{sum} {most}"
@@ -176,7 +179,8 @@ mod tests {
                 steepest = steepest.max((field.at(p + DVec2::splat(1e-3)) - here).abs());
             }
         }
-        // Neighbours differ by 1 at most; a quadratic B-spline is at most that steep along each axis.
+        // Neighbours differ by 1 at most; a quadratic B-spline is at most that steep along each
+        // axis.
         assert!(steepest <= 2.0 * 1e-3 / cell * 1.001, "{steepest}");
         assert!(field.at(DVec2::splat(1e9)).is_finite());
     }

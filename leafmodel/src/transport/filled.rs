@@ -1,9 +1,11 @@
 //! Transport-optimal veins on an outline that is there already.
 //!
-//! The paper's leaf decides its shape itself. Here cells come only where the blade is, by the same rule: each as soon as it earns
-//! what its transport costs, `ε` rising until all have come. Three things are ours. Edges span at most two columns and rows and do not
-//! cross the margin. `ε` rises by equal shares rather than equal steps, since where it will end is not known. And a cell that no edge can
-//! reach without turning back by a right angle or more stays without supply; such cells lie beside and behind the root.
+//! The paper's leaf decides its shape itself. Here cells come only where the blade is, by the same
+//! rule: each as soon as it earns what its transport costs, `ε` rising until all have come. Three
+//! things are ours. Edges span at most two columns and rows and do not cross the margin. `ε` rises
+//! by equal shares rather than equal steps, since where it will end is not known. And a cell that
+//! no edge can reach without turning back by a right angle or more stays without supply; such cells
+//! lie beside and behind the root.
 
 use glam::DVec2;
 
@@ -92,7 +94,8 @@ impl FilledPlan {
         Ok(())
     }
 
-    /// Supplies the cells of a blade with its base at the origin and its midrib along +y: those whose centre lies on it and that hang together with the root, the lowest cell on the midrib.
+    /// Supplies the cells of a blade with its base at the origin and its midrib along +y: those
+    /// whose centre lies on it and that hang together with the root, the lowest cell on the midrib.
     ///
     /// Both sides are grown as one where the cells are symmetric about the midrib.
     ///

@@ -1,4 +1,5 @@
-//! Growth: a cell comes into being where it earns more than its transport costs (section 3 of \[xia2007\]).
+//! Growth: a cell comes into being where it earns more than its transport costs (section 3 of
+//! \[xia2007\]).
 
 use super::cells::{Cell, CellIndex, NONE};
 use super::optimiser::Optimiser;
@@ -75,8 +76,8 @@ impl Growth {
         self.tree.nodes[0].weight as usize
     }
 
-    /// The map `L` (Eqs. 3.3, 3.4): adds all cells that pay, each at the end of its cheapest edge, and optimises.
-    /// Gives the number of cells that came, of the whole leaf.
+    /// The map `L` (Eqs. 3.3, 3.4): adds all cells that pay, each at the end of its cheapest edge,
+    /// and optimises. Gives the number of cells that came, of the whole leaf.
     pub(crate) fn apply(&mut self, epsilon: f64) -> Result<usize, Outgrown> {
         self.select(epsilon)?;
         let before = self.cells();
@@ -193,13 +194,14 @@ impl Growth {
         Ok(())
     }
 
-    /// Length of the longest edge from `b` that `most` could pay for, unless it is too short for any or `b` is
-    /// neither on the boundary nor the root.
+    /// Length of the longest edge from `b` that `most` could pay for, unless it is too short for
+    /// any or `b` is neither on the boundary nor the root.
     fn room(&self, b: u32, most: f64) -> Option<f64> {
         let room = (most - self.potentials[b as usize]) / self.tree.nodes[b as usize].multiple;
         let cell = self.tree.cells[b as usize];
         let is_free = |place: Cell| self.tree.is_free(place);
-        // Between walls a cell may be beside others that can only be supplied from a little farther away.
+        // Between walls a cell may be beside others that can only be supplied from a little farther
+        // away.
         let reach = self.tree.reach();
         let is_boundary = reach.is_some() || b == 0 || cell.neighbours().any(is_free);
         let longest = reach.map_or(f64::INFINITY, |reach| f64::from(2 * reach * reach).sqrt());

@@ -27,8 +27,8 @@ impl Stage {
 
 /// A leaf that is the cheapest transport network of its cells, as far as small changes can tell.
 ///
-/// Cells are numbered in the order in which they came, the root is 0; every other has a parent. Mirrored leaves number a cell of
-/// the right half just before its image.
+/// Cells are numbered in the order in which they came, the root is 0; every other has a parent.
+/// Mirrored leaves number a cell of the right half just before its image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransportLeaf {
     plan: TransportPlan,
@@ -42,11 +42,13 @@ pub struct TransportLeaf {
 }
 
 impl TransportPlan {
-    /// Grows the leaf: an (`ε`, `h`) leaf of Definition 3.5 of \[xia2007\]. `seed` matters to uneven light only.
+    /// Grows the leaf: an (`ε`, `h`) leaf of Definition 3.5 of \[xia2007\]. `seed` matters to
+    /// uneven light only.
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`]; [`TransportError::TooManyCells`] as soon as the leaf outgrows `most_cells`.
+    /// [`TransportError::OutOfRange`]; [`TransportError::TooManyCells`] as soon as the leaf
+    /// outgrows `most_cells`.
     pub fn grow(&self, seed: u64) -> Result<TransportLeaf, TransportError> {
         self.validate()?;
         let outgrown = |Outgrown { cells }| TransportError::TooManyCells {
@@ -195,7 +197,8 @@ impl TransportLeaf {
         &self.counts
     }
 
-    /// In which step of generation each cell came; 0 is the root, and a ladder's step takes several.
+    /// In which step of generation each cell came; 0 is the root, and a ladder's step takes
+    /// several.
     pub fn generations(&self) -> &[u32] {
         &self.generations
     }
@@ -222,7 +225,8 @@ impl TransportLeaf {
         young
     }
 
-    /// The leaf with some of its cells only, ascending, and the numbers of their parents among them.
+    /// The leaf with some of its cells only, ascending, and the numbers of their parents among
+    /// them.
     pub(crate) fn part(&self, kept: &[usize], parent: impl Fn(usize) -> u32) -> Self {
         let mut part = Self {
             plan: self.plan.clone(),

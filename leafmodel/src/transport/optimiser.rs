@@ -6,12 +6,12 @@ mod tests;
 use super::cells::{AROUND, Cell, NONE};
 use super::tree::{Node, Tree};
 
-/// A parent is better if it saves more than this share of what it costs to supply a cell from its parent. Less is rounding, and
-/// could go round in circles.
+/// A parent is better if it saves more than this share of what it costs to supply a cell from its
+/// parent. Less is rounding, and could go round in circles.
 const SAVING: f64 = 1e-11;
 
-/// Passes over all cells. Every change of parent lowers the cost, so passes come to an end long before;
-/// the bound only guards against rounding.
+/// Passes over all cells. Every change of parent lowers the cost, so passes come to an end long
+/// before; the bound only guards against rounding.
 const MOST_PASSES: usize = 1000;
 
 /// The local optimiser, with the memory that it uses again and again.
@@ -40,7 +40,8 @@ struct Candidate<'a> {
 }
 
 impl Candidate<'_> {
-    /// The part of `K(u)` that lies beyond `u`: `v`'s own edge and all beyond it. Infinite if water cannot turn so far.
+    /// The part of `K(u)` that lies beyond `u`: `v`'s own edge and all beyond it. Infinite if water
+    /// cannot turn so far.
     fn beyond(&self, u: u32, step: Cell) -> f64 {
         let parent = &self.tree.nodes[u as usize];
         let turned = self.tree.tables.turn(step, parent.step);
@@ -71,8 +72,9 @@ impl Candidate<'_> {
 }
 
 impl Optimiser {
-    /// Steps 2 to 4: goes through all cells, youngest first, giving each its best parent; then again through those about which
-    /// something has changed, until nothing does; then through all once more, and so on until all have the best.
+    /// Steps 2 to 4: goes through all cells, youngest first, giving each its best parent; then
+    /// again through those about which something has changed, until nothing does; then through all
+    /// once more, and so on until all have the best.
     pub(crate) fn run(&mut self, tree: &mut Tree) {
         let count = tree.nodes.len();
         self.stamps.resize(count, 0);
@@ -103,9 +105,9 @@ impl Optimiser {
 
     /// The parent of `v` that minimises `K`, if that saves anything.
     ///
-    /// The paper prints `K(u)` with the potential of the graph in which `u` already is the parent. It is meant in `G0`,
-    /// from which `v` has been taken: only then is `K` what the cost rises by. Common terms are left out: all that lies above
-    /// the cell where the ways of two parents part.
+    /// The paper prints `K(u)` with the potential of the graph in which `u` already is the parent.
+    /// It is meant in `G0`, from which `v` has been taken: only then is `K` what the cost rises by.
+    /// Common terms are left out: all that lies above the cell where the ways of two parents part.
     pub(crate) fn better_parent(&mut self, tree: &Tree, v: u32) -> Option<u32> {
         let cell = tree.cells[v as usize];
         let node = tree.nodes[v as usize];
@@ -160,7 +162,8 @@ impl Optimiser {
         self.relative[z as usize] = value;
     }
 
-    /// `P_{G0}(weight, u)` less that of the present parent. `top` is how far up the way from that parent has been followed.
+    /// `P_{G0}(weight, u)` less that of the present parent. `top` is how far up the way from that
+    /// parent has been followed.
     fn relative_potential(&mut self, candidate: &Candidate, u: u32, top: &mut u32) -> f64 {
         let nodes = &candidate.tree.nodes;
         self.way.clear();
@@ -188,8 +191,8 @@ impl Optimiser {
         value
     }
 
-    /// Changes the parent of `v`, and opens all cells whose choice that may alter most: about those it supplies,
-    /// and about both ways to it.
+    /// Changes the parent of `v`, and opens all cells whose choice that may alter most: about those
+    /// it supplies, and about both ways to it.
     fn change(&mut self, tree: &mut Tree, v: u32, u: u32) {
         let old = tree.nodes[v as usize].parent;
         let mut subtree = std::mem::take(&mut self.subtree);

@@ -22,20 +22,25 @@ pub enum Ladder {
 /// Everything that decides a transport leaf.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransportPlan {
-    /// `α`: how little it saves to transport much together. 0 to 1, exclusive. Above ½ every leaf stops growing; up to ½
-    /// some would only stop at `most_cells`, which is an error. Larger is rounder.
+    /// `α`: how little it saves to transport much together. 0 to 1, exclusive. Above ½ every leaf
+    /// stops growing; up to ½ some would only stop at `most_cells`, which is an error. Larger is
+    /// rounder.
     pub alpha: f64,
     /// `β`: how dearly a change of direction is paid. Above 0, at most 20.
     pub beta: f64,
-    /// `ε`: what a full-grown leaf's cell earns per area. Above 0; `ε h^{1−2α}` is at most 100. At `h^{2α−1}` the first cell comes.
+    /// `ε`: what a full-grown leaf's cell earns per area. Above 0; `ε h^{1−2α}` is at most 100. At
+    /// `h^{2α−1}` the first cell comes.
     pub epsilon: f64,
-    /// `h`: edge of a cell, in the leaf's own unit; 10⁻⁶ to 10⁶. A leaf's length in millimetres is chosen later.
+    /// `h`: edge of a cell, in the leaf's own unit; 10⁻⁶ to 10⁶. A leaf's length in millimetres is
+    /// chosen later.
     pub cell: f64,
     /// How `ε` rises to its final value.
     pub ladder: Ladder,
-    /// Whether both sides are grown as one, so that they are exact mirror images. Uneven light overrules it.
+    /// Whether both sides are grown as one, so that they are exact mirror images. Uneven light
+    /// overrules it.
     pub mirrored: bool,
-    /// Uneven light: greatest departure of a cell's `ε` from its mean, as a share of it. At least 0, below 1.
+    /// Uneven light: greatest departure of a cell's `ε` from its mean, as a share of it. At least
+    /// 0, below 1.
     pub noise: f64,
     /// Width of patches of light and shadow, cells, 1 to 1000.
     pub noise_cells: f64,
@@ -157,7 +162,8 @@ impl TransportPlan {
         self.mirrored && self.noise == 0.0
     }
 
-    /// `ε h^{1−2α}`: a revenue in the unit in which a cell is as long as wide as 1. The first cell comes at 1.
+    /// `ε h^{1−2α}`: a revenue in the unit in which a cell is as long as wide as 1. The first cell
+    /// comes at 1.
     pub(crate) fn in_cells(&self, epsilon: f64) -> f64 {
         epsilon * libm::pow(self.cell, 1.0 - 2.0 * self.alpha)
     }

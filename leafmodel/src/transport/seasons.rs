@@ -5,12 +5,14 @@ use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
 impl TransportLeaf {
-    /// At which share of the full-grown leaf's revenue `ε` each cell dies while `ε` falls from there to 0: 1 dies first, 0 last.
+    /// At which share of the full-grown leaf's revenue `ε` each cell dies while `ε` falls from
+    /// there to 0: 1 dies first, 0 last.
     ///
-    /// A tip dies when its transport, `F` less what `F` would be without it, costs more than it earns; then what supplied it may
-    /// be a tip. The share is one of `steps` (1 to 10 000) equal steps. The veins that are left stay where they
-    /// are. The root, from which everything comes, has 0. For a revenue that is a periodic function of time, a
-    /// cell is alive in the falling half of a period while the share is above this.
+    /// A tip dies when its transport, `F` less what `F` would be without it, costs more than it
+    /// earns; then what supplied it may be a tip. The share is one of `steps` (1 to 10 000) equal
+    /// steps. The veins that are left stay where they are. The root, from which everything comes,
+    /// has 0. For a revenue that is a periodic function of time, a cell is alive in the falling
+    /// half of a period while the share is above this.
     ///
     /// # Errors
     ///
@@ -18,7 +20,8 @@ impl TransportLeaf {
     ///
     /// # Source
     ///
-    /// \[xia2007\], Remark 3.6, which says that, not how; the expense of a cell that is there is ours.
+    /// \[xia2007\], Remark 3.6, which says that, not how; the expense of a cell that is there is
+    /// ours.
     pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
         if !(1..=10_000).contains(&steps) {
             let (key, range) = ("steps", "1 to 10000");
@@ -72,7 +75,8 @@ impl TransportLeaf {
         Ok(deaths)
     }
 
-    /// The leaf without the cells that are dead at this share of its revenue, by their [`TransportLeaf::deaths`].
+    /// The leaf without the cells that are dead at this share of its revenue, by their
+    /// [`TransportLeaf::deaths`].
     pub fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
         let mut numbers = vec![NONE; self.cells().len()];
         let alive = (0..self.cells().len()).filter(|&v| v == 0 || deaths[v] < share);

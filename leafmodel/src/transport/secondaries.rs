@@ -3,8 +3,8 @@
 use super::cells::Cell;
 use super::leaf::TransportLeaf;
 
-/// A lateral counts as a secondary vein if it supplies at least this share of what the greatest supplies:
-/// a quarter of its width, as vein orders have it everywhere else.
+/// A lateral counts as a secondary vein if it supplies at least this share of what the greatest
+/// supplies: a quarter of its width, as vein orders have it everywhere else.
 const SHARE: f64 = 1.0 / 16.0;
 
 /// A vein that leaves the midrib. Lengths are in cells.
@@ -48,13 +48,15 @@ impl TransportLeaf {
         laterals
     }
 
-    /// The cells of the midrib, from the root: the vein that starts there, on the axis in a mirrored leaf.
+    /// The cells of the midrib, from the root: the vein that starts there, on the axis in a
+    /// mirrored leaf.
     pub fn midrib(&self) -> Vec<usize> {
         let on_axis = |v: usize| !self.is_mirrored() || self.cells()[v].m == 0;
         self.vein(&self.children(), 0, Cell::UP, on_axis)
     }
 
-    /// The vein that comes to `start` by `step`: always on to the allowed cell with the largest `w^½ (1 + cos φ)`.
+    /// The vein that comes to `start` by `step`: always on to the allowed cell with the largest
+    /// `w^½ (1 + cos φ)`.
     fn vein(
         &self,
         children: &[Vec<usize>],

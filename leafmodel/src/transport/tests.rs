@@ -218,7 +218,8 @@ proptest! {
 
     #[test]
     fn equation_3_3_exactly_the_cells_that_pay_are_added(plan in plans()) {
-        // On both sides at once only edges that keep them alike are allowed, so here each side is on its own.
+        // On both sides at once only edges that keep them alike are allowed, so here each side is
+        // on its own.
         let plan = TransportPlan { mirrored: false, epsilon: plan.epsilon.min(2.5), ..plan };
         let light = plan.revenue(7);
         each_application(&plan, |before, epsilon, after| {
@@ -367,8 +368,8 @@ fn remark_3_6_living_tips_pay_for_their_transport_and_those_that_just_died_would
                 assert!(expense <= earned(tip) + rounding, "{tip} costs {expense}");
                 living += 1;
             }
-            // Of those that died in this step, the last on each vein: back alone they cost more than they earn, for what is shared
-            // with fewer costs more.
+            // Of those that died in this step, the last on each vein: back alone they cost more
+            // than they earn, for what is shared with fewer costs more.
             let last =
                 |&v: &usize| !lives(v) && deaths[v] == share && leaf.parent(v).is_some_and(lives);
             for v in (1..leaf.cells().len()).filter(last) {

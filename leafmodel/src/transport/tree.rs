@@ -1,7 +1,8 @@
 //! A transport system that is being changed: every quantity of its cost, kept up to date.
 //!
-//! Lengths and weights are in cells, so `h` is 1 here. In a **mirrored** tree only the cells with `m ≥ 0` are kept: one
-//! off the axis stands for itself and its mirror image, and whatever is done to it is done to both.
+//! Lengths and weights are in cells, so `h` is 1 here. In a **mirrored** tree only the cells with
+//! `m ≥ 0` are kept: one off the axis stands for itself and its mirror image, and whatever is done
+//! to it is done to both.
 
 use super::cells::{Cell, CellIndex, NONE};
 use super::cost::turn;
@@ -87,7 +88,8 @@ pub(crate) struct Node {
     pub(crate) length: f64,
     /// `m_β(v)`.
     pub(crate) multiple: f64,
-    /// Cost of all edges beyond it, over `m_β(v)`: the paper's child(v)/`m_β(v)`, which does not depend on how water gets here.
+    /// Cost of all edges beyond it, over `m_β(v)`: the paper's child(v)/`m_β(v)`, which does not
+    /// depend on how water gets here.
     pub(crate) beyond: f64,
 }
 
@@ -142,8 +144,8 @@ impl Tree {
         self.index.get(kept)
     }
 
-    /// Whether `u` may supply `v` without the two sides of a mirrored leaf becoming unlike: no edge crosses
-    /// the axis, none leads to it from one side. And without a way through a wall.
+    /// Whether `u` may supply `v` without the two sides of a mirrored leaf becoming unlike: no edge
+    /// crosses the axis, none leads to it from one side. And without a way through a wall.
     pub(crate) fn may_join(&self, u: Cell, v: Cell) -> bool {
         let keeps_sides = !self.mirrored || (u.m >= 0 && v.m >= 0 && (v.m > 0 || u.m == 0));
         keeps_sides && self.walls.as_ref().is_none_or(|walls| walls.allow(u, v))
@@ -186,7 +188,8 @@ impl Tree {
         });
     }
 
-    /// Adds a cell at the end of an edge from `parent`. Costs are out of date until [`Tree::refresh`].
+    /// Adds a cell at the end of an edge from `parent`. Costs are out of date until
+    /// [`Tree::refresh`].
     pub(crate) fn add(&mut self, cell: Cell, parent: u32) {
         let v = self.count();
         self.push(cell);
@@ -337,7 +340,8 @@ impl Tree {
         }
     }
 
-    /// `P_G(h², v)` of all cells in units of `h^{2α+1}`: what one more cell at `v` would cost on the way to it.
+    /// `P_G(h², v)` of all cells in units of `h^{2α+1}`: what one more cell at `v` would cost on
+    /// the way to it.
     pub(crate) fn potentials(&self, potentials: &mut Vec<f64>, order: &mut Vec<u32>) {
         self.supplied_by(0, order);
         potentials.clear();

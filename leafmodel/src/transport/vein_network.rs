@@ -21,8 +21,8 @@ const VEIN_ROUNDS: usize = 3;
 impl TransportLeaf {
     /// The veins, in the frame of [`TransportLeaf::outline`] for the same length.
     ///
-    /// A vein runs through the centres of the cells it supplies, but for less than half a cell by which it is smoothed. The first node is
-    /// the base. Orders are given as to any other network.
+    /// A vein runs through the centres of the cells it supplies, but for less than half a cell by
+    /// which it is smoothed. The first node is the base. Orders are given as to any other network.
     ///
     /// # Errors
     ///
@@ -37,7 +37,8 @@ impl TransportLeaf {
         Ok(self.network_in(&frame, &outline, style, self.counts()[0]))
     }
 
-    /// The veins in a frame, as wide at the base as `style` says if `widest` cells are supplied from there.
+    /// The veins in a frame, as wide at the base as `style` says if `widest` cells are supplied
+    /// from there.
     pub(crate) fn network_in(
         &self,
         frame: &Frame,
@@ -95,7 +96,8 @@ impl TransportLeaf {
         let orders = order::orders(&topology, &positions, &radii, &base_to_tip);
         let edges = (0..).zip(&pairs).map(|(edge, &[from, to])| {
             let radius_to = radii[edge as usize];
-            // A lateral starts as wide as it goes on; only the vein itself tapers where it gives one off.
+            // A lateral starts as wide as it goes on; only the vein itself tapers where it gives
+            // one off.
             let continues = orders.continuations[from as usize] == Some(edge);
             VeinEdge {
                 from,
@@ -113,8 +115,8 @@ impl TransportLeaf {
         network.expect("a tree whose weights fall from root to tip is a network")
     }
 
-    /// Where veins run: cells' centres, smoothed along each vein. Where `is_barred` says that the way between two places is, it goes
-    /// from centre to centre.
+    /// Where veins run: cells' centres, smoothed along each vein. Where `is_barred` says that the
+    /// way between two places is, it goes from centre to centre.
     fn vein_places(
         &self,
         least_cells: u32,
@@ -134,7 +136,8 @@ impl TransportLeaf {
         let mut places = centres.clone();
         for _ in 0..VEIN_ROUNDS {
             let smooth = |v: usize| match (self.parent(v), main[v]) {
-                // The axis of a mirrored leaf is straight, and its widest branch may be one of a pair.
+                // The axis of a mirrored leaf is straight, and its widest branch may be one of a
+                // pair.
                 (Some(p), Some(next)) if !(self.is_mirrored() && cells[v].m == 0) => {
                     let moved = 0.5 * (places[v] + 0.5 * (places[p] + places[next]));
                     centres[v] + (moved - centres[v]).clamp_length_max(VEIN_TETHER)

@@ -3,9 +3,11 @@
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
-/// A leaf through the year, each year like the last: in the rising half it grows, in the falling half it dies.
+/// A leaf through the year, each year like the last: in the rising half it grows, in the falling
+/// half it dies.
 ///
-/// Time is counted in years. The revenue is `ε (1 − cos 2πt) / 2`: none at whole years, that of the full-grown leaf in the middle.
+/// Time is counted in years. The revenue is `ε (1 − cos 2πt) / 2`: none at whole years, that of the
+/// full-grown leaf in the middle.
 #[derive(Clone, Debug)]
 pub struct Year<'a> {
     leaf: &'a TransportLeaf,
@@ -32,8 +34,9 @@ impl Year<'_> {
 
     /// The leaf at a finite time: its living cells, the root always among them.
     ///
-    /// In the rising half it is the last stage of growth that the revenue has reached; in the falling half it has lost the cells that no
-    /// longer pay, and those that are left keep their places in the network.
+    /// In the rising half it is the last stage of growth that the revenue has reached; in the
+    /// falling half it has lost the cells that no longer pay, and those that are left keep their
+    /// places in the network.
     pub fn at(&self, time: f64) -> TransportLeaf {
         let share = Self::revenue_share(time);
         if time - time.floor() > 0.5 {

@@ -1,9 +1,10 @@
-//! The algorithm as the definitions read, by comparing everything with everything: the oracle that the
-//! fast code has to agree with, node for node.
+//! The algorithm as the definitions read, by comparing everything with everything: the oracle that
+//! the fast code has to agree with, node for node.
 //!
-//! It shares with the fast code what the tests of other modules prove: where darts land and when the margin passes
-//! over them, the clock and the map of the lamina, the outline, where arches are laid out, the curve on which
-//! stretched edges are cut; and the two constants that say when to give up.
+//! It shares with the fast code what the tests of other modules prove: where darts land and when
+//! the margin passes over them, the clock and the map of the lamina, the outline, where arches are
+//! laid out, the curve on which stretched edges are cut; and the two constants that say when to
+//! give up.
 
 use glam::DVec2;
 

@@ -1,15 +1,16 @@
 //! Where secondary veins are to meet in arches: sources laid out before those that chance throws.
 //!
-//! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins the next. Rounds of
-//! sources bring that about under the ordinary rules, one round after the other is used up. Under the rule of open patterns, the
-//! first draws the midrib; the next ones draw every secondary along a curve, out and up to its place on a line inside the margin,
-//! as peaks of auxin do that the growing lamina carries outward. The last, under the rule of closed patterns, lies between
-//! neighbouring ends, where each source draws the two veins beside it, and they join.
+//! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins
+//! the next. Rounds of sources bring that about under the ordinary rules, one round after the other
+//! is used up. Under the rule of open patterns, the first draws the midrib; the next ones draw
+//! every secondary along a curve, out and up to its place on a line inside the margin, as peaks of
+//! auxin do that the growing lamina carries outward. The last, under the rule of closed patterns,
+//! lies between neighbouring ends, where each source draws the two veins beside it, and they join.
 //!
 //! # Source
 //!
-//! Section 7 of \[runions2005\] asks for such patterns; that peaks of auxin along the margin precede secondary veins is from
-//! \[runions2017\]. The layout is ours.
+//! Section 7 of \[runions2005\] asks for such patterns; that peaks of auxin along the margin
+//! precede secondary veins is from \[runions2017\]. The layout is ours.
 
 use glam::DVec2;
 
@@ -58,8 +59,8 @@ impl Side {
         self.points[i - 1] + (self.points[i] - self.points[i - 1]) * along
     }
 
-    /// A place at a share of the side, `distance` inward. Teeth do not turn the direction: it is taken over a twentieth
-    /// of the side.
+    /// A place at a share of the side, `distance` inward. Teeth do not turn the direction: it is
+    /// taken over a twentieth of the side.
     fn inside(&self, share: f64, distance: f64) -> DVec2 {
         let way = (self.at(share + 0.025) - self.at(share - 0.025)).normalize_or_zero();
         self.at(share) + way.perp() * (self.inward * distance)
@@ -141,8 +142,8 @@ pub(crate) fn rounds(
             rounds[leg as usize].extend(curves.iter().map(|&curve| at(curve, t)));
         }
         for pair in curves.windows(2) {
-            // Close to the outer part of the next vein, between it and the end: both are its relative neighbours there,
-            // and the vein that comes goes on until it meets the other.
+            // Close to the outer part of the next vein, between it and the end: both are its
+            // relative neighbours there, and the vein that comes goes on until it meets the other.
             let end = pair[0][2];
             let outer = (5..=10).map(|i| at(pair[1], 0.1 * f64::from(i)));
             let near = outer.min_by(|p, q| (*p - end).length().total_cmp(&(*q - end).length()));

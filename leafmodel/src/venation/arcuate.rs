@@ -1,13 +1,15 @@
 //! Veins as splines: pinnate to arcuate patterns in closed form, without simulation.
 //!
-//! Each lateral vein is a quadratic spline from the midrib to the margin whose control point lies on a copy of the margin that is
-//! narrowed towards the midrib. How start, control and end points are bunched up decides between straight pinnate veins and
-//! arcuate ones that sweep along the margin to the tip.
+//! Each lateral vein is a quadratic spline from the midrib to the margin whose control point lies
+//! on a copy of the margin that is narrowed towards the midrib. How start, control and end points
+//! are bunched up decides between straight pinnate veins and arcuate ones that sweep along the
+//! margin to the tip.
 //!
 //! - **In**: an [`ArcuatePlan`], and any [`Outline`] or the article's own, a [`CubicMargin`].
-//! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], whose fields Vein, Net and Fac can be had at any point.
-//! - **Always true**: every vein of the network starts on the midrib or a primary and ends on the margin, or where it meets
-//!   another vein; no vein crosses the margin or another vein.
+//! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], whose fields Vein, Net and Fac can be had
+//!   at any point.
+//! - **Always true**: every vein of the network starts on the midrib or a primary and ends on the
+//!   margin, or where it meets another vein; no vein crosses the margin or another vein.
 //! - **Left out**: veins of the third order and above. Net says where they would be.
 //!
 //! # Source
@@ -38,13 +40,16 @@ use crate::shape::outline::Outline;
 pub struct PalmateVeins {
     /// How many a side, 1 to 12.
     pub per_side: u32,
-    /// How far down the margin they end: 1 spreads them evenly from base to tip, less bunches them towards the tip; 0.05 to 1.
+    /// How far down the margin they end: 1 spreads them evenly from base to tip, less bunches them
+    /// towards the tip; 0.05 to 1.
     pub spread: f64,
-    /// How much they bow outwards, in shares of half their length: 0 straight, above 0 running along the margin; −0.8 to 0.8.
+    /// How much they bow outwards, in shares of half their length: 0 straight, above 0 running
+    /// along the margin; −0.8 to 0.8.
     pub bow: f64,
 }
 
-/// Parameters of the pattern. Lengths are in units of the leaf's length; the names are the article's.
+/// Parameters of the pattern. Lengths are in units of the leaf's length; the names are the
+/// article's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcuatePlan {
     /// `Veins`: lateral veins a side of each primary, 1 to 100.
@@ -63,9 +68,11 @@ pub struct ArcuatePlan {
     pub squish2: f64,
     /// `Squish3`: how starting points are spread over the midrib, 0 (all near the base) to 1.
     pub squish3: f64,
-    /// `Up`: how far control points are from the midrib, as a share of the margin's distance; 0 to 2.
+    /// `Up`: how far control points are from the midrib, as a share of the margin's distance; 0 to
+    /// 2.
     pub up: f64,
-    /// Share of a vein's width that is left at its tip, 0 to 1; 0 in the article, whose author wished for control here.
+    /// Share of a vein's width that is left at its tip, 0 to 1; 0 in the article, whose author
+    /// wished for control here.
     pub tip_width: f64,
     /// Primaries beside the midrib; none in the article, whose author wished for them.
     pub palmate: Option<PalmateVeins>,
@@ -147,7 +154,8 @@ impl ArcuatePlan {
         Ok(())
     }
 
-    /// The network on the margin that the article draws, whose points are told by the spline's own parameter.
+    /// The network on the margin that the article draws, whose points are told by the spline's own
+    /// parameter.
     ///
     /// # Errors
     ///
@@ -164,7 +172,8 @@ impl ArcuatePlan {
         Ok(graph::network(&veins, &outline)?)
     }
 
-    /// The network on any margin, whose two sides from base to apex, by arc length, stand for the article's splines.
+    /// The network on any margin, whose two sides from base to apex, by arc length, stand for the
+    /// article's splines.
     ///
     /// # Errors
     ///
@@ -219,9 +228,9 @@ impl ArcuatePlan {
 }
 
 impl ArcuatePlan {
-    /// How much of each primary beside the midrib there is room for on a blade, as a share of its length, 0 to 1: a bay of
-    /// the margin or another vein may lie in its way. In pairs, left before right, those nearest the base first; none if `palmate` is
-    /// `None`.
+    /// How much of each primary beside the midrib there is room for on a blade, as a share of its
+    /// length, 0 to 1: a bay of the margin or another vein may lie in its way. In pairs, left
+    /// before right, those nearest the base first; none if `palmate` is `None`.
     ///
     /// # Errors
     ///
@@ -238,7 +247,8 @@ impl ArcuateVeins {
         self.laterals.len()
     }
 
-    /// Start, control and end point of a lateral, mm. Laterals of the midrib come first, from base to tip, left before right.
+    /// Start, control and end point of a lateral, mm. Laterals of the midrib come first, from base
+    /// to tip, left before right.
     #[cfg(test)]
     pub(crate) fn lateral(&self, index: usize) -> Option<[DVec2; 3]> {
         let vein = self.laterals.get(index)?;

@@ -1,13 +1,15 @@
 //! Areoles: the regions that veins enclose.
 //!
-//! Areoles are the bounded faces of the plane graph of veins ([`PlaneGraph`]). The margin is no vein, so what is open
-//! towards it is no areole. Veins are followed from junction to junction; turning to the next one clockwise at each junction
-//! leads around the face on the left, once, in a time that is proportional to the network.
+//! Areoles are the bounded faces of the plane graph of veins ([`PlaneGraph`]). The margin is no
+//! vein, so what is open towards it is no areole. Veins are followed from junction to junction;
+//! turning to the next one clockwise at each junction leads around the face on the left, once, in a
+//! time that is proportional to the network.
 //!
 //! - **In**: a [`VenationNetwork`].
-//! - **Out**: [`Areoles`]: for each its corners, area, perimeter and shape; and the veinlets that end freely.
-//! - **Always true**: areas are above 0; there are edges − nodes + components areoles (of the graph after
-//!   cutting), but for some without area up to rounding.
+//! - **Out**: [`Areoles`]: for each its corners, area, perimeter and shape; and the veinlets that
+//!   end freely.
+//! - **Always true**: areas are above 0; there are edges − nodes + components areoles (of the graph
+//!   after cutting), but for some without area up to rounding.
 //! - **Left out**: the width of veins. Corners lie on their midlines.
 
 mod chains;
@@ -28,14 +30,15 @@ pub(crate) const OUTSIDE: u32 = u32::MAX;
 /// One region enclosed by veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Areole {
-    /// Area, mm², > 0. What other veins enclose inside it (a ring on a stalk, a network of its own) is not counted:
-    /// that is another areole.
+    /// Area, mm², > 0. What other veins enclose inside it (a ring on a stalk, a network of its own)
+    /// is not counted: that is another areole.
     pub area_mm2: f64,
     /// Area inside the enclosing cycle of veins, mm², at least `area_mm2`.
     pub outline_area_mm2: f64,
     /// Length of the enclosing cycle of veins, mm. Veins that end inside do not count.
     pub perimeter_mm: f64,
-    /// Longer over shorter axis of the ellipse with the second moments of the enclosing polygon, 1 to 10⁶.
+    /// Longer over shorter axis of the ellipse with the second moments of the enclosing polygon, 1
+    /// to 10⁶.
     pub elongation: f64,
     /// Centre of mass of the enclosing polygon, mm.
     pub centroid: DVec2,
@@ -131,8 +134,8 @@ impl Areoles {
             .flat_map(|&half| self.chains.corners(half))
     }
 
-    /// All veins that end freely: from a node with one edge, which is not where veins started, back to the first
-    /// node with three or more.
+    /// All veins that end freely: from a node with one edge, which is not where veins started, back
+    /// to the first node with three or more.
     pub fn free_endings(&self) -> impl Iterator<Item = FreeEnding> + '_ {
         (0..self.chains.len() as u32).filter_map(|chain| {
             let at_end = |end: usize| self.chains.ends[chain as usize][end];

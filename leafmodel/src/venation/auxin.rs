@@ -1,9 +1,9 @@
 //! Where auxin sources are put: dart throwing (section 3.3).
 //!
-//! Diffuse growth throws darts at the whole lamina in every step until it ends, and a lamina that does not
-//! grow gets darts in every step until there is no room left. Marginal growth
-//! brings new tissue at the margin only: its darts are thrown beforehand at the full-grown leaf,
-//! and each source appears when the margin passes over it.
+//! Diffuse growth throws darts at the whole lamina in every step until it ends, and a lamina that
+//! does not grow gets darts in every step until there is no room left. Marginal growth brings new
+//! tissue at the margin only: its darts are thrown beforehand at the full-grown leaf, and each
+//! source appears when the margin passes over it.
 
 use glam::DVec2;
 
@@ -141,8 +141,8 @@ pub(crate) fn waiting_darts(plan: &AuxinPlan, lamina: &Lamina, steps: u32) -> f6
     wanted.min(SATURATION * area / (spacing * spacing)).ceil()
 }
 
-/// Where dart `number` of a run lands: uniform over the rectangle around the lamina. On a curved blade some are
-/// taken back, so that they are uniform over the blade and not over its map.
+/// Where dart `number` of a run lands: uniform over the rectangle around the lamina. On a curved
+/// blade some are taken back, so that they are uniform over the blade and not over its map.
 pub(crate) fn dart(uses: [Use; 2], seed: u64, number: u64, lamina: &Lamina) -> Option<DVec2> {
     let (low, high) = lamina.bounds_now();
     let u = DVec2::new(
@@ -181,7 +181,8 @@ pub(crate) fn appearance(margin: &[DVec2], clock: &LaminaClock, p: DVec2) -> u32
     last
 }
 
-/// The first step up to `last` for which `reached`, once true and then always, is true; `last + 1` if none is.
+/// The first step up to `last` for which `reached`, once true and then always, is true; `last + 1`
+/// if none is.
 fn first_step(last: u32, reached: impl Fn(u32) -> bool) -> u32 {
     let (mut low, mut high) = (0, last + 1);
     while low < high {
@@ -212,7 +213,8 @@ mod tests {
             radii in proptest::collection::vec(0.3..1.0, 5..14), x in -1.0..1.0, y in -1.0..1.0,
             initial in 5.0..40.0, length_step in 0.3..4.0,
         ) {
-            // A lobed margin about a point beside the base, so that rays from the base cross it several times.
+            // A lobed margin about a point beside the base, so that rays from the base cross it
+            // several times.
             let n = radii.len();
             let corners = radii.iter().enumerate().map(|(i, r)| {
                 let angle = std::f64::consts::TAU * i as f64 / n as f64;

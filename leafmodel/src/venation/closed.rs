@@ -4,9 +4,10 @@
 //! The paper's rule for tags, made definite:
 //!
 //! - When a step leaves a neighbour of the source nearer than the kill distance, that node has
-//!   *arrived* and the other neighbours are *tagged*. From then on the source drives tagged nodes only.
-//! - A tagged node keeps its tag and hands it to its children. At the end of each step, tagged nodes
-//!   that are no longer neighbours have left the zone of influence and lose the tag; those
+//!   *arrived* and the other neighbours are *tagged*. From then on the source drives tagged nodes
+//!   only.
+//! - A tagged node keeps its tag and hands it to its children. At the end of each step, tagged
+//!   nodes that are no longer neighbours have left the zone of influence and lose the tag; those
 //!   nearer than the kill distance arrive.
 //! - With no tagged node left, the source is used up. Those that arrived are joined.
 //!

@@ -1,8 +1,8 @@
 //! The flat map in which the veins of a curved blade are computed.
 //!
-//! A blade of Gaussian curvature `K` everywhere has a map that is true in angles, and in which a length at distance `r` from its
-//! centre appears enlarged by `1 + K r²/4` in every direction: the stereographic projection of a sphere if `K > 0`,
-//! the Poincaré disc if `K < 0`.
+//! A blade of Gaussian curvature `K` everywhere has a map that is true in angles, and in which a
+//! length at distance `r` from its centre appears enlarged by `1 + K r²/4` in every direction: the
+//! stereographic projection of a sphere if `K > 0`, the Poincaré disc if `K < 0`.
 
 use glam::{DVec2, DVec3};
 
@@ -22,7 +22,8 @@ impl ConformalMap {
         centre: DVec2::ZERO,
     };
 
-    /// The map of a blade with curvature `K`, in one over the square of the unit of length, about `centre`.
+    /// The map of a blade with curvature `K`, in one over the square of the unit of length, about
+    /// `centre`.
     pub fn new(curvature: f64, centre: DVec2) -> Self {
         Self { curvature, centre }
     }
@@ -32,15 +33,17 @@ impl ConformalMap {
         self.curvature == 0.0
     }
 
-    /// How much larger lengths at `p` appear in the map than they are; 1 on a flat blade, > 0 where a map exists.
+    /// How much larger lengths at `p` appear in the map than they are; 1 on a flat blade, > 0 where
+    /// a map exists.
     pub fn enlargement(&self, p: DVec2) -> f64 {
         1.0 + 0.25 * self.curvature * (p - self.centre).length_squared()
     }
 
-    /// The point of the blade at `p`, raised by `height` towards the adaxial side; the map's centre is at the origin, the
-    /// blade level there. For `K > 0` that is a sphere that bends up towards the adaxial side (a cup), and true in every
-    /// length. A whole surface with `K < 0` has no such simple form: this saddle has the curvature `K` at the centre, and
-    /// its lengths are true to second order in the distance from there.
+    /// The point of the blade at `p`, raised by `height` towards the adaxial side; the map's centre
+    /// is at the origin, the blade level there. For `K > 0` that is a sphere that bends up towards
+    /// the adaxial side (a cup), and true in every length. A whole surface with `K < 0` has no such
+    /// simple form: this saddle has the curvature `K` at the centre, and its lengths are true to
+    /// second order in the distance from there.
     pub fn in_space(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.centre;
         if self.curvature > 0.0 {

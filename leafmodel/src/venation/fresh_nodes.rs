@@ -50,7 +50,8 @@ impl<'a> FreshNodes<'a> {
         fresh
     }
 
-    /// Boxes for the nodes in a range of `sorted`, halved across the longer side until few are left.
+    /// Boxes for the nodes in a range of `sorted`, halved across the longer side until few are
+    /// left.
     fn divide(&mut self, from: usize, to: usize) {
         let positions = self.positions;
         let range = &mut self.sorted[from..to];

@@ -1,16 +1,17 @@
 //! How far from a source, direction by direction, a relative neighbour of it can be.
 //!
-//! By Eq. 2 a node at `w` (seen from the source) keeps a node at `v` from being a relative neighbour if it is
-//! no farther from the source, `‖w‖ ≤ ‖v‖`, and `v` lies on its side of their bisector,
-//! `‖w‖ ≤ 2 ‖v‖ cos φ`, with `φ` the angle between `v` and `w`. In the direction at `φ` it thus *hides* whatever
-//! is at `‖w‖ / min(1, 2 cos φ)` or farther, and nothing from a right angle on. What a set of nodes leaves visible
-//! is star-shaped, and it only shrinks as nodes come.
+//! By Eq. 2 a node at `w` (seen from the source) keeps a node at `v` from being a relative
+//! neighbour if it is no farther from the source, `‖w‖ ≤ ‖v‖`, and `v` lies on its side of their
+//! bisector, `‖w‖ ≤ 2 ‖v‖ cos φ`, with `φ` the angle between `v` and `w`. In the direction at `φ`
+//! it thus *hides* whatever is at `‖w‖ / min(1, 2 cos φ)` or farther, and nothing from a right
+//! angle on. What a set of nodes leaves visible is star-shaped, and it only shrinks as nodes come.
 //!
-//! A [`Horizon`] bounds the visible region from outside in sixteen sectors. It stores inverse distances: `cos φ`
-//! has no minimum within a sector but at its ends, so the two ends tell what a node hides all over the sector.
+//! A [`Horizon`] bounds the visible region from outside in sixteen sectors. It stores inverse
+//! distances: `cos φ` has no minimum within a sector but at its ends, so the two ends tell what a
+//! node hides all over the sector.
 //!
-//! - **Always true**: single precision errs on the side of visibility, by [`SLACK`], far above rounding. So what
-//!   the horizon hides is hidden by one of its nodes in double precision too.
+//! - **Always true**: single precision errs on the side of visibility, by [`SLACK`], far above
+//!   rounding. So what the horizon hides is hidden by one of its nodes in double precision too.
 
 use glam::DVec2;
 
@@ -39,15 +40,16 @@ const NEAR: f32 = 1e-15;
 /// A bound in every direction of how far relative neighbours of a source can be.
 #[derive(Clone, Debug)]
 pub(crate) struct Horizon {
-    /// For the sector from each direction to the next: whatever in it has this inverse distance or less is
-    /// hidden.
+    /// For the sector from each direction to the next: whatever in it has this inverse distance or
+    /// less is hidden.
     hidden: [f32; SECTORS],
     /// The least of them.
     least: f32,
 }
 
 impl Horizon {
-    /// The horizon of a source that sees a rectangle without nodes, from its corners relative to the source.
+    /// The horizon of a source that sees a rectangle without nodes, from its corners relative to
+    /// the source.
     pub(crate) fn of_rectangle(low: DVec2, high: DVec2) -> Self {
         // A source may lie on a side.
         let inverse = |distance: f64| (1.0 - SLACK) / (distance as f32).max(NEAR);
@@ -74,7 +76,8 @@ impl Horizon {
         within(self.least) && within(self.hidden[sector(offset)])
     }
 
-    /// Whether something in the rectangle with these corners, relative to the source, may be visible.
+    /// Whether something in the rectangle with these corners, relative to the source, may be
+    /// visible.
     pub(crate) fn shows_any_in(&self, low: DVec2, high: DVec2) -> bool {
         let gap = low.max(-high);
         let squared = gap.max(DVec2::ZERO).length_squared() as f32;
@@ -159,7 +162,8 @@ mod tests {
 
     use super::*;
 
-    /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 word by word.
+    /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 word by
+    /// word.
     fn hides(w: DVec2, v: DVec2) -> bool {
         v.length_squared() >= w.length_squared().max((v - w).length_squared())
     }

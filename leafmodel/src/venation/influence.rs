@@ -27,14 +27,15 @@ pub(crate) trait Influence: Send + Sized {
     /// The relation of a new source, number `id`, at `place`.
     fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
 
-    /// The source has moved to `place`, and all nodes with it: what it drives is found anew, but what it knows of tags
-    /// stays.
+    /// The source has moved to `place`, and all nodes with it: what it drives is found anew, but
+    /// what it knows of tags stays.
     fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings);
 
     /// Takes in nodes that have come since the last call.
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
 
-    /// Whether no vein has reached the source yet: what it drives follows from the places of the nodes alone.
+    /// Whether no vein has reached the source yet: what it drives follows from the places of the
+    /// nodes alone.
     fn is_untouched(&self) -> bool;
 
     /// Calls `visit` with each node that this source drives.

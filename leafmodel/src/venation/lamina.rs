@@ -1,7 +1,8 @@
 //! The lamina that veins grow on: where it ends, and how long a segment is at each place.
 //!
-//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its conformal map
-//! ([`super::conformal_map`]): segments, birth and kill distances are multiplied by the map's enlargement at the place.
+//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its
+//! conformal map ([`super::conformal_map`]): segments, birth and kill distances are multiplied by
+//! the map's enlargement at the place.
 
 use glam::DVec2;
 
@@ -63,8 +64,8 @@ impl<'a> Lamina<'a> {
             .map_or(start, |(now, _)| now.forward(start))
     }
 
-    /// Where the tissue now at `p` will be in the full-grown leaf. Whether it is on the blade is decided there, so
-    /// that nothing can slip off while the lamina grows.
+    /// Where the tissue now at `p` will be in the full-grown leaf. Whether it is on the blade is
+    /// decided there, so that nothing can slip off while the lamina grows.
     pub(crate) fn full_grown(&self, p: DVec2) -> DVec2 {
         self.carried
             .as_ref()
@@ -89,8 +90,9 @@ impl<'a> Lamina<'a> {
         self.bounds
     }
 
-    /// Corners of a rectangle that holds all that grows on the blade now. Where tissue moves, straight margins of the
-    /// full-grown leaf bulge between the corners that [`Self::bounds_now`] sees.
+    /// Corners of a rectangle that holds all that grows on the blade now. Where tissue moves,
+    /// straight margins of the full-grown leaf bulge between the corners that [`Self::bounds_now`]
+    /// sees.
     pub(crate) fn room(&self) -> (DVec2, DVec2) {
         let (low, high) = self.bounds;
         let spare = match self.carried {
@@ -110,8 +112,9 @@ impl<'a> Lamina<'a> {
         self.blade.contains(self.full_grown(p))
     }
 
-    /// Whether a straight vein from a node at `from` to `to` stays on the blade. An origin of the veins may lie on
-    /// the margin, on either side of it after rounding, so the first millionth of the way does not count.
+    /// Whether a straight vein from a node at `from` to `to` stays on the blade. An origin of the
+    /// veins may lie on the margin, on either side of it after rounding, so the first millionth of
+    /// the way does not count.
     pub(crate) fn can_reach(&self, from: DVec2, to: DVec2) -> bool {
         let (from, to) = (self.full_grown(from), self.full_grown(to));
         self.blade.contains(to) && !self.blade.is_crossed_by(from + (to - from) * 1e-6, to)
@@ -127,7 +130,8 @@ impl<'a> Lamina<'a> {
         self.map.is_flat()
     }
 
-    /// How many times as many darts the map needs as its area tells, ≥ 1: as many as where it shrinks most.
+    /// How many times as many darts the map needs as its area tells, ≥ 1: as many as where it
+    /// shrinks most.
     pub(crate) fn surplus(&self) -> f64 {
         let (low, high) = self.bounds;
         let smallest = [

@@ -1,7 +1,7 @@
 //! How large the lamina is at each step.
 //!
-//! Positions are kept in segments, base at the origin. Where growth is marginal or isogonic they are those of the
-//! full-grown leaf, and growth (section 3.3) is a change of two numbers:
+//! Positions are kept in segments, base at the origin. Where growth is marginal or isogonic they
+//! are those of the full-grown leaf, and growth (section 3.3) is a change of two numbers:
 //!
 //! - marginal: the margin of step `t` is the final one shrunk about the base by `σ_t / σ_final`;
 //! - isogonic: lamina and veins keep their place while the unit of length shrinks,
@@ -68,7 +68,8 @@ impl LaminaClock {
         }
     }
 
-    /// Length at a step over final length, in (0, 1]: `σ_t`, linear in time unless growth is anisotropic.
+    /// Length at a step over final length, in (0, 1]: `σ_t`, linear in time unless growth is
+    /// anisotropic.
     pub(crate) fn size(&self, step: u32) -> f64 {
         match self.growth {
             Growth::None => 1.0,

@@ -1,7 +1,8 @@
 //! Edges by length, for those that outgrow a limit which falls in time.
 //!
-//! Nearly all edges wait for a long time until they are next. So they are only sorted roughly, by the
-//! first digits of their lengths, until the limit falls below them; those few that it has passed go in exact order.
+//! Nearly all edges wait for a long time until they are next. So they are only sorted roughly, by
+//! the first digits of their lengths, until the limit falls below them; those few that it has
+//! passed go in exact order.
 
 use std::collections::BinaryHeap;
 
@@ -25,7 +26,8 @@ pub(crate) struct LengthQueue {
 }
 
 impl LengthQueue {
-    /// A queue without edges that will not be asked for edges whose squared length is `least` or less.
+    /// A queue without edges that will not be asked for edges whose squared length is `least` or
+    /// less.
     pub(crate) fn new(least: f64) -> Self {
         Self {
             least,
@@ -52,7 +54,8 @@ impl LengthQueue {
         self.waiting[step].push(item);
     }
 
-    /// Takes out the longest edge, if its squared length is above `limit`; gives its number and that length.
+    /// Takes out the longest edge, if its squared length is above `limit`; gives its number and
+    /// that length.
     pub(crate) fn pop_above(&mut self, limit: f64) -> Option<(u32, f64)> {
         debug_assert!(limit >= self.least, "{limit} is less than said at first");
         if limit < self.limit {

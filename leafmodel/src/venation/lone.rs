@@ -1,19 +1,21 @@
 //! Sources far from all veins, looked after many at a time.
 //!
-//! Where nothing but its nearest node is in view, a source is *lone*: every other node is hidden by the nearest
-//! ([`super::horizon`] tells what hiding is), so that one is all that it drives, whether patterns are open or closed and whichever
-//! neighbourhood counts. Sources that wait for veins to come are mostly like that, by the ten thousand where growth is slow
-//! against the net. A new node matters to one of them only if it is nearer than the nearest, or not hidden by it. So lone
-//! sources lie in *cells*, and within a cell in *basins*, those with the same nearest node: one look decides for all of
-//! a basin whether any of the new nodes matters.
+//! Where nothing but its nearest node is in view, a source is *lone*: every other node is hidden by
+//! the nearest ([`super::horizon`] tells what hiding is), so that one is all that it drives,
+//! whether patterns are open or closed and whichever neighbourhood counts. Sources that wait for
+//! veins to come are mostly like that, by the ten thousand where growth is slow against the net. A
+//! new node matters to one of them only if it is nearer than the nearest, or not hidden by it. So
+//! lone sources lie in *cells*, and within a cell in *basins*, those with the same nearest node:
+//! one look decides for all of a basin whether any of the new nodes matters.
 //!
-//! A node at `p` is hidden by the nearest node, at the origin, from a source at `s` if `‖p‖ ≤ ‖p − s‖`, which is
-//! `2 p·s ≤ ‖s‖²`. The greatest `2 p·s − ‖s‖²` over a box of nodes and a box of sources is a sum of one
-//! number for each axis.
+//! A node at `p` is hidden by the nearest node, at the origin, from a source at `s` if
+//! `‖p‖ ≤ ‖p − s‖`, which is `2 p·s ≤ ‖s‖²`. The greatest `2 p·s − ‖s‖²` over a box of nodes and a
+//! box of sources is a sum of one number for each axis.
 //!
-//! - **Always true**: a source stays only while its nearest node is nearest by the squared distances that
-//!   everyone uses, without a tie, and hides all others by a margin far above rounding. When in doubt it leaves,
-//!   and is dealt with one by one; so which sources are lone can never be seen in the veins.
+//! - **Always true**: a source stays only while its nearest node is nearest by the squared
+//!   distances that everyone uses, without a tie, and hides all others by a margin far above
+//!   rounding. When in doubt it leaves, and is dealt with one by one; so which sources are lone can
+//!   never be seen in the veins.
 //! - **Left out**: tissue that moves, and curved blades.
 
 mod cell;
@@ -77,7 +79,8 @@ impl LoneSources {
         self.nodes[basin as usize]
     }
 
-    /// Fits the cells to sources that are born `spacing` apart. Calls `settled` with each source that has another basin.
+    /// Fits the cells to sources that are born `spacing` apart. Calls `settled` with each source
+    /// that has another basin.
     pub(crate) fn fit_cells(&mut self, spacing: f64, mut settled: impl FnMut(Lone, u32)) {
         let side = CELL_SIDE * spacing;
         if side < REFINEMENT * self.side {
@@ -96,8 +99,8 @@ impl LoneSources {
         (key.x as i32, key.y as i32)
     }
 
-    /// Takes in the source at `place` with the number `slot`, if it is lone among the nodes of `tree` and not nearer than `near` to
-    /// any of them; gives its basin.
+    /// Takes in the source at `place` with the number `slot`, if it is lone among the nodes of
+    /// `tree` and not nearer than `near` to any of them; gives its basin.
     pub(crate) fn try_insert(
         &mut self,
         lone: Lone,
@@ -154,8 +157,8 @@ impl LoneSources {
         }
     }
 
-    /// Takes in new nodes. Calls `settled` with each source that has another basin; gives those that are lone no
-    /// more, or have a node nearer than `near`.
+    /// Takes in new nodes. Calls `settled` with each source that has another basin; gives those
+    /// that are lone no more, or have a node nearer than `near`.
     pub(crate) fn notice(
         &mut self,
         fresh: &FreshNodes,

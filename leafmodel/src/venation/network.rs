@@ -60,7 +60,8 @@ pub struct VeinEdge {
 pub enum Ending {
     /// No source was left that could still draw a vein.
     Settled,
-    /// It had not come to its end when this was taken: a stage of a leaf, or a leaf whose growth was stopped.
+    /// It had not come to its end when this was taken: a stage of a leaf, or a leaf whose growth
+    /// was stopped.
     Growing,
     /// The pattern had not settled after far more steps than veins need to cross the leaf.
     StepLimit,
@@ -88,7 +89,8 @@ pub enum NetworkError {
         /// Number of the edge.
         edge: usize,
     },
-    /// A position or a radius is not finite, or a radius not above 0 or growing away from the petiole.
+    /// A position or a radius is not finite, or a radius not above 0 or growing away from the
+    /// petiole.
     #[error("edge {edge} has a bad position or radius")]
     BadNumber {
         /// Number of the edge.
@@ -135,13 +137,13 @@ pub enum NetworkError {
 impl VenationNetwork {
     /// A network from elsewhere: another program, or a drawing. Edges lead away from the petiole.
     ///
-    /// `segment_mm` is the length by which veins were resolved, as [`VenationNetwork::segment_mm`] will give it back.
-    /// The number of steps is the last node's; no sources are known.
+    /// `segment_mm` is the length by which veins were resolved, as [`VenationNetwork::segment_mm`]
+    /// will give it back. The number of steps is the last node's; no sources are known.
     ///
     /// # Errors
     ///
-    /// [`NetworkError`]: whatever [`VenationNetwork::validate`] refuses, a node farther than 10⁶ mm from the origin in
-    /// x or y, a segment that is not finite and above 0.
+    /// [`NetworkError`]: whatever [`VenationNetwork::validate`] refuses, a node farther than 10⁶ mm
+    /// from the origin in x or y, a segment that is not finite and above 0.
     pub fn from_parts(
         nodes: Vec<VeinNode>,
         edges: Vec<VeinEdge>,
@@ -201,7 +203,8 @@ impl VenationNetwork {
         })
     }
 
-    /// The map of the blade in which positions, lengths and radii are given; flat but for curved blades.
+    /// The map of the blade in which positions, lengths and radii are given; flat but for curved
+    /// blades.
     pub fn map(&self) -> ConformalMap {
         self.map
     }
@@ -253,7 +256,8 @@ impl VenationNetwork {
         components
     }
 
-    /// Independent loops: edges − nodes + components. In a network whose veins do not cross these are its areoles.
+    /// Independent loops: edges − nodes + components. In a network whose veins do not cross these
+    /// are its areoles.
     pub fn loops(&self) -> usize {
         self.edges.len() + self.components() - self.nodes.len()
     }
@@ -264,8 +268,8 @@ impl VenationNetwork {
     }
 
     /// Checks what every network must satisfy: edges join two different nodes, never the same two
-    /// twice, never in a circle; every edge has a length, an order from 1, and radii that are finite, above 0
-    /// and do not grow away from the petiole.
+    /// twice, never in a circle; every edge has a length, an order from 1, and radii that are
+    /// finite, above 0 and do not grow away from the petiole.
     ///
     /// # Errors
     ///

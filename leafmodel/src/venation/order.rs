@@ -2,22 +2,25 @@
 //!
 //! The rule, order by order from the midrib on:
 //!
-//! 1. Where a vein branches, it **continues** in the branch with the largest `r (1 + cos φ)`, `r` being the
-//!    branch's radius and `φ` the angle by which it departs from the vein's direction: the widest,
-//!    unless a slightly finer one goes straight on. Directions are taken over a few segments.
-//! 2. A branch **forks** if it is at least 3/4 as wide as the continuation and departs about as far from
-//!    the vein's direction (within 20°) on the other side: then both keep the order. So do, at the
-//!    leaf's base, all branches at least 3/4 as wide as the widest (primaries of actinodromous leaves).
-//! 3. All other branches are **laterals**. Those at least 1/4 as wide as the widest lateral of any vein of
-//!    their parent's order count one order more than it, those at least 1/16 as wide two, and so on. Thus a veinlet
-//!    that springs from the midrib is no secondary vein.
+//! 1. Where a vein branches, it **continues** in the branch with the largest `r (1 + cos φ)`, `r`
+//!    being the branch's radius and `φ` the angle by which it departs from the vein's direction:
+//!    the widest, unless a slightly finer one goes straight on. Directions are taken over a few
+//!    segments.
+//! 2. A branch **forks** if it is at least 3/4 as wide as the continuation and departs about as far
+//!    from the vein's direction (within 20°) on the other side: then both keep the order. So do, at
+//!    the leaf's base, all branches at least 3/4 as wide as the widest (primaries of actinodromous
+//!    leaves).
+//! 3. All other branches are **laterals**. Those at least 1/4 as wide as the widest lateral of any
+//!    vein of their parent's order count one order more than it, those at least 1/16 as wide two,
+//!    and so on. Thus a veinlet that springs from the midrib is no secondary vein.
 //! 4. Where veins meet, the widest goes on, and the others end.
 
 use glam::DVec2;
 
 use super::topology::Topology;
 
-/// A branch this wide, compared to the continuation or the widest primary, can be of the same order.
+/// A branch this wide, compared to the continuation or the widest primary, can be of the same
+/// order.
 const ALIKE: f64 = 0.75;
 
 /// Each order finer starts where laterals are this much narrower than the widest of their kind.

@@ -21,8 +21,8 @@ pub enum Pattern {
 pub enum Neighbourhood {
     /// Its relative neighbours, exactly (Eq. 2).
     Relative,
-    /// Those of its Delaunay neighbours that no other Delaunay neighbour excludes: Urquhart's approximation
-    /// (section 5.2).
+    /// Those of its Delaunay neighbours that no other Delaunay neighbour excludes: Urquhart's
+    /// approximation (section 5.2).
     Urquhart,
 }
 
@@ -45,12 +45,13 @@ pub enum Growth {
         /// What is added to the length each step, in segments, > 0; growth takes at most 10⁶ steps.
         length_step: f64,
     },
-    /// Every part is stretched at rates of its own, unlike across and along the leaf; veins and sources move
-    /// with the tissue (Appendix). Ends when the leaf has its final length.
+    /// Every part is stretched at rates of its own, unlike across and along the leaf; veins and
+    /// sources move with the tissue (Appendix). Ends when the leaf has its final length.
     Anisotropic {
         /// Length of the leaf at the start, in segments, > 0, below the final length.
         initial_length: f64,
-        /// `gx`: growth across the leaf per step by where tissue lies at the start; `RERGx = 1 + gx`.
+        /// `gx`: growth across the leaf per step by where tissue lies at the start;
+        /// `RERGx = 1 + gx`.
         across: RateCurve,
         /// `gy`: growth along the leaf per step, likewise.
         along: RateCurve,
@@ -75,8 +76,9 @@ pub struct MarginClearance {
     pub distance: f64,
     /// The share of the final length at which the rule ends, 0 to 1.
     pub until: f64,
-    /// Secondary veins a side that are laid out first, before the lamina grows, and joined by arches at that distance from
-    /// the margin; 0 to 50, 0 leaves all veins to chance. For closed patterns.
+    /// Secondary veins a side that are laid out first, before the lamina grows, and joined by
+    /// arches at that distance from the margin; 0 to 50, 0 leaves all veins to chance. For closed
+    /// patterns.
     pub arches: u32,
 }
 
@@ -85,13 +87,14 @@ pub struct MarginClearance {
 pub struct AuxinPlan {
     /// Open or closed.
     pub pattern: Pattern,
-    /// Where veins start, as shares of the midrib's length: across it (to the right) and along it from the base.
-    /// None means one node at the base; at most 1000.
+    /// Where veins start, as shares of the midrib's length: across it (to the right) and along it
+    /// from the base. None means one node at the base; at most 1000.
     pub origins: Vec<[f64; 2]>,
-    /// Whether straight veins lead from the base to all origins, as where the bundles of a petiole part. None of them may then lie
-    /// at the base.
+    /// Whether straight veins lead from the base to all origins, as where the bundles of a petiole
+    /// part. None of them may then lie at the base.
     pub joined_origins: bool,
-    /// Length of the full-grown leaf in vein segments, 2 to 100 000; fixes the segment's length in mm.
+    /// Length of the full-grown leaf in vein segments, 2 to 100 000; fixes the segment's length in
+    /// mm.
     pub final_length: f64,
     /// `dk`, a source is used up when a vein comes nearer than this, 0.01 to 10 000.
     pub kill_distance: f64,
@@ -107,15 +110,15 @@ pub struct AuxinPlan {
     pub murray_exponent: f64,
     /// Radius of the finest veins in mm, 10⁻⁶ to 10.
     pub veinlet_radius_mm: f64,
-    /// Veinlets that each node of a vein of order 1 or 2 bears unseen and is widened for, 0 to 1000; for models
-    /// without a detailed pattern of tertiary veins (section 3.5).
+    /// Veinlets that each node of a vein of order 1 or 2 bears unseen and is widened for, 0 to
+    /// 1000; for models without a detailed pattern of tertiary veins (section 3.5).
     pub unseen_veinlets: f64,
     /// Veinlets that end freely, for closed patterns.
     pub free_endings: Option<FreeEndings>,
     /// Sources kept off the margin at first.
     pub margin_clearance: Option<MarginClearance>,
-    /// `K L²`: Gaussian curvature of the blade times its length squared, −2 to 8; 0 is a flat or rolled blade. The
-    /// outline is then that of the blade's conformal map.
+    /// `K L²`: Gaussian curvature of the blade times its length squared, −2 to 8; 0 is a flat or
+    /// rolled blade. The outline is then that of the blade's conformal map.
     pub gaussian_curvature: f64,
 }
 
@@ -147,8 +150,8 @@ impl FreeEndings {
 }
 
 impl Default for AuxinPlan {
-    /// A closed pattern on a leaf of 350 segments that grows isogonically: the paper's poplar at ten units of
-    /// its Table 1 to a segment.
+    /// A closed pattern on a leaf of 350 segments that grows isogonically: the paper's poplar at
+    /// ten units of its Table 1 to a segment.
     fn default() -> Self {
         Self {
             pattern: Pattern::Closed(Neighbourhood::Relative),

@@ -1,12 +1,15 @@
 //! The veins as a plane graph: edges meet at nodes only.
 //!
-//! In a grown network veins may in rare cases pass over each other, and networks of other programs may do so
-//! anywhere. Faces can be followed only where every crossing is a node, so crossings are cut first.
+//! In a grown network veins may in rare cases pass over each other, and networks of other programs
+//! may do so anywhere. Faces can be followed only where every crossing is a node, so crossings are
+//! cut first.
 //!
 //! - **In**: a [`VenationNetwork`].
-//! - **Out**: nodes and edges without crossings, in an order that follows their places (rows of a grid), so that
-//!   neighbours on the leaf are neighbours in memory; and a grid that finds edges near a point.
-//! - **Always true**: up to rounding, two edges share nothing but a node at their ends; no two edges join the same two nodes.
+//! - **Out**: nodes and edges without crossings, in an order that follows their places (rows of a
+//!   grid), so that neighbours on the leaf are neighbours in memory; and a grid that finds edges
+//!   near a point.
+//! - **Always true**: up to rounding, two edges share nothing but a node at their ends; no two
+//!   edges join the same two nodes.
 //! - **Left out**: crossings that arise because a cut edge is displaced by rounding.
 
 mod contacts;
@@ -30,8 +33,8 @@ pub struct PlaneGraph {
 }
 
 impl PlaneGraph {
-    /// Cuts the edges of a network wherever they cross or touch. Takes time in proportion to the edges, for edges of
-    /// like length.
+    /// Cuts the edges of a network wherever they cross or touch. Takes time in proportion to the
+    /// edges, for edges of like length.
     pub fn new(network: &VenationNetwork) -> Self {
         let (mut nodes, mut edges) = in_rows(network);
         let length = |e: &VeinEdge| (nodes[e.to as usize] - nodes[e.from as usize]).length();
@@ -56,12 +59,14 @@ impl PlaneGraph {
         &self.nodes
     }
 
-    /// The edges, with numbers of [`PlaneGraph::nodes`]. The pieces of a cut edge have its order, and radii between its own.
+    /// The edges, with numbers of [`PlaneGraph::nodes`]. The pieces of a cut edge have its order,
+    /// and radii between its own.
     pub fn edges(&self) -> &[VeinEdge] {
         &self.edges
     }
 
-    /// Pairs of edges that crossed. Each crossing closes one more loop than the network's own, if it does not join what was apart.
+    /// Pairs of edges that crossed. Each crossing closes one more loop than the network's own, if
+    /// it does not join what was apart.
     pub fn crossings(&self) -> usize {
         self.crossings
     }

@@ -30,7 +30,8 @@ struct Bucket {
     positions: [DVec2; CAPACITY],
     ids: [u32; CAPACITY],
     len: u32,
-    /// The bucket with more points of the same leaf, which only the deepest leaves have, or [`NONE`].
+    /// The bucket with more points of the same leaf, which only the deepest leaves have, or
+    /// [`NONE`].
     next: u32,
 }
 
@@ -88,7 +89,8 @@ pub(crate) struct PointTree {
     low: DVec2,
     high: DVec2,
     root: Square,
-    /// The number of the first of four children with the mark [`BRANCH`], or that of a bucket, or [`NONE`].
+    /// The number of the first of four children with the mark [`BRANCH`], or that of a bucket, or
+    /// [`NONE`].
     cells: Vec<u32>,
     buckets: Vec<Bucket>,
 }
@@ -195,8 +197,8 @@ impl PointTree {
         self.visit_cell(self.cells[0], self.root, p, probe)
     }
 
-    /// The same for a probe that nothing matters to but between two corners, that of the smaller and that
-    /// of the larger coordinates: starts at the smallest cell that holds all of it.
+    /// The same for a probe that nothing matters to but between two corners, that of the smaller
+    /// and that of the larger coordinates: starts at the smallest cell that holds all of it.
     fn visit_within(
         &self,
         low: DVec2,
@@ -262,7 +264,8 @@ impl PointTree {
             .is_break()
     }
 
-    /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and to `q`.
+    /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and
+    /// to `q`.
     pub(crate) fn any_near_both(&self, p: DVec2, q: DVec2, squared: f64, except: u32) -> bool {
         let mut lune = Lune {
             ends: [p, q],

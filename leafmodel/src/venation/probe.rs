@@ -18,6 +18,6 @@ pub(crate) fn distance_squared(low: DVec2, high: DVec2, p: DVec2) -> f64 {
     (low - p).max(p - high).max(DVec2::ZERO).length_squared()
 }
 
-/// Squared distances to boxes are compared with this much to spare: a box that is entered in vain costs
-/// little, and a point in one that is not would be missed.
+/// Squared distances to boxes are compared with this much to spare: a box that is entered in vain
+/// costs little, and a point in one that is not would be missed.
 pub(crate) const SLACK: f64 = 1.0 + 1e-9;

@@ -1,16 +1,17 @@
 //! Which vein nodes are relative neighbours of a source: exact, and without all pairs.
 //!
 //! Node `v` is a relative neighbour of source `s` if and only if every other node `u` satisfies
-//! `‖v − s‖ < max(‖u − s‖, ‖v − u‖)` (Eq. 2). A node that fails is *hidden* by some `u`, and a [`Horizon`]
-//! bounds from above how far from the source, in each direction, nodes are not hidden. So only nodes before the
-//! horizon are candidates. A candidate is a relative neighbour if its *lune*, the points that are as near as
-//! `v` is to `s` or nearer both to `s` and to `v`, holds no other node, which the tree of nodes tells.
+//! `‖v − s‖ < max(‖u − s‖, ‖v − u‖)` (Eq. 2). A node that fails is *hidden* by some `u`, and a
+//! [`Horizon`] bounds from above how far from the source, in each direction, nodes are not hidden.
+//! So only nodes before the horizon are candidates. A candidate is a relative neighbour if its
+//! *lune*, the points that are as near as `v` is to `s` or nearer both to `s` and to `v`, holds no
+//! other node, which the tree of nodes tells.
 //!
 //! - **Always true**: the answer is that of the definition evaluated in floating point on squared
 //!   distances. The horizon only says which nodes can matter, with a margin far above rounding.
-//! - **Time coherence**: nodes that come hide more, and nothing that was hidden appears again. So with new
-//!   nodes only those of them that lie before the horizon are candidates, and a relative neighbour
-//!   remains one unless a new node lies in its lune.
+//! - **Time coherence**: nodes that come hide more, and nothing that was hidden appears again. So
+//!   with new nodes only those of them that lie before the horizon are candidates, and a relative
+//!   neighbour remains one unless a new node lies in its lune.
 
 use std::ops::ControlFlow;
 
@@ -59,8 +60,8 @@ impl RelativeNeighbourhood {
         self.ascertain(tree);
     }
 
-    /// Number and squared distance of each relative neighbour, in no order to be relied on. The nearest
-    /// node is always one, unless another is at exactly the same distance and near it.
+    /// Number and squared distance of each relative neighbour, in no order to be relied on. The
+    /// nearest node is always one, unless another is at exactly the same distance and near it.
     pub(crate) fn members(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.neighbours
             .iter()

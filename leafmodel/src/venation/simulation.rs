@@ -27,7 +27,8 @@ pub(crate) const PATIENCE: u32 = 3;
 /// Below this length the sum of unit vectors has no direction worth following.
 pub(crate) const NO_DIRECTION: f64 = 1e-9;
 
-/// How much farther than the kill distance from all veins, in segments, sources are looked after together.
+/// How much farther than the kill distance from all veins, in segments, sources are looked after
+/// together.
 const CLEAR: f64 = 1.0;
 
 /// How near to an origin, in segments, veins turn aside at the margin.
@@ -48,7 +49,8 @@ enum Outcome {
     Child(u32),
     /// None: it would fall upon a node that is there, or the pulls cancel.
     Blocked,
-    /// None: the way there would leave the blade. Another vein may still come, so this is no reason to give up.
+    /// None: the way there would leave the blade. Another vein may still come, so this is no reason
+    /// to give up.
     OffBlade,
 }
 
@@ -171,7 +173,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
     /// says no.
     pub(crate) fn run(&mut self, mut look: impl FnMut(&Self) -> bool) -> Ending {
         let growth = f64::from(self.clock.last_growth_step());
-        // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets there.
+        // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets
+        // there.
         let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
         while self.step < limit {
             let grown = self.advance();
@@ -188,8 +191,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
         Ending::StepLimit
     }
 
-    /// Whether no further source can be expected on a full-grown lamina: after growth there are no darts,
-    /// and without growth so many have missed in a row that a free spot is unlikely.
+    /// Whether no further source can be expected on a full-grown lamina: after growth there are no
+    /// darts, and without growth so many have missed in a row that a free spot is unlikely.
     fn is_saturated(&self) -> bool {
         match self.plan.growth {
             Growth::Marginal { .. } | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => true,
@@ -262,7 +265,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.noticed = self.veins.count();
     }
 
-    /// How far from all veins sources may be lone, if any may: far enough not to be used up in this step.
+    /// How far from all veins sources may be lone, if any may: far enough not to be used up in this
+    /// step.
     fn nearness(&self, unit: f64) -> Option<f64> {
         let may_be = self.lamina.is_flat() && !self.lamina.moves();
         may_be.then_some((self.plan.kill_distance + CLEAR) * unit)
@@ -400,8 +404,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
         Outcome::Child(id)
     }
 
-    /// Whether a vein's tip that would leave the blade turns aside: only as near to where the veins come in, for the base of a
-    /// blade whose halves hang down beside the petiole lies in a notch, and a midrib drawn to the mean of both would end there.
+    /// Whether a vein's tip that would leave the blade turns aside: only as near to where the veins
+    /// come in, for the base of a blade whose halves hang down beside the petiole lies in a notch,
+    /// and a midrib drawn to the mean of both would end there.
     fn turns(&self, node: u32, unit: f64) -> bool {
         let from = self.veins.positions[node as usize];
         let origins = &self.veins.positions[..self.origins as usize];
@@ -409,7 +414,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.veins.is_tip(node) && origins.iter().any(near)
     }
 
-    /// Hands tags on to children, and counts the steps in which a source moved nothing; gives the number of children.
+    /// Hands tags on to children, and counts the steps in which a source moved nothing; gives the
+    /// number of children.
     fn tell_sources(&mut self, driven: &[u32]) -> usize {
         let outcomes = &self.outcomes;
         let outcome_of = |node: u32| outcomes[node as usize];

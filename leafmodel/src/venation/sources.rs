@@ -1,7 +1,8 @@
 //! The auxin sources that are there, in the order of their birth.
 //!
-//! A source is either *known*, with a relation to the veins of its own ([`Influence`]), or lone ([`super::lone`]). What
-//! each step reads of all of them lies side by side in memory, apart from the rest.
+//! A source is either *known*, with a relation to the veins of its own ([`Influence`]), or lone
+//! ([`super::lone`]). What each step reads of all of them lies side by side in memory, apart from
+//! the rest.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -69,7 +70,8 @@ impl<I: Influence> Sources<I> {
         self.gone == self.basins.len()
     }
 
-    /// Adds source number `id`, whose tissue started at `start`. Sources farther than `near` from all veins may be lone.
+    /// Adds source number `id`, whose tissue started at `start`. Sources farther than `near` from
+    /// all veins may be lone.
     pub(crate) fn push(
         &mut self,
         id: u32,
@@ -105,7 +107,8 @@ impl<I: Influence> Sources<I> {
             .fit_cells(spacing, |lone, basin| basins[lone.slot as usize] = basin);
     }
 
-    /// Lets every source take in new nodes; those that are farther than `near` from them may be lone.
+    /// Lets every source take in new nodes; those that are farther than `near` from them may be
+    /// lone.
     pub(crate) fn notice(
         &mut self,
         fresh: &FreshNodes,
@@ -162,7 +165,8 @@ impl<I: Influence> Sources<I> {
         });
     }
 
-    /// Moves all of them, none of which is lone, to where `now_at` has the tissue that started at a place.
+    /// Moves all of them, none of which is lone, to where `now_at` has the tissue that started at a
+    /// place.
     pub(crate) fn carry(
         &mut self,
         now_at: impl Fn(DVec2) -> DVec2,
@@ -178,7 +182,8 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Calls `visit` with the place of each source and each node that it drives, in the order of birth.
+    /// Calls `visit` with the place of each source and each node that it drives, in the order of
+    /// birth.
     pub(crate) fn each_driven(&self, mut visit: impl FnMut(DVec2, u32)) {
         let mut known = self.known.iter();
         for (&basin, &place) in self.basins.iter().zip(&self.places) {
@@ -194,7 +199,8 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Counts the steps in which a source moved nothing: `all_blocked` tells it of a known one, `is_blocked` of a node.
+    /// Counts the steps in which a source moved nothing: `all_blocked` tells it of a known one,
+    /// `is_blocked` of a node.
     pub(crate) fn count_blocked(
         &mut self,
         mut all_blocked: impl FnMut(&mut I) -> bool,
@@ -225,7 +231,8 @@ impl<I: Influence> Sources<I> {
         self.some_are_blocked = some;
     }
 
-    /// Removes the lone sources that have moved nothing for so many steps; calls `gone` with number and place of each.
+    /// Removes the lone sources that have moved nothing for so many steps; calls `gone` with number
+    /// and place of each.
     pub(crate) fn give_up_lone(&mut self, patience: u32, mut gone: impl FnMut(u32, DVec2)) {
         if !self.some_are_blocked {
             return;

@@ -1,12 +1,13 @@
 //! Which vein nodes are Urquhart neighbours of a source: the approximation of section 5.2.
 //!
-//! Node `v` is one if it is a Delaunay neighbour of the source in the set of all nodes and the source, and no other
-//! Delaunay neighbour `u` has `‖v − s‖ ≥ max(‖u − s‖, ‖v − u‖)`. The relative neighbours are among them; a node that is
-//! no Delaunay neighbour can exclude more (Fig. 8).
+//! Node `v` is one if it is a Delaunay neighbour of the source in the set of all nodes and the
+//! source, and no other Delaunay neighbour `u` has `‖v − s‖ ≥ max(‖u − s‖, ‖v − u‖)`. The relative
+//! neighbours are among them; a node that is no Delaunay neighbour can exclude more (Fig. 8).
 //!
-//! The Delaunay neighbours are those whose bisectors bound the source's Voronoi cell. New nodes only shrink the
-//! cell, so each cuts it in turn. The cell starts as a square much larger than the lamina: neighbours whose bisectors
-//! bound the cell only outside of it are far apart on the hull of the veins, and are not counted.
+//! The Delaunay neighbours are those whose bisectors bound the source's Voronoi cell. New nodes
+//! only shrink the cell, so each cuts it in turn. The cell starts as a square much larger than the
+//! lamina: neighbours whose bisectors bound the cell only outside of it are far apart on the hull
+//! of the veins, and are not counted.
 
 use std::ops::ControlFlow;
 
@@ -80,7 +81,8 @@ impl UrquhartNeighbourhood {
         for side in &self.sides {
             let at = beyond(side.corner);
             let crossing = || before.0 + (side.corner - before.0) * (before.1 / (before.1 - at));
-            // Going out, the side is cut short; coming in, the new side ends where the old one begins.
+            // Going out, the side is cut short; coming in, the new side ends where the old one
+            // begins.
             match (before.1 > 0.0, at > 0.0) {
                 (false, false) => sides.push(*side),
                 (false, true) => sides.push(Side {
@@ -195,8 +197,9 @@ mod tests {
 
     #[test]
     fn a_node_that_is_no_delaunay_neighbour_can_exclude_a_relative_neighbour() {
-        // As in Fig. 8: node 1 lies behind the short bisector of node 2, so it is no Delaunay neighbour of the
-        // source, yet it is nearer to the source and to node 0 than these are to each other.
+        // As in Fig. 8: node 1 lies behind the short bisector of node 2, so it is no Delaunay
+        // neighbour of the source, yet it is nearer to the source and to node 0 than these are to
+        // each other.
         let nodes = [(10.0, 0.0), (5.4, -7.0), (1.5, -6.5), (5.6, -2.6)];
         let nodes = &nodes[..];
         let mut seen = None;
@@ -215,7 +218,8 @@ mod tests {
         assert!(seen.is_some(), "no such configuration");
     }
 
-    /// `v` is a Delaunay neighbour of the source if part of their bisector is nearer to them than to all others.
+    /// `v` is a Delaunay neighbour of the source if part of their bisector is nearer to them than
+    /// to all others.
     fn is_delaunay(source: DVec2, nodes: &[DVec2], v: usize, size: f64) -> bool {
         let offset = nodes[v] - source;
         let (foot, along) = (offset * 0.5, offset.perp().normalize());

@@ -106,7 +106,8 @@ impl Veins {
         self.by_length = length_queue();
     }
 
-    /// Moves all nodes with their tissue, on a lamina that now fills the rectangle from `low` to `high`.
+    /// Moves all nodes with their tissue, on a lamina that now fills the rectangle from `low` to
+    /// `high`.
     pub(crate) fn carry(&mut self, lamina: &Lamina, low: DVec2, high: DVec2) {
         self.tree = PointTree::new(low, high);
         for (node, &start) in self.starts.iter().enumerate() {

@@ -1,13 +1,13 @@
 //! How wide veins are: Murray's law from the tips to the base (sections 3.5 and 4).
 //!
 //! In units of a veinlet's `rⁿ`, a vein's `rⁿ` is a *flow* that adds up towards the base:
-//! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, what lies beyond
-//! it is divided among them equally ("all child veins entering a vein node contribute equally to the
-//! width of the parent nodes"), so that loops neither create nor swallow flow. No vein is finer than
-//! a veinlet: a share below 1 counts as 1.
+//! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, what lies
+//! beyond it is divided among them equally ("all child veins entering a vein node contribute
+//! equally to the width of the parent nodes"), so that loops neither create nor swallow flow. No
+//! vein is finer than a veinlet: a share below 1 counts as 1.
 //!
-//! The paper walks from the veinlets to the base; with loops that is well defined since edges run from
-//! older to younger tissue: every node is dealt with after all those it leads to.
+//! The paper walks from the veinlets to the base; with loops that is well defined since edges run
+//! from older to younger tissue: every node is dealt with after all those it leads to.
 
 use super::topology::Topology;
 
@@ -19,8 +19,9 @@ pub(crate) struct Flows {
     pub(crate) edges: Vec<f64>,
 }
 
-/// Adds up flows over the whole network, given its nodes from base to tip; `unseen` is what a node bears besides
-/// ("we additionally increase the width of primary and secondary veins at each node", section 3.5).
+/// Adds up flows over the whole network, given its nodes from base to tip; `unseen` is what a node
+/// bears besides ("we additionally increase the width of primary and secondary veins at each node",
+/// section 3.5).
 pub(crate) fn flows(
     topology: &Topology,
     base_to_tip: &[u32],
@@ -44,7 +45,8 @@ pub(crate) fn flows(
     Flows { nodes, edges }
 }
 
-/// Radius of a vein that carries `flow`: `r = r_0 flow^{1/n}`, in the unit of the veinlet's radius `r_0`.
+/// Radius of a vein that carries `flow`: `r = r_0 flow^{1/n}`, in the unit of the veinlet's radius
+/// `r_0`.
 pub(crate) fn radius(flow: f64, veinlet_radius: f64, exponent: f64) -> f64 {
     veinlet_radius * libm::pow(flow, 1.0 / exponent)
 }

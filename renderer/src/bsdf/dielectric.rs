@@ -7,9 +7,10 @@ use crate::bsdf::ggx::Ggx;
 
 /// Reflection and refraction at a boundary; the medium lies on the side −z.
 ///
-/// Rough boundaries follow Walter et al. 2007 with the GGX distribution and their separable Smith shadowing
-/// (what is masked from one side says little about the other side of the surface). Radiance that enters the medium
-/// is compressed by the solid angle, so `f` is not reciprocal: `f(wo, wi) η_i² = f(wi, wo) η_o²`.
+/// Rough boundaries follow Walter et al. 2007 with the GGX distribution and their separable Smith
+/// shadowing (what is masked from one side says little about the other side of the surface).
+/// Radiance that enters the medium is compressed by the solid angle, so `f` is not reciprocal:
+/// `f(wo, wi) η_i² = f(wi, wo) η_o²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric {
     /// Refractive index of the medium over that outside.

@@ -9,8 +9,9 @@ use crate::bsdf::ggx::Ggx;
 
 /// `E(ω)`, the share of light from ω that the coat's lobe reflects, and its mean `Ē`.
 ///
-/// `E` is even in both tangent axes, so a table over `√µ` and `sin² φ` in the first quadrant is complete; between nodes
-/// it is linear. Nodes at squares of even steps in µ crowd at grazing angles, where `E` rises fastest.
+/// `E` is even in both tangent axes, so a table over `√µ` and `sin² φ` in the first quadrant is
+/// complete; between nodes it is linear. Nodes at squares of even steps in µ crowd at grazing
+/// angles, where `E` rises fastest.
 #[derive(Clone, Debug)]
 pub struct DirectionalAlbedo {
     /// `[azimuth][µ]`.
@@ -86,7 +87,8 @@ fn mu_of(node: f32) -> f32 {
     x * x
 }
 
-/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is smooth.
+/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is
+/// smooth.
 fn albedo(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32) -> f32 {
     // At exactly grazing incidence the limit is taken from close by.
     let mu = mu.max(0.25 * mu_of(1.0));
@@ -162,8 +164,8 @@ mod tests {
 
     #[test]
     fn diffuse_light_meets_the_published_external_reflectance() {
-        // Diffuse-incidence reflectance of a smooth boundary, n = 1.5: 0.0918. Even a coat this smooth shadows itself
-        // at grazing angles, where a smooth one would reflect everything.
+        // Diffuse-incidence reflectance of a smooth boundary, n = 1.5: 0.0918. Even a coat this
+        // smooth shadows itself at grazing angles, where a smooth one would reflect everything.
         let coat = DirectionalAlbedo::new(
             Ggx {
                 alpha_x: 0.02,

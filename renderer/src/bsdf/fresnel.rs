@@ -2,8 +2,8 @@
 
 /// Unpolarised Fresnel reflectance.
 ///
-/// `cos_i` is the cosine of the angle of incidence (its absolute value counts), `eta` the refractive index on the
-/// far side over that on the near side. 1 under total internal reflection.
+/// `cos_i` is the cosine of the angle of incidence (its absolute value counts), `eta` the
+/// refractive index on the far side over that on the near side. 1 under total internal reflection.
 pub fn dielectric(cos_i: f32, eta: f32) -> f32 {
     refracted_cosine(cos_i, eta).map_or(1.0, |cos_t| {
         let cos_i = cos_i.abs().min(1.0);

@@ -16,7 +16,8 @@ pub struct Ggx {
 }
 
 impl Ggx {
-    /// Density of microfacet normals, sr⁻¹ (Walter et al. 2007; Heitz 2014 for the anisotropic form).
+    /// Density of microfacet normals, sr⁻¹ (Walter et al. 2007; Heitz 2014 for the anisotropic
+    /// form).
     pub fn d(&self, h: Vec3) -> f32 {
         let x = h.x / self.alpha_x;
         let y = h.y / self.alpha_y;

@@ -56,7 +56,8 @@ impl Coat {
         &self.albedo
     }
 
-    /// The lobe and the density of drawing it from `wo`, whose Λ is `lambda`; for two directions on the side +z.
+    /// The lobe and the density of drawing it from `wo`, whose Λ is `lambda`; for two directions on
+    /// the side +z.
     #[inline]
     fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
         let Some(h) = (wo + wi).try_normalize() else {
@@ -100,7 +101,8 @@ pub struct LeafView<'a, const N: usize> {
     wo: Vec3,
     /// Λ of the coat for the view.
     lambda: f32,
-    /// `f` of both kinds of diffuse light, but for the share that passes the coat on the side of `wi`.
+    /// `f` of both kinds of diffuse light, but for the share that passes the coat on the side of
+    /// `wi`.
     reflecting: Lanes<N>,
     through: Lanes<N>,
     /// Probabilities of the coat, of tissue reflection and of transmission.
@@ -112,8 +114,8 @@ fn above(w: Vec3) -> Vec3 {
 }
 
 impl<const N: usize> Tissue<N> {
-    /// From the leaf's reflectance `R` and transmittance `T` at normal incidence on the adaxial face, and the
-    /// abaxial over adaxial reflectance `ratio`.
+    /// From the leaf's reflectance `R` and transmittance `T` at normal incidence on the adaxial
+    /// face, and the abaxial over adaxial reflectance `ratio`.
     pub fn new(
         coats: &[Coat; 2],
         reflectance: Lanes<N>,

@@ -4,7 +4,8 @@ use glam::Vec2;
 
 use crate::sampling::distribution::Piecewise1d;
 
-/// A separable filter whose samples all weigh the same, so that pixels stay independent of each other.
+/// A separable filter whose samples all weigh the same, so that pixels stay independent of each
+/// other.
 #[derive(Clone, Debug)]
 pub struct PixelFilter {
     radius: f32,
@@ -17,7 +18,8 @@ const STEPS: usize = 256;
 const CUT: f32 = 3.0;
 
 impl PixelFilter {
-    /// A Gaussian cut off at `radius` pixels (three standard deviations), or a box of one pixel for 0.
+    /// A Gaussian cut off at `radius` pixels (three standard deviations), or a box of one pixel for
+    /// 0.
     pub fn new(radius: f32) -> Self {
         let density = |i: usize| {
             let x = CUT * (2.0 * (i as f32 + 0.5) / STEPS as f32 - 1.0);

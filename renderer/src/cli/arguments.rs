@@ -97,7 +97,8 @@ pub struct CheckArguments {
     /// Scene and overrides.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Grow what the scene grows and build it as well, as a render would: tells its size, and what only then shows
+    /// Grow what the scene grows and build it as well, as a render would: tells its size, and what
+    /// only then shows
     #[arg(long)]
     pub build: bool,
 }
@@ -108,14 +109,15 @@ pub struct RenderArguments {
     /// Scene and overrides.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Stem of the files that are written, with or without `.exr` or `.png`; the default is the scene's name in this folder
+    /// Stem of the files that are written, with or without `.exr` or `.png`; the default is the
+    /// scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
     /// Samples a pixel, instead of the scene's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
     pub spp: Option<u32>,
-    /// Relative error at which a part of the picture has enough samples, instead of the scene's: 0.01 is one percent, 0 gives every pixel
-    /// all its samples
+    /// Relative error at which a part of the picture has enough samples, instead of the scene's:
+    /// 0.01 is one percent, 0 gives every pixel all its samples
     #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
     pub noise: Option<f64>,
     /// Stop rendering after this time, at the end of the pass that is under way
@@ -194,7 +196,8 @@ pub struct SchemaArguments {
     /// File to write; the default is stdout
     #[arg(long, value_name = "FILE.json")]
     pub out: Option<PathBuf>,
-    /// Write the tables of keys into these pages instead, each behind its marker `<!-- keys: BLOCK -->`
+    /// Write the tables of keys into these pages instead, each behind its marker
+    /// `<!-- keys: BLOCK -->`
     #[arg(long, value_name = "FILE.md", num_args = 1.., conflicts_with = "out")]
     pub pages: Vec<PathBuf>,
 }
@@ -202,7 +205,8 @@ pub struct SchemaArguments {
 /// `lamina grow`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct GrowArguments {
-    /// A preset, or a file with leaves or a scene, and which leaf if there are several: scene.toml#beech
+    /// A preset, or a file with leaves or a scene, and which leaf if there are several:
+    /// scene.toml#beech
     #[arg(
         value_name = "PRESET|FILE.toml[#LEAF]",
         required_unless_present = "list"
@@ -214,29 +218,33 @@ pub struct GrowArguments {
     /// Tell what a preset is and where its numbers are from
     #[arg(long, requires = "leaf")]
     pub about: bool,
-    /// Change a value of the leaf: --set blade.ruffle=0.02; the end of a path is enough where only one key has it
+    /// Change a value of the leaf: --set blade.ruffle=0.02; the end of a path is enough where only
+    /// one key has it
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Override a value of the file, written as in it: -D leaves.beech.seed=3
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson (veins), ply, obj (blade), toml (plan)
+    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson (veins), ply,
+    /// obj (blade), toml (plan)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub out: Vec<PathBuf>,
     /// Write every number of the plan into a toml, not only what differs from the preset
     #[arg(long)]
     pub full: bool,
-    /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so on
+    /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so
+    /// on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
-    /// Write the flat leaf in daylight (png) and its maps of contents (--contents) on N days from green to litter, as STEM-0001.png
-    /// and so on; for leaves that age by days
+    /// Write the flat leaf in daylight (png) and its maps of contents (--contents) on N days from
+    /// green to litter, as STEM-0001.png and so on; for leaves that age by days
     #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub ages: Option<u32>,
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,
-    /// Write what splines (`vein`, `net`, `fac`) or the cells of a transport leaf (`death`) tell about every point, as an EXR texture
+    /// Write what splines (`vein`, `net`, `fac`) or the cells of a transport leaf (`death`) tell
+    /// about every point, as an EXR texture
     #[arg(long, value_name = "FILE.exr")]
     pub fields: Option<PathBuf>,
     /// Write the maps of contents into a folder

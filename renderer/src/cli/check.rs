@@ -1,4 +1,5 @@
-//! `lamina check`: every error of a scene at once, or of a file of leaves; on request, what it would build.
+//! `lamina check`: every error of a scene at once, or of a file of leaves; on request, what it
+//! would build.
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::{Failure, colour, load_scene, say};

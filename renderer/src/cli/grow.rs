@@ -327,7 +327,8 @@ fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
     Ok(lamina)
 }
 
-/// Margin and veins in a format that shows them; pictures on the page of a blade with the corners `page`.
+/// Margin and veins in a format that shows them; pictures on the page of a blade with the corners
+/// `page`.
 fn veins_file(
     kind: Kind,
     page: Page,

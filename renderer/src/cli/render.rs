@@ -255,7 +255,8 @@ fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
     let FilmKind::Spectral { bands } = &scene.film.kind else {
         return film.map(|pixel| [0, 1, 2].map(|i| pixel.mean(i) as f32));
     };
-    // Bands within the visible stand for the wavelengths around them; a film without any is shown grey.
+    // Bands within the visible stand for the wavelengths around them; a film without any is shown
+    // grey.
     let nearest = |nm: f64| {
         let distance = |i: &usize| (bands[*i].center_nm - nm).abs();
         (0..bands.len())

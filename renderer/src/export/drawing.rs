@@ -2,8 +2,8 @@
 //!
 //! - **In**: an [`Outline`], a [`VenationNetwork`], a size, a [`Style`].
 //! - **Out**: a [`Drawing`], 8-bit sRGB, apex up.
-//! - **Always true**: the same network gives the same bytes. Ink is proportional to the area of veins, also for veins
-//!   finer than a pixel.
+//! - **Always true**: the same network gives the same bytes. Ink is proportional to the area of
+//!   veins, also for veins finer than a pixel.
 //! - **Left out**: light. Coverage is mixed between sRGB values, as drawing programs do.
 
 use glam::DVec2;
@@ -18,7 +18,8 @@ use crate::image::{ImageError, MOST_PIXELS};
 /// Space around the blade, as a share of its longer side.
 const BORDER: f64 = 0.02;
 
-/// Veins finer than this many pixels are drawn as wide, and paler: the rasteriser counts in quarters of a pixel.
+/// Veins finer than this many pixels are drawn as wide, and paler: the rasteriser counts in
+/// quarters of a pixel.
 const LEAST_WIDTH: f64 = 0.75;
 
 /// Steps in which fine veins get paler.
@@ -41,7 +42,8 @@ const LONGEST_SIDE: u32 = 32_000;
 pub enum Style {
     /// For white paper: dark veins on a pale leaf.
     OnPaper,
-    /// Each vein order in a colour of its own ([`leafmodel::export::ORDER_COLOURS`]), coarse veins on top.
+    /// Each vein order in a colour of its own ([`leafmodel::export::ORDER_COLOURS`]), coarse veins
+    /// on top.
     Orders,
 }
 
@@ -56,10 +58,12 @@ pub struct Drawing {
     pub rgb: Vec<u8>,
 }
 
-/// Draws a leaf on a sheet whose longer side, with a border of a fiftieth, takes `pixels_per_long_side`.
+/// Draws a leaf on a sheet whose longer side, with a border of a fiftieth, takes
+/// `pixels_per_long_side`.
 ///
-/// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]: pictures of a leaf while it grows
-/// have one scale on the sheet of the full-grown one. A compound leaf has several margins.
+/// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]:
+/// pictures of a leaf while it grows have one scale on the sheet of the full-grown one. A compound
+/// leaf has several margins.
 ///
 /// # Errors
 ///
@@ -166,7 +170,8 @@ impl Sheet {
             Style::OnPaper => 1,
             Style::Orders => usize::from(u8::MAX) + 1,
         };
-        // Everything of one colour and strength is one path, so that where pieces overlap nothing is drawn twice.
+        // Everything of one colour and strength is one path, so that where pieces overlap nothing
+        // is drawn twice.
         let mut paths: Vec<Vec<PathBuilder>> = vec![Vec::new(); layers];
         let disc = disc();
         let nodes = network.nodes();
@@ -237,8 +242,8 @@ fn add(path: &mut PathBuilder, mut points: impl Iterator<Item = DVec2>) {
     }
 }
 
-/// A piece of vein with straight sides; gives the unit vector across it. Pieces and discs all run the same way around, so that
-/// overlaps add up.
+/// A piece of vein with straight sides; gives the unit vector across it. Pieces and discs all run
+/// the same way around, so that overlaps add up.
 fn piece(path: &mut PathBuilder, [from, to]: [DVec2; 2], [start, end]: [f64; 2]) -> DVec2 {
     let aside = (to - from).perp().normalize_or_zero();
     let sides = [

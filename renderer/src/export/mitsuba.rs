@@ -1,9 +1,10 @@
-//! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and what the comparison wants to know.
+//! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and what the comparison
+//! wants to know.
 //!
-//! Leaves become the plugin `lamina_leaf`, solid tissue `lamina_solid`; `reference/` registers both. Everything else is Mitsuba's own. The sun's
-//! disc becomes a disk emitter so far away that irradiance differs by 2e-5 over the scene.
-//! Environment pictures are upsampled to spectra by Mitsuba's own method, so scenes with one cannot be
-//! compared band by band.
+//! Leaves become the plugin `lamina_leaf`, solid tissue `lamina_solid`; `reference/` registers
+//! both. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
+//! irradiance differs by 2e-5 over the scene. Environment pictures are upsampled to spectra by
+//! Mitsuba's own method, so scenes with one cannot be compared band by band.
 
 mod bsdf;
 mod emitter;
@@ -62,7 +63,8 @@ fn absorption_file(palette: &Palette) -> String {
     }
 }
 
-/// PROSPECT-D's table with its notice, with the columns of these pigments, and what betalains absorb in columns of their own.
+/// PROSPECT-D's table with its notice, with the columns of these pigments, and what betalains
+/// absorb in columns of their own.
 fn absorption_table(pigments: &Pigments) -> String {
     let mut text: String = ProspectD::notice()
         .map(|line| format!("# {line}\n"))

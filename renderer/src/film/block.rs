@@ -8,7 +8,8 @@ use super::moments::Moments;
 /// Pixels along a block's sides; blocks at the right and lower border may have fewer.
 pub const BLOCK_SIDE: u32 = 8;
 
-/// Samples that were not taken as they came. Both are rare, so nothing is kept for pixels without any.
+/// Samples that were not taken as they came. Both are rare, so nothing is kept for pixels without
+/// any.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Faults {
     /// Samples that were rejected, by the place of their pixel in the film.
@@ -63,7 +64,8 @@ impl Block<'_> {
         (self.narrow.len() / self.words.narrow) as u32
     }
 
-    /// Adds the next `samples` of every pixel: `expose` is called with column, row and where to put them, and has to add as many.
+    /// Adds the next `samples` of every pixel: `expose` is called with column, row and where to put
+    /// them, and has to add as many.
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
         let words = self.words;
         let places = self
@@ -103,11 +105,11 @@ pub struct PixelSums<'a> {
 }
 
 impl PixelSums<'_> {
-    /// Adds sample number `number`: a value for each channel, and the features of what the camera ray met, if anything;
-    /// numbers beyond the film's features are passed over.
+    /// Adds sample number `number`: a value for each channel, and the features of what the camera
+    /// ray met, if anything; numbers beyond the film's features are passed over.
     ///
-    /// A sample with a number that is not finite is rejected whole and counted; a channel's value beyond ±2³⁰ is clamped
-    /// and counted.
+    /// A sample with a number that is not finite is rejected whole and counted; a channel's value
+    /// beyond ±2³⁰ is clamped and counted.
     #[inline]
     pub fn add<const F: usize>(
         &mut self,

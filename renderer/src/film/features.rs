@@ -1,14 +1,16 @@
-//! What a pixel keeps besides radiance: how much of it is covered, and features, numbers of what its camera rays met.
+//! What a pixel keeps besides radiance: how much of it is covered, and features, numbers of what
+//! its camera rays met.
 //!
 //! - **In**: for each sample that met something, a number per feature.
-//! - **Out**: means over the covered ones of a pixel's first [`FEATURE_SAMPLES`] samples, or what sample 0 met.
+//! - **Out**: means over the covered ones of a pixel's first [`FEATURE_SAMPLES`] samples, or what
+//!   sample 0 met.
 //! - **Always true**: all that is kept is integers that add up, so films merge by addition alone.
 //! - **Left out**: what the features mean; the maker of the film says how each is kept.
 
 use super::fixed::nearest;
 
-/// Samples of a pixel, by number, that record features. These converge fast, and a bound keeps their sums small: 256 samples
-/// of 54 bits fit into 64 bits, of 23 bits into 32.
+/// Samples of a pixel, by number, that record features. These converge fast, and a bound keeps
+/// their sums small: 256 samples of 54 bits fit into 64 bits, of 23 bits into 32.
 pub const FEATURE_SAMPLES: u32 = 256;
 
 /// The most of one sample in a wide sum, in its units.
@@ -21,19 +23,20 @@ const MOST_FRACTION_BITS: i32 = 24;
 /// How a feature is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sum {
-    /// As a sum of 64 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and at most ±2⁵⁴ units:
-    /// with 24 bits up to ±2³⁰.
+    /// As a sum of 64 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and
+    /// at most ±2⁵⁴ units: with 24 bits up to ±2³⁰.
     Wide {
         /// Bits behind the point, 0 to 24.
         fraction_bits: i32,
     },
-    /// As a sum of 32 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and less than ±2²³ units:
-    /// with 22 bits up to ±2, with 20 up to ±8.
+    /// As a sum of 32 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and
+    /// less than ±2²³ units: with 22 bits up to ±2, with 20 up to ±8.
     Narrow {
         /// Bits behind the point, 0 to 24.
         fraction_bits: i32,
     },
-    /// As the number of sample 0, whole and ≥ 0 in 32 bits; 0 if that sample met nothing or is not among the samples.
+    /// As the number of sample 0, whole and ≥ 0 in 32 bits; 0 if that sample met nothing or is not
+    /// among the samples.
     First,
 }
 
@@ -59,7 +62,8 @@ impl Sum {
     }
 }
 
-/// Where a pixel keeps each feature: a pixel has words of two widths, and its first narrow one counts coverage.
+/// Where a pixel keeps each feature: a pixel has words of two widths, and its first narrow one
+/// counts coverage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Words {
     /// In the order of features.
@@ -70,7 +74,8 @@ pub(super) struct Words {
     pub(super) narrow: usize,
 }
 
-/// Features that follow one another and are kept in the same way, so that it is looked up once for all of them.
+/// Features that follow one another and are kept in the same way, so that it is looked up once for
+/// all of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Run {
     sum: Sum,
@@ -165,8 +170,8 @@ impl Words {
     }
 }
 
-/// Two counts in one word, so that coverage costs four bytes a pixel: all covered samples below, and those among the first
-/// [`FEATURE_SAMPLES`] above. Sums of words are words of sums.
+/// Two counts in one word, so that coverage costs four bytes a pixel: all covered samples below,
+/// and those among the first [`FEATURE_SAMPLES`] above. Sums of words are words of sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coverage(i32);
 

@@ -1,11 +1,12 @@
 //! Single precision to fixed point.
 //!
 //! - **In**: finite `f32`s, each a whole number of at most 24 bits times a power of two.
-//! - **Out**: integers in units of a power of two; a shift or an exact product gives each, so there is no rounding but the one
-//!   stated.
+//! - **Out**: integers in units of a power of two; a shift or an exact product gives each, so there
+//!   is no rounding but the one stated.
 //! - **Left out**: numbers that are not finite; the caller has rejected them.
 
-/// Bits behind the point of sums and of sums of squares. (With fewer, the variance of dim pixels would vanish.)
+/// Bits behind the point of sums and of sums of squares. (With fewer, the variance of dim pixels
+/// would vanish.)
 pub(super) const FRACTION_BITS: i32 = 64;
 /// One in that fixed point.
 pub(super) const ONE: f64 = 18_446_744_073_709_551_616.0;
@@ -52,8 +53,8 @@ fn shifted(whole: u64, shift: i32) -> u128 {
 /// `scale` is a power of two from 1 to 2²⁴, `most` a whole number of at most 2⁵⁴.
 #[inline]
 pub(super) fn nearest(value: f32, scale: f64, most: f64) -> i64 {
-    // The product is exact and has 24 bits. From 2⁻²⁸ to 2⁵² a half is added to it exactly; below, the sum rounds to less than
-    // 1, and above, the product is whole and stays.
+    // The product is exact and has 24 bits. From 2⁻²⁸ to 2⁵² a half is added to it exactly; below,
+    // the sum rounds to less than 1, and above, the product is whole and stays.
     let scaled = f64::from(value) * scale;
     (scaled + 0.5_f64.copysign(scaled)).min(most).max(-most) as i64
 }
@@ -69,7 +70,8 @@ mod tests {
         fn value_and_square_are_those_of_arithmetic_in_double_precision(bits: u32) {
             let value = f32::from_bits(bits);
             prop_assume!(value.is_finite() && value.abs() <= MOST);
-            // A product of two numbers of 24 bits is exact in 53, a power of two changes none; the cast cuts off.
+            // A product of two numbers of 24 bits is exact in 53, a power of two changes none; the
+            // cast cuts off.
             let wide = f64::from(value);
             let expected = ((wide * ONE) as i128, (wide * wide * ONE) as u128);
             prop_assert_eq!(value_and_square(value), expected);

@@ -9,7 +9,8 @@ use super::fixed::{MOST, ONE, value_and_square};
 pub struct Moments {
     /// Sum of the samples.
     sum: i128,
-    /// Sum of their squares; stays at the greatest number where a value beyond 2²⁷ comes a thousand times.
+    /// Sum of their squares; stays at the greatest number where a value beyond 2²⁷ comes a thousand
+    /// times.
     squares: u128,
 }
 
@@ -46,7 +47,8 @@ impl Moments {
 
     /// Unbiased sample variance over `samples`, the number of samples; 0 below two.
     ///
-    /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of the error.
+    /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of
+    /// the error.
     pub fn variance_of_mean(&self, samples: u32) -> f64 {
         if samples < 2 {
             return 0.0;

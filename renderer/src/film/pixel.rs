@@ -39,8 +39,9 @@ impl Pixel<'_> {
         f64::from(Coverage::of(self.narrow).covered()) / f64::from(self.samples.max(1))
     }
 
-    /// A feature by its number: the mean over the covered ones of the first [`super::FEATURE_SAMPLES`] samples, or what sample 0
-    /// met; none where none of these samples is covered.
+    /// A feature by its number: the mean over the covered ones of the first
+    /// [`super::FEATURE_SAMPLES`] samples, or what sample 0 met; none where none of these samples
+    /// is covered.
     pub fn feature(&self, number: usize) -> Option<f64> {
         self.words.feature(number, self.wide, self.narrow)
     }

@@ -61,15 +61,16 @@ pub enum GeometryError {
     },
 }
 
-/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the boxes have 0.81 of the area with
-/// 8 and 0.63 with 64, and fewer of them are entered in vain; with 256 rays are no more than 3 % faster than with 64.
+/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the
+/// boxes have 0.81 of the area with 8 and 0.63 with 64, and fewer of them are entered in vain; with
+/// 256 rays are no more than 3 % faster than with 64.
 const HULL_BOXES: usize = 128;
 
 /// Instances and tree nodes share 32 bits.
 const MOST_INSTANCES: usize = 1 << 29;
 
-/// A mesh with its tree, in the mesh's frame moved so that the middle of its bounds is the origin: a leaf far away in
-/// its own file keeps its detail.
+/// A mesh with its tree, in the mesh's frame moved so that the middle of its bounds is the origin:
+/// a leaf far away in its own file keeps its detail.
 #[derive(Clone, Debug)]
 struct TracedMesh {
     mesh: TriangleMesh,
@@ -127,7 +128,8 @@ impl Placement {
         })
     }
 
-    /// Sum of the magnitudes that are added up when a world point is carried into the local frame, by coordinate.
+    /// Sum of the magnitudes that are added up when a world point is carried into the local frame,
+    /// by coordinate.
     pub(super) fn to_local_size(&self, world: DVec3) -> DVec3 {
         let columns = self.carrier.linear;
         columns.x_axis.abs().as_dvec3() * world.x.abs()
@@ -153,7 +155,8 @@ impl TracedMesh {
         let (min, max) = mesh.bounds();
         let center = Bounds { min, max }.center();
         let corners = |triangle: u32| {
-            // In f64: the difference of two f32 numbers may need more digits before it is rounded once.
+            // In f64: the difference of two f32 numbers may need more digits before it is rounded
+            // once.
             mesh.corners(triangle)
                 .map(|corner| (corner.as_dvec3() - center.as_dvec3()).as_vec3())
         };
@@ -183,7 +186,8 @@ impl Geometry {
     ///
     /// # Errors
     ///
-    /// [`GeometryError`]: an instance of a mesh that is not there, or with a transform that cannot be inverted.
+    /// [`GeometryError`]: an instance of a mesh that is not there, or with a transform that cannot
+    /// be inverted.
     pub fn build(
         meshes: Vec<TriangleMesh>,
         instances: Vec<Instance>,
@@ -244,7 +248,8 @@ impl Geometry {
         self
     }
 
-    /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance, triangle).
+    /// The nearest hit with `t_min ≤ t ≤ t_max`; of equal distances the smaller (instance,
+    /// triangle).
     ///
     /// `None` also for a ray that is not finite or has no direction.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
@@ -265,7 +270,8 @@ impl Geometry {
         SurfacePoint::at(hit, corners, &mesh.mesh, placement)
     }
 
-    /// Smallest and largest coordinates of all instances' boxes, m; twice the origin if there are none.
+    /// Smallest and largest coordinates of all instances' boxes, m; twice the origin if there are
+    /// none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let bounds = self.tree.bounds();
         if bounds.is_empty() {

@@ -46,7 +46,8 @@ impl Bounds {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// A box around the images of some boxes, rounded outwards and widened by a few roundings of its coordinates.
+    /// A box around the images of some boxes, rounded outwards and widened by a few roundings of
+    /// its coordinates.
     pub(super) fn around_transformed(boxes: &[Self], linear: &DMat3, offset: DVec3) -> Self {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let stretch = DMat3::from_cols(
@@ -61,7 +62,8 @@ impl Bounds {
             min = min.min(center - reach);
             max = max.max(center + reach);
         }
-        // The ray is carried into the mesh's frame in f32: what it meets there may lie this far outside here.
+        // The ray is carried into the mesh's frame in f32: what it meets there may lie this far
+        // outside here.
         let pad = (max.abs().max(min.abs())) * 2.0_f64.powi(-21);
         Self {
             min: (min - pad).as_vec3(),

@@ -25,12 +25,13 @@ impl Boundable for Jittered {
     }
 }
 
-/// A binary tree over finite boxes, at least one: locally ordered clustering and a little reinsertion.
+/// A binary tree over finite boxes, at least one: locally ordered clustering and a little
+/// reinsertion.
 ///
-/// Clustering merges neighbours that choose each other. Among equal boxes, as on an evenly spaced blade or a fan
-/// about one point, all choose the same side, one pair is merged in a pass, and the time is quadratic. So the
-/// builder gets boxes widened by a little that differs from box to box; it only decides who is neighbour to whom,
-/// the bounds of the tree come from the true boxes.
+/// Clustering merges neighbours that choose each other. Among equal boxes, as on an evenly spaced
+/// blade or a fan about one point, all choose the same side, one pair is merged in a pass, and the
+/// time is quadratic. So the builder gets boxes widened by a little that differs from box to box;
+/// it only decides who is neighbour to whom, the bounds of the tree come from the true boxes.
 pub(super) fn binary_tree(boxes: &[Bounds]) -> Vec<BinaryNode> {
     let jittered: Vec<_> = boxes
         .iter()

@@ -13,6 +13,7 @@ pub struct Hit {
     pub b1: f32,
     /// Weight of the triangle's third vertex.
     pub b2: f32,
-    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the cache there.
+    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the
+    /// cache there.
     pub(super) place: u32,
 }

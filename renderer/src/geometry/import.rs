@@ -1,7 +1,8 @@
 //! Meshes from files: PLY and OBJ.
 //!
-//! The bytes are not trusted: counts that a header claims allocate nothing before the bytes for them are there, and
-//! every error says where it is. Faces with more than three corners are cut into a fan.
+//! The bytes are not trusted: counts that a header claims allocate nothing before the bytes for
+//! them are there, and every error says where it is. Faces with more than three corners are cut
+//! into a fan.
 
 mod obj;
 mod ply;
@@ -69,11 +70,13 @@ impl RawMesh {
     }
 }
 
-/// Reads a mesh whose name ended in `extension` (`ply` or `obj`, in any case), `scale` metres to the file's unit.
+/// Reads a mesh whose name ended in `extension` (`ply` or `obj`, in any case), `scale` metres to
+/// the file's unit.
 ///
-/// PLY: ASCII or binary; `vertex` with x y z, perhaps nx ny nz, perhaps u v (or s t, `texture_u` `texture_v`), `face` with
-/// `vertex_indices` (or `vertex_index`); everything else is passed over. OBJ: v, vt, vn, f with negative indices;
-/// uvs are kept if every corner has one; materials and groups are passed over.
+/// PLY: ASCII or binary; `vertex` with x y z, perhaps nx ny nz, perhaps u v (or s t, `texture_u`
+/// `texture_v`), `face` with `vertex_indices` (or `vertex_index`); everything else is passed over.
+/// OBJ: v, vt, vn, f with negative indices; uvs are kept if every corner has one; materials and
+/// groups are passed over.
 ///
 /// # Errors
 ///

@@ -21,8 +21,8 @@ fn ask_for_huge_pages<T>(room: &Vec<T>) {
     let start = (room.as_ptr() as usize).next_multiple_of(HUGE_PAGE);
     let end = room.as_ptr() as usize + room.capacity() * size_of::<T>();
     if let Some(bytes) = end.checked_sub(start).filter(|&bytes| bytes >= HUGE_PAGE) {
-        // SAFETY: the range lies within the vector's memory, and the advice changes neither what is in it nor whose it
-        // is. A refusal is of no consequence.
+        // SAFETY: the range lies within the vector's memory, and the advice changes neither what is
+        // in it nor whose it is. A refusal is of no consequence.
         unsafe {
             libc::madvise(start as *mut libc::c_void, bytes, libc::MADV_HUGEPAGE);
         }

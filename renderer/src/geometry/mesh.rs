@@ -18,7 +18,8 @@ const MOST_FACES: usize = 1 << 29;
 /// Faces that a mesh may lose before it is refused, as a share.
 const MOST_DROPPED_PERCENT: usize = 1;
 
-/// Triangles over shared vertices, all finite, none without area, no two with the same three positions.
+/// Triangles over shared vertices, all finite, none without area, no two with the same three
+/// positions.
 #[derive(Clone, Debug)]
 pub struct TriangleMesh {
     positions: Vec<Vec3>,
@@ -152,14 +153,15 @@ pub enum MeshError {
 impl TriangleMesh {
     /// Checks and cleans a mesh. Faces are counter-clockwise seen from their + side.
     ///
-    /// Positions are in metres. Normals and uvs are one a vertex; normals need not be unit, and one that is zero or
-    /// not finite means "that of the face". Faces that are not finite, have no area or repeat an earlier face's three
-    /// positions are left out and counted in [`TriangleMesh::dropped`].
+    /// Positions are in metres. Normals and uvs are one a vertex; normals need not be unit, and one
+    /// that is zero or not finite means "that of the face". Faces that are not finite, have no area
+    /// or repeat an earlier face's three positions are left out and counted in
+    /// [`TriangleMesh::dropped`].
     ///
     /// # Errors
     ///
-    /// [`MeshError`]: an index out of range, attributes that do not match, more than 1 % of the faces left out, no
-    /// face left, coordinates beyond 10⁹ m, too many faces.
+    /// [`MeshError`]: an index out of range, attributes that do not match, more than 1 % of the
+    /// faces left out, no face left, coordinates beyond 10⁹ m, too many faces.
     pub fn new(
         positions: Vec<Vec3>,
         normals: Option<Vec<Vec3>>,
@@ -300,8 +302,8 @@ impl TriangleMesh {
     }
 }
 
-/// Twice the area of a triangle. Differences of `f32` numbers and their products are exact in `f64` unless the
-/// numbers are very unlike, so this is 0 for points on a line and for them only.
+/// Twice the area of a triangle. Differences of `f32` numbers and their products are exact in `f64`
+/// unless the numbers are very unlike, so this is 0 for points on a line and for them only.
 fn double_area(corners: [Vec3; 3]) -> f64 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     DVec3::cross(b - a, c - a).length()

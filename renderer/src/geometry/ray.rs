@@ -32,7 +32,8 @@ impl Ray {
         self.origin + self.direction * t
     }
 
-    /// Whether the ray can hit anything: finite, with a direction, and an interval that is not empty.
+    /// Whether the ray can hit anything: finite, with a direction, and an interval that is not
+    /// empty.
     pub(super) fn is_proper(&self) -> bool {
         self.origin.is_finite()
             && self.direction.is_finite()

@@ -1,4 +1,5 @@
-//! Does a ray meet a box? Conservative: a box is never missed whose triangles the triangle test would accept.
+//! Does a ray meet a box? Conservative: a box is never missed whose triangles the triangle test
+//! would accept.
 
 use glam::Vec3A;
 
@@ -42,8 +43,8 @@ const NEAR_PLANES: [[Plane; 3]; 8] = {
     planes
 };
 
-/// The axis along which a direction reaches farthest, which the triangle test shears along. Without a branch, since
-/// rays go everywhere.
+/// The axis along which a direction reaches farthest, which the triangle test shears along. Without
+/// a branch, since rays go everywhere.
 #[inline(always)]
 pub(super) fn longest(direction: Vec3A) -> usize {
     let [x, y, z] = direction.abs().to_array();
@@ -51,9 +52,10 @@ pub(super) fn longest(direction: Vec3A) -> usize {
     not_x * (1 + usize::from(y <= z))
 }
 
-/// How far the sheared triangle test may see a vertex from where it is, relative to its distances from the origin
-/// across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an error below (2 |x| + 4 |z|) · 2⁻²⁴
-/// to first order. 8 (|x| + |z|) leaves room for the rounding of the shifted origin and of `b − o` below.
+/// How far the sheared triangle test may see a vertex from where it is, relative to its distances
+/// from the origin across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an
+/// error below (2 |x| + 4 |z|) · 2⁻²⁴ to first order. 8 (|x| + |z|) leaves room for the rounding of
+/// the shifted origin and of `b − o` below.
 const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
 
 /// Covers the three roundings in each of the two distances that are compared, (b − o) · 1/d.
@@ -63,8 +65,8 @@ const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
 ///
 /// # Source
 ///
-/// \[ize2013\] (the factor on the far distance) and \[woop2013\] (origins moved apart by the error of the
-/// triangle test, so that boxes never cut off what that test accepts).
+/// \[ize2013\] (the factor on the far distance) and \[woop2013\] (origins moved apart by the error
+/// of the triangle test, so that boxes never cut off what that test accepts).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlabRay {
     /// Origin for near planes and for far planes: shifted outwards by the error.
@@ -111,10 +113,12 @@ impl SlabRay {
         }
     }
 
-    /// Distances at which the ray enters eight boxes, and a bit for each box that it meets no later than `limit`.
+    /// Distances at which the ray enters eight boxes, and a bit for each box that it meets no later
+    /// than `limit`.
     ///
-    /// Every operation is monotonic in the box, so a box inside another never enters earlier nor leaves later. A
-    /// plane that the ray runs in (0 · ∞) does not count, which errs to the safe side.
+    /// Every operation is monotonic in the box, so a box inside another never enters earlier nor
+    /// leaves later. A plane that the ray runs in (0 · ∞) does not count, which errs to the safe
+    /// side.
     #[inline(always)]
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
@@ -132,7 +136,8 @@ impl SlabRay {
         (enter, e.at_most(enter, last))
     }
 
-    /// As [`SlabRay::eight`], for one box, bit for bit; `None` if it is missed, else the distance of entry.
+    /// As [`SlabRay::eight`], for one box, bit for bit; `None` if it is missed, else the distance
+    /// of entry.
     #[inline(always)]
     pub(super) fn one(&self, min: [f32; 3], max: [f32; 3]) -> Option<f32> {
         let mut enter = self.t_min;

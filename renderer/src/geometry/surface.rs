@@ -10,7 +10,8 @@ use super::ray::Ray;
 /// Half the distance between 1 and the next `f32`: the relative error of one rounding.
 const ROUNDING: f64 = 1.0 / 16_777_216.0;
 
-/// Share of the way to its target that a ray of [`SurfacePoint::spawn_to`] leaves out at the far end.
+/// Share of the way to its target that a ray of [`SurfacePoint::spawn_to`] leaves out at the far
+/// end.
 const SHADOW_GAP: f32 = 1e-4;
 
 /// A point of a surface, in world space.
@@ -18,17 +19,17 @@ const SHADOW_GAP: f32 = 1e-4;
 pub struct SurfacePoint {
     /// From the barycentrics, so on the triangle up to one rounding; m.
     pub position: Vec3,
-    /// A point this far from `position` along the geometric normal is on that side of the triangle for every ray
-    /// test; m, > 0.
+    /// A point this far from `position` along the geometric normal is on that side of the triangle
+    /// for every ray test; m, > 0.
     pub position_error: f32,
-    /// Unit. Counter-clockwise faces are seen from its side in the mesh's own frame; it then moves with the instance as
-    /// a normal does, so a mirrored closed mesh still has it outside.
+    /// Unit. Counter-clockwise faces are seen from its side in the mesh's own frame; it then moves
+    /// with the instance as a normal does, so a mirrored closed mesh still has it outside.
     pub geometric_normal: Vec3,
-    /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that normal itself
-    /// where the mesh has none.
+    /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that
+    /// normal itself where the mesh has none.
     pub shading_normal: Vec3,
-    /// Unit, at right angles to the shading normal: the direction in which v grows, or some fixed direction where the mesh
-    /// has no uvs or they do not span the triangle.
+    /// Unit, at right angles to the shading normal: the direction in which v grows, or some fixed
+    /// direction where the mesh has no uvs or they do not span the triangle.
     pub tangent: Vec3,
     /// Interpolated; the weights of the second and third vertex if the mesh has none.
     pub uv: Vec2,
@@ -39,13 +40,14 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The ray that leaves this point in `direction` (any length), `t` from 0 to infinity. It starts beside the
-    /// surface, on the side that it goes to, and never meets its own triangle.
+    /// The ray that leaves this point in `direction` (any length), `t` from 0 to infinity. It
+    /// starts beside the surface, on the side that it goes to, and never meets its own triangle.
     pub fn spawn(&self, direction: Vec3) -> Ray {
         Ray::new(self.beside(direction), direction)
     }
 
-    /// The ray from this point to `target`: `t` is 0 here and 1 there, and ends a ten-thousandth before it.
+    /// The ray from this point to `target`: `t` is 0 here and 1 there, and ends a ten-thousandth
+    /// before it.
     pub fn spawn_to(&self, target: Vec3) -> Ray {
         let origin = self.beside(target - self.position);
         Ray {
@@ -64,7 +66,8 @@ impl SurfacePoint {
         self.position + self.geometric_normal * (side * self.position_error)
     }
 
-    /// The surface at a hit of a triangle with these corners, in the frame in which the placement's mesh is traced.
+    /// The surface at a hit of a triangle with these corners, in the frame in which the placement's
+    /// mesh is traced.
     pub(super) fn at(
         hit: &Hit,
         corners: [Vec3; 3],
@@ -92,11 +95,11 @@ impl SurfacePoint {
         let error = {
             // Rounding `world` to f32, and then the sum that moves off the surface.
             let rounding = geometric.abs().dot(world.abs()) * (2.0 * ROUNDING);
-            // The next ray's origin carried into the mesh's frame in f32: five roundings a coordinate, one of them in
-            // the matrix.
+            // The next ray's origin carried into the mesh's frame in f32: five roundings a
+            // coordinate, one of them in the matrix.
             let carried = placement.to_local_size(world) * (6.0 * ROUNDING);
-            // The triangle test: vertices relative to the origin, the shear, and edge functions whose error counts
-            // the more the thinner the triangle is.
+            // The triangle test: vertices relative to the origin, the shear, and edge functions
+            // whose error counts the more the thinner the triangle is.
             let tested = 16.0 * ROUNDING * longest * (1.0 + longest2 / double_area);
             rounding + (normal_local.abs().dot(carried) + tested) / stretch
         };
@@ -110,7 +113,8 @@ impl SurfacePoint {
             let [na, nb, nc] = vertices().map(|vertex| normals[vertex]);
             let interpolated = na * weights[0] + nb * weights[1] + nc * weights[2];
             if let Some(unit) = (placement.normals_f32 * interpolated).try_normalize() {
-                // The winding says which side is which; normals given for the other side mean the same surface.
+                // The winding says which side is which; normals given for the other side mean the
+                // same surface.
                 normal = if unit.dot(geometric) < 0.0 {
                     -unit
                 } else {
@@ -140,7 +144,8 @@ impl SurfacePoint {
     }
 }
 
-/// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span the triangle.
+/// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span
+/// the triangle.
 ///
 /// With e = ∂p/∂u Δu + ∂p/∂v Δv on two edges: ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁) / (Δu₁ Δv₂ − Δu₂ Δv₁).
 fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Option<Vec3> {
@@ -158,7 +163,8 @@ fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Opt
     (length2 > 1e-12).then(|| flat / length2.sqrt())
 }
 
-/// Some unit vector at right angles to a unit vector, without a branch that flips between neighbours except at z = 0.
+/// Some unit vector at right angles to a unit vector, without a branch that flips between
+/// neighbours except at z = 0.
 ///
 /// # Source
 ///

@@ -80,7 +80,8 @@ pub(super) fn soup(seed: u64, count: u32, scale: f32, center: Vec3) -> TriangleM
     TriangleMesh::new(positions, None, None, triangles).expect("random triangles have area")
 }
 
-/// A wavy blade `width` × `height` (m) around `center`, in the xy plane, of `2 · columns · rows` triangles, with uvs.
+/// A wavy blade `width` × `height` (m) around `center`, in the xy plane, of `2 · columns · rows`
+/// triangles, with uvs.
 pub(super) fn blade(
     columns: u32,
     rows: u32,

@@ -21,7 +21,8 @@ enum Axis {
     Z,
 }
 
-/// A ray made ready for triangle tests: axes permuted so that the ray runs along the third, and sheared onto it.
+/// A ray made ready for triangle tests: axes permuted so that the ray runs along the third, and
+/// sheared onto it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearRay {
     origin: [f32; 3],
@@ -58,8 +59,9 @@ const AXES: [[[Axis; 3]; 2]; 3] = [
     [[Axis::X, Axis::Y, Axis::Z], [Axis::Y, Axis::X, Axis::Z]],
 ];
 
-/// What the projection of eight corners needs in every lane. No closures here or below: they are compiled as functions
-/// of their own, without the instructions of the level, before they are inlined.
+/// What the projection of eight corners needs in every lane. No closures here or below: they are
+/// compiled as functions of their own, without the instructions of the level, before they are
+/// inlined.
 struct ShearLanes<E: Eight> {
     x: E::F,
     y: E::F,
@@ -136,11 +138,13 @@ impl TriangleBlock {
         self.vertices[vertex].each_ref().map(|axis| axis.0[lane])
     }
 
-    /// A bit for each lane in which [`TriangleBlock::hit`] may find something no farther than `limit`.
+    /// A bit for each lane in which [`TriangleBlock::hit`] may find something no farther than
+    /// `limit`.
     ///
-    /// The edge functions of \[woop2013\] on eight lanes. A product that rounds keeps its order, so the sign of a
-    /// difference of two products is right or the difference is 0; zeros pass here and are settled by `hit`. In the
-    /// other lanes `t` has the bits that it has there, so what lies outside the ray's interval is left out.
+    /// The edge functions of \[woop2013\] on eight lanes. A product that rounds keeps its order, so
+    /// the sign of a difference of two products is right or the difference is 0; zeros pass here
+    /// and are settled by `hit`. In the other lanes `t` has the bits that it has there, so what
+    /// lies outside the ray's interval is left out.
     #[inline(always)]
     pub(super) fn candidates<E: Eight>(&self, e: E, ray: &ShearRay, limit: f32) -> u32 {
         let [a, b, c] = &self.vertices;
@@ -172,9 +176,10 @@ impl TriangleBlock {
 
     /// The hit in one lane, or `None`.
     ///
-    /// `t` is never less than the distance at which the ray enters the triangle's own box, and a ray that misses that
-    /// box misses the triangle. Both are facts about triangle and ray alone, and boxes of the tree contain that box:
-    /// so culling by them changes nothing, even where rounding moves `t` (a triangle seen edge-on).
+    /// `t` is never less than the distance at which the ray enters the triangle's own box, and a
+    /// ray that misses that box misses the triangle. Both are facts about triangle and ray alone,
+    /// and boxes of the tree contain that box: so culling by them changes nothing, even where
+    /// rounding moves `t` (a triangle seen edge-on).
     #[inline(always)]
     pub(super) fn hit(&self, lane: usize, ray: &ShearRay, slab: &SlabRay) -> Option<TriangleHit> {
         let [a, b, c] = [0, 1, 2].map(|vertex| self.corner(vertex, lane));

@@ -19,7 +19,8 @@ const STACK: usize = MAX_DEPTH * (LANES - 1) + 1;
 /// Marks a child that is a leaf; the rest of the number says which.
 const LEAF: u32 = 1 << 31;
 
-/// Eight children: their boxes, and what they are. Places without a child have an empty box, which no ray meets.
+/// Eight children: their boxes, and what they are. Places without a child have an empty box, which
+/// no ray meets.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct WideNode {
@@ -126,8 +127,9 @@ impl WideTree {
 
     /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`.
     ///
-    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Which leaves are visited
-    /// beyond those within the final limit depends on that order, so nothing but the limit may depend on it.
+    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Which
+    /// leaves are visited beyond those within the final limit depends on that order, so nothing but
+    /// the limit may depend on it.
     #[inline(always)]
     pub(super) fn walk<const NEAREST_FIRST: bool, E: Eight>(
         &self,

@@ -8,9 +8,9 @@ use super::ImageError;
 
 /// Replaces the file at `path` by what `write` writes.
 ///
-/// It goes to a temporary file in the same folder, which is flushed, synced and then renamed; last the folder is
-/// synced. Whatever fails, the file that was there stays as it was, and the temporary one is removed. A new file has
-/// the mode that the umask leaves of 0666.
+/// It goes to a temporary file in the same folder, which is flushed, synced and then renamed; last
+/// the folder is synced. Whatever fails, the file that was there stays as it was, and the temporary
+/// one is removed. A new file has the mode that the umask leaves of 0666.
 ///
 /// # Errors
 ///
@@ -47,7 +47,8 @@ fn replace_or_fail(
     drop(writer);
     temporary.as_file().sync_all()?;
     temporary.persist(path).map_err(|error| error.error)?;
-    // The new name is in the folder; until that is on the disk a power cut may bring back the old file.
+    // The new name is in the folder; until that is on the disk a power cut may bring back the old
+    // file.
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;
     Ok(())

@@ -59,13 +59,14 @@ pub fn spectral_attributes() -> [(String, Attribute); 2] {
     .map(|(name, value)| (name.to_owned(), Attribute::Text(value.to_owned())))
 }
 
-/// Writes a picture: one part, `f32` channels, ZIP over 16 rows. The same picture always gives the same bytes.
+/// Writes a picture: one part, `f32` channels, ZIP over 16 rows. The same picture always gives the
+/// same bytes.
 ///
 /// # Errors
 ///
-/// [`ImageError::Inconsistent`] for a layer of another size, a name twice, empty or longer than 255 bytes, or an attribute
-/// that belongs to the file format; [`ImageError::TooLarge`]; [`ImageError::File`] if the file cannot be written, in which
-/// case an old one is untouched.
+/// [`ImageError::Inconsistent`] for a layer of another size, a name twice, empty or longer than 255
+/// bytes, or an attribute that belongs to the file format; [`ImageError::TooLarge`];
+/// [`ImageError::File`] if the file cannot be written, in which case an old one is untouched.
 pub fn write(picture: &Picture, path: &Path) -> Result<(), ImageError> {
     let bytes = encode(picture)?;
     atomic::replace(path, |file| file.write_all(&bytes))
@@ -117,7 +118,8 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
         .with_shared_attributes(shared);
     let chunks = deflate::blocks(&layers, size.0, size.1);
     let mut bytes = Cursor::new(Vec::new());
-    // Our own check stands in for the crate's, which refuses standard attributes that it has fields for.
+    // Our own check stands in for the crate's, which refuses standard attributes that it has fields
+    // for.
     let written = guard(|| {
         let headers = std::iter::once(header).collect();
         write_chunks_with(&mut bytes, headers, false, |_, writer| {
@@ -183,10 +185,12 @@ fn text(words: &str) -> Text {
     Text::from_slice_unchecked(words.as_bytes())
 }
 
-/// Puts the attributes of a single-part file into the order of their names: the crate writes them in the order of a
-/// hash map, which differs from run to run. Nothing else moves, so every offset in the file stays right.
+/// Puts the attributes of a single-part file into the order of their names: the crate writes them
+/// in the order of a hash map, which differs from run to run. Nothing else moves, so every offset
+/// in the file stays right.
 fn sort_attributes(file: &mut [u8]) {
-    // Magic number and version come first; then name 0, type 0, size, value for each, and 0 at the end.
+    // Magic number and version come first; then name 0, type 0, size, value for each, and 0 at the
+    // end.
     let start = 8;
     let mut records = Vec::new();
     let mut at = start;
@@ -216,18 +220,20 @@ fn sort_attributes(file: &mut [u8]) {
 ///
 /// # Errors
 ///
-/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than 4 GiB.
+/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
+/// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32` (16-bit floats exactly,
-/// whole numbers rounded), and the attributes of kinds that [`Attribute`] has.
+/// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32`
+/// (16-bit floats exactly, whole numbers rounded), and the attributes of kinds that [`Attribute`]
+/// has.
 ///
 /// # Errors
 ///
-/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`] for everything else, also for what makes
-/// the decoder panic.
+/// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`] for everything else,
+/// also for what makes the decoder panic.
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
     let meta =

@@ -9,7 +9,8 @@ use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageRea
 use super::tone::from_srgb;
 use super::{ImageError, Layer, MOST_BYTES, Picture, REC709, atomic, check_size};
 
-/// The chunk that says "these are sRGB values" (rendering intent: perceptual), with length and checksum.
+/// The chunk that says "these are sRGB values" (rendering intent: perceptual), with length and
+/// checksum.
 const SRGB_CHUNK: [u8; 13] = [
     0, 0, 0, 1, b's', b'R', b'G', b'B', 0, 0xae, 0xce, 0x1c, 0xe9,
 ];
@@ -62,13 +63,14 @@ fn encode(
 ///
 /// # Errors
 ///
-/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than 4 GiB.
+/// As [`decode`], with the path; [`ImageError::File`] if there is no such file or it is larger than
+/// 4 GiB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, taking the values for sRGB whatever
-/// colour chunks the file has. Grey becomes three equal layers; alpha is left out.
+/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, taking the values for
+/// sRGB whatever colour chunks the file has. Grey becomes three equal layers; alpha is left out.
 ///
 /// # Errors
 ///
@@ -95,7 +97,8 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or `A`.
+/// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or
+/// `A`.
 ///
 /// # Errors
 ///

@@ -35,15 +35,17 @@ fn encoded(linear: &[f32], exposure_ev: f64, tone: Tone) -> impl Iterator<Item =
     })
 }
 
-/// A curve with the toe and shoulder of film: darks a little darker, lights roll off towards 1 instead of clipping.
+/// A curve with the toe and shoulder of film: darks a little darker, lights roll off towards 1
+/// instead of clipping.
 ///
-/// `y = x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14)` for x ≥ 0, with x = 0.6 times the light. Rises strictly up to
-/// where it reaches 1 (light about 12); 0.18 becomes 0.14. Works on each channel alone, so very bright colours lose
-/// saturation, as on film.
+/// `y = x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14)` for x ≥ 0, with x = 0.6 times the light.
+/// Rises strictly up to where it reaches 1 (light about 12); 0.18 becomes 0.14. Works on each
+/// channel alone, so very bright colours lose saturation, as on film.
 ///
 /// # Source
 ///
-/// \[narkowicz2016\], his rational fit to the ACES reference transform, with the factor 0.6 that he gives for the original's exposure.
+/// \[narkowicz2016\], his rational fit to the ACES reference transform, with the factor 0.6 that he
+/// gives for the original's exposure.
 pub fn filmic(light: f64) -> f64 {
     let x = 0.6 * light.max(0.0);
     if x > 1e6 {

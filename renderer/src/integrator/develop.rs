@@ -9,7 +9,8 @@ use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Camera as CameraBlock, Description, FilmKind};
 use crate::scene::world::World;
 
-/// The picture with all its [layers](crate::integrator::layers::LAYERS) and what is to be known about it, worked out on the current thread pool.
+/// The picture with all its [layers](crate::integrator::layers::LAYERS) and what is to be known
+/// about it, worked out on the current thread pool.
 ///
 /// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
 pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendered) -> Picture {
@@ -132,8 +133,8 @@ fn attributes(
     attributes
 }
 
-/// World to camera (`x` right, y up, looking along −z) and world to normalised device coordinates (−1 to 1 over the
-/// picture), both for row vectors as `OpenEXR` has them, row by row.
+/// World to camera (`x` right, y up, looking along −z) and world to normalised device coordinates
+/// (−1 to 1 over the picture), both for row vectors as `OpenEXR` has them, row by row.
 fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
     let axes = crate::camera::Camera::axes(camera);
     let (right, up, back) = (axes.x_axis, axes.y_axis, -axes.z_axis);

@@ -42,12 +42,14 @@ pub struct Sight<'a, const N: usize> {
     pub sampler: &'a WavelengthSampler,
     /// Light under which surfaces are shown, see [`white`].
     pub white: &'a Spectrum,
-    /// Whether the film records features of this sample; if not, numbers only have to be finite where these are.
+    /// Whether the film records features of this sample; if not, numbers only have to be finite
+    /// where these are.
     pub recorded: bool,
 }
 
 impl<const N: usize> Sight<'_, N> {
-    /// Linear sRGB of a surface that leaves a share of each wavelength, worked out only where it is recorded.
+    /// Linear sRGB of a surface that leaves a share of each wavelength, worked out only where it is
+    /// recorded.
     fn colour(&self, share: Lanes<N>) -> [f32; 3] {
         let mut colour = [0.0; 3];
         if self.recorded {

@@ -1,7 +1,8 @@
 //! The layers of a picture, declared once: what each is called, kept as, made of.
 //!
 //! - **In**: the kind of film.
-//! - **Out**: [`LAYERS`], and of a film's [`Layout`] what its pixels keep and where each layer's numbers are.
+//! - **Out**: [`LAYERS`], and of a film's [`Layout`] what its pixels keep and where each layer's
+//!   numbers are.
 //! - **Always true**: code that adds samples, merges films, develops pictures or says how many
 //!   bytes a pixel takes reads this table. A test compares the book with it. A new layer is an
 //!   entry here, and where it shows something new of what a ray met, a [`Quantity`].
@@ -139,8 +140,8 @@ pub const LAYERS: &[FilmLayer] = &[
         films: Films::All,
         source: Source::OfPoint {
             layer: "P",
-            // Points that a pixel sees lie along one line but for its width and the blur of the lens, so this is the mean
-            // distance nearly.
+            // Points that a pixel sees lie along one line but for its width and the blur of the
+            // lens, so this is the mean distance nearly.
             by: |point, camera| (point - camera.position).length(),
         },
         about: "distance of the mean position from the middle of the lens, m",

@@ -1,6 +1,7 @@
 //! Weights for light that two techniques can find.
 
-/// The power heuristic (exponent 2): weight of a technique with density `own` where another one has `other`.
+/// The power heuristic (exponent 2): weight of a technique with density `own` where another one has
+/// `other`.
 ///
 /// Both densities are over the same measure. An infinite density (a mirror) takes all.
 pub fn power(own: f32, other: f32) -> f32 {

@@ -20,8 +20,8 @@ use crate::film::{BLOCK_SIDE, Film, Pixel};
 const FIRST_BORDER: u32 = 16;
 /// Blocks stop at multiples of this many samples only, where passes end.
 pub const STEP: u32 = 16;
-/// Error is relative to the block's luminance and this share of the picture's mean: what is nearly black need not
-/// be known as closely as what is bright.
+/// Error is relative to the block's luminance and this share of the picture's mean: what is nearly
+/// black need not be known as closely as what is bright.
 const FLOOR: f64 = 0.1;
 
 /// Luminance of linear Rec. 709 colour.
@@ -42,13 +42,14 @@ pub struct NoiseWatch {
 struct BlockNoise {
     /// Samples at which the block stops.
     goal: u32,
-    /// Relative error as one sample would have it: that of `n` samples is this over √n. Negative before it is known.
+    /// Relative error as one sample would have it: that of `n` samples is this over √n. Negative
+    /// before it is known.
     of_one_sample: f32,
 }
 
 impl NoiseWatch {
-    /// Nothing known yet: every block goes on to `most` samples. `colour` says that channels are R, G, B; else luminance is
-    /// the mean of all channels.
+    /// Nothing known yet: every block goes on to `most` samples. `colour` says that channels are R,
+    /// G, B; else luminance is the mean of all channels.
     pub fn new(film: &Film, aim: f64, most: u32, colour: bool) -> Self {
         let pixels = film.width() as usize * film.height() as usize;
         let block = BlockNoise {
@@ -115,7 +116,8 @@ impl NoiseWatch {
         }
     }
 
-    /// Relative error that was reached: root mean square over the picture's pixels; none before two borders.
+    /// Relative error that was reached: root mean square over the picture's pixels; none before two
+    /// borders.
     pub fn reached(&self, film: &Film) -> Option<f64> {
         let mut sum = 0.0;
         for (number, block) in self.blocks.iter().enumerate() {
@@ -168,7 +170,8 @@ impl NoiseWatch {
 struct Compared {
     /// Mean over the pixels.
     luminance: f64,
-    /// Mean over the pixels of the squared difference: with independent halves the variance of a pixel's mean.
+    /// Mean over the pixels of the squared difference: with independent halves the variance of a
+    /// pixel's mean.
     square: f64,
 }
 
@@ -254,7 +257,8 @@ mod tests {
             (drawn[1], expected(1.0, 1.0)),
             (drawn[2], expected(0.5, 1.0)),
         ] {
-            // 64 squares of normal numbers have a relative deviation of √(2/64) = 0.18; three of it and a step.
+            // 64 squares of normal numbers have a relative deviation of √(2/64) = 0.18; three of it
+            // and a step.
             let off = (f64::from(drawn) - expected).abs();
             assert!(
                 off < 0.54 * expected + f64::from(STEP),

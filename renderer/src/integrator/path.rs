@@ -14,10 +14,11 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
-/// Sets of four random numbers before the first vertex: place on the film with that on the lens, and wavelength; without a
-/// lens the first set holds both.
+/// Sets of four random numbers before the first vertex: place on the film with that on the lens,
+/// and wavelength; without a lens the first set holds both.
 pub const CAMERA_SETS: u32 = 2;
-/// Sets of four random numbers that a vertex owns, used or not: the bounce, and light that is chosen.
+/// Sets of four random numbers that a vertex owns, used or not: the bounce, and light that is
+/// chosen.
 const VERTEX_SETS: u32 = 2;
 
 /// What one path found.
@@ -72,10 +73,11 @@ pub fn of_pixel<const N: usize>(
 
 /// Radiance that arrives along `ray`, whose direction is a unit vector.
 ///
-/// At every vertex each sun and one other light, at the first as many as the effort says, are sampled and weighed against the bounce by the power heuristic. Roulette
-/// is played below the effort's threshold only and leaves the mean as it is; its survival probability is the throughput
-/// over that threshold. Where none of the lights that are sampled reaches the first vertex, what light there is comes by the
-/// bounce: there several paths go on, as many as the effort says.
+/// At every vertex each sun and one other light, at the first as many as the effort says, are
+/// sampled and weighed against the bounce by the power heuristic. Roulette is played below the
+/// effort's threshold only and leaves the mean as it is; its survival probability is the throughput
+/// over that threshold. Where none of the lights that are sampled reaches the first vertex, what
+/// light there is comes by the bounce: there several paths go on, as many as the effort says.
 pub fn trace<const N: usize>(
     world: &World,
     effort: Effort,
@@ -242,7 +244,8 @@ struct Vertex<'a, const N: usize> {
 }
 
 impl<const N: usize> Vertex<'_, N> {
-    /// The leg that leaves by a random bounce with a share of the throughput, unless roulette below a threshold ends the path.
+    /// The leg that leaves by a random bounce with a share of the throughput, unless roulette below
+    /// a threshold ends the path.
     fn bounce(&self, numbers: [f32; 4], share: f32, roulette_below: f32) -> Option<Leg<N>> {
         let [lobe, x, y, roulette] = numbers;
         let sample = self.view.sample(lobe, Vec2::new(x, y))?;
@@ -278,7 +281,8 @@ impl<const N: usize> Vertex<'_, N> {
     }
 }
 
-/// What the lights that are sampled at a vertex send on to the camera; also the number of rays it took.
+/// What the lights that are sampled at a vertex send on to the camera; also the number of rays it
+/// took.
 fn sampled_light<const N: usize>(
     world: &World,
     vertex: &Vertex<'_, N>,
@@ -289,8 +293,8 @@ fn sampled_light<const N: usize>(
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
     for &number in &world.selection.always {
         let choice = Choice::certain(number);
-        // A sun shares the numbers of the bounce: what both find is added up, so that only their covariance
-        // matters, and a disc of half a degree looks the same wherever it is lit from.
+        // A sun shares the numbers of the bounce: what both find is added up, so that only their
+        // covariance matters, and a disc of half a degree looks the same wherever it is lit from.
         let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], None);
         sum += light;
         rays += traced;
@@ -363,13 +367,15 @@ fn emission<const N: usize>(
     radiance * mis::power(bounce.pdf, light_pdf)
 }
 
-/// A light sample that would add less than this share of what the path has gathered, in every lane, plays roulette for its
-/// shadow ray.
+/// A light sample that would add less than this share of what the path has gathered, in every lane,
+/// plays roulette for its shadow ray.
 const FAINT: f32 = 0.2;
 
-/// What a light that was chosen sends to a vertex and on to the camera; also the number of rays it took.
+/// What a light that was chosen sends to a vertex and on to the camera; also the number of rays it
+/// took.
 ///
-/// `place` picks a place on the light, `coin` is for the roulette of faint samples; without it none is played.
+/// `place` picks a place on the light, `coin` is for the roulette of faint samples; without it none
+/// is played.
 fn direct<const N: usize>(
     world: &World,
     choice: &Choice,
@@ -413,7 +419,8 @@ fn direct<const N: usize>(
     (added, 1)
 }
 
-/// Greatest share, over the lanes, that `added` is of `enough`; a lane with enough of nothing makes it infinite if anything is added.
+/// Greatest share, over the lanes, that `added` is of `enough`; a lane with enough of nothing makes
+/// it infinite if anything is added.
 fn survival<const N: usize>(added: Lanes<N>, enough: Lanes<N>) -> f32 {
     let mut greatest = 0.0_f32;
     for (added, enough) in added.0.into_iter().zip(enough.0) {

@@ -18,8 +18,8 @@ use crate::spectrum::Spectrum;
 /// What ends a render before every pixel has all the samples of its [`Job`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Halt {
-    /// Relative error at which a block of pixels has enough samples; none if all get the same number. See
-    /// [`crate::integrator::noise`].
+    /// Relative error at which a block of pixels has enough samples; none if all get the same
+    /// number. See [`crate::integrator::noise`].
     pub noise: Option<f64>,
     /// Time after which no further pass begins.
     pub time: Option<Duration>,
@@ -73,10 +73,12 @@ pub struct Progress {
     pub total: u64,
 }
 
-/// Samples a pixel of the longest pass: short enough to stop soon, long enough to keep threads busy.
+/// Samples a pixel of the longest pass: short enough to stop soon, long enough to keep threads
+/// busy.
 const LONGEST_PASS: u32 = noise::STEP;
 
-/// Renders on the current thread pool, as [`render_until`] without anything that ends it early but `stop`.
+/// Renders on the current thread pool, as [`render_until`] without anything that ends it early but
+/// `stop`.
 ///
 /// # Errors
 ///
@@ -90,11 +92,13 @@ pub fn render(
     render_until(world, job, &Halt::default(), stop, progress)
 }
 
-/// Renders on the current thread pool, pass by pass, until every pixel has enough samples or `halt` says so.
+/// Renders on the current thread pool, pass by pass, until every pixel has enough samples or `halt`
+/// says so.
 ///
-/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet begun in this pass are left
-/// as they are, and what was rendered is returned. A render that ends by time has the bits of one whose job has as many
-/// samples as the pixels with most, and whose scene names the effort that was chosen here.
+/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet
+/// begun in this pass are left as they are, and what was rendered is returned. A render that ends
+/// by time has the bits of one whose job has as many samples as the pixels with most, and whose
+/// scene names the effort that was chosen here.
 ///
 /// # Errors
 ///
@@ -174,10 +178,11 @@ pub fn render_until(
     })
 }
 
-/// Samples that the next pass may have, after `done` samples that took `elapsed`; none once the time is over, but for the first.
+/// Samples that the next pass may have, after `done` samples that took `elapsed`; none once the
+/// time is over, but for the first.
 ///
-/// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is looked at. Towards the end of the time they get
-/// shorter, so that the last ends soon after it.
+/// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is looked at. Towards
+/// the end of the time they get shorter, so that the last ends soon after it.
 fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<u32> {
     let longest = done.clamp(1, LONGEST_PASS - done % LONGEST_PASS);
     let Some(time) = time.filter(|_| done > 0) else {
@@ -204,7 +209,8 @@ struct PassOfPaths<'a> {
 }
 
 impl PassOfPaths<'_> {
-    /// Adds samples number `first` to `end − 1` of every block that has not yet reached its goal; whether nothing broke in.
+    /// Adds samples number `first` to `end − 1` of every block that has not yet reached its goal;
+    /// whether nothing broke in.
     fn run(
         &self,
         film: &mut Film,

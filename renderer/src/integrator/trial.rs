@@ -1,9 +1,10 @@
 //! How much work goes into a path's first vertex and what comes after it, chosen by measurement.
 //!
-//! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is most of the noise, under a
-//! lamp among ten thousand leaves it is next to none of it, and most of the time; there the shadows are most of the noise. So a
-//! few candidates are tried on a sample of the pixels, before the picture and apart from it, and the one with the least
-//! error × work is taken: first of the numbers of light samples, then, with that number, of the rest.
+//! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is
+//! most of the noise, under a lamp among ten thousand leaves it is next to none of it, and most of
+//! the time; there the shadows are most of the noise. So a few candidates are tried on a sample of
+//! the pixels, before the picture and apart from it, and the one with the least error × work is
+//! taken: first of the numbers of light samples, then, with that number, of the rest.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -44,7 +45,8 @@ const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
 /// Work of a path beside its rays (camera, film), in rays: an estimate, not measured.
 const WORK_OF_A_PATH: f64 = 1.0;
 
-/// The effort for a picture: what the scene says, else what a trial finds best. The same for any number of threads.
+/// The effort for a picture: what the scene says, else what a trial finds best. The same for any
+/// number of threads.
 pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool) -> Effort {
     let given = |candidate: Effort| {
         let integrator = &world.integrator;
@@ -116,7 +118,8 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// The candidate with the least error × work, of at least one; `None` if the trial was broken off.
+    /// The candidate with the least error × work, of at least one; `None` if the trial was broken
+    /// off.
     fn best(&self, candidates: &[Effort]) -> Option<Effort> {
         if let [only] = candidates {
             return Some(*only);
@@ -130,8 +133,8 @@ impl Trial<'_> {
         Some(candidates[least(&costs(&tried?, candidates.len()))])
     }
 
-    /// What each candidate does in the pixel of a number. All of them draw the same random numbers, so that what they have
-    /// in common is not between them.
+    /// What each candidate does in the pixel of a number. All of them draw the same random numbers,
+    /// so that what they have in common is not between them.
     fn pixel(&self, number: u32, candidates: &[Effort]) -> Vec<Outcome> {
         let [x, y, ..] = Stream::new(self.job.seed, u32::MAX, u32::MAX, number).next4();
         let pixel = [
@@ -176,8 +179,8 @@ impl Trial<'_> {
     }
 }
 
-/// Error × work of each candidate. Error is the mean over pixels and channels of the variance, relative to the square of the
-/// pixel's mean and of a tenth of the picture's.
+/// Error × work of each candidate. Error is the mean over pixels and channels of the variance,
+/// relative to the square of the pixel's mean and of a tenth of the picture's.
 fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
     let channels = tried[0][0].means[0].len();
     // Of all candidates together: what each is measured by must not be its own luck.
@@ -236,7 +239,8 @@ mod tests {
     #[test]
     fn the_cost_is_relative_variance_times_work() {
         let paths = ESTIMATES * u64::from(SAMPLES);
-        // A bright and a dark pixel; the second candidate has half the difference for three times the rays.
+        // A bright and a dark pixel; the second candidate has half the difference for three times
+        // the rays.
         let pixel = |mean: f64| {
             vec![
                 outcome(mean * 0.9, mean * 1.1, paths),

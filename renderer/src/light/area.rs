@@ -47,8 +47,8 @@ impl AreaLight {
         self.patch_of[triangle as usize].map(|patch| patch as usize)
     }
 
-    /// Each patch as the choice between lights sees it; `mean_radiance` is that of the film's wavelengths,
-    /// W m⁻² sr⁻¹ nm⁻¹.
+    /// Each patch as the choice between lights sees it; `mean_radiance` is that of the film's
+    /// wavelengths, W m⁻² sr⁻¹ nm⁻¹.
     pub fn emitters(&self, mean_radiance: f32) -> impl Iterator<Item = Emitter> + '_ {
         self.patches
             .iter()
@@ -73,12 +73,14 @@ impl AreaLight {
         })
     }
 
-    /// Density over solid angle with which [`AreaLight::sample`] draws a point of that patch, seen from `receiver`.
+    /// Density over solid angle with which [`AreaLight::sample`] draws a point of that patch, seen
+    /// from `receiver`.
     pub fn pdf(&self, patch: usize, receiver: &Receiver, point: Vec3) -> f32 {
         self.patches[patch].pdf(receiver, point)
     }
 
-    /// Radiance towards `-wi` from a point of the surface with the given normal; `None` on the dark side.
+    /// Radiance towards `-wi` from a point of the surface with the given normal; `None` on the dark
+    /// side.
     pub fn emitted<const N: usize>(
         &self,
         wi: Vec3,

@@ -20,8 +20,8 @@ pub struct DistantLight {
 }
 
 impl DistantLight {
-    /// Towards a unit vector, with the given angular diameter (rad) and irradiance on a surface facing it,
-    /// W m⁻² nm⁻¹; radiance is irradiance over `π sin²` of half the diameter.
+    /// Towards a unit vector, with the given angular diameter (rad) and irradiance on a surface
+    /// facing it, W m⁻² nm⁻¹; radiance is irradiance over `π sin²` of half the diameter.
     pub fn new(towards: Vec3, angular_diameter: f64, irradiance: Curve) -> Self {
         let half = 0.5 * angular_diameter;
         let sin = libm::sin(half);

@@ -9,7 +9,8 @@ use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::rgb;
 use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
 
-/// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z) down.
+/// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
+/// down.
 #[derive(Clone, Debug)]
 pub struct EnvironmentLight {
     width: usize,
@@ -58,7 +59,8 @@ impl EnvironmentLight {
         }
     }
 
-    /// Mean of the texels' red, green and blue over the sphere, times `white` where it matters: a rough size.
+    /// Mean of the texels' red, green and blue over the sphere, times `white` where it matters: a
+    /// rough size.
     pub fn mean_brightness(&self) -> f32 {
         let mut sum = 0.0;
         let mut weight = 0.0;
@@ -160,8 +162,8 @@ impl EnvironmentLight {
 /// How much the mean square of light over density may grow by cells that are larger than texels.
 const COARSENING: f64 = 0.01;
 
-/// Weights of cells of 1, 2, 4, … texels square, as large as cost next to no noise, and how many there are across: what is drawn
-/// from a small table stays in the caches.
+/// Weights of cells of 1, 2, 4, … texels square, as large as cost next to no noise, and how many
+/// there are across: what is drawn from a small table stays in the caches.
 fn coarsened(weights: &[f32], width: usize) -> (Vec<f32>, usize) {
     let total: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
     let (mut coarsest, mut across) = (weights.to_vec(), width);
@@ -177,7 +179,8 @@ fn coarsened(weights: &[f32], width: usize) -> (Vec<f32>, usize) {
                 upper + lower
             })
             .collect();
-        // Mean square of a texel's weight over its density, relative to the square of the mean; 1 if cells are texels.
+        // Mean square of a texel's weight over its density, relative to the square of the mean; 1
+        // if cells are texels.
         let mut square = 0.0;
         for (texel, &weight) in weights.iter().enumerate() {
             let (x, y) = (texel % width / texels, texel / width / texels);

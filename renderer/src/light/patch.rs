@@ -1,9 +1,10 @@
 //! Flat pieces of shining surfaces, and points on them as seen from a point that is lit.
 //!
 //! - **In**: triangles, counter-clockwise seen from the bright side.
-//! - **Out**: [`Patch`]es, which draw points of themselves; the density over solid angle of any point.
-//! - **Always true**: [`Patch::pdf`] is the density of [`Patch::sample`]: both decide by the receiver alone whether points
-//!   are uniform over solid angle or over area.
+//! - **Out**: [`Patch`]es, which draw points of themselves; the density over solid angle of any
+//!   point.
+//! - **Always true**: [`Patch::pdf`] is the density of [`Patch::sample`]: both decide by the
+//!   receiver alone whether points are uniform over solid angle or over area.
 //! - **Left out**: what is in between.
 
 use glam::{DVec3, Vec2, Vec3};
@@ -16,12 +17,13 @@ use crate::light::tree::Emitter;
 use rectangle::Rectangle;
 use triangle::Triangle;
 
-/// A patch is sampled by area if `size² < FAR · distance²`: from there on solid angle is near enough to proportional to area,
-/// and area costs less. Measured: below this no difference in the error shows.
+/// A patch is sampled by area if `size² < FAR · distance²`: from there on solid angle is near
+/// enough to proportional to area, and area costs less. Measured: below this no difference in the
+/// error shows.
 const FAR: f32 = 0.3;
 
-/// A receiver closer to the plane of a patch than the root of this share of its size is sampled by area: the solid angle is
-/// lost in rounding.
+/// A receiver closer to the plane of a patch than the root of this share of its size is sampled by
+/// area: the solid angle is lost in rounding.
 const GRAZING: f32 = 1e-6;
 
 /// A flat piece of a shining surface, bright on the side of its normal.
@@ -79,7 +81,8 @@ impl Patch {
         (pdf > 0.0 && pdf.is_finite()).then_some(PatchSample { wi, point, pdf })
     }
 
-    /// Density over solid angle with which [`Patch::sample`] draws the direction to `point`, a point of the patch.
+    /// Density over solid angle with which [`Patch::sample`] draws the direction to `point`, a
+    /// point of the patch.
     pub fn pdf(&self, receiver: &Receiver, point: Vec3) -> f32 {
         match self.measure(receiver.position) {
             Measure::Dark => 0.0,
@@ -157,7 +160,8 @@ impl Patch {
     }
 }
 
-/// Patches of triangles, and of each triangle the patch that it belongs to; those without area belong to none.
+/// Patches of triangles, and of each triangle the patch that it belongs to; those without area
+/// belong to none.
 ///
 /// Two triangles that follow one another and make a rectangle are one patch.
 pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {

@@ -6,8 +6,9 @@ use crate::sampling::distribution::Piecewise1d;
 
 /// Lights sorted by how they are sampled.
 ///
-/// Suns are small and strong, so each is sampled at every vertex; of all other lights with an extent that
-/// can be drawn, one is chosen by what it may send there; a constant sky is left to the bounces, which find it best.
+/// Suns are small and strong, so each is sampled at every vertex; of all other lights with an
+/// extent that can be drawn, one is chosen by what it may send there; a constant sky is left to the
+/// bounces, which find it best.
 #[derive(Clone, Debug)]
 pub struct LightSelection {
     /// Lights sampled at every vertex.
@@ -45,7 +46,8 @@ pub struct Choice {
     pub light: usize,
     /// Which part of it: a patch of an area, 0 of the others.
     pub part: usize,
-    /// How many samples this part may expect: the probability of the choice times the number of choices.
+    /// How many samples this part may expect: the probability of the choice times the number of
+    /// choices.
     pub expected: f32,
 }
 
@@ -106,7 +108,8 @@ impl LightSelection {
         self.pictures.is_none() && self.patches.is_none()
     }
 
-    /// Chooses one of the lights that share a sample by `u` in [0, 1); `None` if none of them shines there.
+    /// Chooses one of the lights that share a sample by `u` in [0, 1); `None` if none of them
+    /// shines there.
     pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<Choice> {
         let share = self.share_of_pictures(receiver);
         if u < share {
@@ -133,8 +136,8 @@ impl LightSelection {
         })
     }
 
-    /// How many samples a light at infinity may expect at `receiver`, if so many lights are chosen there; 0 if it is left to the
-    /// bounces.
+    /// How many samples a light at infinity may expect at `receiver`, if so many lights are chosen
+    /// there; 0 if it is left to the bounces.
     pub fn samples_of_infinite(&self, light: usize, receiver: &Receiver, chosen: f32) -> f32 {
         if self.always.contains(&light) {
             return 1.0;

@@ -8,8 +8,8 @@ use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver, angle};
 use crate::spectrum::{Curve, Spectrum, WavelengthGrid, Wavelengths};
 
-/// Radiant intensity that is the same inside a cone and falls to nothing at the edge of a wider one,
-/// linear in the angle.
+/// Radiant intensity that is the same inside a cone and falls to nothing at the edge of a wider
+/// one, linear in the angle.
 #[derive(Clone, Debug)]
 pub struct SpotLight {
     position: Vec3,
@@ -22,9 +22,9 @@ pub struct SpotLight {
 }
 
 impl SpotLight {
-    /// At a point, around the unit vector `axis`, with the half angle of the cone and the width of the
-    /// smooth edge inside it (rad, at most the half angle), and the radiant intensity on the axis,
-    /// W sr⁻¹ nm⁻¹.
+    /// At a point, around the unit vector `axis`, with the half angle of the cone and the width of
+    /// the smooth edge inside it (rad, at most the half angle), and the radiant intensity on the
+    /// axis, W sr⁻¹ nm⁻¹.
     pub fn new(position: Vec3, axis: Vec3, cone: f64, penumbra: f64, intensity: Curve) -> Self {
         let cone = cone.min(PI);
         Self {
@@ -150,8 +150,8 @@ mod tests {
         }
     }
 
-    /// Radiant flux of intensity 1: `2π ∫ share sin θ dθ = 2π (1 − (sin c − sin b) / (c − b))` with the
-    /// half angles `c` of the cone and `b` of the beam, and `2π (1 − cos c)` without an edge.
+    /// Radiant flux of intensity 1: `2π ∫ share sin θ dθ = 2π (1 − (sin c − sin b) / (c − b))` with
+    /// the half angles `c` of the cone and `b` of the beam, and `2π (1 − cos c)` without an edge.
     fn flux(cone_deg: f64, penumbra_deg: f64) -> f64 {
         let (cone, width) = (cone_deg.to_radians(), penumbra_deg.to_radians());
         let beam = cone - width;

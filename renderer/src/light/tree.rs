@@ -1,6 +1,7 @@
 //! A tree over lights that chooses one by what it may send to a point.
 //!
-//! - **In**: [`Emitter`]s, which bound where each light is, where it shines and how brightly; a [`Receiver`]; a random number.
+//! - **In**: [`Emitter`]s, which bound where each light is, where it shines and how brightly; a
+//!   [`Receiver`]; a random number.
 //! - **Out**: the number of one light, and the probability of any from any receiver.
 //! - **Always true**: a light that can send light to the receiver, from either side, has a
 //!   probability above zero; [`LightTree::probability`] is that with which [`LightTree::choose`]
@@ -10,7 +11,8 @@
 //!
 //! # Source
 //!
-//! \[conty2018\], with eight children a node, whose importances are worked out together, and without splitting: one light per choice.
+//! \[conty2018\], with eight children a node, whose importances are worked out together, and
+//! without splitting: one light per choice.
 
 use glam::Vec3;
 
@@ -27,7 +29,8 @@ const CHILD_BITS: u32 = 3;
 /// Marks the number of a child as that of a light.
 const IS_LIGHT: u32 = 1 << 31;
 
-/// A light is taken as dark only if the cosine that decides lies this far on the dark side: rounding takes less.
+/// A light is taken as dark only if the cosine that decides lies this far on the dark side:
+/// rounding takes less.
 const TOLERANCE: f32 = 1e-3;
 
 /// Least cosine in an importance, lest rounding to zero hide a light.
@@ -44,9 +47,11 @@ pub struct Emitter {
     pub axis: Vec3,
     /// Greatest angle between a normal and the axis, rad, 0 to π.
     pub spread: f32,
-    /// Greatest angle between a normal and the directions into which that point shines, rad, 0 to π.
+    /// Greatest angle between a normal and the directions into which that point shines, rad, 0 to
+    /// π.
     pub reach: f32,
-    /// Radiant intensity along the axis, W sr⁻¹ nm⁻¹, ≥ 0 and finite: for a surface its radiance times its area.
+    /// Radiant intensity along the axis, W sr⁻¹ nm⁻¹, ≥ 0 and finite: for a surface its radiance
+    /// times its area.
     pub intensity: f32,
 }
 
@@ -55,7 +60,8 @@ pub struct Emitter {
 pub struct LightTree {
     /// The root is the first.
     nodes: Box<[Node]>,
-    /// For each light which child leads to it, from the root on, three bits a level from the lowest on.
+    /// For each light which child leads to it, from the root on, three bits a level from the lowest
+    /// on.
     trails: Box<[u64]>,
 }
 
@@ -69,7 +75,8 @@ struct Node {
     sin_spread: [f32; WIDTH],
     /// The child is dark where the greatest possible cosine towards the receiver is less.
     least_cos: [f32; WIDTH],
-    /// The child is dark where the cosine at its centre towards the receiver is less: −2 but for what is flat.
+    /// The child is dark where the cosine at its centre towards the receiver is less: −2 but for
+    /// what is flat.
     least_cos_of_center: [f32; WIDTH],
     intensity: [f32; WIDTH],
     /// Number of a node, or of a light with [`IS_LIGHT`].
@@ -92,12 +99,14 @@ impl LightTree {
         self.trails.is_empty()
     }
 
-    /// What all lights together may send to a receiver, a rough irradiance in W m⁻² nm⁻¹; zero only if it is dark there.
+    /// What all lights together may send to a receiver, a rough irradiance in W m⁻² nm⁻¹; zero only
+    /// if it is dark there.
     pub fn importance(&self, receiver: &Receiver) -> f32 {
         self.nodes[0].importances(receiver).iter().sum()
     }
 
-    /// Chooses a light by `u` in [0, 1), and gives its probability; `None` if no light shines there.
+    /// Chooses a light by `u` in [0, 1), and gives its probability; `None` if no light shines
+    /// there.
     pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<(usize, f32)> {
         // Each level uses up some of the digits of `u`.
         let mut u = f64::from(u);

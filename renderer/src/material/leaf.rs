@@ -40,7 +40,8 @@ pub enum LeafTissue {
 }
 
 impl LeafMaterial {
-    /// A leaf of this tissue, whose pigments are those of `palette`, under an adaxial and an abaxial coat.
+    /// A leaf of this tissue, whose pigments are those of `palette`, under an adaxial and an
+    /// abaxial coat.
     pub fn new(
         tissue: LeafTissue,
         palette: Palette,
@@ -73,8 +74,9 @@ impl LeafMaterial {
         };
     }
 
-    /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence reflects more than
-    /// R, so that the leaf cannot give R back; with a map its mean contents stand for all.
+    /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence
+    /// reflects more than R, so that the leaf cannot give R back; with a map its mean contents
+    /// stand for all.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
         let steps = 200;

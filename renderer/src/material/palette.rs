@@ -1,7 +1,7 @@
 //! PROSPECT-D's constants for each palette of pigments that a scene has.
 //!
-//! Scenes rarely have more than one or two, so tables are made when the scene is built, once for each distinct palette,
-//! and paths know a palette by its number.
+//! Scenes rarely have more than one or two, so tables are made when the scene is built, once for
+//! each distinct palette, and paths know a palette by its number.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,7 +13,8 @@ use crate::spectrum::{Table, WavelengthGrid, Wavelengths};
 /// First and last whole nanometre of PROSPECT's table.
 const TABLE_NM: [usize; 2] = [400, 2500];
 
-/// What the pigment columns consist of, with the constants that follow from it. Copies share one table.
+/// What the pigment columns consist of, with the constants that follow from it. Copies share one
+/// table.
 #[derive(Clone, Debug)]
 pub struct Palette {
     number: usize,
@@ -75,10 +76,12 @@ impl Palette {
         &self.pigments
     }
 
-    /// The constants at a wavelength in nm, linear between whole nanometres; outside 400–2500 nm the end values hold.
+    /// The constants at a wavelength in nm, linear between whole nanometres; outside 400–2500 nm
+    /// the end values hold.
     ///
-    /// The mean transmissivities of the faces are interpolated too instead of being worked out from the interpolated index: over
-    /// one nanometre the difference is below 1e-7, and it is what a path would otherwise spend most of its time on.
+    /// The mean transmissivities of the faces are interpolated too instead of being worked out from
+    /// the interpolated index: over one nanometre the difference is below 1e-7, and it is what a
+    /// path would otherwise spend most of its time on.
     pub fn coefficients(&self, nm: f64) -> Coefficients {
         let table = &self.table;
         let place = (nm - TABLE_NM[0] as f64).clamp(0.0, (table.len() - 1) as f64);

@@ -53,7 +53,8 @@ impl ReflectanceTables {
 }
 
 impl SolidMaterial {
-    /// Tissue of these optics, in range, below a coat, whose pigments are those of `palette`; `table` is that of the optics' refractive index, without a skin.
+    /// Tissue of these optics, in range, below a coat, whose pigments are those of `palette`;
+    /// `table` is that of the optics' refractive index, without a skin.
     pub fn new(
         tissue: SolidTissue,
         palette: Palette,
@@ -86,8 +87,8 @@ impl SolidMaterial {
         self.table.at(self.optics.albedo_of(absorption))
     }
 
-    /// A wavelength of the range, on a coarse grid, at which the coat at normal incidence reflects more than the tissue
-    /// should; with a map its mean contents stand for all.
+    /// A wavelength of the range, on a coarse grid, at which the coat at normal incidence reflects
+    /// more than the tissue should; with a map its mean contents stand for all.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
         let contents = match &self.tissue {

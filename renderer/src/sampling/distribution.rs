@@ -1,7 +1,8 @@
 //! Piecewise constant distributions in one and two dimensions.
 
-/// Where to look for a number among rising borders: the range of borders for each of as many equal parts of [0, 1]
-/// (the cutpoint method, \[chen1974\]), so that a search takes the same few steps however many borders there are.
+/// Where to look for a number among rising borders: the range of borders for each of as many equal
+/// parts of [0, 1] (the cutpoint method, \[chen1974\]), so that a search takes the same few steps
+/// however many borders there are.
 #[derive(Clone, Debug)]
 pub struct Guide {
     /// How many borders lie in parts before each one, and all of them at the end.
@@ -27,7 +28,8 @@ impl Guide {
 
     /// How many of the borders that this guide was made for are at most `u`, in [0, 1].
     pub fn count_up_to<T: Copy + PartialOrd + Into<f64>>(&self, borders: &[T], u: T) -> usize {
-        // Rising numbers come into rising parts, so that all before are smaller and all behind greater, to the bit.
+        // Rising numbers come into rising parts, so that all before are smaller and all behind
+        // greater, to the bit.
         let part = Self::part(borders.len(), u.into());
         let [first, last] = [self.before[part], self.before[part + 1]].map(|count| count as usize);
         first + borders[first..last].partition_point(|&border| border <= u)

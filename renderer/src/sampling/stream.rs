@@ -8,9 +8,9 @@ use sobol_burley::parts::{
 
 /// The random numbers of one sample of one pixel.
 ///
-/// Each call takes the next four dimensions: a Sobol set of its own scramble, well spread over the samples of the
-/// pixel, independent of the other sets (padding; Burley, JCGT 9(4), 2020). After 65 536 samples the
-/// scramble changes.
+/// Each call takes the next four dimensions: a Sobol set of its own scramble, well spread over the
+/// samples of the pixel, independent of the other sets (padding; Burley, JCGT 9(4), 2020). After 65
+/// 536 samples the scramble changes.
 #[derive(Clone, Debug)]
 pub struct Stream {
     pixel: u32,
@@ -46,8 +46,8 @@ impl Stream {
         four(self.index, seed)
     }
 
-    /// Stream number `number` of `of` that take the place of this one: those of all samples of a pixel together are as well spread as
-    /// those of `of` times as many samples.
+    /// Stream number `number` of `of` that take the place of this one: those of all samples of a
+    /// pixel together are as well spread as those of `of` times as many samples.
     #[must_use]
     pub fn part(&self, number: u32, of: u32) -> Self {
         let index = self.index * of + number;
@@ -71,14 +71,15 @@ impl Stream {
     }
 }
 
-/// Sobol's first four dimensions, bits reversed, of indices that have bits in their first or in their second byte alone.
+/// Sobol's first four dimensions, bits reversed, of indices that have bits in their first or in
+/// their second byte alone.
 static SOBOL: LazyLock<[[[u32; 4]; 256]; 2]> = LazyLock::new(|| {
     let of = |byte: u32, shift: u32| sobol_int4_rev(byte << shift, 0).into();
     [24, 16].map(|shift| std::array::from_fn(|byte| of(byte as u32, shift)))
 });
 
-/// The numbers of `sobol_burley::sample_4d(index, 0, seed)`, whose loop over the bits of the index is replaced by two
-/// look-ups: a Sobol point is linear in them.
+/// The numbers of `sobol_burley::sample_4d(index, 0, seed)`, whose loop over the bits of the index
+/// is replaced by two look-ups: a Sobol point is linear in them.
 fn four(index: u32, seed: u32) -> [f32; 4] {
     let shuffled = owen_scramble_rev(index.reverse_bits(), hash(seed ^ 0x79c6_8e4a));
     let [first, second] = &*SOBOL;
@@ -91,7 +92,8 @@ fn four(index: u32, seed: u32) -> [f32; 4] {
         .to_f32_norm()
 }
 
-/// A bijective 32-bit mixer with good avalanche (constants of Wellons' hash prospector, "lowbias32").
+/// A bijective 32-bit mixer with good avalanche (constants of Wellons' hash prospector,
+/// "lowbias32").
 fn mix(mut x: u32) -> u32 {
     x = x.wrapping_add(0x6a09_e667);
     x ^= x >> 16;

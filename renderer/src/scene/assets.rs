@@ -153,10 +153,12 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     Ok(ContentsTexture::new(width, height, texels))
 }
 
-/// The weights of a mask: pixels across and values row by row from v = 0, and what is wrong otherwise.
+/// The weights of a mask: pixels across and values row by row from v = 0, and what is wrong
+/// otherwise.
 ///
-/// An EXR's first row is v = 0, as of maps; a PNG's last, so that it looks as the leaf lies with its apex up. Of an EXR the named
-/// channel is taken, or the only one; of a PNG the grey, or `"A"`, its alpha, both as they are written, 0 to 1.
+/// An EXR's first row is v = 0, as of maps; a PNG's last, so that it looks as the leaf lies with
+/// its apex up. Of an EXR the named channel is taken, or the only one; of a PNG the grey, or `"A"`,
+/// its alpha, both as they are written, 0 to 1.
 ///
 /// # Errors
 ///

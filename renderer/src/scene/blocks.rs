@@ -1,8 +1,8 @@
 //! The blocks of a scene file, each declared once: see [`leafmodel::document`].
 //!
 //! - **In**: the tree of a file, overrides already put in.
-//! - **Out**: a [`Description`] with names resolved and units in SI, or every error of the file; the
-//!   same declarations as a schema.
+//! - **Out**: a [`Description`] with names resolved and units in SI, or every error of the file;
+//!   the same declarations as a schema.
 //! - **Always true**: a description is given only if there is no error; numbers in it are finite
 //!   and in range, indices are valid, files lie in the scene's folder.
 

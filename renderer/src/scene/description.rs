@@ -76,7 +76,8 @@ pub struct Film {
     pub height: u32,
     /// Samples a pixel, the most if noise is aimed at.
     pub spp: u32,
-    /// Relative error at which a part of the picture has enough samples; none if all of it gets the same number.
+    /// Relative error at which a part of the picture has enough samples; none if all of it gets the
+    /// same number.
     pub noise: Option<f64>,
     /// Seed of every random number.
     pub seed: u64,
@@ -100,9 +101,11 @@ pub struct Picture {
 pub struct Integrator {
     /// Most scattering events of a path; `None` is no limit.
     pub max_depth: Option<u32>,
-    /// Russian roulette starts below this throughput; 0 switches it off, `None` leaves it to a trial.
+    /// Russian roulette starts below this throughput; 0 switches it off, `None` leaves it to a
+    /// trial.
     pub roulette_below: Option<f64>,
-    /// Paths that go on from the first vertex where no sampled light reaches it; `None` leaves it to a trial.
+    /// Paths that go on from the first vertex where no sampled light reaches it; `None` leaves it
+    /// to a trial.
     pub branches: Option<u32>,
     /// Light samples at the first vertex; `None` leaves it to a trial.
     pub light_samples: Option<u32>,
@@ -183,7 +186,8 @@ pub enum LeafTissue {
         /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
         extrapolate: bool,
     },
-    /// PROSPECT-D of contents read from a map: an EXR with a channel for each [`leafmodel::optics::Constituent`].
+    /// PROSPECT-D of contents read from a map: an EXR with a channel for each
+    /// [`leafmodel::optics::Constituent`].
     Map {
         /// The map's file, resolved and inside the scene's folder.
         file: PathBuf,
@@ -303,8 +307,8 @@ pub enum Light {
         look_at: DVec3,
         /// Half angle from which on there is no light, rad, > 0.
         cone_angle: f64,
-        /// Width of the edge inside the cone, over which intensity falls to 0 linearly in the angle, rad,
-        /// at most `cone_angle`.
+        /// Width of the edge inside the cone, over which intensity falls to 0 linearly in the
+        /// angle, rad, at most `cone_angle`.
         penumbra_angle: f64,
         /// Radiant intensity on the axis, W sr⁻¹ nm⁻¹.
         intensity: Spectrum,
@@ -316,7 +320,8 @@ pub enum Light {
 pub struct Object {
     /// What it is; at least one. Without instances it is the first, and there are no others.
     pub shapes: Vec<ObjectShape>,
-    /// Local to world, metres, affine and invertible. Of instances, the frame that their places are given in.
+    /// Local to world, metres, affine and invertible. Of instances, the frame that their places are
+    /// given in.
     pub to_world: DMat4,
     /// Where instances stand; `None` is one place, that of `to_world`.
     pub instances: Option<Vec<InstancePlace>>,
@@ -329,8 +334,8 @@ pub struct Object {
 pub struct InstancePlace {
     /// Index into [`Object::shapes`].
     pub shape: u32,
-    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part, then the
-    /// translation.
+    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part,
+    /// then the translation.
     pub to_world: [f32; 12],
 }
 

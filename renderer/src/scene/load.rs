@@ -66,8 +66,8 @@ pub fn parse(
 ///
 /// # Errors
 ///
-/// [`DocumentErrors`] with everything that is wrong with the leaves and the overrides; what else the
-/// file holds is not looked at.
+/// [`DocumentErrors`] with everything that is wrong with the leaves and the overrides; what else
+/// the file holds is not looked at.
 pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>, DocumentErrors> {
     into_leaves(Opened::file(path, overrides, schema)?)
 }
@@ -75,7 +75,8 @@ pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>
 /// Leaves with what is allowed and hardly meant, or everything that is wrong.
 pub type LeavesRead = Result<(Vec<Named<Leaf>>, Vec<Warning>), DocumentErrors>;
 
-/// Reads the leaves of the file at `path` if leaves are all it is about: it has some, and nothing that only a picture needs.
+/// Reads the leaves of the file at `path` if leaves are all it is about: it has some, and nothing
+/// that only a picture needs.
 pub fn load_if_only_leaves(path: &Path, overrides: &[String]) -> Option<LeavesRead> {
     let mut opened = Opened::file(path, overrides, schema).ok()?;
     let has = |section: &&str| opened.tree.get(section).is_some();
@@ -103,8 +104,9 @@ pub fn parse_leaves(
     into_leaves(Opened::text(text, &shown, folder, overrides, schema)?)
 }
 
-/// A block `[solids.NAME]` after `format = 1`, which reads back to the same body where the mesh and the pictures that it names
-/// are. Keys are left out where they have their default, and always come in the same order.
+/// A block `[solids.NAME]` after `format = 1`, which reads back to the same body where the mesh and
+/// the pictures that it names are. Keys are left out where they have their default, and always come
+/// in the same order.
 pub fn solid_to_toml(name: &str, solid: &Solid) -> String {
     let (mut own, mut usual) = (solid.clone(), Solid::usual());
     plan_file::solid_to_toml(name, &mut own, &mut usual, blocks::solid)

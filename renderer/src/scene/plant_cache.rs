@@ -1,14 +1,16 @@
-//! Grown leaves kept in a folder, for scenes that are rendered again and again: turntables, other light, other cameras.
+//! Grown leaves kept in a folder, for scenes that are rendered again and again: turntables, other
+//! light, other cameras.
 //!
 //! A file holds one leaf, and is named by a digest of its plan. It begins with the whole plan and
 //! the program that wrote it, and ends with a check sum. So a file is never taken for another leaf.
 //!
 //! - **In**: a plan, and how to grow it.
 //! - **Out**: the leaf's numbers, from the file or grown.
-//! - **Always true**: what comes from a file has the same bits as what would be grown. A file of another plan
-//!   or program, or a damaged one, is not used; its place is taken by a whole new file. So programs that run at once
-//!   read whole files, old or new.
-//! - **Left out**: bodies of solid tissue; limits on how much a folder holds. Its files may be deleted at any time.
+//! - **Always true**: what comes from a file has the same bits as what would be grown. A file of
+//!   another plan or program, or a damaged one, is not used; its place is taken by a whole new
+//!   file. So programs that run at once read whole files, old or new.
+//! - **Left out**: bodies of solid tissue; limits on how much a folder holds. Its files may be
+//!   deleted at any time.
 
 mod bytes;
 #[cfg(test)]
@@ -81,7 +83,8 @@ impl PlantCache {
         })
     }
 
-    /// What the person who renders should know since the last call: files that were not used, or could not be written.
+    /// What the person who renders should know since the last call: files that were not used, or
+    /// could not be written.
     pub fn take_notes(&self) -> Vec<String> {
         let mut notes = self.lock_notes();
         // Leaves grow on several threads.
@@ -96,7 +99,8 @@ impl PlantCache {
             .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// The leaf of a plan: from its file if that is there and whole, else from `grow`, and then put there.
+    /// The leaf of a plan: from its file if that is there and whole, else from `grow`, and then put
+    /// there.
     ///
     /// # Errors
     ///
@@ -171,7 +175,8 @@ fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
         return Err(Refused::Foreign);
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    // All before the leaf is known beforehand, so nothing of a foreign file decides how much is read.
+    // All before the leaf is known beforehand, so nothing of a foreign file decides how much is
+    // read.
     let mut expected = MAGIC.to_vec();
     expected.extend((key.len() as u64).to_le_bytes());
     expected.extend(key);

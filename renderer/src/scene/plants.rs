@@ -1,4 +1,5 @@
-//! The seam to leafmodel: grown leaves and bodies become meshes and materials, millimetres become metres.
+//! The seam to leafmodel: grown leaves and bodies become meshes and materials, millimetres become
+//! metres.
 
 pub(super) mod parts;
 
@@ -27,7 +28,8 @@ use crate::spectrum::Curve;
 /// A grown leaf, ready to be placed: petiole, rachis and leaflets, or one blade alone.
 #[derive(Debug)]
 pub struct GrownLeaf {
-    /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial side +z.
+    /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial
+    /// side +z.
     pub meshes: Vec<TriangleMesh>,
     /// Materials (maps of contents and coats) of the different blades, then the material of the
     /// stalks, if there are any.
@@ -47,8 +49,8 @@ pub enum SolidError {
     Mesh(#[from] MeshError),
 }
 
-/// Grows a body of solid tissue, in the frame of its shape, whose pigments are those of `palette`; `table` is that of its
-/// refractive index.
+/// Grows a body of solid tissue, in the frame of its shape, whose pigments are those of `palette`;
+/// `table` is that of its refractive index.
 ///
 /// # Errors
 ///

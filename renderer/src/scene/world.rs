@@ -269,7 +269,8 @@ fn grow_leaves(
     grown.into_iter().collect()
 }
 
-/// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive index.
+/// Grows the scene's bodies of solid tissue, each with its palette and the table of its refractive
+/// index.
 fn grow_solids(
     scene: &Description,
     shared: Vec<(Palette, Arc<ReflectanceTable>)>,

@@ -73,7 +73,8 @@ impl Eight for Neon {
         halves(a, b, |a, b| unsafe { vdivq_f32(a, b) })
     }
 
-    // FMIN and FMAX treat what is not a number in another way than the trait: compared and selected instead.
+    // FMIN and FMAX treat what is not a number in another way than the trait: compared and selected
+    // instead.
     #[inline(always)]
     fn less(self, a: Halves, b: Halves) -> Halves {
         halves(a, b, |a, b| unsafe { vbslq_f32(vcltq_f32(a, b), a, b) })

@@ -1,4 +1,5 @@
-//! A stack of fixed size whose memory is not cleared: a ray would spend more time on that than on a node.
+//! A stack of fixed size whose memory is not cleared: a ray would spend more time on that than on a
+//! node.
 
 use std::mem::MaybeUninit;
 
@@ -46,7 +47,8 @@ impl<T: Copy, const N: usize> Stack<T, N> {
 }
 
 impl<T: Copy, const N: usize> Stack<(f32, T), N> {
-    /// Puts a value below those of the topmost with a smaller number, but not below the first `base` values.
+    /// Puts a value below those of the topmost with a smaller number, but not below the first
+    /// `base` values.
     ///
     /// # Panics
     ///

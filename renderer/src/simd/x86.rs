@@ -35,14 +35,15 @@ fn prefetch<T>(slice: &[T], place: usize) {
     let start = slice.as_ptr().wrapping_add(place).cast::<i8>();
     let mut at = 0;
     while at < size_of::<T>() {
-        // SAFETY: SSE is part of x86-64, and a prefetch of any address at all has no effect but on time.
+        // SAFETY: SSE is part of x86-64, and a prefetch of any address at all has no effect but on
+        // time.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(at)) };
         at += CACHE_LINE;
     }
 }
 
-// In all of the following:
-// SAFETY: `Avx2` exists only below `with_avx2`, whose caller has detected it. Rows are 32-byte aligned.
+// In all of the following: SAFETY: `Avx2` exists only below `with_avx2`, whose caller has detected
+// it. Rows are 32-byte aligned.
 impl Eight for Avx2 {
     type F = __m256;
 
@@ -123,8 +124,8 @@ fn bits(mask: [__m128; 2]) -> u32 {
     low | high << 4
 }
 
-// In all of the following:
-// SAFETY: SSE and SSE2 are part of x86-64. Rows are 32-byte aligned, so both halves are 16-byte aligned.
+// In all of the following: SAFETY: SSE and SSE2 are part of x86-64. Rows are 32-byte aligned, so
+// both halves are 16-byte aligned.
 impl Eight for Sse2 {
     type F = [__m128; 2];
 

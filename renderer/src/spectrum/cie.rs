@@ -4,7 +4,8 @@ use std::sync::OnceLock;
 
 use crate::spectrum::table::parse_shipped;
 
-/// XYZ to linear sRGB (Rec. 709 primaries, D65 white), IEC 61966-2-1 with the primaries' exact inverse.
+/// XYZ to linear sRGB (Rec. 709 primaries, D65 white), IEC 61966-2-1 with the primaries' exact
+/// inverse.
 pub const XYZ_TO_SRGB: [[f64; 3]; 3] = [
     [
         3.240_969_941_904_522,
@@ -59,7 +60,8 @@ pub fn d65(nm: f64) -> f64 {
     interpolate(d65_table(), nm.clamp(300.0, 830.0)).map_or(0.0, |value| value[0])
 }
 
-/// Integral of ȳ over the observer's table, nm: radiance 1 at every wavelength has Y = 1 when divided by it.
+/// Integral of ȳ over the observer's table, nm: radiance 1 at every wavelength has Y = 1 when
+/// divided by it.
 pub fn luminance_integral() -> f64 {
     static INTEGRAL: OnceLock<f64> = OnceLock::new();
     *INTEGRAL.get_or_init(|| {
@@ -94,8 +96,9 @@ pub fn xyz_of(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     xyz
 }
 
-/// XYZ under D65 of a surface that reflects, or lets through, this share of the light at each wavelength in nm; a share of 1
-/// everywhere gives Y = 1. Sums over 360–830 nm by 1 nm, D65 linear between the 5 nm of its table.
+/// XYZ under D65 of a surface that reflects, or lets through, this share of the light at each
+/// wavelength in nm; a share of 1 everywhere gives Y = 1. Sums over 360–830 nm by 1 nm, D65 linear
+/// between the 5 nm of its table.
 pub fn xyz_under_d65(share: impl Fn(f64) -> f64) -> [f64; 3] {
     static WHITE: OnceLock<f64> = OnceLock::new();
     let white = *WHITE.get_or_init(|| xyz_of(d65)[1]);

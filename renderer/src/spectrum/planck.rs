@@ -2,7 +2,8 @@
 
 /// Planck's spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹.
 ///
-/// `nm` is the vacuum wavelength, `kelvin` the temperature, both > 0. Constants: CODATA 2018 (exact).
+/// `nm` is the vacuum wavelength, `kelvin` the temperature, both > 0. Constants: CODATA 2018
+/// (exact).
 pub fn radiance(nm: f64, kelvin: f64) -> f64 {
     const PLANCK: f64 = 6.626_070_15e-34;
     const LIGHT: f64 = 2.997_924_58e8;

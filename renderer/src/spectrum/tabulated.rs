@@ -1,4 +1,5 @@
-//! Functions of wavelength, worked out beforehand at all wavelengths that a picture's paths may carry.
+//! Functions of wavelength, worked out beforehand at all wavelengths that a picture's paths may
+//! carry.
 
 use std::fmt;
 
@@ -56,7 +57,8 @@ impl Table {
     }
 }
 
-/// A spectrum along paths: a curve, with its values at the wavelengths of a picture once they are tabulated.
+/// A spectrum along paths: a curve, with its values at the wavelengths of a picture once they are
+/// tabulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     curve: Curve,

@@ -24,7 +24,8 @@ enum Kind {
         range_nm: [f64; 2],
         /// Linear sRGB that radiance 1 at each wavelength stands for, times the number of rows.
         weights: Table,
-        /// Shares of x̄, ȳ and z̄ that each wavelength stands for, times the number of rows: all ones make one, on average.
+        /// Shares of x̄, ȳ and z̄ that each wavelength stands for, times the number of rows: all
+        /// ones make one, on average.
         seen: Table,
     },
     /// Bands: one lane a band.
@@ -33,9 +34,9 @@ enum Kind {
 
 /// Density over a range of wavelengths in proportion to sech²(a (λ − λ₀)), drawn by inversion.
 ///
-/// \[radziszewski2009\] gave it this form. Its numbers are those at which eight wavelengths see the colours of leaves with the least
-/// scatter: R, T, R T and T² of nineteen presets under four lights. Following the observer instead (x̄ + ȳ + z̄) gives thirty
-/// times the variance.
+/// \[radziszewski2009\] gave it this form. Its numbers are those at which eight wavelengths see the
+/// colours of leaves with the least scatter: R, T, R T and T² of nineteen presets under four
+/// lights. Following the observer instead (x̄ + ȳ + z̄) gives thirty times the variance.
 #[derive(Clone, Debug)]
 struct WideDistribution {
     /// tanh(a (λ − λ₀)) at both ends of the range.
@@ -215,8 +216,9 @@ impl WavelengthSampler {
         }
     }
 
-    /// How much the film sees of light that a share `throughput` at drawn wavelengths is left of: about 1 of all ones. Of a colour
-    /// film that is the greatest of the three shares of x̄, ȳ and z̄, of bands the greatest lane.
+    /// How much the film sees of light that a share `throughput` at drawn wavelengths is left of:
+    /// about 1 of all ones. Of a colour film that is the greatest of the three shares of x̄, ȳ and
+    /// z̄, of bands the greatest lane.
     #[inline]
     pub fn brightness<const N: usize>(
         &self,

@@ -5,7 +5,8 @@
 pub enum Spectrum {
     /// The same value at every wavelength.
     Constant(f64),
-    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values outside.
+    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values
+    /// outside.
     Table {
         /// (nm, value) pairs.
         points: Vec<(f64, f64)>,

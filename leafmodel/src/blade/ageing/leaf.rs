@@ -14,7 +14,8 @@ use crate::venation::chance::{self, Use};
 #[derive(Clone, Debug)]
 struct Surroundings {
     margin: Option<Distances>,
-    /// To veins up to the order that each of the two names; nothing for the second if it is that of the first.
+    /// To veins up to the order that each of the two names; nothing for the second if it is that of
+    /// the first.
     veins: [Option<Distances>; 2],
 }
 

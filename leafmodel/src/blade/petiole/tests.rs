@@ -219,8 +219,8 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
             Bending::new(&form, &outline, network.map()),
             60.0,
         );
-        // What one sees 5 mm over and under the blade, beside the midrib by a share of the tube's radius: how far the tube is
-        // before the blade.
+        // What one sees 5 mm over and under the blade, beside the midrib by a share of the tube's
+        // radius: how far the tube is before the blade.
         let ahead = |t: f64, beside: f64, side: f64| {
             let p = way.at(joint.length * t).0;
             let p = p + DVec2::X * (beside * joint.at(&way, t).1);

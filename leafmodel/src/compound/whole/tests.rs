@@ -84,7 +84,8 @@ fn leaflets_stay_on_a_bent_rachis_and_are_raised_about_it() {
     }
 }
 
-/// The angle by which the plane has turned at a point of an arc of 1 radian over petiole and rachis, 108 mm.
+/// The angle by which the plane has turned at a point of an arc of 1 radian over petiole and
+/// rachis, 108 mm.
 fn whole_angle(p: DVec3) -> f64 {
     libm::atan2(-p.z, p.y) * 2.0
 }

@@ -43,7 +43,8 @@ impl<'p> Keys<'p> {
         })
     }
 
-    /// Whether a file is read, as far as here without an error in this block: then what belongs together can be checked.
+    /// Whether a file is read, as far as here without an error in this block: then what belongs
+    /// together can be checked.
     pub fn is_sound(&self) -> bool {
         match &self.pass {
             Pass::Read(reading) => {
@@ -83,8 +84,8 @@ impl<'p> Keys<'p> {
         }
     }
 
-    /// Reports what is wrong with values that are allowed one by one, at the deepest part of the path that is there. A `*`
-    /// stands for the only block, whatever its name.
+    /// Reports what is wrong with values that are allowed one by one, at the deepest part of the
+    /// path that is there. A `*` stands for the only block, whatever its name.
     pub fn refuse(&self, path: &[&str], problem: String, help: &str) {
         let Pass::Read(reading) = &self.pass else {
             return;

@@ -37,8 +37,9 @@ macro_rules! variant {
 }
 
 impl Keys<'_> {
-    /// The block inside this one that says of which kind the value is: exactly one, and nothing else beside it but keys
-    /// declared before. With a preset beneath, none leaves the kind as it is.
+    /// The block inside this one that says of which kind the value is: exactly one, and nothing
+    /// else beside it but keys declared before. With a preset beneath, none leaves the kind as it
+    /// is.
     pub fn kind<T>(&mut self, value: &mut T, variants: &[Variant<T>]) {
         let current = variants.iter().find(|variant| (variant.is)(value));
         match &mut self.pass {
@@ -80,7 +81,8 @@ impl Keys<'_> {
         }
     }
 
-    /// As [`Keys::kind`], but beside other keys, and where none of the blocks is there the value stays what it was.
+    /// As [`Keys::kind`], but beside other keys, and where none of the blocks is there the value
+    /// stays what it was.
     pub fn kind_or_none<T>(&mut self, value: &mut T, variants: &[Variant<T>]) {
         let current = variants.iter().find(|variant| (variant.is)(value));
         let names: Vec<&'static str> = variants.iter().map(|variant| variant.name).collect();
@@ -111,8 +113,9 @@ impl Keys<'_> {
         }
     }
 
-    /// Whichever of these keys is there, of which there must be exactly one; the caller then declares it. `current` is the one
-    /// that the value has. A description gets them all, one after the other.
+    /// Whichever of these keys is there, of which there must be exactly one; the caller then
+    /// declares it. `current` is the one that the value has. A description gets them all, one after
+    /// the other.
     pub fn one_of(
         &mut self,
         names: &[&'static str],

@@ -94,8 +94,8 @@ impl Keys<'_> {
         }
     }
 
-    /// A block of blocks with names of the user's choice. Those of a file come behind the preset's; one with a name that the
-    /// preset has changes that one.
+    /// A block of blocks with names of the user's choice. Those of a file come behind the preset's;
+    /// one with a name that the preset has changes that one.
     pub fn named<T>(
         &mut self,
         name: &'static str,

@@ -1,5 +1,5 @@
-//! Blocks as a JSON Schema: editors complete and explain keys by it. Draft 7, since the language server of TOML knows
-//! no later one.
+//! Blocks as a JSON Schema: editors complete and explain keys by it. Draft 7, since the language
+//! server of TOML knows no later one.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -35,7 +35,8 @@ fn block(schema: &BlockSchema, definitions: &mut Map<String, Json>) -> Json {
     })
 }
 
-/// What a block must hold, and the blocks inside it if they are there; nothing of what a preset brings.
+/// What a block must hold, and the blocks inside it if they are there; nothing of what a preset
+/// brings.
 fn demands(schema: &BlockSchema) -> Option<Json> {
     let mut json = Map::new();
     let required = schema.entries.iter().filter(|entry| entry.required);

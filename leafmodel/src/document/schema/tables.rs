@@ -52,8 +52,8 @@ fn usual(entry: &EntrySchema) -> String {
     if entry.required { "required" } else { "–" }.to_owned()
 }
 
-/// A page with its tables as the schema has them: each `<!-- keys: PATH -->` is followed by the table of the block at
-/// that path, up to `<!-- end of keys -->`.
+/// A page with its tables as the schema has them: each `<!-- keys: PATH -->` is followed by the
+/// table of the block at that path, up to `<!-- end of keys -->`.
 ///
 /// # Errors
 ///

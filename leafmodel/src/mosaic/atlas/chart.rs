@@ -26,8 +26,8 @@ pub(super) struct Chart {
 
 /// Cuts a surface into charts whose faces look at most acos(`agree`) away from the first one.
 ///
-/// Faces that a chart would draw over others of its own (a ramp that winds back over itself), at `texels_per_mm`, are left
-/// for charts of their own.
+/// Faces that a chart would draw over others of its own (a ramp that winds back over itself), at
+/// `texels_per_mm`, are left for charts of their own.
 pub(super) fn charts(surface: &Surface, agree: f64, texels_per_mm: f64) -> Vec<Chart> {
     let count = surface.faces().len() as u32;
     let normals: Vec<DVec3> = (0..count).map(|face| surface.normal(face)).collect();
@@ -143,10 +143,11 @@ fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
         .collect()
 }
 
-/// Calls `visit(column, row, weights of the second and third corner)` for each texel whose middle lies in a triangle.
+/// Calls `visit(column, row, weights of the second and third corner)` for each texel whose middle
+/// lies in a triangle.
 ///
-/// `margin` is the least weight that counts as inside: a little above 0 leaves shared edges to neither face, below 0 gives
-/// them to both. Coordinates are texels.
+/// `margin` is the least weight that counts as inside: a little above 0 leaves shared edges to
+/// neither face, below 0 gives them to both. Coordinates are texels.
 pub(super) fn each_texel(
     corners: &[DVec2; 3],
     margin: f64,

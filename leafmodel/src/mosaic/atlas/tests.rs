@@ -23,7 +23,8 @@ fn look_up(atlas: &Atlas, painted: &[f64], uv: DVec2) -> f64 {
     row(0.0) * (1.0 - share.y) + row(1.0) * share.y
 }
 
-/// A smooth function over space whose second derivatives are at most 1 / (49 mm²) along any direction.
+/// A smooth function over space whose second derivatives are at most 1 / (49 mm²) along any
+/// direction.
 fn smooth(p: DVec3) -> f64 {
     libm::sin(p.x / 7.0) + libm::cos(p.y / 7.0) + libm::sin(p.z / 7.0)
 }
@@ -38,14 +39,16 @@ fn check_seamless(surface: &Surface, texels: u32) -> Atlas {
             shown.map_or(f64::NAN, |point| smooth(surface.position(&point)))
         })
         .collect();
-    // Bilinear interpolation errs by the curvature times the texel's side squared over 8 in each direction; a texel
-    // on a slanted face is at most 1 / 0.766 longer, and the surface's own bend over a texel is of the same order.
+    // Bilinear interpolation errs by the curvature times the texel's side squared over 8 in each
+    // direction; a texel on a slanted face is at most 1 / 0.766 longer, and the surface's own bend
+    // over a texel is of the same order.
     let texel = 1.0 / atlas.texels_per_mm() / AGREE;
     let mut tolerance = 3.0 * texel * texel / 49.0 / 8.0 * 4.0 + 0.1 * texel / 7.0;
     let open = (0..surface.faces().len() as u32)
         .any(|face| (0..3).any(|edge| surface.neighbour(face, edge).is_none()));
     if open {
-        // Beyond a margin there is no surface: texels repeat its nearest point, half a texel's slope off.
+        // Beyond a margin there is no surface: texels repeat its nearest point, half a texel's
+        // slope off.
         tolerance += 0.5 * texel * 1.5 / 7.0;
     }
     let mut worst: f64 = 0.0;

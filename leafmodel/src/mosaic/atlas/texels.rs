@@ -11,7 +11,8 @@ const ON_EDGE: f64 = -1e-9;
 /// Most faces that a walk beyond a border crosses.
 const MOST_STEPS: u32 = 256;
 
-/// Texels inside the faces, and those within the gutter, which show where a straight way on beyond the border leads.
+/// Texels inside the faces, and those within the gutter, which show where a straight way on beyond
+/// the border leads.
 pub(super) fn shown(
     surface: &Surface,
     charts: &[Chart],
@@ -92,7 +93,8 @@ fn nearest_on(from: DVec2, to: DVec2, p: DVec2) -> DVec2 {
     from + along * share.clamp(0.0, 1.0)
 }
 
-/// Where a place beyond an edge of a chart lies on the surface: straight on from the nearest point of the edge.
+/// Where a place beyond an edge of a chart lies on the surface: straight on from the nearest point
+/// of the edge.
 fn beyond_border(
     surface: &Surface,
     face: u32,
@@ -123,7 +125,8 @@ fn beyond_border(
     }
 }
 
-/// Where a straight way in a face's frame ends that goes on over unfolded neighbours; at a margin it stops.
+/// Where a straight way in a face's frame ends that goes on over unfolded neighbours; at a margin
+/// it stops.
 fn walk(
     surface: &Surface,
     mut face: u32,

@@ -63,7 +63,8 @@ fn a_cap_has_warts_on_its_upper_side_only_and_more_of_them_the_oftener_they_divi
         let seen = Seen::of(&mosaic);
         shares.push(seen.share());
         if days > CAP.division[1] {
-            // Warts whose cells hardly divide are single cells: they have no neighbours of their own.
+            // Warts whose cells hardly divide are single cells: they have no neighbours of their
+            // own.
             continue;
         }
         let alike = neighbourhood(&seen.voronoi, &seen.kinds, 5, 1);

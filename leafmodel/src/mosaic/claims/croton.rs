@@ -42,8 +42,9 @@ fn lamina(max_edge: f64) -> Surface {
     surface(sheet(&outline.expect("a good outline"), max_edge).expect("a good length"))
 }
 
-/// Of the places that show the background first and the foreground later: how far the foreground was from them at first, over how
-/// far it was from all places of the background. 1 if distance does not matter.
+/// Of the places that show the background first and the foreground later: how far the foreground
+/// was from them at first, over how far it was from all places of the background. 1 if distance
+/// does not matter.
 fn nearness_of_the_turned(places: &[DVec3], first: &[u32], later: &[u32]) -> f64 {
     let of = |label: u32| {
         let with = places.iter().zip(first).zip(later);
@@ -72,7 +73,8 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
     let stages: Vec<Seen> = stages.expect("a good plan").iter().map(Seen::of).collect();
     let shares: Vec<f64> = stages.iter().map(Seen::share).collect();
     assert!(shares[0] < 0.15 && shares[3] > 0.6, "{shares:?}");
-    // Four probes to a square millimetre would be finer than blotches; 8000 on 4900 mm² lie some 0.8 mm apart.
+    // Four probes to a square millimetre would be finer than blotches; 8000 on 4900 mm² lie some
+    // 0.8 mm apart.
     let points = probes(&leaf, 8000, 1);
     let places: Vec<DVec3> = points.iter().map(|point| leaf.position(point)).collect();
     let marked: Vec<Vec<u32>> = stages.iter().map(|one| one.at(&leaf, &points)).collect();
@@ -136,7 +138,8 @@ fn three_crotons_differ_with_equal_statistics_and_are_unstructured() {
         all.iter().filter(|patch| patch.label == FOREGROUND).count() as f64
     });
     for (a, b) in [(0, 1), (1, 2), (0, 2)] {
-        // The standard error of κ of 8000 probes of blotches of a few square millimetres is about 0.03.
+        // The standard error of κ of 8000 probes of blotches of a few square millimetres is about
+        // 0.03.
         let alike = kappa(&marked[a], &marked[b]);
         assert!(alike.abs() < 0.1, "{alike}");
         assert!((shares[a] - shares[b]).abs() < 0.03, "{shares:?}");

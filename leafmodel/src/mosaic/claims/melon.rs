@@ -51,7 +51,8 @@ fn striped(radius_weight: f64) -> MosaicPlan {
     }
 }
 
-/// Foreground round the body at each height: how many stripes, and what share of the way round they take.
+/// Foreground round the body at each height: how many stripes, and what share of the way round they
+/// take.
 fn around(body: &Surface, seen: &Seen) -> (Vec<u32>, Vec<f64>) {
     let at = HEIGHTS.map(|height| seen.at(body, &ring(body, height, 1440)));
     let counts = at.iter().map(|round| element_count(round, FOREGROUND, 12));
@@ -95,7 +96,8 @@ fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
         });
         let breadth = across.sum::<f64>() / HEIGHTS.len() as f64;
         breadths.push(breadth);
-        // Area over half of the border is less by as much as frayed edges are longer than straight ones.
+        // Area over half of the border is less by as much as frayed edges are longer than straight
+        // ones.
         frays.push(breadth / mean_width_mm(&melon.voronoi, &melon.kinds, FOREGROUND));
         cells.push(
             melon
@@ -105,8 +107,9 @@ fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
                 .count(),
         );
     }
-    // The clock makes as many cells at any radius, and the number of stripes is the image's: a stripe broadens because
-    // its cells take more room from the others, and the share of the foreground rises by as much.
+    // The clock makes as many cells at any radius, and the number of stripes is the image's: a
+    // stripe broadens because its cells take more room from the others, and the share of the
+    // foreground rises by as much.
     assert!(cells[0] == cells[1] && cells[1] == cells[2], "{cells:?}");
     let rises = |list: &[f64]| list.windows(2).all(|two| two[0] < two[1]);
     let shares: Vec<f64> = melons.iter().map(Seen::share).collect();

@@ -18,8 +18,8 @@ pub enum ControlImage {
         width: usize,
         /// Pixels along the axis.
         height: usize,
-        /// Values, 0 to 1, in rows from left (angle 0) to right; the first row lies at the end of the axis, the last at
-        /// its start.
+        /// Values, 0 to 1, in rows from left (angle 0) to right; the first row lies at the end of
+        /// the axis, the last at its start.
         values: Vec<f64>,
     },
     /// White stripes along the axis on black.
@@ -28,7 +28,8 @@ pub enum ControlImage {
         count: u32,
         /// Width of a stripe over the distance of one to the next, 0 to 1.
         share: f64,
-        /// How far stripes wander to either side, over the distance of one to the next, 0 to (1 − share)/2.
+        /// How far stripes wander to either side, over the distance of one to the next, 0 to (1 −
+        /// share)/2.
         waviness: f64,
         /// How many bends they make from end to end, 0 to 1000.
         bends: f64,
@@ -44,8 +45,8 @@ pub enum ControlImage {
     },
     /// Smooth noise.
     Noise {
-        /// Features round the axis (and over the same height as their width, if the cylinder is as high as its girth), 1 to
-        /// 10000.
+        /// Features round the axis (and over the same height as their width, if the cylinder is as
+        /// high as its girth), 1 to 10000.
         around: u32,
         /// Layers of noise, each twice as fine and half as strong as the one before, 1 to 10.
         octaves: u32,

@@ -19,7 +19,8 @@ fn angle_and_height_say_where_in_the_picture_a_point_lies() {
         values: vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7],
     };
     let control = about_z(picture);
-    // The middle of the first pixel lies an eighth of a turn from +x; the first row is the upper one.
+    // The middle of the first pixel lies an eighth of a turn from +x; the first row is the upper
+    // one.
     let at = |eighths: f64, height: f64| {
         let angle = eighths * TAU / 8.0;
         control.value(DVec3::new(

@@ -9,7 +9,8 @@ use crate::optics::Contents;
 
 /// Most squares along a side of the grid in which faces are looked up.
 const MOST_SQUARES: f64 = 160.0;
-/// Width of the grid beyond the sheet, as a share of its extent: further out the nearest margin is approximate.
+/// Width of the grid beyond the sheet, as a share of its extent: further out the nearest margin is
+/// approximate.
 const BEYOND: f64 = 0.1;
 
 /// A mosaic on one or both faces of a flat sheet in the plane z = 0, looked up by places of that
@@ -30,7 +31,8 @@ pub struct SheetField {
 impl SheetField {
     /// Looks up `field`, which lies on `surface`.
     ///
-    /// `surface` is a flat sheet in the plane z = 0 or, if `both` is set, [`Surface::both_faces`] of one.
+    /// `surface` is a flat sheet in the plane z = 0 or, if `both` is set, [`Surface::both_faces`]
+    /// of one.
     pub fn new(surface: &Surface, field: TypeField, both: bool) -> Self {
         let count = surface.faces().len() / if both { 2 } else { 1 };
         let corners: Vec<[DVec2; 3]> = surface.faces()[..count]
@@ -83,7 +85,8 @@ impl SheetField {
             if !list.is_empty() && nearest > 0.71 * square {
                 continue;
             }
-            // A margin nearest to some point of the square is at most a diagonal further from its middle.
+            // A margin nearest to some point of the square is at most a diagonal further from its
+            // middle.
             let near = margin
                 .iter()
                 .filter(|edge| reach(edge) <= nearest + 1.42 * square);
@@ -108,7 +111,8 @@ impl SheetField {
         &self.field
     }
 
-    /// The point of the sheet's adaxial face at a place of the plane (mm), outside the sheet the nearest.
+    /// The point of the sheet's adaxial face at a place of the plane (mm), outside the sheet the
+    /// nearest.
     pub fn locate(&self, p: DVec2) -> SurfacePoint {
         let at = ((p - self.low) / self.square).max(DVec2::ZERO);
         let column = (at.x as usize).min(self.columns - 1);
@@ -140,10 +144,11 @@ impl SheetField {
         }
     }
 
-    /// What the tissue of the blade holds at a place of the plane (mm); outside the sheet as at its nearest point.
+    /// What the tissue of the blade holds at a place of the plane (mm); outside the sheet as at its
+    /// nearest point.
     ///
-    /// With both faces the contents per area are the mean of those of the two faces: each face's tissue is half of the blade's
-    /// thickness, and both lie in the way of light.
+    /// With both faces the contents per area are the mean of those of the two faces: each face's
+    /// tissue is half of the blade's thickness, and both lie in the way of light.
     ///
     /// # Panics
     ///

@@ -100,8 +100,9 @@ fn weights_are_continuous_over_faces_of_a_flat_sheet() {
             field.field().type_weights(&field.locate(p), &mut now);
             if step > 0 {
                 for (a, b) in last.iter().zip(&now) {
-                    // The smooth step's slope is at most 3/2 over the width of 0.5 mm; sums of three divide by at least ½,
-                    // which makes each weight at most six times as steep.
+                    // The smooth step's slope is at most 3/2 over the width of 0.5 mm; sums of
+                    // three divide by at least ½, which makes each weight at most six times as
+                    // steep.
                     assert!((a - b).abs() < 5e-4 * 3.0 * 6.0, "{p}: {last:?} {now:?}");
                 }
             }

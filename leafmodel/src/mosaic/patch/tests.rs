@@ -52,8 +52,8 @@ fn unfolding_across_the_edges_of_a_cube_gives_the_exact_distance() {
         assert!((distance(&surface, a, b) - DVec2::new(0.3 + 0.4, 0.2).length()).abs() < 1e-12);
         assert!((distance(&surface, b, a) - DVec2::new(0.3 + 0.4, 0.2).length()).abs() < 1e-12);
     }
-    // Over two edges: from the top over a side to the bottom. (Of the coarse cube's faces some can be entered over two ways
-    // of equal length; a patch takes one.)
+    // Over two edges: from the top over a side to the bottom. (Of the coarse cube's faces some can
+    // be entered over two ways of equal length; a patch takes one.)
     let fine = cube().subdivided(0.3).expect("good").0;
     let (a, b) = (DVec3::new(0.9, 0.5, 1.0), DVec3::new(0.95, 0.55, 0.0));
     let flat = DVec2::new(0.1 + 1.0 + 0.05, 0.05).length();

@@ -11,12 +11,13 @@ use rayon::prelude::*;
 use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::{Surface, Unfold};
 
-/// How far a block reaches from the middle of its base, as a share of the radius; larger blocks are fewer, and each has more
-/// cells to look through.
+/// How far a block reaches from the middle of its base, as a share of the radius; larger blocks are
+/// fewer, and each has more cells to look through.
 const HUB: f64 = 0.75;
 
-/// The same where faces are many, and fewer blocks take less memory. It was set when the other was 0.4; they are two still
-/// because pushes are summed block by block in single precision: another share gives the cells of a seed other places.
+/// The same where faces are many, and fewer blocks take less memory. It was set when the other was
+/// 0.4; they are two still because pushes are summed block by block in single precision: another
+/// share gives the cells of a seed other places.
 const HUB_OF_MANY: f64 = 0.8;
 
 /// Faces in a square whose side is the radius that count as many.

@@ -11,7 +11,8 @@ const LANES: usize = 8;
 /// A distance greater than that of any cell.
 const FAR: f32 = 1e9;
 
-/// Two cells nearer than this (squared, in radii) push one another in no direction; it also stands for a cell itself.
+/// Two cells nearer than this (squared, in radii) push one another in no direction; it also stands
+/// for a cell itself.
 const NEAREST: f32 = 1e-20;
 
 /// Places of cells, padded to whole lanes.
@@ -38,7 +39,8 @@ impl Places {
         }
     }
 
-    /// `Σ (1 − d) e` over the cells nearer than 1, with `d` their distance and `e` the unit vector away from them.
+    /// `Σ (1 − d) e` over the cells nearer than 1, with `d` their distance and `e` the unit vector
+    /// away from them.
     pub(super) fn repulsion(&self, x: f32, y: f32) -> (f32, f32) {
         let (mut fx, mut fy) = ([0.0_f32; LANES], [0.0_f32; LANES]);
         let (xs, _) = self.xs.as_chunks::<LANES>();

@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::{Shape, ShapeError, affordable, positive};
 
-/// Distance between points of a ring over the longest edge allowed; with rings √3/2 of that apart, no diagonal is longer.
+/// Distance between points of a ring over the longest edge allowed; with rings √3/2 of that apart,
+/// no diagonal is longer.
 const RING_STEP: f64 = 0.72;
 /// Pieces that each span of the spline is cut into to measure its length.
 const PIECES: u32 = 64;
@@ -20,16 +21,18 @@ struct CurvePoint {
     tangent: DVec2,
 }
 
-/// A body of revolution about the z axis whose profile runs smoothly through `profile`'s points (radius, height), mm.
+/// A body of revolution about the z axis whose profile runs smoothly through `profile`'s points
+/// (radius, height), mm.
 ///
-/// The curve is a centripetal Catmull-Rom spline (\[yuksel2011\]): it has no loops between its points. An end
-/// with radius 0 is closed there without a tip (the profile goes on as its mirror image), so that dimples are smooth; an
-/// end off the axis is left open. Rings have as many points as their own length asks for.
+/// The curve is a centripetal Catmull-Rom spline (\[yuksel2011\]): it has no loops between its
+/// points. An end with radius 0 is closed there without a tip (the profile goes on as its mirror
+/// image), so that dimples are smooth; an end off the axis is left open. Rings have as many points
+/// as their own length asks for.
 ///
 /// # Errors
 ///
-/// [`ShapeError`] for fewer than two points, points that are not finite or have a negative radius, repeated points,
-/// curves that meet the axis between their ends, and for too many triangles.
+/// [`ShapeError`] for fewer than two points, points that are not finite or have a negative radius,
+/// repeated points, curves that meet the axis between their ends, and for too many triangles.
 pub fn lathe(profile: &[DVec2], max_edge_mm: f64) -> Result<Shape, ShapeError> {
     positive("max_edge_mm", max_edge_mm)?;
     let curve = curve(profile)?;
@@ -197,7 +200,8 @@ fn curve(profile: &[DVec2]) -> Result<Vec<CurvePoint>, ShapeError> {
     Ok(curve)
 }
 
-/// Point and tangent of the centripetal Catmull-Rom span between the middle two of four points, at `u` in 0 to 1.
+/// Point and tangent of the centripetal Catmull-Rom span between the middle two of four points, at
+/// `u` in 0 to 1.
 fn spline(p: &[DVec2], u: f64) -> CurvePoint {
     let knot = |a: DVec2, b: DVec2| a.distance(b).sqrt();
     let (before, span, after) = (knot(p[0], p[1]), knot(p[1], p[2]), knot(p[2], p[3]));

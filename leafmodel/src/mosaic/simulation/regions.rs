@@ -5,7 +5,8 @@ use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::Surface;
 use crate::venation::chance::{Use, bits, uniform};
 
-/// How far a region reaches from its middle face, in repulsion radii: a region has a few dozen cells.
+/// How far a region reaches from its middle face, in repulsion radii: a region has a few dozen
+/// cells.
 const REACH: f64 = 3.0;
 
 /// The surface cut into regions, each with the divisions that it has room for.
@@ -57,7 +58,8 @@ impl Regions {
         }
     }
 
-    /// The cells that divide at an event: in each region as many as there is room for, by chance and the rates of the cells.
+    /// The cells that divide at an event: in each region as many as there is room for, by chance
+    /// and the rates of the cells.
     pub(super) fn due(
         &mut self,
         cells: &[Live],

@@ -16,7 +16,8 @@ fn small(cells: usize, days: f64) -> MosaicPlan {
     }
 }
 
-/// Expected cells at each relaxation event from one, each type for itself: `M(k) = P(T > k) + 2 Σ P(T = j) M(k − j)`.
+/// Expected cells at each relaxation event from one, each type for itself:
+/// `M(k) = P(T > k) + 2 Σ P(T = j) M(k − j)`.
 fn branching(mean_events: f64, events: usize) -> f64 {
     let mut poisson = vec![libm::exp(-mean_events)];
     for j in 1..=events.max(1) {
@@ -151,7 +152,8 @@ fn two_sheets_close_in_space_do_not_act_on_one_another() {
         let lower = cells.filter(|(_, (_, at))| at.z < 0.005);
         lower.map(|(number, (_, at))| (number, at)).collect()
     };
-    // The same with the upper cells taken away. (The weight of a step is far from where crowding lowers it.)
+    // The same with the upper cells taken away. (The weight of a step is far from where crowding
+    // lowers it.)
     let alone: Vec<usize> = lower(&run).iter().map(|(number, _)| *number).collect();
     assert!(alone.len() > 100 && alone.len() < 300);
     let before = run.cells.clone();

@@ -7,7 +7,8 @@ use crate::mosaic::voronoi::tests::{scattered, surface};
 
 const STRIPES: u32 = 6;
 
-/// A ball of radius 20 mm with 3000 cells, tessellated, and for each cell whether it lies in one of six upright stripes.
+/// A ball of radius 20 mm with 3000 cells, tessellated, and for each cell whether it lies in one of
+/// six upright stripes.
 fn striped() -> (Surface, Vec<SurfacePoint>, Voronoi, Vec<u32>) {
     let ball = surface(sphere(20.0, 1.5).expect("good sizes"));
     let sites = scattered(&ball, 3000, 5);
@@ -34,7 +35,8 @@ fn stripes_are_measured_as_they_were_made() {
         "{found:?}"
     );
     assert!(found.alike > found.by_chance + 10.0 * found.deviation);
-    // Twelve half great circles bound stripes of a twelfth of the sphere; frayed by cells they are up to a third longer.
+    // Twelve half great circles bound stripes of a twelfth of the sphere; frayed by cells they are
+    // up to a third longer.
     let exact = 2.0 * 2.0 * PI * 400.0 / (12.0 * PI * 20.0);
     let width = mean_width_mm(&voronoi, &labels, 1);
     assert!(

@@ -17,7 +17,8 @@ pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
     }
 }
 
-/// The mesh with equal positions merged, each to the first vertex that has it. Vertices that no face names are kept.
+/// The mesh with equal positions merged, each to the first vertex that has it. Vertices that no
+/// face names are kept.
 pub(super) fn welded(
     positions: Vec<DVec3>,
     mut faces: Vec<[u32; 3]>,
@@ -96,7 +97,8 @@ pub(super) fn pair(
         let Some(&(_, other, theirs)) = group.get(1) else {
             continue;
         };
-        // A face folded onto itself has an edge twice, and no area: that is found when the faces are flattened.
+        // A face folded onto itself has an edge twice, and no area: that is found when the faces
+        // are flattened.
         if face != other && ends(faces, other, theirs).0 == start {
             return Err(SurfaceError::OppositeOrientation {
                 from: positions[start as usize],

@@ -45,11 +45,13 @@ impl Ancestry {
 }
 
 impl Surface {
-    /// The surface with every edge longer than `max_edge_mm` halved until none is, and where its faces lie on this one.
+    /// The surface with every edge longer than `max_edge_mm` halved until none is, and where its
+    /// faces lie on this one.
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NotALength`] for a length that is not positive; [`SurfaceError::TooManyFaces`].
+    /// [`SurfaceError::NotALength`] for a length that is not positive;
+    /// [`SurfaceError::TooManyFaces`].
     pub fn subdivided(&self, max_edge_mm: f64) -> Result<(Self, Ancestry), SurfaceError> {
         self.subdivided_to(max_edge_mm, MOST_FACES)
     }
@@ -182,7 +184,8 @@ impl Cut {
         weights: [[f64; 3]; 3],
     ) {
         let count = marked.iter().filter(|&&middle| middle != NONE).count();
-        // Turned so that the cases below are always the same: one mark on the first edge, two on the first and second.
+        // Turned so that the cases below are always the same: one mark on the first edge, two on
+        // the first and second.
         let first = match count {
             1 => (0..3).find(|&k| marked[k] != NONE).unwrap_or(0),
             2 => (0..3).find(|&k| marked[(k + 2) % 3] == NONE).unwrap_or(0),

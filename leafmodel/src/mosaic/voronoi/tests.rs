@@ -15,7 +15,8 @@ pub(in crate::mosaic) fn scattered(surface: &Surface, cells: u64, seed: u64) -> 
         .collect()
 }
 
-/// Random cells spread by moving each into the middle of its polygon once would be evener; these are the harder case.
+/// Random cells spread by moving each into the middle of its polygon once would be evener; these
+/// are the harder case.
 fn check_fills(surface: &Surface, cells: u64) {
     let sites = scattered(surface, cells, 7);
     let voronoi = Voronoi::new(surface, &sites);

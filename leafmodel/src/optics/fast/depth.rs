@@ -1,8 +1,8 @@
 //! Optical depth `−ln τ(K)` of a layer, from a table of polynomials.
 //!
-//! `g(K) = −ln τ(K) / K` falls from 2 (diffuse light without absorption travels twice the thickness)
-//! towards 1. It is smooth in `ln K`, so equal numbers of intervals go to each octave of `K`: the upper
-//! bits of the floating-point number are the interval's index.
+//! `g(K) = −ln τ(K) / K` falls from 2 (diffuse light without absorption travels twice the
+//! thickness) towards 1. It is smooth in `ln K`, so equal numbers of intervals go to each octave of
+//! `K`: the upper bits of the floating-point number are the interval's index.
 
 use std::sync::OnceLock;
 

@@ -1,7 +1,7 @@
 //! Exponential and logarithm by polynomials, without branches or tables.
 //!
-//! Only +, −, ×, ÷ and bit operations: the same bits everywhere, whether run one by one or in vector
-//! registers. Relative error below 3e-7.
+//! Only +, −, ×, ÷ and bit operations: the same bits everywhere, whether run one by one or in
+//! vector registers. Relative error below 3e-7.
 
 /// Adding this rounds to a whole number (2²³ + 2²²: the unit of the last place is 1).
 const ROUND: f32 = 12_582_912.0;

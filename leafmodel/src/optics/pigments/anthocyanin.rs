@@ -43,7 +43,8 @@ impl Aglycone {
         }
     }
 
-    /// Peak in nm: Belitz, Grosch and Schieberle, Food Chemistry, table 18.22. Cyanidin's is that of PROSPECT-D's column.
+    /// Peak in nm: Belitz, Grosch and Schieberle, Food Chemistry, table 18.22. Cyanidin's is that
+    /// of PROSPECT-D's column.
     pub fn peak_nm(self) -> f64 {
         match self {
             Self::Pelargonidin => 520.0,
@@ -55,7 +56,8 @@ impl Aglycone {
         }
     }
 
-    /// Molar absorptivity of the 3-glucoside, L mol⁻¹ cm⁻¹; authors differ by a factor of up to 2.3.
+    /// Molar absorptivity of the 3-glucoside, L mol⁻¹ cm⁻¹; authors differ by a factor of up to
+    /// 2.3.
     pub(super) fn epsilon(self) -> f64 {
         match self {
             Self::Pelargonidin => 25_800.0,
@@ -110,8 +112,8 @@ impl AnthocyaninMix {
     /// Peak of the quinonoidal form, nm: the middle of the 570 to 600 nm that are given for it.
     pub const BLUE_PEAK_NM: f64 = 585.0;
 
-    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by wavelength.
-    /// The blue form is taken to have the band's height: an assumption.
+    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by
+    /// wavelength. The blue form is taken to have the band's height: an assumption.
     pub(crate) fn specific(&self, nm: f64, prospect: impl Fn(f64) -> f64) -> Option<f64> {
         match self {
             Self::Prospect => None,

@@ -20,13 +20,15 @@ pub(super) struct Bands {
 }
 
 impl Bands {
-    /// Absorption over that of the peak in solution, with all bands moved by `shift` cm⁻¹, at a wavelength in nm.
+    /// Absorption over that of the peak in solution, with all bands moved by `shift` cm⁻¹, at a
+    /// wavelength in nm.
     pub(super) fn shape(&self, wavelength_nm: f64, shift: f64) -> f64 {
         let in_solution = 1e7 / wavelength_nm - shift;
         self.sum(in_solution) * window(1e7 / in_solution, self.range_nm)
     }
 
-    /// Specific absorption in solution, cm² µg⁻¹, of all bands moved by `shift` cm⁻¹, going on beyond the range of the fit.
+    /// Specific absorption in solution, cm² µg⁻¹, of all bands moved by `shift` cm⁻¹, going on
+    /// beyond the range of the fit.
     pub(super) fn unbounded(&self, wavelength_nm: f64, shift: f64) -> f64 {
         let peak = crate::optics::betalains::in_solution(self.epsilon, self.molar_mass);
         peak * self.sum(1e7 / wavelength_nm - shift)
@@ -43,7 +45,8 @@ impl Bands {
             .sum()
     }
 
-    /// Specific absorption in the leaf, cm² µg⁻¹: the shape times the peak in solution times `packaging`.
+    /// Specific absorption in the leaf, cm² µg⁻¹: the shape times the peak in solution times
+    /// `packaging`.
     pub(super) fn specific(&self, wavelength_nm: f64, shift: f64, packaging: f64) -> f64 {
         let peak = crate::optics::betalains::in_solution(self.epsilon, self.molar_mass);
         packaging * peak * self.shape(wavelength_nm, shift)

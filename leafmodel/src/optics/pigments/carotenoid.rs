@@ -39,7 +39,8 @@ impl Carotenoid {
         }
     }
 
-    /// In methanol, from the plots of `LipidBank` as the R package `photobiologyPlants` carries them; the fit is ours, absolute heights unverified.
+    /// In methanol, from the plots of `LipidBank` as the R package `photobiologyPlants` carries
+    /// them; the fit is ours, absolute heights unverified.
     pub(super) fn in_solution(self) -> Bands {
         let (gaussians, epsilon, molar_mass): (&'static [_], _, _) = match self {
             Self::BetaCarotene => (
@@ -119,7 +120,8 @@ pub enum CarotenoidMix {
 }
 
 impl CarotenoidMix {
-    /// About 20 nm at 450 nm, the lower end of the 20 to 30 nm said of carotenoids bound to protein (unverified).
+    /// About 20 nm at 450 nm, the lower end of the 20 to 30 nm said of carotenoids bound to protein
+    /// (unverified).
     pub const SHIFT_PER_CM: f64 = -950.0;
     /// PROSPECT-D's 0.1699 cm² µg⁻¹ at 444 nm over that of lutein in solution: an assumption.
     pub const PACKAGING: f64 = 0.29;

@@ -3,7 +3,8 @@
 use super::bands::Bands;
 use super::{PigmentsError, packaging, shift_per_cm, within};
 
-/// In diethyl ether, `PhotochemCAD` (Du et al. 1998; Dixon et al. 2005); the fit is ours, rms 0.26 % of the peak.
+/// In diethyl ether, `PhotochemCAD` (Du et al. 1998; Dixon et al. 2005); the fit is ours, rms 0.26
+/// % of the peak.
 pub(super) const A: Bands = Bands {
     gaussians: &[
         [0.3017, 26375.0, 488.0],
@@ -43,9 +44,9 @@ pub(super) const B: Bands = Bands {
 pub enum ChlorophyllMix {
     /// PROSPECT-D's column of a + b.
     Prospect,
-    /// PROSPECT-D's column with another a/b than the usual: times the absorption of this mix over that of
-    /// [`ChlorophyllMix::A_TO_B`], both from the bands in solution shifted by [`ChlorophyllMix::SHIFT_PER_CM`].
-    /// Bands keep the width that they have in leaves.
+    /// PROSPECT-D's column with another a/b than the usual: times the absorption of this mix over
+    /// that of [`ChlorophyllMix::A_TO_B`], both from the bands in solution shifted by
+    /// [`ChlorophyllMix::SHIFT_PER_CM`]. Bands keep the width that they have in leaves.
     Apportioned {
         /// Mass of a over mass of b, ≥ 0.
         a_to_b: f64,
@@ -78,7 +79,8 @@ impl ChlorophyllMix {
         }
     }
 
-    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by wavelength.
+    /// Specific absorption, cm² µg⁻¹, where the column is not PROSPECT's own, from that column by
+    /// wavelength.
     pub(crate) fn specific(&self, nm: f64, prospect: impl Fn(f64) -> f64) -> Option<f64> {
         match *self {
             Self::Prospect => None,

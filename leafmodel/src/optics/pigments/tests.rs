@@ -129,7 +129,8 @@ fn a_to_b_of_leaves_is_near_the_column_of_prospect() {
         (squares / n).sqrt()
     };
     let (red, blue) = (rms(600..=720), rms(400..=500));
-    // Measured: 0.0157 and 0.0193 cm² µg⁻¹, of peaks of 0.07 and 0.09: bands in ether are narrower than in leaves.
+    // Measured: 0.0157 and 0.0193 cm² µg⁻¹, of peaks of 0.07 and 0.09: bands in ether are narrower
+    // than in leaves.
     assert!(red < 0.0165 && blue < 0.0203, "{red}, {blue}");
 }
 

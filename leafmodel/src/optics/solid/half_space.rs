@@ -35,8 +35,9 @@ pub struct Reflected {
 impl HalfSpace {
     /// Of refractive index `eta`, 1 to 2.
     ///
-    /// Inside the critical angle the nodes are spaced in the cosine outside, where Fresnel's formulae are smooth. Both sets are
-    /// denser towards grazing directions, where `H` behaves as `µ ln µ`.
+    /// Inside the critical angle the nodes are spaced in the cosine outside, where Fresnel's
+    /// formulae are smooth. Both sets are denser towards grazing directions, where `H` behaves as
+    /// `µ ln µ`.
     pub fn new(eta: f64) -> Self {
         let rule = gauss(NODES);
         let critical = (1.0 - 1.0 / (eta * eta)).sqrt();
@@ -60,15 +61,18 @@ impl HalfSpace {
         Self { eta, directions }
     }
 
-    /// Reflectance for a single-scattering albedo `a` in [0, 1] below a clear skin of optical depth `skin` ≥ 0.
+    /// Reflectance for a single-scattering albedo `a` in [0, 1] below a clear skin of optical depth
+    /// `skin` ≥ 0.
     ///
     /// With `J` the radiance that enters the scatterer and `I` the one that leaves it,
-    /// `I(µ) = a/2 ∫ H(µ) H(µ') µ' / (µ + µ') J(µ') dµ'` and `J = E t L + E² r I`, where `E = exp(−skin/µ)`, `r` and `t = 1 − r` are
-    /// Fresnel's and `L` comes from outside; at normal incidence `L` is a single direction.
+    /// `I(µ) = a/2 ∫ H(µ) H(µ') µ' / (µ + µ') J(µ') dµ'` and `J = E t L + E² r I`, where
+    /// `E = exp(−skin/µ)`, `r` and `t = 1 − r` are Fresnel's and `L` comes from outside; at normal
+    /// incidence `L` is a single direction.
     ///
     /// # Source
     ///
-    /// \[chandrasekhar1960\] for the half-space; `docs/src/theory/solid-tissue.md` for the boundary.
+    /// \[chandrasekhar1960\] for the half-space; `docs/src/theory/solid-tissue.md` for the
+    /// boundary.
     pub fn reflected(&self, a: f64, skin: f64) -> Reflected {
         let directions = &self.directions;
         let count = directions.len();

@@ -7,8 +7,8 @@ const INTERVALS: usize = 256;
 
 /// Reflectance at normal incidence of a half-space of one refractive index and skin, by albedo.
 ///
-/// Reflectance is smooth in `s = √(1 − a)`, as it is not in `a`; between knots of `s` a cubic goes through four of them.
-/// Off by less than 1e-7 (a test measures it).
+/// Reflectance is smooth in `s = √(1 − a)`, as it is not in `a`; between knots of `s` a cubic goes
+/// through four of them. Off by less than 1e-7 (a test measures it).
 #[derive(Clone, Debug)]
 pub struct ReflectanceTable {
     knots: Vec<f64>,

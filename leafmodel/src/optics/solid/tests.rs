@@ -4,7 +4,8 @@ use crate::optics::ProspectD;
 
 #[test]
 fn half_spaces_reflect_what_the_reference_solutions_say() {
-    // n, a, normal, diffuse: Chandrasekhar's H for n = 1, discrete ordinates split at the critical angle for n = 1.5.
+    // n, a, normal, diffuse: Chandrasekhar's H for n = 1, discrete ordinates split at the critical
+    // angle for n = 1.5.
     for (eta, a, normal, diffuse) in [
         (1.0, 0.5, 0.115226, 0.146544),
         (1.0, 0.9, 0.414947, 0.478024),

@@ -142,7 +142,8 @@ pub(super) fn layers_by_chance() -> impl Strategy<Value = Vec<Layer>> {
     })
 }
 
-/// Perhaps a mosaic of one to three types. Shares are whole sixteenths, so that what is left to the last is exact.
+/// Perhaps a mosaic of one to three types. Shares are whole sixteenths, so that what is left to the
+/// last is exact.
 pub(super) fn mosaic_by_chance() -> impl Strategy<Value = Option<MosaicPattern>> {
     let sixteenths = || prop::array::uniform3(0_u32..6);
     let rows = prop::array::uniform3(sixteenths());

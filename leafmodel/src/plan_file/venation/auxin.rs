@@ -341,7 +341,8 @@ pub(super) fn report(keys: &Keys<'_>, error: &PlanError) {
             &["gaussian_curvature"],
             "use a value nearer to 0, or leave it out",
         ),
-        // Ranges of single numbers are checked where they are read, and only closed patterns have `free_endings`.
+        // Ranges of single numbers are checked where they are read, and only closed patterns have
+        // `free_endings`.
         PlanError::OutOfRange { .. } | PlanError::Incompatible { .. } => {
             (&[], "change or leave out what the message names")
         }

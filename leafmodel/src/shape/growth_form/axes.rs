@@ -11,8 +11,8 @@ use crate::shape::outline::Outline;
 /// Axes that a leaf may have in all, twins of pairs counted.
 const MOST_AXES: usize = 200;
 
-/// By which share of their size lobes are moved that lie on each other, from lobe to lobe: 0.1 nm on a leaf of 100 mm, then
-/// more.
+/// By which share of their size lobes are moved that lie on each other, from lobe to lobe: 0.1 nm
+/// on a leaf of 100 mm, then more.
 const SHIFTS: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
 
 /// An axis in its place: similarity from the axis' own frame, in units of the midrib.
@@ -87,7 +87,8 @@ impl Place {
 }
 
 impl GrowthForm {
-    /// Place and margin of each axis' lobe, the midrib's first, counter-clockwise, in units of the midrib.
+    /// Place and margin of each axis' lobe, the midrib's first, counter-clockwise, in units of the
+    /// midrib.
     pub(super) fn lobes(&self) -> Result<Vec<(Place, Vec<DVec2>)>, GrowthFormError> {
         let growth = self.checked()?;
         let mut lobes = Vec::new();
@@ -132,8 +133,8 @@ fn add_lobes(
     Ok(())
 }
 
-/// The margin of an axis' own lobe in units of the axis: from the base (0, 0) up the right half, over the tip (0, 1), down
-/// the left one.
+/// The margin of an axis' own lobe in units of the axis: from the base (0, 0) up the right half,
+/// over the tip (0, 1), down the left one.
 fn lobe(axis: &Axis, growth: AxisGrowth, path: &[usize]) -> Result<Vec<DVec2>, GrowthFormError> {
     let half = |side| {
         let part = FormPart {
@@ -158,7 +159,8 @@ pub(super) fn union(
     length_mm: f64,
 ) -> Result<Outline, GrowthFormError> {
     let mut outcome = unite(lobes, length_mm, 0.0);
-    // Margins that run along each other have no clear crossings: moved apart by less than anyone sees, they do.
+    // Margins that run along each other have no clear crossings: moved apart by less than anyone
+    // sees, they do.
     for shift in SHIFTS {
         if outcome.is_ok() {
             break;

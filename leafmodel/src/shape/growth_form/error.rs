@@ -16,11 +16,12 @@ pub enum Side {
     Left,
 }
 
-/// A part of a growth form: one half of one axis. It is written as the keys that lead to it, `axes[0].left.`, numbers from 0, and
-/// not at all for the right half of the midrib.
+/// A part of a growth form: one half of one axis. It is written as the keys that lead to it,
+/// `axes[0].left.`, numbers from 0, and not at all for the right half of the midrib.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormPart {
-    /// Which axis: the number of one on the midrib, then of one on that, and so on. None is the midrib.
+    /// Which axis: the number of one on the midrib, then of one on that, and so on. None is the
+    /// midrib.
     pub axes: Vec<usize>,
     /// Which half of it.
     pub side: Side,

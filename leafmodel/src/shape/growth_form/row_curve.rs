@@ -18,7 +18,8 @@ impl RowCurve {
     pub(super) fn length(self, x: f64) -> f64 {
         let (from, to) = (self.slope, self.slope + self.bend * x);
         if (to - from).abs() < 0.1 {
-            // Five-point Gauss quadrature: exact to rounding over so little bend, where the closed form cancels.
+            // Five-point Gauss quadrature: exact to rounding over so little bend, where the closed
+            // form cancels.
             const HALF: [(f64, f64); 2] = [
                 (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
                 (0.906_179_845_938_664, 0.236_926_885_056_189_08),
@@ -39,7 +40,8 @@ impl RowCurve {
         if self.bend == 0.0 {
             return length / libm::hypot(1.0, self.slope);
         }
-        // A row is at least as long as it reaches. Newton's method, kept between bounds by bisection.
+        // A row is at least as long as it reaches. Newton's method, kept between bounds by
+        // bisection.
         let (mut low, mut high) = (0.0, length);
         let mut x = length / libm::hypot(1.0, self.slope);
         for _ in 0..100 {

@@ -1,4 +1,5 @@
-//! Rows of cells: how fast they grow, along which curve, and where they end (Eqs. 1–4 of \[young2010\]).
+//! Rows of cells: how fast they grow, along which curve, and where they end (Eqs. 1–4 of
+//! \[young2010\]).
 
 use glam::DVec2;
 
@@ -49,14 +50,15 @@ impl AxisGrowth {
     }
 }
 
-/// The row, from 0, at a place along an axis. The paper's `j / N` would give the two ends of the midrib
-/// unlike treatment; `j = 1 + round(y (N − 1))` makes `yd` and `1 − yd` exact mirror images.
+/// The row, from 0, at a place along an axis. The paper's `j / N` would give the two ends of the
+/// midrib unlike treatment; `j = 1 + round(y (N − 1))` makes `yd` and `1 − yd` exact mirror images.
 pub(super) fn row_at(rows: usize, position: f64) -> usize {
     // Halves go to the even row, so that y and 1 − y round alike for an odd number of gaps too.
     (position * (rows - 1) as f64).round_ties_even() as usize
 }
 
-/// Rows on one side of an axis, checked, as they grow. Lengths are in units of the axis at maturity.
+/// Rows on one side of an axis, checked, as they grow. Lengths are in units of the axis at
+/// maturity.
 #[derive(Debug)]
 pub(super) struct Rows<'a> {
     count: usize,
@@ -228,7 +230,8 @@ mod tests {
 
     #[test]
     fn steps_one_by_one_end_where_the_closed_form_does() {
-        // Eqs. 1 and 2 carried out step by step, as the paper has them; the last step is a part of one.
+        // Eqs. 1 and 2 carried out step by step, as the paper has them; the last step is a part of
+        // one.
         let half = HalfForm {
             lobe_decay: 0.0003,
             veins: [14, 44, 74, 104, 134]

@@ -160,7 +160,8 @@ fn rows_that_bend_towards_the_tip_end_higher_and_nearer_to_the_midrib() {
 
 #[test]
 fn rows_that_pass_over_each_other_are_merged() {
-    // The veins at the ends are short and do not meet; the long rows between them, whose slopes fall, do.
+    // The veins at the ends are short and do not meet; the long rows between them, whose slopes
+    // fall, do.
     let right = HalfForm {
         veins: vec![vein(0.03, 2.0, 0.0), vein(0.97, -2.0, 0.0)],
         ..HalfForm::entire(1.1, 0.5, 2.0)
@@ -200,7 +201,8 @@ fn veins_that_cross_are_refused_with_the_slopes_that_keep_them_apart() {
     else {
         panic!("{error:?}");
     };
-    // Where both end, the upper one is still above: s₂ > s₁ − Δy / x, x the half width of the shorter one.
+    // Where both end, the upper one is still above: s₂ > s₁ − Δy / x, x the half width of the
+    // shorter one.
     let rows = form(half(veins(1.5)))
         .row_growth(Side::Right)
         .expect("they do not cross");
@@ -332,7 +334,8 @@ proptest! {
             lobe_decay, lobe_exponent, veins: veins.clone(), ..HalfForm::entire(ratio, widest_at, falloff)
         };
         let mut form = unlike(side(ratios.0), side(ratios.1));
-        // `Outline::new` refuses every crossing, so an outline is the proof. Crossing veins are moved apart as their error says.
+        // `Outline::new` refuses every crossing, so an outline is the proof. Crossing veins are
+        // moved apart as their error says.
         for _ in 0..100 {
             let Err(error) = form.grow(80.0) else { return Ok(()) };
             let GrowthFormProblem::VeinsCross { lower, upper, allowed: SlopeRange::Of { vein, from, to } } = error.problem else {

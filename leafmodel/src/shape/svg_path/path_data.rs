@@ -177,7 +177,8 @@ struct Arc {
 }
 
 impl Arc {
-    /// The arc as cubics over at most an eighth of a turn each, which are within 5·10⁻⁶ radii of it.
+    /// The arc as cubics over at most an eighth of a turn each, which are within 5·10⁻⁶ radii of
+    /// it.
     ///
     /// # Source
     ///
@@ -274,7 +275,8 @@ mod tests {
 
     #[test]
     fn arcs_lie_on_their_ellipse_and_turn_the_way_their_flags_say() {
-        // From (2, 0) to (0, 1): a quarter or three quarters of either ellipse with radii 2 and 1 through both.
+        // From (2, 0) to (0, 1): a quarter or three quarters of either ellipse with radii 2 and 1
+        // through both.
         for (large, sweep, centre, turns) in [
             (0, 0, (2.0, 1.0), -0.25),
             (0, 1, (0.0, 0.0), 0.25),

@@ -41,7 +41,8 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         .nodes()
         .len();
     let arches = before..laid_out.network.nodes().len();
-    // In the grown leaf they are wider than the net about them, though not as wide as the secondaries.
+    // In the grown leaf they are wider than the net about them, though not as wide as the
+    // secondaries.
     let mean = |wanted: &dyn Fn(&VeinEdge) -> bool| {
         let edges = leaf.network.edges().iter().filter(|edge| wanted(edge));
         let radii: Vec<f64> = edges.map(|edge| edge.radius_to).collect();

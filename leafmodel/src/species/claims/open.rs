@@ -17,7 +17,8 @@ fn tips(network: &VenationNetwork) -> Vec<DVec2> {
 
 #[test]
 fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
-    // Median distance of the nodes of the last steps from the margin of their time, over the leaf's length then.
+    // Median distance of the nodes of the last steps from the margin of their time, over the leaf's
+    // length then.
     let lag = |leaf: &Grown| -> Vec<f64> {
         let Growth::Marginal { length_step, .. } = leaf.auxin().growth else {
             panic!("the margin grows");

@@ -1,4 +1,5 @@
-//! What is told of coloured leaves, against the contents that they grow and the light that these reflect.
+//! What is told of coloured leaves, against the contents that they grow and the light that these
+//! reflect.
 
 use glam::DVec2;
 

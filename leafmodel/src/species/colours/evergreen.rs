@@ -1,4 +1,5 @@
-//! Leaves whose colour is not one of age: purple, variegated, chlorotic, patterned, red with betalains.
+//! Leaves whose colour is not one of age: purple, variegated, chlorotic, patterned, red with
+//! betalains.
 
 use super::super::leaf_traits::coloured::{
     AMARANTH as AMARANTH_TRAITS, BOX_ELDER, RED_MAPLE, SMOKE_TREE,
@@ -232,7 +233,8 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
     },
 };
 
-/// A sector without green on the margin, over one that has less of it; their widths in half widths of the leaf.
+/// A sector without green on the margin, over one that has less of it; their widths in half widths
+/// of the leaf.
 fn sectors(leaf: &ColouredLeaf, pale: &str, [outer, inner]: [f64; 2], scale: f64) -> Vec<Layer> {
     let rim = |width, softness_mm| Mask::Margin {
         width: RimWidth::HalfWidths(width),

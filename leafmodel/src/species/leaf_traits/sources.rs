@@ -1,4 +1,5 @@
-//! What is published, as far as the table uses it. Each was read at the place that is named; what was read of a paper is often its abstract.
+//! What is published, as far as the table uses it. Each was read at the place that is named; what
+//! was read of a paper is often its abstract.
 
 use super::{Provenance, Quantity, Source, Span};
 
@@ -20,7 +21,8 @@ pub(super) const fn chlorophyll(value: f64) -> Quantity {
     estimate(value, [0.8, 106.7], ANGERS_LEAVES)
 }
 
-/// Carotenoids of a green leaf from its chlorophyll: `1.13 + 0.222 C` (r 0.95 over the green leaves of ANGERS).
+/// Carotenoids of a green leaf from its chlorophyll: `1.13 + 0.222 C` (r 0.95 over the green leaves
+/// of ANGERS).
 pub(super) const fn carotenoids(chlorophyll: Quantity) -> Quantity {
     let value = 1.13 + 0.222 * chlorophyll.value;
     Quantity {

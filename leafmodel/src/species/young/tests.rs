@@ -87,7 +87,8 @@ fn the_concave_leaf_is_concave_and_the_oblong_one_convex() {
             .map(|w| w[0] - 2.0 * w[1] + w[2])
             .collect()
     };
-    // Of 148 inner rows, 73 and 74 are next to the widest place, where concave branches meet in a point.
+    // Of 148 inner rows, 73 and 74 are next to the widest place, where concave branches meet in a
+    // point.
     let concave = bend("5a");
     for (row, bend) in concave.iter().enumerate() {
         assert!(*bend > 0.0 || row.abs_diff(73) <= 1, "row {row}: {bend}");
@@ -112,7 +113,8 @@ fn slopes_make_the_base_cordate_and_the_tip_obcordate() {
         let (low, high) = outline(panel).bounds();
         (low.y / LENGTH, high.y / LENGTH)
     });
-    // Cordate: lobes below the petiole. Deltoid: no lower than the primordium's own half width of 0.001 slopes down.
+    // Cordate: lobes below the petiole. Deltoid: no lower than the primordium's own half width of
+    // 0.001 slopes down.
     assert!(reach[0].0 < -0.08, "{reach:?}");
     assert!((reach[1].0 + 0.0007).abs() < 1e-9, "{reach:?}");
     assert_eq!((reach[2].0, reach[3].0), (0.0, 0.0));
@@ -145,7 +147,8 @@ fn both_rows_of_oaks_begin_with_the_same_entire_leaf() {
 
 #[test]
 fn lobes_of_white_oaks_are_rounded_and_those_of_red_oaks_pointed() {
-    // Where the rows get finer by ten, a rounded lobe's turn from edge to edge does too, a pointed one's remains.
+    // Where the rows get finer by ten, a rounded lobe's turn from edge to edge does too, a pointed
+    // one's remains.
     let turn_at_a_tip = |panel: &str, finer: usize| {
         let mut shape = form(panel).shape();
         let half = &mut shape.midrib.right;
@@ -193,7 +196,8 @@ fn the_maple_fills_in_between_its_lobes_until_it_is_entire() {
 
 #[test]
 fn botanical_names_are_what_region_of_width_and_proportions_say() {
-    // A name is where the leaf is widest (below, about or above the middle) and how long it is for its width.
+    // A name is where the leaf is widest (below, about or above the middle) and how long it is for
+    // its width.
     let of = |panel: &str| {
         let measures = shape(&outline(panel));
         let lengths = 1.0 / number(&measures, "width_over_length");
@@ -211,7 +215,8 @@ fn botanical_names_are_what_region_of_width_and_proportions_say() {
         assert!((low..high).contains(&lengths), "{panel}: {lengths}");
         assert!(ovate(at), "{panel}: {at}");
     }
-    // Deltoid: widest near the base; obdeltoid and obovate: the same near the tip, and above the middle.
+    // Deltoid: widest near the base; obdeltoid and obovate: the same near the tip, and above the
+    // middle.
     assert!(of("4a").1 < 0.2 && of("4d").1 > 0.8);
     assert!((0.55..0.8).contains(&of("4c").1), "{:?}", of("4c"));
     assert!(of("6c").1 > 0.6 && of("6d").1 > 0.6);
@@ -224,7 +229,8 @@ fn botanical_names_are_what_region_of_width_and_proportions_say() {
         let widths = half_widths(panel);
         widths[row] / widths.iter().copied().fold(0.0, f64::max)
     };
-    // A quarter and three quarters up an oblong leaf is as wide as in the middle, a concave one narrower than a rhombic one.
+    // A quarter and three quarters up an oblong leaf is as wide as in the middle, a concave one
+    // narrower than a rhombic one.
     for row in [37, 112] {
         assert!(width_at("5d", row) > 0.95);
         assert!(

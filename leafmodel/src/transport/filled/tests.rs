@@ -50,7 +50,8 @@ fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
     let is_crossed = |a, b| outline.is_crossed_by(frame.to_mm(a), frame.to_mm(b));
     let walls = Walls::around(&all, is_crossed);
 
-    // Every cell whose centre lies on the blade and that hangs together with the root is supplied, once, or known not to be.
+    // Every cell whose centre lies on the blade and that hangs together with the root is supplied,
+    // once, or known not to be.
     let mut known: Vec<Cell> = leaf
         .cells()
         .iter()

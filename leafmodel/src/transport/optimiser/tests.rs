@@ -11,7 +11,8 @@ fn grown(plan: &TransportPlan, epsilon: f64) -> Tree {
     growth.tree
 }
 
-/// `F` by definition of cells with these parents, in cells; infinite if the parents run in a circle.
+/// `F` by definition of cells with these parents, in cells; infinite if the parents run in a
+/// circle.
 fn cost(plan: &TransportPlan, cells: &[Cell], parents: &[u32]) -> f64 {
     for start in 0..cells.len() {
         let (mut v, mut steps) = (start, 0);

@@ -44,7 +44,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether part of the bisector of node `v` and a source is nearer to them than to any other node.
+    /// Whether part of the bisector of node `v` and a source is nearer to them than to any other
+    /// node.
     fn is_delaunay(&self, v: usize, source: DVec2) -> bool {
         let offset = self.nodes[v] - source;
         let (foot, along) = (offset * 0.5, offset.perp());

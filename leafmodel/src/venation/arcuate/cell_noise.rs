@@ -1,7 +1,8 @@
 //! The noise that the article's shader asks its renderer for: OSL's `cellnoise` of a whole number.
 //!
-//! The Open Shading Language specifies a constant, random-looking value for each whole number; its implementation takes the
-//! hash of one word by Jenkins' lookup3 (public domain, 2006), with 13 for its initial value.
+//! The Open Shading Language specifies a constant, random-looking value for each whole number; its
+//! implementation takes the hash of one word by Jenkins' lookup3 (public domain, 2006), with 13 for
+//! its initial value.
 
 /// `cellnoise(k)`, 0 to 1.
 pub(super) fn cell_noise(k: u32) -> f64 {

@@ -19,8 +19,9 @@ pub struct ArcuateFields {
 impl ArcuateVeins {
     /// The fields at a point, mm.
     ///
-    /// Where veins overlap, Fac is that of the midrib, else of the first vein found from base to tip, as in the article's code. Unlike
-    /// there, Net is looked for along all veins, also after a vein was found.
+    /// Where veins overlap, Fac is that of the midrib, else of the first vein found from base to
+    /// tip, as in the article's code. Unlike there, Net is looked for along all veins, also after a
+    /// vein was found.
     pub fn fields_at(&self, p: DVec2) -> ArcuateFields {
         let p = self.frame.to_leaf(p);
         let mut fields = ArcuateFields {
@@ -69,7 +70,8 @@ impl ArcuateVeins {
         self.plan.width * self.taper(axis.start) * self.taper(share)
     }
 
-    /// Half width of a lateral at its parameter `t`, near the point `p`: it tapers along itself and along its axis.
+    /// Half width of a lateral at its parameter `t`, near the point `p`: it tapers along itself and
+    /// along its axis.
     pub(super) fn lateral_radius(&self, vein: &Vein, t: f64, p: DVec2) -> f64 {
         let axis = &self.axes[vein.axis];
         let [from, _, to] = axis.curve.0;

@@ -48,7 +48,8 @@ pub(super) fn primaries_laid(veins: &ArcuateVeins, outline: &Outline) -> Vec<f64
     veins.axes.iter().zip(&on_axes).skip(1).map(laid).collect()
 }
 
-/// Midrib and primaries on a blade, and the nodes of each with their parameters, for laterals to start from.
+/// Midrib and primaries on a blade, and the nodes of each with their parameters, for laterals to
+/// start from.
 fn axes<'v>(veins: &'v ArcuateVeins, outline: &'v Outline) -> (Graph<'v>, Vec<Vec<(f64, u32)>>) {
     let mut graph = Graph {
         veins,
@@ -103,7 +104,8 @@ struct Graph<'v> {
 struct Way {
     /// Places after its start, mm.
     places: Vec<DVec2>,
-    /// The edge it ends on, and where on that, if it meets another vein; else it ends with the spline or at the margin.
+    /// The edge it ends on, and where on that, if it meets another vein; else it ends with the
+    /// spline or at the margin.
     meets: Option<(usize, f64)>,
 }
 

@@ -1,7 +1,7 @@
 //! Where veins start, bend and end.
 //!
-//! Leaf units: x along the midrib from 0 at the base to 1 at the apex, y across it, positive on the left, which the article draws
-//! upwards.
+//! Leaf units: x along the midrib from 0 at the base to 1 at the apex, y across it, positive on the
+//! left, which the article draws upwards.
 
 use glam::DVec2;
 
@@ -214,8 +214,8 @@ struct Sector {
     upper: bool,
 }
 
-/// Midrib and primaries, and the laterals of all. Primaries start at the base, or as far up the midrib as it takes to lie on the
-/// blade.
+/// Midrib and primaries, and the laterals of all. Primaries start at the base, or as far up the
+/// midrib as it takes to lie on the blade.
 pub(super) fn lay_out(
     plan: &ArcuatePlan,
     sides: &Sides,
@@ -277,7 +277,8 @@ pub(super) fn lay_out(
     (axes, laterals)
 }
 
-/// Lateral `i` of a sector, by the article's formulas; its midrib's are those with the whole margin for a sector.
+/// Lateral `i` of a sector, by the article's formulas; its midrib's are those with the whole margin
+/// for a sector.
 fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i: u32) -> Vein {
     let delta = 1.0 / f64::from(plan.veins + 1);
     let half = delta / 2.0;
@@ -290,7 +291,8 @@ fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i:
         start += delta / 4.0 * plan.variation * noise(17) * plan.squish3;
     }
     let [from, to] = sector.margin;
-    // Where primaries share the margin, laterals leave the lower part of their axis bare; alone, the midrib has none such.
+    // Where primaries share the margin, laterals leave the lower part of their axis bare; alone,
+    // the midrib has none such.
     let bare = 0.5 * from.min(to) / from.max(to);
     let start = bare + (1.0 - bare) * start;
     let margin = |squish: f64| {

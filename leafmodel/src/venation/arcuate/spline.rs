@@ -27,8 +27,8 @@ impl Quadratic {
         a * (u * u) + b * (2.0 * u * t) + c * (t * t)
     }
 
-    /// The foot of the shortest perpendicular from `p`; none if no perpendicular meets the curve between its ends,
-    /// since ends have no caps.
+    /// The foot of the shortest perpendicular from `p`; none if no perpendicular meets the curve
+    /// between its ends, since ends have no caps.
     pub(super) fn nearest(&self, p: DVec2) -> Option<Nearest> {
         let [p0, p1, p2] = self.0;
         let (a, b, m) = (p1 - p0, p2 - 2.0 * p1 + p0, p0 - p);
@@ -52,8 +52,8 @@ impl Quadratic {
     }
 }
 
-/// Real roots of `c0 + c1 t + c2 t² + c3 t³`, each polished by Newton's method. A cubic term too small to matter for
-/// `t` in [0, 1] is left to the polishing.
+/// Real roots of `c0 + c1 t + c2 t² + c3 t³`, each polished by Newton's method. A cubic term too
+/// small to matter for `t` in [0, 1] is left to the polishing.
 fn roots([c0, c1, c2, c3]: [f64; 4]) -> [Option<f64>; 3] {
     let polished = |mut t: f64| {
         for _ in 0..3 {
@@ -88,7 +88,8 @@ fn depressed(c: f64, b: f64, a: f64) -> [Option<f64>; 3] {
     let discriminant = q * q / 4.0 + p * p * p / 27.0;
     if discriminant > 0.0 {
         let root = discriminant.sqrt();
-        // The larger summand first: the other follows from their product, −p/3, without cancellation.
+        // The larger summand first: the other follows from their product, −p/3, without
+        // cancellation.
         let u = libm::cbrt(-0.5 * q - root.copysign(q));
         let v = if u == 0.0 { 0.0 } else { -p / (3.0 * u) };
         return [Some(u + v - shift), None, None];

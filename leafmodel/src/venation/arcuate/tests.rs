@@ -200,7 +200,8 @@ fn from_pinnate_to_arcuate_veins_bend_and_turn_to_the_tip() {
 
 #[test]
 fn primaries_start_where_the_blade_is_wide_enough_for_them() {
-    // The growth algorithm's leaves have a narrow base, and the first veins of a maple's must not end there.
+    // The growth algorithm's leaves have a narrow base, and the first veins of a maple's must not
+    // end there.
     let outline = FORMS[27].shape().grow(LENGTH).expect("a form of the paper");
     let network = palmate().network(&outline).expect("a good plan");
     let widest = |order: u8| {

@@ -6,7 +6,8 @@ use crate::venation::planar::PlaneGraph;
 
 /// Veins between junctions and tips; nodes in between have two edges.
 ///
-/// A *half* is a vein seen in one direction: `2 c` is vein `c` from its first to its second end, `2 c + 1` the way back.
+/// A *half* is a vein seen in one direction: `2 c` is vein `c` from its first to its second end,
+/// `2 c + 1` the way back.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chains {
     /// Junctions and tips at both ends of each vein. A ring without any junction gets one on it.
@@ -14,7 +15,8 @@ pub(crate) struct Chains {
     /// Vein `c` runs through `points[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     points: Vec<DVec2>,
-    /// Edges of the plane graph that make up vein `c`: `edges[starts[c] − c..starts[c + 1] − c − 1]`.
+    /// Edges of the plane graph that make up vein `c`:
+    /// `edges[starts[c] − c..starts[c + 1] − c − 1]`.
     edges: Vec<u32>,
     /// Length of each vein, mm.
     pub(crate) lengths: Vec<f64>,
@@ -22,7 +24,8 @@ pub(crate) struct Chains {
     pub(crate) radii: Vec<f64>,
     /// Nodes of the plane graph that are junctions or tips.
     pub(crate) joints: Vec<u32>,
-    /// Halves that leave joint `j`, counter-clockwise: `leaving[leaving_starts[j]..leaving_starts[j + 1]]`.
+    /// Halves that leave joint `j`, counter-clockwise:
+    /// `leaving[leaving_starts[j]..leaving_starts[j + 1]]`.
     leaving_starts: Vec<u32>,
     leaving: Vec<u32>,
 }
@@ -178,7 +181,8 @@ impl Chains {
         for joint in 0..self.joints.len() as u32 {
             let list = self.leaving(joint);
             for (i, &half) in list.iter().enumerate() {
-                // Having come in along `half`, the next one clockwise has the same face on its left.
+                // Having come in along `half`, the next one clockwise has the same face on its
+                // left.
                 let before = list[(i + list.len() - 1) % list.len()];
                 nexts[(half ^ 1) as usize] = before;
             }

@@ -11,7 +11,8 @@ const MOST_ELONGATED: f64 = 1e6;
 pub(super) struct Walks {
     starts: Vec<u32>,
     halves: Vec<u32>,
-    /// Signed area enclosed by each walk: negative, or 0, for the one around the outside of each component.
+    /// Signed area enclosed by each walk: negative, or 0, for the one around the outside of each
+    /// component.
     pub(super) areas: Vec<f64>,
     /// Component of each walk.
     component: Vec<u32>,
@@ -66,7 +67,8 @@ pub(super) fn walks(chains: &Chains) -> Walks {
         walks.areas.push(area);
         walks.component.push(component);
         walks.starts.push(walks.halves.len() as u32);
-        // The walk around the outside is the only one of its component with a negative area; that of a tree is the only one.
+        // The walk around the outside is the only one of its component with a negative area; that
+        // of a tree is the only one.
         if component as usize == walks.outer.len() {
             walks.outer.push(walk);
         } else if area < walks.areas[walks.outer[component as usize] as usize] {
@@ -129,9 +131,9 @@ fn components(chains: &Chains) -> Vec<u32> {
 
 /// Finds the enclosing cycle in a walk around a face.
 ///
-/// The walk passes veins that end inside the face twice, and goes around rings inside that hang on it.
-/// Whenever it comes back to a joint, what lay between is a simple cycle (or a way there and back) and is taken out. Of these
-/// only the enclosing one runs counter-clockwise.
+/// The walk passes veins that end inside the face twice, and goes around rings inside that hang on
+/// it. Whenever it comes back to a joint, what lay between is a simple cycle (or a way there and
+/// back) and is taken out. Of these only the enclosing one runs counter-clockwise.
 pub(super) struct Cycles {
     /// Where on the stack a joint is.
     at: Vec<u32>,
@@ -155,7 +157,8 @@ impl Cycles {
         &self.best
     }
 
-    /// Measures the face to the left of a walk, whose signed area is given; none if rounding has left it no area.
+    /// Measures the face to the left of a walk, whose signed area is given; none if rounding has
+    /// left it no area.
     pub(super) fn enclosing(&mut self, chains: &Chains, walk: &[u32], area: f64) -> Option<Areole> {
         self.best.clear();
         let mut best = 0.0;

@@ -5,12 +5,12 @@ use glam::DVec2;
 use super::faces::Walks;
 use super::{Areoles, OUTSIDE};
 
-/// Takes the area enclosed by every separate network off the areole in which it lies, and notes that its outside is
-/// there.
+/// Takes the area enclosed by every separate network off the areole in which it lies, and notes
+/// that its outside is there.
 ///
-/// The areole in which a network lies is on the near side of the first other vein met from its leftmost point
-/// towards −x; if the outside of that vein's network is met, it is where that one lies. It reaches farther left,
-/// so from left to right everything is known in time.
+/// The areole in which a network lies is on the near side of the first other vein met from its
+/// leftmost point towards −x; if the outside of that vein's network is met, it is where that one
+/// lies. It reaches farther left, so from left to right everything is known in time.
 pub(super) fn take_out(found: &mut Areoles, walks: &Walks) {
     let count = walks.outer.len();
     if count < 2 {

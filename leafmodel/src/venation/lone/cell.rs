@@ -72,7 +72,8 @@ impl Basin {
         2.0 * (most.x + most.y) < way.length_squared() - MARGIN * size_squared
     }
 
-    /// The one of the nodes found, or its own, that is nearest to all of its sources, if there is one.
+    /// The one of the nodes found, or its own, that is nearest to all of its sources, if there is
+    /// one.
     pub(super) fn common_nearest(&self, found: &[Node]) -> Option<Node> {
         let centre = 0.5 * (self.low + self.high);
         let distance = |node: &Node| (node.place - centre).length_squared();
@@ -84,7 +85,8 @@ impl Basin {
     }
 }
 
-/// Gathers the new nodes that may be nearer to sources of a basin than its node, or not hidden by it.
+/// Gathers the new nodes that may be nearer to sources of a basin than its node, or not hidden by
+/// it.
 pub(super) struct Concern<'a> {
     pub(super) basin: &'a Basin,
     pub(super) view: View,

@@ -96,7 +96,8 @@ proptest! {
     fn a_source_in_front_of_a_straight_row_of_nodes_is_lone(
         x in 5.0..35.0, y in 16.0..40.0, slope in -0.1..0.1,
     ) {
-        // From a row of nodes each source sees the foot of its perpendicular, or its neighbour, and those hide the rest.
+        // From a row of nodes each source sees the foot of its perpendicular, or its neighbour, and
+        // those hide the rest.
         let nodes: Vec<DVec2> = (0..400)
             .map(|i| 0.1 * f64::from(i))
             .map(|along| DVec2::new(along, 5.0 + slope * along))

@@ -126,7 +126,8 @@ impl Probe for Nearest {
     }
 }
 
-/// Finds those of some sources from which another node than `node` can be seen. Sorts the sources by place where need be.
+/// Finds those of some sources from which another node than `node` can be seen. Sorts the sources
+/// by place where need be.
 pub(super) fn find_seeing(
     lone: &mut [Lone],
     node: Node,

@@ -13,7 +13,8 @@ type Check = (&'static str, f64, f64, f64, &'static str);
 
 const DISTANCE: &str = "0.01 to 10000 (segments)";
 
-/// Darts that all steps of growth together, or one step without growth, may throw. More would take minutes and add nothing.
+/// Darts that all steps of growth together, or one step without growth, may throw. More would take
+/// minutes and add nothing.
 const MOST_DARTS: f64 = 1e8;
 
 /// Why a plan cannot be carried out.

@@ -5,7 +5,8 @@ use glam::DVec2;
 use super::VeinEdge;
 use super::grid::EdgeGrid;
 
-/// Points nearer than this share of the mean edge length are one: far above rounding, far below anything grown.
+/// Points nearer than this share of the mean edge length are one: far above rounding, far below
+/// anything grown.
 const SLACK: f64 = 1e-9;
 
 /// All places where edges meet without a common node.
@@ -173,7 +174,8 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         changed[q as usize] = true;
         join(&mut leaders, p, q);
     }
-    // Several edges through one point cross there in pairs, and where a node lies there, touch it besides.
+    // Several edges through one point cross there in pairs, and where a node lies there, touch it
+    // besides.
     let mut new: Vec<u32> = cuts.iter().map(|cut| cut.2).collect();
     let x = |node: u32| nodes[node as usize].x;
     new.sort_unstable_by(|&p, &q| x(p).total_cmp(&x(q)).then(p.cmp(&q)));
@@ -211,7 +213,8 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
             ..*edge
         });
     }
-    // Edges on top of each other have become the same piece twice. Only pieces at changed nodes can.
+    // Edges on top of each other have become the same piece twice. Only pieces at changed nodes
+    // can.
     let mut pairs: Vec<(u32, u32, u32)> = Vec::new();
     for (i, piece) in pieces.iter_mut().enumerate() {
         if changed[piece.from as usize] || changed[piece.to as usize] {

@@ -14,8 +14,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// Cells over all points: about two a point if they fill the rectangle, never above four a point (and a few), and no
-    /// smaller than `least`.
+    /// Cells over all points: about two a point if they fill the rectangle, never above four a
+    /// point (and a few), and no smaller than `least`.
     pub(crate) fn around(points: impl Iterator<Item = DVec2>, count: usize, least: f64) -> Self {
         let (low, high) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
             (low.min(p), high.max(p))
@@ -59,7 +59,8 @@ impl Lattice {
         (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
     }
 
-    /// Every cell through which the segment from `a` to `b` passes, and at times a neighbour of one.
+    /// Every cell through which the segment from `a` to `b` passes, and at times a neighbour of
+    /// one.
     fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let (first, last) = (self.row(a.y), self.row(b.y));
@@ -169,8 +170,8 @@ impl EdgeGrid {
                     }
                 }
             }
-            // What was not looked at lies beyond a side of this box that is no side of the grid. Edges of a cell
-            // reach beyond it, but then they are listed there too.
+            // What was not looked at lies beyond a side of this box that is no side of the grid.
+            // Edges of a cell reach beyond it, but then they are listed there too.
             let low = lattice.low + DVec2::new(left as f64, floor as f64) * lattice.cell;
             let high =
                 lattice.low + DVec2::new(right as f64 + 1.0, ceiling as f64 + 1.0) * lattice.cell;
@@ -194,8 +195,8 @@ impl EdgeGrid {
         (nearest < f64::INFINITY).then(|| nearest.sqrt())
     }
 
-    /// Goes from `p` towards −x and gives the first edge met of which `wanted` is true. A node at the height of `p`
-    /// counts as below it.
+    /// Goes from `p` towards −x and gives the first edge met of which `wanted` is true. A node at
+    /// the height of `p` counts as below it.
     pub(crate) fn first_to_the_left(
         &self,
         nodes: &[DVec2],
@@ -216,7 +217,8 @@ impl EdgeGrid {
                     }
                     let slope = (b.x - a.x) / (b.y - a.y);
                     let x = a.x + (p.y - a.y) * slope;
-                    // Of edges that meet at the height of `p`, the one farther right just above it comes first.
+                    // Of edges that meet at the height of `p`, the one farther right just above it
+                    // comes first.
                     (x <= p.x).then_some((number, x, slope))
                 })
                 .max_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));

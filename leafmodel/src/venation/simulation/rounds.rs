@@ -32,8 +32,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
         simulation
     }
 
-    /// Before the lamina grows: lets sources at `places` draw veins until they are used up, and calls `look` after each
-    /// step.
+    /// Before the lamina grows: lets sources at `places` draw veins until they are used up, and
+    /// calls `look` after each step.
     pub(crate) fn lay_out(&mut self, places: &[DVec2], mut look: impl FnMut(&Self) -> bool) {
         self.is_laying_out = true;
         let unit = self.clock.stage(0).unit;

@@ -8,7 +8,8 @@ use leafmodel::compound::WholeLeaf;
 
 /// One blade or some tubes in their place.
 struct Part<'l> {
-    /// Which of the different blades, from 1 on: the map of the first is NAME.exr, that of the others NAME-k.exr; 0 for stalks.
+    /// Which of the different blades, from 1 on: the map of the first is NAME.exr, that of the
+    /// others NAME-k.exr; 0 for stalks.
     number: usize,
     positions: &'l [DVec3],
     normals: &'l [DVec3],
@@ -138,7 +139,8 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     bytes
 }
 
-/// As text: an object and a material for each run of faces of one part, `blade-1` and so on, or `stalks`.
+/// As text: an object and a material for each run of faces of one part, `blade-1` and so on, or
+/// `stalks`.
 pub(super) fn obj(parts: &Parts<'_>) -> String {
     let mut text = String::from("# lengths in mm\n");
     for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {

@@ -152,7 +152,8 @@ radiance_w_m2_sr_nm = 0.1
             panic!("{material:?}");
         };
         let texture = contents_map(file).expect("a map");
-        // Floats go through the file as they are: at the centres of texels, where nothing is blended, they come back but for rounding.
+        // Floats go through the file as they are: at the centres of texels, where nothing is
+        // blended, they come back but for rounding.
         let mut seen = 0;
         for row in (0..map.height).step_by(7) {
             for column in (0..map.width).step_by(5) {

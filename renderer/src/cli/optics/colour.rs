@@ -80,7 +80,8 @@ mod tests {
 
     #[test]
     fn presets_have_the_colours_that_were_worked_out_elsewhere() {
-        // Computed with another implementation of the model and of colorimetry; rounding may differ by one step.
+        // Computed with another implementation of the model and of colorimetry; rounding may differ
+        // by one step.
         for (name, reflected, transmitted) in [
             ("sun-green", 0x48_5f33, 0x3c_5600),
             ("white-sector", 0x9c_ab8d, 0xb6_c0a1),

@@ -13,8 +13,8 @@ use super::plugin::look_at;
 use super::spectra::Spectra;
 use super::units::UNITS_PER_METRE;
 
-/// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse, either way from the
-/// middle.
+/// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse,
+/// either way from the middle.
 const SUN_DISTANCE: f64 = 1e5;
 
 /// Where in the export the picture of an environment light lies.
@@ -69,7 +69,8 @@ pub(super) fn emitter(
             let [origin, target] = [position, target].map(|place| place * UNITS_PER_METRE);
             let up = (target - origin).normalize().any_orthonormal_vector();
             let beam = cone_angle - penumbra_angle;
-            // Intensity over the square of a distance in Mitsuba's units is to be irradiance in ours.
+            // Intensity over the square of a distance in Mitsuba's units is to be irradiance in
+            // ours.
             let factor = UNITS_PER_METRE * UNITS_PER_METRE;
             let spot = Element::plugin("emitter", "spot")
                 .placed([look_at(origin, target, up)])

@@ -1,12 +1,13 @@
 //! The objects of the scene. Each mesh is written once, and so is a shape in several places: as a
 //! group with instances.
 //!
-//! A shape that stands in one place is written as such, with each of its parts. One that stands in several becomes a
-//! `shapegroup` that holds its parts, and an `instance` for each place: Mitsuba then keeps one copy of its triangles.
-//! Shapes that shine are always written alone, since no instance can hold an emitter.
+//! A shape that stands in one place is written as such, with each of its parts. One that stands in
+//! several becomes a `shapegroup` that holds its parts, and an `instance` for each place: Mitsuba
+//! then keeps one copy of its triangles. Shapes that shine are always written alone, since no
+//! instance can hold an emitter.
 //!
-//! Mitsuba turns the normals of mirrored shapes in its own way, so no transform of the export mirrors: where one would,
-//! the file holds the mirror image of the mesh.
+//! Mitsuba turns the normals of mirrored shapes in its own way, so no transform of the export
+//! mirrors: where one would, the file holds the mirror image of the mesh.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -149,7 +150,8 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in metres.
+    /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in
+    /// metres.
     fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4) -> Element {
         let mut to_world = to_world * DMat4::from(piece.to_leaf);
         let file = MeshFile {

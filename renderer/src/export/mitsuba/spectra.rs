@@ -4,8 +4,8 @@ use crate::export::element::Element;
 use crate::scene::description::{Band, Spectrum};
 use crate::spectrum::{cie, planck};
 
-/// Mitsuba's spectra are zero outside their points; ours hold their end values. So all are written over this range, nm,
-/// which holds every wavelength of a film.
+/// Mitsuba's spectra are zero outside their points; ours hold their end values. So all are written
+/// over this range, nm, which holds every wavelength of a film.
 const RANGE_NM: [f64; 2] = [300.0, 2600.0];
 
 /// Spectra of more points than this get a file of their own.
@@ -14,8 +14,8 @@ const MOST_INLINE: usize = 16;
 /// Intervals that a band's response is written with.
 const RESPONSE_INTERVALS: usize = 64;
 
-/// Width in nm of the box that stands for a single wavelength: Mitsuba's wavelengths are `f32`, with steps of up to
-/// 2.4e-4 nm.
+/// Width in nm of the box that stands for a single wavelength: Mitsuba's wavelengths are `f32`,
+/// with steps of up to 2.4e-4 nm.
 const SINGLE_WAVELENGTH_NM: f64 = 0.5;
 
 /// Writes spectra, and collects those that become files.
@@ -88,11 +88,12 @@ fn points(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
     points
 }
 
-/// A band of a `specfilm`, whose channel is the integral of radiance times this response: a box of area 1, so that the
-/// channel is the band's mean radiance.
+/// A band of a `specfilm`, whose channel is the integral of radiance times this response: a box of
+/// area 1, so that the channel is the band's mean radiance.
 ///
-/// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any of them. Written
-/// with two points only, a narrow band could fall between the points of that resampling.
+/// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any
+/// of them. Written with two points only, a narrow band could fall between the points of that
+/// resampling.
 pub(super) fn response(number: usize, band: &Band) -> Element {
     let width = if band.width_nm > 0.0 {
         band.width_nm

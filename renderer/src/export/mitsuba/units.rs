@@ -5,12 +5,14 @@ use crate::scene::world::{MaterialOwner, World};
 
 /// Mitsuba's units a metre: the exported scene is in millimetres.
 ///
-/// Mitsuba moves the origin of every new ray off its surface by 9e-5 (1 + largest coordinate). In metres that is a
-/// tenth of a millimetre, as much as veins stand out from a leaf, and light would pass under them (0.25 % of the mean
-/// in a close-up). In millimetres it is some micrometres. Radiance does not depend on the unit.
+/// Mitsuba moves the origin of every new ray off its surface by 9e-5 (1 + largest coordinate). In
+/// metres that is a tenth of a millimetre, as much as veins stand out from a leaf, and light would
+/// pass under them (0.25 % of the mean in a close-up). In millimetres it is some micrometres.
+/// Radiance does not depend on the unit.
 pub(super) const UNITS_PER_METRE: f64 = 1000.0;
 
-/// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are numbered from 2.
+/// Name of a material in the export: the scene's, or that of a grown leaf, whose further parts are
+/// numbered from 2.
 pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> String {
     match world.owners[number] {
         MaterialOwner::Scene(material) => format!("material-{}", scene.materials[material].name),

@@ -14,7 +14,8 @@ use super::shapes::{self, MeshFile};
 use super::spectra::{self, Spectra};
 use super::units::UNITS_PER_METRE;
 
-/// The text of `scene.xml`, and the meshes that it names; spectra that become files are added to `spectra`.
+/// The text of `scene.xml`, and the meshes that it names; spectra that become files are added to
+/// `spectra`.
 pub(super) fn scene(
     scene: &Description,
     world: &World,

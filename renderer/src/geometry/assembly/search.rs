@@ -1,7 +1,8 @@
 //! A ray's way through the two levels of trees.
 //!
-//! Each of the two walks is inlined into one function for each level of instructions and each kind of search. There are no
-//! closures: they would be compiled on their own first, without those instructions.
+//! Each of the two walks is inlined into one function for each level of instructions and each kind
+//! of search. There are no closures: they would be compiled on their own first, without those
+//! instructions.
 
 use std::marker::PhantomData;
 
@@ -143,7 +144,8 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
     fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32 {
         let carrier = &self.geometry.carriers[leaf as usize];
         let (origin, direction) = carrier.carry(self.ray);
-        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest number.
+        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest
+        // number.
         if !origin.is_finite() || !direction.is_finite() || direction == Vec3A::ZERO {
             return limit;
         }
@@ -232,7 +234,8 @@ impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
             candidates &= candidates - 1;
             if let Some(hit) = block.hit(lane, self.shear, self.slab) {
                 let hit = Hit {
-                    // Rounding may find a hit before the instance's own box; the box's word keeps culling by it exact.
+                    // Rounding may find a hit before the instance's own box; the box's word keeps
+                    // culling by it exact.
                     t: hit.t.max(self.enter),
                     instance: self.carrier.instance,
                     triangle: block.id(lane),

@@ -9,7 +9,8 @@ use super::{Geometry, GeometryError, Hit};
 use crate::simd::Level;
 use rayon::prelude::*;
 
-/// The nearest hit found by testing every triangle of every instance with the tracer's own test: no tree at all.
+/// The nearest hit found by testing every triangle of every instance with the tracer's own test: no
+/// tree at all.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
     let world = SlabRay::new(
@@ -51,8 +52,8 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     })
 }
 
-/// The nearest hit by Möller and Trumbore's test in `f64` on world positions, and how far (in barycentrics) any
-/// triangle's edge is from deciding otherwise.
+/// The nearest hit by Möller and Trumbore's test in `f64` on world positions, and how far (in
+/// barycentrics) any triangle's edge is from deciding otherwise.
 fn in_doubles(geometry: &Geometry, ray: &Ray) -> (Option<f64>, f64) {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let (mut nearest, mut margin): (Option<f64>, f64) = (None, f64::INFINITY);
@@ -168,7 +169,8 @@ fn every_level_of_instructions_finds_the_same_bits() {
 #[test]
 #[ignore = "slow: 10⁸ rays, 40 s on two cores"]
 fn no_ray_of_a_hundred_million_leaves_a_closed_curved_leaf() {
-    // Two curved blades that share their margin, 5 cm long: a closed surface around the rays' origins.
+    // Two curved blades that share their margin, 5 cm long: a closed surface around the rays'
+    // origins.
     let (side, length) = (60_u32, 0.05);
     let count = side + 1;
     let mut positions = Vec::new();
@@ -198,7 +200,8 @@ fn no_ray_of_a_hundred_million_leaves_a_closed_curved_leaf() {
     {
         let [a, b, c, d] =
             [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| vertex(face, i, j));
-        // The corners' diagonals turn so that no face lies in the margin alone, where the faces would coincide.
+        // The corners' diagonals turn so that no face lies in the margin alone, where the faces
+        // would coincide.
         let across = (i == 0) == (j == 0) && (i + 1 == side) == (j + 1 == side);
         let across = across || (i == 0 && j == 0) || (i + 1 == side && j + 1 == side);
         if across {
@@ -462,7 +465,8 @@ fn many_equal_or_nested_boxes_are_built_in_time_and_traced_right() {
         let pool = rayon::ThreadPoolBuilder::new().build().expect("threads");
         let start = std::time::Instant::now();
         let geometry = pool.install(|| alone(mesh));
-        // No benchmark: a build in quadratic time takes minutes, a sound one a fraction of a second on the slowest machine.
+        // No benchmark: a build in quadratic time takes minutes, a sound one a fraction of a second
+        // on the slowest machine.
         assert!(
             start.elapsed().as_secs_f32() < 30.0,
             "the build took {:?}",

@@ -69,7 +69,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
                 }
                 raw.push_fan(&face);
             }
-            // Lines, points, groups, materials, free-form surfaces: nothing that a triangle mesh holds.
+            // Lines, points, groups, materials, free-form surfaces: nothing that a triangle mesh
+            // holds.
             Some(_) | None => {}
         }
     }
@@ -94,7 +95,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
     Ok(raw)
 }
 
-/// Three numbers, of which `least` must be there; the rest are 0. What follows them (w, colours) is passed over.
+/// Three numbers, of which `least` must be there; the rest are 0. What follows them (w, colours) is
+/// passed over.
 fn numbers<'a>(
     words: &mut impl Iterator<Item = &'a str>,
     least: usize,

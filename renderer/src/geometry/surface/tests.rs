@@ -88,7 +88,8 @@ proptest! {
                 prop_assert!((unit.length() - 1.0).abs() < 1e-6, "{unit}");
             }
             prop_assert!(point.tangent.dot(point.shading_normal).abs() < 1e-6);
-            // Along the ray the point may be off where the triangle is seen edge-on; across the triangle's plane not.
+            // Along the ray the point may be off where the triangle is seen edge-on; across the
+            // triangle's plane not.
             let off = (point.position - ray.at(hit.t)).dot(point.geometric_normal).abs();
             prop_assert!(off < 1e-5, "{off} m off the plane");
         }

@@ -1,5 +1,5 @@
-//! How a wide tree comes from boxes: neighbours packed into leaves, a binary tree over the leaves, and that cut into
-//! nodes of eight.
+//! How a wide tree comes from boxes: neighbours packed into leaves, a binary tree over the leaves,
+//! and that cut into nodes of eight.
 
 use super::super::bounds::Bounds;
 use super::super::{bvh, median, memory};
@@ -33,8 +33,8 @@ impl WideTree {
         (tree, leaves.collect())
     }
 
-    /// Makes wide nodes of the cuts of a binary tree over the leaves' boxes, and gives the leaves in the order in which
-    /// nodes name them; `None` if the tree gets too deep.
+    /// Makes wide nodes of the cuts of a binary tree over the leaves' boxes, and gives the leaves
+    /// in the order in which nodes name them; `None` if the tree gets too deep.
     pub(super) fn over_leaves<C: Cut>(
         binary: &[BinaryNode],
         boxes: &[Bounds],

@@ -39,8 +39,8 @@ pub(super) trait Cut {
 ///
 /// \[ylitie2017\], section 3.1, with leaves that are given.
 pub(super) struct Cheapest {
-    /// For each node and each `i`: how many of `i + 1` children its left side gets; 0 if it stays whole. The last is
-    /// for the node as a wide node, which is opened in any case.
+    /// For each node and each `i`: how many of `i + 1` children its left side gets; 0 if it stays
+    /// whole. The last is for the node as a wide node, which is opened in any case.
     left: Vec<[u8; LANES]>,
 }
 

@@ -7,9 +7,11 @@ use super::super::hilbert;
 use super::LeafItems;
 use crate::simd::LANES;
 
-/// What a leaf costs beside its area, in areas of a mean box: that of the memory and of the tree above it.
+/// What a leaf costs beside its area, in areas of a mean box: that of the memory and of the tree
+/// above it.
 ///
-/// Measured on leaves of 5,000 and 500,000 triangles: 0.5 to 4 trace alike, more fill the leaves better.
+/// Measured on leaves of 5,000 and 500,000 triangles: 0.5 to 4 trace alike, more fill the leaves
+/// better.
 const COST_OF_A_LEAF: f64 = 2.0;
 
 /// Boxes along the curve that are packed by one thread at a time.
@@ -86,7 +88,8 @@ mod tests {
 
     #[test]
     fn an_even_blade_fills_its_leaves_and_keeps_them_compact() {
-        // 128 × 128 cells, two triangles each; a square of four cells, eight triangles, is the best leaf.
+        // 128 × 128 cells, two triangles each; a square of four cells, eight triangles, is the best
+        // leaf.
         let boxes: Vec<_> = (0..128 * 128 * 2)
             .map(|triangle| {
                 let (cell, side) = (triangle / 2, 0.01);

@@ -16,7 +16,8 @@ fn boxes(count: usize) -> Vec<Bounds> {
         .collect()
 }
 
-/// Visits every node and checks that it lies in the box that its parent has for it; gives the levels.
+/// Visits every node and checks that it lies in the box that its parent has for it; gives the
+/// levels.
 fn check(tree: &WideTree, leaves: &[LeafItems], boxes: &[Bounds]) -> usize {
     let mut open = vec![(0_u32, tree.bounds, 1)];
     let mut levels = 0;

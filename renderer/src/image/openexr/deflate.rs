@@ -11,8 +11,9 @@ use super::Layer;
 
 /// Rows of a block: what the format says for this compression.
 const ROWS: usize = 16;
-/// Effort of the compressor, 1 to 10. A fifth of the time of the `exr` crate's 4, for files 3 % larger: rendered values are
-/// noise but for their exponents, and those any effort finds. `docs/src/theory/paths.md` has the table.
+/// Effort of the compressor, 1 to 10. A fifth of the time of the `exr` crate's 4, for files 3 %
+/// larger: rendered values are noise but for their exponents, and those any effort finds.
+/// `docs/src/theory/paths.md` has the table.
 const EFFORT: u8 = 1;
 
 /// The blocks of a picture from top to bottom; layers are in the order of the file's channels.
@@ -32,9 +33,10 @@ pub(super) fn blocks(layers: &[&Layer], width: usize, height: usize) -> Vec<Chun
 ///
 /// # Source
 ///
-/// `OpenEXR` File Layout, "Scan line blocks": row by row, in each channel by channel, little-endian. The ZIP compressor of the
-/// reference implementation takes apart bytes of even and odd place, then stores differences of neighbours plus 128. What does not
-/// get smaller is stored as it is.
+/// `OpenEXR` File Layout, "Scan line blocks": row by row, in each channel by channel,
+/// little-endian. The ZIP compressor of the reference implementation takes apart bytes of even and
+/// odd place, then stores differences of neighbours plus 128. What does not get smaller is stored
+/// as it is.
 fn compressed(layers: &[&Layer], width: usize, rows: std::ops::Range<usize>) -> Vec<u8> {
     let mut plain = Vec::with_capacity(rows.len() * layers.len() * width * size_of::<f32>());
     for row in rows {

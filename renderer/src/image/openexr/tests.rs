@@ -8,7 +8,8 @@ fn bits(seed: u64) -> u64 {
     (bits ^ (bits >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9) ^ bits
 }
 
-/// Layers and attributes of every kind, in the order of their names; values of every kind, NaN with a payload included.
+/// Layers and attributes of every kind, in the order of their names; values of every kind, NaN with
+/// a payload included.
 fn picture() -> Picture {
     let (width, height) = (37, 21);
     let layer = |name: &str, seed: u64| {

@@ -2,21 +2,22 @@
 //!
 //! # Source
 //!
-//! \[urena2013\] for the parameters: first a line across the rectangle that cuts off a share of the solid angle, then a point on it.
-//! The inversion is our own: without arc cosines, and with the solid angle from one arc tangent.
+//! \[urena2013\] for the parameters: first a line across the rectangle that cuts off a share of the
+//! solid angle, then a point on it. The inversion is our own: without arc cosines, and with the
+//! solid angle from one arc tangent.
 //!
-//! Seen from height `h` over the plane, the solid angle of the rectangle between the foot of the perpendicular and `(x, y)` is
-//! `a(x, y) = atan(x y / (h r))` with `r² = x² + y² + h²`, which is `asin(t β)` with `t = x / √(x² + h²)` and
-//! `β = y / √(y² + h²)`. The part of `[x₀, x₁] × [y₀, y₁]` up to `x` fills `φ(x) − φ(x₀)`, where
-//! `φ(x) = asin(t β₁) − asin(t β₀)`. With `φ` given, the law of cosines yields
-//! `t = sin φ / √(β₀² + β₁² − 2 β₀ β₁ cos φ)`.
+//! Seen from height `h` over the plane, the solid angle of the rectangle between the foot of the
+//! perpendicular and `(x, y)` is `a(x, y) = atan(x y / (h r))` with `r² = x² + y² + h²`, which is
+//! `asin(t β)` with `t = x / √(x² + h²)` and `β = y / √(y² + h²)`. The part of
+//! `[x₀, x₁] × [y₀, y₁]` up to `x` fills `φ(x) − φ(x₀)`, where `φ(x) = asin(t β₁) − asin(t β₀)`.
+//! With `φ` given, the law of cosines yields `t = sin φ / √(β₀² + β₁² − 2 β₀ β₁ cos φ)`.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::offset;
 
-/// How far, as a share of the diagonal, the fourth corner may lie from where the other three put it, and how far
-/// from zero the cosine of a corner may be.
+/// How far, as a share of the diagonal, the fourth corner may lie from where the other three put
+/// it, and how far from zero the cosine of a corner may be.
 const TOLERANCE: f32 = 1e-5;
 
 /// A rectangle in space.
@@ -41,7 +42,8 @@ struct Seen {
 }
 
 impl Rectangle {
-    /// The rectangle that two triangles make: both counter-clockwise, with one edge of the same two corners.
+    /// The rectangle that two triangles make: both counter-clockwise, with one edge of the same two
+    /// corners.
     pub fn from_triangles(first: &[Vec3; 3], second: &[Vec3; 3]) -> Option<Self> {
         let rotations = |[a, b, c]: [Vec3; 3]| [[a, b, c], [b, c, a], [c, a, b]];
         for [corner, p, q] in rotations(*first) {
@@ -54,8 +56,8 @@ impl Rectangle {
         None
     }
 
-    /// From a corner, its two neighbours (counter-clockwise with it) and the corner opposite; `None` if the angles are not right
-    /// or there is no area.
+    /// From a corner, its two neighbours (counter-clockwise with it) and the corner opposite;
+    /// `None` if the angles are not right or there is no area.
     fn from_corners(corner: Vec3, p: Vec3, q: Vec3, opposite: Vec3) -> Option<Self> {
         let edges = [p - corner, q - corner];
         let lengths = edges.map(Vec3::length);
@@ -103,8 +105,8 @@ impl Rectangle {
         self.seen(from).solid_angle().1
     }
 
-    /// The way from a point over the bright side to a point of the rectangle, uniform over solid angle, and the density over
-    /// solid angle, sr⁻¹.
+    /// The way from a point over the bright side to a point of the rectangle, uniform over solid
+    /// angle, and the density over solid angle, sr⁻¹.
     pub fn sample(&self, from: Vec3, u: Vec2) -> (DVec3, f32) {
         let seen = self.seen(from);
         let (place, solid_angle) = seen.sample(u);
@@ -128,8 +130,8 @@ impl Rectangle {
 }
 
 impl Seen {
-    /// The complex number `(cos φ, sin φ)`, of any length, with the solid angle `φ` between the foot of the
-    /// perpendicular's row `x` and the borders in y.
+    /// The complex number `(cos φ, sin φ)`, of any length, with the solid angle `φ` between the
+    /// foot of the perpendicular's row `x` and the borders in y.
     fn turn(&self, x: f64) -> DVec2 {
         let [low, high] = self.y.map(|y| {
             let distance = (x * x + y * y + self.height * self.height).sqrt();
@@ -152,7 +154,8 @@ impl Seen {
         (first, angle)
     }
 
-    /// A place on the rectangle, uniform over solid angle: `u.x` of that along x and `u.y` of what is there along y.
+    /// A place on the rectangle, uniform over solid angle: `u.x` of that along x and `u.y` of what
+    /// is there along y.
     fn sample(&self, u: Vec2) -> (DVec2, f64) {
         let (first, solid_angle) = self.solid_angle();
         let (sin, cos) = libm::sincos(f64::from(u.x) * solid_angle);

@@ -2,10 +2,12 @@
 //!
 //! # Source
 //!
-//! \[arvo1995\] for the parameters: first a point `C'` on the arc `AC` such that `ABC'` has a share of the solid angle, then a
-//! point on the arc `BC'`. The inversion is our own, free of arc cosines: by \[oosterom1983\] the solid angle `S'` of `ABC'`
-//! has `tan(S'/2) = det(A, B, C') / (1 + A·B + B·C' + C'·A)`. With `C' = A cos b + T sin b`, where `T` is the unit tangent at
-//! `A` towards `C`, and `τ = tan(b/2)` this is `τ det(A, B, T) / (1 + A·B + τ B·T)`, so
+//! \[arvo1995\] for the parameters: first a point `C'` on the arc `AC` such that `ABC'` has a share
+//! of the solid angle, then a point on the arc `BC'`. The inversion is our own, free of arc
+//! cosines: by \[oosterom1983\] the solid angle `S'` of `ABC'` has
+//! `tan(S'/2) = det(A, B, C') / (1 + A·B + B·C' + C'·A)`. With `C' = A cos b + T sin b`, where `T`
+//! is the unit tangent at `A` towards `C`, and `τ = tan(b/2)` this is
+//! `τ det(A, B, T) / (1 + A·B + τ B·T)`, so
 //! `τ = (1 + A·B) sin(S'/2) / (det(A, B, T) cos(S'/2) − B·T sin(S'/2))`.
 
 use glam::{DVec3, Vec2, Vec3};
@@ -69,8 +71,8 @@ impl Triangle {
         solid_angle(&self.corners.map(|corner| offset(corner, from)))
     }
 
-    /// The way from a point over the bright side to a point of the triangle, uniform over solid angle, and the density over
-    /// solid angle, sr⁻¹.
+    /// The way from a point over the bright side to a point of the triangle, uniform over solid
+    /// angle, and the density over solid angle, sr⁻¹.
     ///
     /// `None` if rounding leads past the plane.
     pub fn sample(&self, from: Vec3, u: Vec2) -> Option<(DVec3, f32)> {

@@ -11,8 +11,8 @@ use crate::light::angle;
 /// Bins along an axis.
 const BINS: usize = 16;
 
-/// From this level on sets are cut into halves of equal number, so that the deepest trail fits its 64 bits: 2³¹ lights
-/// need eleven more levels.
+/// From this level on sets are cut into halves of equal number, so that the deepest trail fits its
+/// 64 bits: 2³¹ lights need eleven more levels.
 const HALVING_LEVEL: u32 = 10;
 
 /// A light, and what splitting it from others goes by.
@@ -139,9 +139,11 @@ impl Summary {
         }
     }
 
-    /// Intensity times surface of the box times a measure of directions: 1 if all axes agree, 4 if they cancel out.
+    /// Intensity times surface of the box times a measure of directions: 1 if all axes agree, 4 if
+    /// they cancel out.
     ///
-    /// The ends of the paper's measure `M_Ω` for surfaces, π and 4π, joined by the length of the mean axis, which adds up.
+    /// The ends of the paper's measure `M_Ω` for surfaces, π and 4π, joined by the length of the
+    /// mean axis, which adds up.
     fn cost(&self) -> f32 {
         if self.intensity <= 0.0 {
             return 0.0;
@@ -153,7 +155,8 @@ impl Summary {
     }
 }
 
-/// Parts at least two lights into two sets that are not empty; gives the number of lights in the first.
+/// Parts at least two lights into two sets that are not empty; gives the number of lights in the
+/// first.
 fn cut(items: &mut [Item], halve: bool) -> usize {
     let (low, high) = items
         .iter()
@@ -188,7 +191,8 @@ fn cut(items: &mut [Item], halve: bool) -> usize {
     half
 }
 
-/// The axis and the first bin of the second set that cost least; `None` if nothing tells sets apart.
+/// The axis and the first bin of the second set that cost least; `None` if nothing tells sets
+/// apart.
 fn cheapest(items: &[Item], low: Vec3, size: Vec3) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = f32::INFINITY;

@@ -22,7 +22,8 @@ fn direction(next: &mut impl FnMut() -> f32) -> Vec3 {
     Vec3::new(radius * cos, radius * sin, z).normalize()
 }
 
-/// Rectangles and triangles of all sizes about the origin, in clusters, with radiances over six decades.
+/// Rectangles and triangles of all sizes about the origin, in clusters, with radiances over six
+/// decades.
 fn lamps(count: usize, next: &mut impl FnMut() -> f32) -> Vec<(Patch, f32)> {
     let mut lamps = Vec::new();
     let mut cluster = (Vec3::ZERO, 1.0);

@@ -1,9 +1,9 @@
 //! `[objects.NAME.instances]`: a file with a row for each place at which an object stands.
 //!
-//! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both name their columns alike
-//!   ([`columns`]).
-//! - **Out**: places in the world, 52 bytes each, in the file's order; or errors, each with row, column, value and
-//!   what is allowed.
+//! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both name their
+//!   columns alike ([`columns`]).
+//! - **Out**: places in the world, 52 bytes each, in the file's order; or errors, each with row,
+//!   column, value and what is allowed.
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
 //! - **Left out**: what the rows mean together. Instances may overlap.
 //!
@@ -104,8 +104,8 @@ impl Rows {
     }
 }
 
-/// The keys of the block. `shapes` are those that rows choose from, `frame` takes rows' coordinates to the
-/// world; without either the file is only looked up.
+/// The keys of the block. `shapes` are those that rows choose from, `frame` takes rows' coordinates
+/// to the world; without either the file is only looked up.
 pub(super) fn instances(
     places: &mut Vec<InstancePlace>,
     keys: &mut Keys<'_>,

@@ -1,4 +1,5 @@
-//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, and where it stands, once or many times.
+//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, and where it
+//! stands, once or many times.
 
 use glam::{DMat3, DMat4, DVec3};
 use leafmodel::document::context::{Context, ENOUGH};

@@ -1,4 +1,5 @@
-//! `[solids.NAME]`: a body of solid tissue, and the optics that it shares with `[materials.NAME.solid]`.
+//! `[solids.NAME]`: a body of solid tissue, and the optics that it shares with
+//! `[materials.NAME.solid]`.
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;

@@ -11,9 +11,9 @@ use crate::geometry::MeshError;
 /// A part of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Which of [`GrownLeaf::meshes`].
+    /// Which of [`super::GrownLeaf::meshes`].
     pub mesh: usize,
-    /// Which of [`GrownLeaf::materials`].
+    /// Which of [`super::GrownLeaf::materials`].
     pub material: usize,
     /// From the mesh to the leaf, metres; may mirror.
     pub to_leaf: DAffine3,
@@ -36,13 +36,13 @@ pub enum PlantError {
 /// What a leaf has grown into, in metres: the numbers that a [`GrownLeaf`] is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct LeafParts {
-    /// As [`GrownLeaf::meshes`].
+    /// As [`super::GrownLeaf::meshes`].
     pub(in crate::scene) meshes: Vec<MeshParts>,
     /// The contents of the different blades.
     pub(in crate::scene) maps: Vec<MapParts>,
     /// What stalks are made of, if there are any.
     pub(in crate::scene) stalk: Option<Contents>,
-    /// As [`GrownLeaf::pieces`].
+    /// As [`super::GrownLeaf::pieces`].
     pub(in crate::scene) pieces: Vec<Piece>,
 }
 

@@ -41,8 +41,8 @@ pub(super) fn on_coats(
 pub(super) fn on_maps<'m>(
     materials: impl IntoIterator<Item = (&'m str, &'m Material)>,
 ) -> Vec<String> {
-    // Contents are at least 0, so their means tell whether any texel has some. Uniform ones are told
-    // of where they are read.
+    // Contents are at least 0, so their means tell whether any texel has some. Uniform ones are
+    // told of where they are read.
     let mixes = |material: &Material| {
         let map = material.contents_map();
         map.is_some_and(|map| map.mean().mixes_betalains_and_anthocyanins())

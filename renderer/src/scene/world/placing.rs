@@ -43,8 +43,8 @@ pub struct WorldObject {
     pub light: Option<usize>,
 }
 
-/// What each instance is. All places of an object share an entry for each of its parts, so that an instance costs
-/// eight bytes here.
+/// What each instance is. All places of an object share an entry for each of its parts, so that an
+/// instance costs eight bytes here.
 #[derive(Clone, Debug, Default)]
 pub struct WorldObjects {
     parts: Vec<WorldObject>,
@@ -70,8 +70,8 @@ impl WorldObjects {
         self.instances.is_empty()
     }
 
-    /// Which of its object's places an instance belongs to, from 0: the row of the object's file, or 0 if the object
-    /// stands in one place. Parts of a leaf share it.
+    /// Which of its object's places an instance belongs to, from 0: the row of the object's file,
+    /// or 0 if the object stands in one place. Parts of a leaf share it.
     pub fn place_of(&self, instance: u32) -> u32 {
         self.instances[instance as usize].place
     }

@@ -115,8 +115,8 @@ fn instances_stand_where_their_object_and_their_row_say() {
     assert_eq!(of(1), (0, 1, 1, None, 0));
     assert_eq!(of(2), (0, 0, 0, None, 1));
     assert_eq!(of(3), (0, 1, 1, None, 2));
-    // (0.1, 0, 0) of the first row's ball: three times as large, turned to y, moved to x = 0.5; then the object's:
-    // twice as large, x to −z, one up.
+    // (0.1, 0, 0) of the first row's ball: three times as large, turned to y, moved to x = 0.5;
+    // then the object's: twice as large, x to −z, one up.
     let point = world
         .geometry
         .instance(1)

@@ -112,7 +112,8 @@ fn an_image_decides_how_far_cells_adhere() {
         });
         sum / count
     };
-    // To the left cells of type 0 repel one another in full, to the right hardly: there they are crowded together.
+    // To the left cells of type 0 repel one another in full, to the right hardly: there they are
+    // crowded together.
     let ratio = mean_area(true) / mean_area(false);
     assert!(ratio > 1.3, "{ratio}");
 }

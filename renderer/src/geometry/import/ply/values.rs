@@ -95,8 +95,8 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// The next word of this line; empty lines before it are passed over at the beginning of an item only, because
-    /// a line that ends too early must not borrow from the next.
+    /// The next word of this line; empty lines before it are passed over at the beginning of an
+    /// item only, because a line that ends too early must not borrow from the next.
     fn word(&mut self) -> Result<&'a str, ImportError> {
         let mut at_start = self.byte == 0 || self.bytes[self.byte - 1] == b'\n';
         loop {

@@ -34,7 +34,8 @@ pub(super) const AXES: usize = 11;
 /// Which of the object's shapes a row is.
 pub(super) const SHAPE: usize = 14;
 
-/// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do not.
+/// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do
+/// not.
 pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 
 /// What a column's numbers may be; shapes are looked up instead.

@@ -68,7 +68,8 @@ impl Header {
         let has = |column: usize| columns.contains(&column) || misspelt.contains(&NAMES[column]);
         let mut needed: Vec<usize> = (POSITION..ROTATION).collect();
         for group in [ROTATION..QUATERNION, QUATERNION..SCALE, AXES..SHAPE] {
-            // An angle that is left out is 0; a part of a quaternion or an axis has no such default.
+            // An angle that is left out is 0; a part of a quaternion or an axis has no such
+            // default.
             if group.start != ROTATION && group.clone().any(has) {
                 needed.extend(group);
             }
@@ -161,8 +162,8 @@ impl Row {
         }
     }
 
-    /// The place that the row stands for: scaled, then turned, then moved, as objects are, then carried by the
-    /// object's own frame.
+    /// The place that the row stands for: scaled, then turned, then moved, as objects are, then
+    /// carried by the object's own frame.
     pub(super) fn place(mut self, table: &Table<'_>) -> Result<InstancePlace, Vec<RowError>> {
         let three = |at: usize| DVec3::from_slice(&self.numbers[at..at + 3]);
         let linear = if self.has_quaternion {

@@ -1,4 +1,5 @@
-//! Tables of instances as `NumPy` writes them: a structured array whose fields are named as columns are.
+//! Tables of instances as `NumPy` writes them: a structured array whose fields are named as columns
+//! are.
 //!
 //! Read are arrays of one dimension, little-endian, with fields of floats or integers: what
 //! `np.save("canopy.npy", np.rec.fromarrays([x, y, z], names="x_m,y_m,z_m"))` gives.

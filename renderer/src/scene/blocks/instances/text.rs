@@ -1,6 +1,7 @@
 //! Tables of instances as text: a header with the columns' names, then a row a line.
 //!
-//! Fields are parted by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are left out.
+//! Fields are parted by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are left
+//! out.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,5 @@
-//! The header of a `NumPy` file: which fields a row has, how many rows there are, and where they begin.
+//! The header of a `NumPy` file: which fields a row has, how many rows there are, and where they
+//! begin.
 //!
 //! It is a Python literal, of which only what `np.save` writes is understood.
 
