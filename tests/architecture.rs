@@ -234,3 +234,45 @@ fn documents_know_nothing_of_leaves() {
         }
     }
 }
+
+#[test]
+fn leaves_are_grown_behind_one_seam() {
+    const ROOMS: [&str; 10] = [
+        "leaf",
+        "blade",
+        "venation",
+        "shape",
+        "compound",
+        "mosaic",
+        "transport",
+        "species",
+        "measure",
+        "solid",
+    ];
+    const SEAM: [&str; 6] = [
+        "scene/plants",
+        "scene/plant_cache",
+        "scene/description",
+        "scene/blocks/leaf",
+        "cli/grow",
+        "export/drawing",
+    ];
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../renderer/src");
+    let mut texts = BTreeMap::new();
+    read(&root, &mut Vec::new(), &mut texts);
+    let mut seen = 0;
+    for (module, text) in &texts {
+        let path = module.join("/");
+        for room in ROOMS {
+            let code = text
+                .lines()
+                .filter(|line| !line.trim_start().starts_with("//"));
+            let names = code.filter(|line| line.contains(&format!("leafmodel::{room}::")));
+            let count = names.count();
+            seen += count;
+            let is_there = SEAM.iter().any(|part| path.starts_with(part));
+            assert!(count == 0 || is_there, "{path} names leafmodel::{room}");
+        }
+    }
+    assert!(seen > 20, "only {seen} names were found");
+}

@@ -241,7 +241,13 @@ pub fn leaf_to_toml(name: &str, plan: &LeafPlan, extent: Extent) -> String {
 /// As [`leaf_to_toml`], but with the name of a preset and what differs from it; all of it if the
 /// plan lacks something that the preset has, or there is no such preset.
 pub fn leaf_beside_preset(name: &str, plan: &LeafPlan, preset: &str) -> String {
-    let found = species::find(preset).map(|preset| written(&preset.plan(), Extent::All));
+    let found = species::find(preset).map(|preset| {
+        // As it will be read, of another length.
+        let mut beneath = preset.plan();
+        let before = beneath.length_mm;
+        leaf::follow_length(&mut beneath, before, plan.length_mm);
+        written(&beneath, Extent::All)
+    });
     let beside = found.and_then(|preset| written(plan, Extent::All).beside_preset(&preset));
     let Some(beside) = beside else {
         return leaf_to_toml(name, plan, Extent::Changed);

@@ -9,6 +9,23 @@
 //!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
 //! - **Memory**: 32 bytes a channel, 4 of coverage and 8 or 4 a feature ([`Sum`]) for each pixel.
 //! - **Left out**: what channels and features mean; the maker of the film knows.
+//!
+//! ```
+//! use renderer::film::Film;
+//!
+//! // One channel, no features: eight samples of each pixel, half of them 1, half 2.
+//! let mut film = Film::new(16, 16, 1, &[])?;
+//! film.expose(|block| {
+//!     block.expose(8, |_x, _y, pixel| {
+//!         for number in 0..8 {
+//!             let radiance = if number % 2 == 0 { 1.0 } else { 2.0 };
+//!             pixel.add(number, &[radiance], None::<&[f32; 0]>);
+//!         }
+//!     });
+//! });
+//! assert_eq!(film.pixel(3, 4).mean(0), 1.5);
+//! # Ok::<(), renderer::film::FilmError>(())
+//! ```
 
 mod block;
 mod features;

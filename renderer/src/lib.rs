@@ -14,17 +14,20 @@
 //! use std::path::Path;
 //! use std::sync::atomic::AtomicBool;
 //!
-//! use leafmodel::species;
 //! use renderer::image::openexr;
 //! use renderer::integrator::develop::develop;
 //! use renderer::integrator::render::{Job, render};
-//! use renderer::scene::load::{leaf_to_toml, parse};
+//! use renderer::scene::load::parse;
 //! use renderer::scene::world::World;
 //!
-//! // A leaf of the other crate as a block of a scene, then what it lies under and who looks at it.
-//! let mut birch = species::find("birch").ok_or("the birch is a preset")?.plan();
-//! birch.map_size = 64;
-//! let scene = leaf_to_toml("birch", &birch) + r#"
+//! // A leaf of the other crate by the name of its preset, what lights it, and who looks at it.
+//! let scene = r#"
+//!     format = 1
+//!
+//!     [leaves.birch]
+//!     preset = "birch"
+//!     map_size = 64
+//!
 //!     [objects.leaf]
 //!     leaf = "birch"
 //!
@@ -41,7 +44,7 @@
 //!     size = [24, 32]
 //!     spp = 16
 //! "#;
-//! let scene = parse(&scene, "birch.toml", Path::new("."), &[])?.description;
+//! let scene = parse(scene, "birch.toml", Path::new("."), &[])?.description;
 //! let world = World::build(&scene)?;
 //!
 //! // Samples of every pixel, on all threads. The seed decides the noise; nothing else does.

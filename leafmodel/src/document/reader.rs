@@ -12,7 +12,7 @@ use super::limits::Limits;
 use super::nearest::nearest;
 use super::source::{Place, escaped};
 use super::tree::{Entry, Node, Table, Value};
-use super::values::{integer_at, listed, number_at, numbers_at, text_at, wrong_type};
+use super::values::{listed, number_at, text_at, wrong_type};
 
 /// What a survey of the keys reads in place of a block that is left out.
 static NOTHING: Table = Table(Vec::new());
@@ -105,79 +105,10 @@ impl<'a> Block<'a> {
         self.optional_number(key, limits).unwrap_or(default)
     }
 
-    /// An integer.
-    pub fn integer(&self, key: &'static str, low: u64, high: u64) -> Option<u64> {
-        let node = self.needed(key, || {
-            format!("`{key} = …`, an integer from {low} to {high}")
-        })?;
-        integer_at(self.cx, node, key, low, high)
-    }
-
-    /// An integer that may be left out.
-    pub fn optional_integer(&self, key: &'static str, low: u64, high: u64) -> Option<u64> {
-        integer_at(self.cx, self.node(key)?, key, low, high)
-    }
-
-    /// An integer with a default.
-    pub fn integer_or(&self, key: &'static str, low: u64, high: u64, default: u64) -> u64 {
-        self.optional_integer(key, low, high).unwrap_or(default)
-    }
-
-    /// True or false, with a default.
-    pub fn flag_or(&self, key: &'static str, default: bool) -> bool {
-        match self.node(key) {
-            None => default,
-            Some(Node {
-                value: Value::Flag(flag),
-                ..
-            }) => *flag,
-            Some(node) => {
-                wrong_type(self.cx, node, key, "true or false");
-                default
-            }
-        }
-    }
-
     /// Text.
     pub fn text(&self, key: &'static str, wanted: &str) -> Option<(&'a str, &'a Place)> {
         let node = self.needed(key, || format!("`{key} = \"…\"`, {wanted}"))?;
         text_at(self.cx, node, key)
-    }
-
-    /// Text that may be left out.
-    pub fn optional_text(&self, key: &'static str) -> Option<(&'a str, &'a Place)> {
-        text_at(self.cx, self.node(key)?, key)
-    }
-
-    /// A word out of several that may be left out.
-    pub fn word(&self, key: &'static str, words: &[&'static str]) -> Option<&'static str> {
-        let (written, at) = self.optional_text(key)?;
-        let known = words.iter().copied().find(|word| *word == written);
-        if known.is_none() {
-            let error = DocumentError::UnknownWord {
-                key: key.to_owned(),
-                word: escaped(written, QUOTED),
-                nearest: nearest(written, words.iter().copied()).map(str::to_owned),
-                known: listed(words.iter().copied()),
-            };
-            self.cx.error(at, error);
-        }
-        known
-    }
-
-    /// A list of `N` numbers.
-    pub fn numbers<const N: usize>(&self, key: &'static str, limits: Limits) -> Option<[f64; N]> {
-        let node = self.needed(key, || format!("`{key} = […]`, a list of {N} numbers"))?;
-        numbers_at(self.cx, node, key, limits)
-    }
-
-    /// A list of `N` numbers that may be left out.
-    pub fn optional_numbers<const N: usize>(
-        &self,
-        key: &'static str,
-        limits: Limits,
-    ) -> Option<[f64; N]> {
-        numbers_at(self.cx, self.node(key)?, key, limits)
     }
 
     /// A block inside this one, of one of the named variants if there are any.

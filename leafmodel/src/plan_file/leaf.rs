@@ -50,15 +50,11 @@ pub(super) fn veins_alone(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
 }
 
 fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
-    // What follows the length goes on to do so.
-    let form = BladeForm::nearly_flat(plan.length_mm);
-    let usual_edges = plan.form.max_edge_mm == form.max_edge_mm;
+    let before = plan.length_mm;
     let limits = Number(Limits::closed(0.1, 10_000.0));
     let about = "Length of the midrib.";
     keys.required("length_mm", &mut plan.length_mm, limits, about);
-    if usual_edges {
-        plan.form.max_edge_mm = BladeForm::nearly_flat(plan.length_mm).max_edge_mm;
-    }
+    follow_length(plan, before, plan.length_mm);
     let seed = Integer::within(0, u64::MAX);
     keys.key(
         "seed",
@@ -121,6 +117,13 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     );
     if keys.reader().is_some() {
         check(plan, keys);
+    }
+}
+
+/// Lets what has the default for one length of the leaf have that for another.
+pub(super) fn follow_length(plan: &mut LeafPlan, before: f64, after: f64) {
+    if plan.form.max_edge_mm == BladeForm::nearly_flat(before).max_edge_mm {
+        plan.form.max_edge_mm = BladeForm::nearly_flat(after).max_edge_mm;
     }
 }
 
