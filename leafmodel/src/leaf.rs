@@ -222,6 +222,7 @@ mod tests {
     use crate::leaf::outline_plan::Contour;
     use crate::optics::{Constituent, Contents, VeinFactors};
     use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
+    use crate::testing::fixed;
     use crate::transport::VeinStyle;
     use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 
@@ -306,7 +307,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(12))]
+        #![proptest_config(fixed(12))]
         #[test]
         fn grown_leaves_are_sound(
             rate_ratio in 1.1..1.8,

@@ -77,5 +77,7 @@ pub mod plan_file;
 pub mod shape;
 pub mod solid;
 pub mod species;
+#[cfg(test)]
+mod testing;
 pub mod transport;
 pub mod venation;

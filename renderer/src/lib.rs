@@ -84,3 +84,5 @@ pub mod sampling;
 pub mod scene;
 pub mod simd;
 pub mod spectrum;
+#[cfg(test)]
+mod testing;

@@ -156,6 +156,7 @@ mod tests {
     use super::super::tissue::tests::GREEN;
     use super::*;
     use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
+    use crate::testing::fixed;
 
     const FRAME: UvFrame = UvFrame {
         min: DVec2::new(-3.0, 0.0),
@@ -338,6 +339,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn contents_are_finite_and_in_range_everywhere(
             factors in of_each(0.0..100.0),

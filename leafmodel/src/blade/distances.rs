@@ -1,62 +1,107 @@
 //! How far it is to the nearest of many segments, fast at millions of points.
 
+use std::f64::consts::SQRT_2;
+
 use glam::DVec2;
 
 use super::frame::UvFrame;
 
 /// Distances to segments over a frame.
 ///
-/// A grid knows the segment nearest to the centre of each cell: cells that a segment crosses are
-/// seeded with it, two sweeps hand candidates on to all eight neighbours, compared by true distance
-/// (the vector distance transform of \[danielsson1980\]). A query takes the least of the exact
-/// distances to the segments of the four cells around it. It is never less than the true distance.
-/// It is more only where the nearest segment is nearest to no cell centre nearby; the error is then
-/// below a cell's width.
-///
-/// \[danielsson1980\] Computer Graphics and Image Processing 14:227.
+/// A quadtree over the frame keeps for each square the segments that may be nearest to one of its
+/// points. A distance changes by at most the way walked, so a segment can be nearest somewhere in a
+/// square of half diagonal *h* only if it is at most 2 *h* further from the centre than the nearest
+/// one is there. The lists of the last squares are short, and the least distance to a segment of
+/// the list is the exact one at every point of the frame.
 #[derive(Clone, Debug)]
 pub(super) struct Distances {
     segments: Vec<[DVec2; 2]>,
-    origin: DVec2,
-    cell: f64,
-    columns: usize,
-    rows: usize,
-    nearest: Vec<u32>,
+    centre: DVec2,
+    half_side: f64,
+    squares: Vec<Square>,
+    /// Numbers of segments, list after list.
+    candidates: Vec<u32>,
 }
 
-const NONE: u32 = u32::MAX;
+#[derive(Clone, Copy, Debug)]
+enum Square {
+    /// Place of the first of four quarters: west before east, south before north.
+    Parted(u32),
+    /// First candidate and the place after the last.
+    Whole(u32, u32),
+}
+
+/// A list this short is not worth another part.
+const SHORT: usize = 4;
+/// Squares with longer lists are parted this often: many segments may meet in one point.
+const DEEPEST: u32 = 11;
 
 impl Distances {
     /// Sorts segments; the frame says where distances will be asked for.
     pub(super) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
-        // About three cells a side for each segment of a net that fills the frame.
-        let wanted = 3.0 * (segments.len() as f64).sqrt();
-        let cell = frame.size.max_element() / wanted.clamp(192.0, 1024.0);
-        let cells = |side: f64| (side / cell) as usize + 3;
-        let (columns, rows) = (cells(frame.size.x), cells(frame.size.y));
+        let all = (0..segments.len() as u32).collect();
+        let (centre, half_side) = (frame.min + 0.5 * frame.size, 0.5 * frame.size.max_element());
         let mut field = Self {
             segments,
-            origin: frame.min - DVec2::splat(cell),
-            cell,
-            columns,
-            rows,
-            nearest: vec![NONE; columns * rows],
+            centre,
+            half_side,
+            squares: vec![Square::Whole(0, 0)],
+            candidates: Vec::new(),
         };
-        field.seed();
-        field.sweep();
+        field.part(0, centre, half_side, all, DEEPEST);
         field
     }
 
-    fn centre(&self, cell: usize) -> DVec2 {
-        let (column, row) = (cell % self.columns, cell / self.columns);
-        self.origin + self.cell * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)
+    /// Fills the square at a place with those of its parent's candidates that are its own.
+    fn part(
+        &mut self,
+        place: usize,
+        centre: DVec2,
+        half_side: f64,
+        of_parent: Vec<u32>,
+        deeper: u32,
+    ) {
+        let distances: Vec<f64> = of_parent
+            .iter()
+            .map(|&segment| self.square(segment, centre).sqrt())
+            .collect();
+        let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+        // Rounding must not lose a segment at the very bound.
+        let reach = (least + 2.0 * SQRT_2 * half_side) * (1.0 + 1e-12);
+        let own: Vec<u32> = of_parent
+            .iter()
+            .zip(&distances)
+            .filter(|&(_, &distance)| distance <= reach)
+            .map(|(&segment, _)| segment)
+            .collect();
+        if own.len() <= SHORT || deeper == 0 {
+            let first = self.candidates.len() as u32;
+            self.candidates.extend(own);
+            self.squares[place] = Square::Whole(first, self.candidates.len() as u32);
+            return;
+        }
+        let quarters = self.squares.len();
+        self.squares[place] = Square::Parted(quarters as u32);
+        self.squares.resize(quarters + 4, Square::Whole(0, 0));
+        let quarter_side = 0.5 * half_side;
+        for (quarter, (east, north)) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
+            .into_iter()
+            .enumerate()
+        {
+            let centre = centre + quarter_side * DVec2::new(east, north);
+            self.part(
+                quarters + quarter,
+                centre,
+                quarter_side,
+                own.clone(),
+                deeper - 1,
+            );
+        }
     }
 
-    /// Squared distance of a point to a segment; infinite to none.
+    /// Squared distance of a point to a segment.
     fn square(&self, segment: u32, p: DVec2) -> f64 {
-        let Some(&[from, to]) = self.segments.get(segment as usize) else {
-            return f64::INFINITY;
-        };
+        let [from, to] = self.segments[segment as usize];
         let (along, offset) = (to - from, p - from);
         let length = along.length_squared();
         let share = if length > 0.0 {
@@ -67,72 +112,28 @@ impl Distances {
         (offset - share * along).length_squared()
     }
 
-    fn offer(&mut self, cell: usize, segment: u32) {
-        let centre = self.centre(cell);
-        if self.square(segment, centre) < self.square(self.nearest[cell], centre) {
-            self.nearest[cell] = segment;
-        }
-    }
-
-    fn seed(&mut self) {
-        for index in 0..self.segments.len() {
-            let [from, to] = self.segments[index];
-            let steps = ((to - from).length() / (0.5 * self.cell)) as usize + 1;
-            for step in 0..=steps {
-                let p = from.lerp(to, step as f64 / steps as f64);
-                // What lies outside counts at the edge; a float below 0 becomes the index 0.
-                let place = (p - self.origin) / self.cell;
-                let column = (place.x as usize).min(self.columns - 1);
-                let row = (place.y as usize).min(self.rows - 1);
-                self.offer(row * self.columns + column, index as u32);
-            }
-        }
-    }
-
-    /// From the first cell to the last and back, each time from all cells around.
-    fn sweep(&mut self) {
-        let (columns, rows) = (self.columns, self.rows);
-        for pass in 0..4 {
-            for number in 0..columns * rows {
-                let cell = if pass % 2 == 0 {
-                    number
-                } else {
-                    columns * rows - 1 - number
-                };
-                let (column, row) = (cell % columns, cell / columns);
-                for r in row.saturating_sub(1)..=(row + 1).min(rows - 1) {
-                    for c in column.saturating_sub(1)..=(column + 1).min(columns - 1) {
-                        let candidate = self.nearest[r * columns + c];
-                        if candidate != self.nearest[cell] {
-                            self.offer(cell, candidate);
-                        }
-                    }
+    /// Distance of a point of the frame (mm) to the nearest segment; infinite if there are none.
+    pub(super) fn at(&self, p: DVec2) -> f64 {
+        let (mut centre, mut half_side) = (self.centre, self.half_side);
+        let mut place = 0;
+        loop {
+            match self.squares[place] {
+                Square::Parted(quarters) => {
+                    let (east, north) = (p.x >= centre.x, p.y >= centre.y);
+                    place = quarters as usize + usize::from(east) + 2 * usize::from(north);
+                    half_side *= 0.5;
+                    let toward = |yes: bool| if yes { half_side } else { -half_side };
+                    centre += DVec2::new(toward(east), toward(north));
+                }
+                Square::Whole(first, end) => {
+                    return self.candidates[first as usize..end as usize]
+                        .iter()
+                        .map(|&segment| self.square(segment, p))
+                        .fold(f64::INFINITY, f64::min)
+                        .sqrt();
                 }
             }
         }
-    }
-
-    /// Distance of a point (mm) to the nearest segment; infinite if there are none.
-    pub(super) fn at(&self, p: DVec2) -> f64 {
-        let place = (p - self.origin) / self.cell - DVec2::splat(0.5);
-        let column = (place.x.max(0.0) as usize).min(self.columns - 2);
-        let row = (place.y.max(0.0) as usize).min(self.rows - 2);
-        let first = row * self.columns + column;
-        let mut least = f64::INFINITY;
-        let mut before = NONE;
-        for cell in [
-            first,
-            first + 1,
-            first + self.columns,
-            first + self.columns + 1,
-        ] {
-            let segment = self.nearest[cell];
-            if segment != before {
-                least = least.min(self.square(segment, p));
-                before = segment;
-            }
-        }
-        least.sqrt()
     }
 }
 
@@ -141,27 +142,50 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     const FRAME: UvFrame = UvFrame {
         min: DVec2::new(-10.0, 0.0),
         size: DVec2::new(20.0, 30.0),
     };
 
+    fn exhaustive(field: &Distances, p: DVec2) -> f64 {
+        (0..field.segments.len() as u32)
+            .map(|segment| field.square(segment, p))
+            .fold(f64::INFINITY, f64::min)
+            .sqrt()
+    }
+
     proptest! {
+        #![proptest_config(fixed(1000))]
         #[test]
-        fn distances_are_those_of_a_search_over_all_segments_within_a_cell(
+        fn distances_are_those_of_a_search_over_all_segments(
             ends in prop::collection::vec((-10.0..10.0, 0.0..30.0, -3.0..3.0, -3.0..3.0), 1..40),
             points in prop::collection::vec((-10.0..10.0, 0.0..30.0), 50),
         ) {
             let segments: Vec<[DVec2; 2]> = ends.iter()
                 .map(|&(x, y, dx, dy)| [DVec2::new(x, y), DVec2::new(x + dx, y + dy)]).collect();
-            let field = Distances::new(segments.clone(), &FRAME);
+            let field = Distances::new(segments, &FRAME);
             for (x, y) in points {
                 let p = DVec2::new(x, y);
-                let all = (0..segments.len() as u32).map(|i| field.square(i, p)).fold(f64::INFINITY, f64::min).sqrt();
-                let found = field.at(p);
-                prop_assert!(found >= all && found <= all + field.cell, "{found} for {all}");
+                prop_assert_eq!(field.at(p), exhaustive(&field, p));
             }
+        }
+    }
+
+    #[test]
+    fn segments_that_meet_in_one_point_are_all_kept() {
+        let spokes = (0..64).map(|spoke| {
+            let direction = DVec2::from_angle(f64::from(spoke) * 0.1);
+            [
+                DVec2::new(0.1, 15.0),
+                DVec2::new(0.1, 15.0) + 12.0 * direction,
+            ]
+        });
+        let field = Distances::new(spokes.collect(), &FRAME);
+        for step in 0..100 {
+            let p = DVec2::new(0.1, 15.0) + 1e-4 * DVec2::from_angle(f64::from(step));
+            assert_eq!(field.at(p), exhaustive(&field, p));
         }
     }
 

@@ -239,6 +239,7 @@ mod tests {
 
     use super::*;
     use crate::blade::tests::{ellipse, flat};
+    use crate::testing::fixed;
 
     fn bent() -> BladeForm {
         BladeForm {
@@ -291,6 +292,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn the_map_has_continuous_slopes(x in -9.0..9.0, y in 0.0..60.0, turn in 0.0..6.3) {
             let bending = Bending::new(&bent(), &ellipse(20.0, 60.0, 60), ConformalMap::FLAT);

@@ -295,6 +295,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     fn volume(mesh: &StalkMesh) -> f64 {
         let cones = mesh.triangles.iter().map(|triangle| {
@@ -330,6 +331,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn tubes_along_arcs_are_closed_and_look_outward(
             turn in -2.0..2.0_f64, twist in -2.0..2.0_f64, thick in 0.05..2.0, taper in 0.05..1.0,

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::shape::outline::Outline;
+use crate::testing::fixed;
 use crate::venation::network::VeinSegment;
 
 /// A form without any bend, for tests to change.
@@ -216,7 +217,7 @@ fn lobed(points: usize, lobes: f64, depth: f64, skew: f64) -> Outline {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(fixed(24))]
     #[test]
     fn no_outline_and_no_veins_make_cracks_flips_or_slivers(
         points in 12_usize..160,

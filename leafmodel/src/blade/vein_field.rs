@@ -220,6 +220,7 @@ mod tests {
 
     use super::super::tissue::tests::GREEN;
     use super::*;
+    use crate::testing::fixed;
 
     fn vein(from: [f64; 2], to: [f64; 2], radius_from: f64, radius_to: f64) -> VeinSegment {
         VeinSegment {
@@ -249,6 +250,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn the_grid_gives_what_a_search_over_all_veins_gives(
             veins in prop::collection::vec(any_vein(), 0..60),

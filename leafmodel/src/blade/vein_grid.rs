@@ -135,6 +135,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     fn segment((ax, ay, bx, by): (f64, f64, f64, f64), radius: f64) -> VeinSegment {
         VeinSegment {
@@ -147,6 +148,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn every_vein_within_reach_is_named(
             ends in prop::collection::vec((-20.0..20.0, 0.0..50.0, -20.0..20.0, 0.0..50.0), 1..40),

@@ -99,6 +99,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     #[test]
     fn a_vein_is_full_inside_its_radius_and_gone_beyond_its_sheath() {
@@ -117,6 +118,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn texels_of_any_size_keep_what_a_vein_covers(
             radius in 0.001..0.5, sheath in 0.01..0.3, texel in 0.002..3.0, phase in 0.0..1.0_f64,

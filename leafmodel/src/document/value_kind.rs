@@ -404,8 +404,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn whole_degrees_stay_whole(angle in -355..355_i32) {
             prop_assert_eq!(degrees(f64::from(angle).to_radians()), f64::from(angle));

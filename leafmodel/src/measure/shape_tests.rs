@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 
 fn outline(points: Vec<DVec2>, base: (f64, f64), apex: (f64, f64)) -> Outline {
     Outline::new(points, base.into(), apex.into()).expect("a simple margin")
@@ -173,7 +173,7 @@ fn the_measures_of_a_leaf_begin_with_those_of_its_shape() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(64) })]
+    #![proptest_config(fixed(64))]
 
     #[test]
     fn shape_does_not_depend_on_place_size_direction_or_the_first_corner(

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 use crate::venation::testing::{hexagons, network, poplar, rectangle, squares, wide};
 
 fn number(measures: &Measures, key: &str) -> f64 {
@@ -299,7 +299,7 @@ fn every_key_is_used_once_and_carries_its_unit() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(100) })]
+    #![proptest_config(fixed(100))]
 
     #[test]
     fn scribbles_with_any_widths_and_orders_have_finite_measures(

@@ -27,8 +27,11 @@ mod tests {
 
     use super::*;
     use crate::optics::ProspectD;
+    use crate::testing::fixed;
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn doubling_the_plates_halves_the_absorption(content in 0.0..100.0, n in 1.0..4.0) {
             let one = Contents::prospect_d([n, content, 8.0, 1.0, 0.2, 0.01, 0.005])

@@ -162,6 +162,7 @@ mod tests {
     use super::*;
     use crate::optics::pile::pile as exact_pile;
     use crate::optics::{Contents, PerConstituent, ProspectD};
+    use crate::testing::fixed;
 
     /// A leaf of `n` plates each of which absorbs `k` at a wavelength, by one constituent alone.
     fn fast(nm: f64, k: f64, n: f64) -> (f32, f32) {
@@ -176,7 +177,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4096))]
+        #![proptest_config(fixed(4096))]
 
         #[test]
         fn the_fast_model_is_the_exact_one_within_1e_6(

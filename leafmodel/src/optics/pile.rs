@@ -82,12 +82,15 @@ mod tests {
 
     use super::*;
     use crate::optics::ProspectD;
+    use crate::testing::fixed;
 
     fn face() -> Interface {
         Interface::of_index(1.45)
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn without_absorption_all_light_comes_out(n in 1.0..8.0, index in 1.2..1.6) {
             let leaf = pile(&Interface::of_index(index), 0.0, n);

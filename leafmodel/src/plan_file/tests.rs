@@ -22,7 +22,6 @@ use crate::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
 };
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use self::bodies::{petiole_or_compound, tissue_and_form};
 use self::outlines::{contour, teeth};
@@ -35,6 +34,7 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::venation_plan::VenationPlan;
+use crate::testing::fixed;
 
 fn to_toml(plan: &LeafPlan) -> String {
     leaf_to_toml("beech", plan, Extent::Changed)
@@ -78,7 +78,7 @@ fn plain() -> LeafPlan {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+    #![proptest_config(fixed(256))]
 
     #[test]
     fn a_written_plan_reads_back_to_the_same(

@@ -73,9 +73,9 @@ fn slopes(p: [DVec2; 4]) -> [DVec2; 2] {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     /// Distance from `p` to the polyline.
     fn distance(p: DVec2, line: &[DVec2]) -> f64 {
@@ -94,7 +94,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn a_flattened_curve_stays_within_the_tolerance(

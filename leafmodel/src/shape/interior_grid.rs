@@ -162,9 +162,9 @@ impl InteriorGrid {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     /// A star-shaped polygon of `radii`, as wide as high or long and narrow.
     fn star(radii: &[f64], width: f64) -> Vec<DVec2> {
@@ -180,9 +180,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig {
-            rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(400)
-        })]
+        #![proptest_config(fixed(400))]
 
         #[test]
         fn cells_say_nothing_that_the_edges_deny(

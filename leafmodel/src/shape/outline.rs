@@ -251,9 +251,9 @@ fn perimeter(points: &[DVec2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     fn square() -> Vec<DVec2> {
         [(-1.0, 0.0), (1.0, 0.0), (1.0, 2.0), (-1.0, 2.0)]
@@ -355,7 +355,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn slabs_answer_as_all_edges_do(

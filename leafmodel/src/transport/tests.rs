@@ -5,24 +5,16 @@ mod extremes;
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::cells::{Cell, NONE};
 use super::cost::TransportSystem;
 use super::growth::Growth;
 use super::leaf::unfolded;
 use super::*;
+use crate::testing::fixed;
 
 /// Sums of a few thousand products, each rounded.
 const ROUNDING: f64 = 1e-10;
-
-fn config(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        rng_seed: RngSeed::Fixed(2005),
-        failure_persistence: None,
-        ..ProptestConfig::with_cases(cases)
-    }
-}
 
 prop_compose! {
     /// Leaves of some dozens to some hundreds of cells.
@@ -79,7 +71,7 @@ fn each_application(plan: &TransportPlan, mut look: impl FnMut(&Growth, f64, &Gr
 }
 
 proptest! {
-    #![proptest_config(config(24))]
+    #![proptest_config(fixed(24))]
 
     #[test]
     fn proposition_3_1_expense_is_bounded_from_below(plan in plans()) {
@@ -214,7 +206,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(6))]
+    #![proptest_config(fixed(6))]
 
     #[test]
     fn equation_3_3_exactly_the_cells_that_pay_are_added(plan in plans()) {

@@ -3,7 +3,6 @@
 
 use glam::DVec2;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
@@ -15,6 +14,7 @@ use super::{Grown, VenationError, all_pairs, carry_out, grow};
 use crate::shape::growth::RateCurve;
 use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
 use crate::shape::outline::Outline;
+use crate::testing::fixed;
 
 fn shape(slope: f64, lobe_decay: f64) -> GrowthForm {
     let half = HalfForm {
@@ -163,7 +163,7 @@ fn agrees(plan: &AuxinPlan, slope: f64, lobes: f64, seed: u64) -> Result<(), Tes
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(400) })]
+    #![proptest_config(fixed(400))]
 
     #[test]
     fn networks_are_those_of_the_definitions_node_for_node(
@@ -174,7 +174,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(600) })]
+    #![proptest_config(fixed(600))]
 
     #[test]
     #[ignore = "slow: 20 s"]

@@ -199,14 +199,14 @@ fn first_step(last: u32, reached: impl Fn(u32) -> bool) -> u32 {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
     use crate::shape::outline::Outline;
+    use crate::testing::fixed;
     use crate::venation::plan::Growth;
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+        #![proptest_config(fixed(300))]
 
         #[test]
         fn a_source_appears_when_the_growing_margin_first_holds_it(

@@ -113,10 +113,10 @@ impl<'a> FreshNodes<'a> {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::super::probe::distance_squared;
     use super::*;
+    use crate::testing::fixed;
 
     /// Gathers the nodes in a circle.
     struct Circle {
@@ -139,9 +139,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig {
-            rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256)
-        })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn boxes_within_reach_hold_all_nodes_within_reach(

@@ -158,9 +158,9 @@ fn sector(offset: DVec2) -> usize {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 word by
     /// word.
@@ -184,9 +184,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig {
-            rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(2000)
-        })]
+        #![proptest_config(fixed(2000))]
 
         #[test]
         fn what_is_beyond_the_horizon_is_hidden_by_a_node_or_outside(

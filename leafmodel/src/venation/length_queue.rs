@@ -87,14 +87,12 @@ impl LengthQueue {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     proptest! {
-        #![proptest_config(ProptestConfig {
-            rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256)
-        })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn edges_come_as_from_a_sorted_list(

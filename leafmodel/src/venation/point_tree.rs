@@ -330,9 +330,9 @@ impl Probe for Lune {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     /// Meets every point.
     struct All(Vec<u32>);
@@ -367,7 +367,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn a_tree_answers_as_a_list_does(

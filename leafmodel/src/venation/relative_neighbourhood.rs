@@ -144,9 +144,9 @@ impl Probe for Update<'_> {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     /// Eq. 2 word by word.
     fn by_definition(source: DVec2, nodes: &[DVec2]) -> Vec<u32> {
@@ -195,7 +195,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
+        #![proptest_config(fixed(1500))]
 
         #[test]
         fn neighbours_are_those_of_the_definition_at_every_stage(

@@ -171,9 +171,9 @@ impl Probe for UrquhartNeighbourhood {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
     use crate::venation::relative_neighbourhood::RelativeNeighbourhood;
 
     fn tree(nodes: &[(f64, f64)]) -> PointTree {
@@ -248,7 +248,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+        #![proptest_config(fixed(500))]
 
         #[test]
         fn neighbours_are_those_of_the_definition_and_hold_the_relative_ones(

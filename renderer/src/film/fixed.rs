@@ -64,8 +64,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::testing::fixed;
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn value_and_square_are_those_of_arithmetic_in_double_precision(bits: u32) {
             let value = f32::from_bits(bits);

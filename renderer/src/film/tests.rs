@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::testing::fixed;
 
 /// Three numbers each of a wide sum and of two narrow ones, and one that is not summed.
 const SUMS: [Sum; 10] = {
@@ -201,6 +202,8 @@ fn samples() -> impl Strategy<Value = Vec<Sample>> {
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     #[test]
     fn samples_in_any_order_and_grouping_give_the_same_film(
         samples in samples(),

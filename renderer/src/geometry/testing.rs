@@ -2,20 +2,8 @@
 
 use glam::{Affine3A, EulerRot, Mat3, Quat, Vec2, Vec3};
 
-use proptest::test_runner::{Config, RngSeed};
-
 use super::scramble::scramble;
 use super::{Geometry, Instance, Ray, TriangleMesh};
-
-/// Properties are tried on the same cases on every run.
-pub(super) fn fixed(cases: u32) -> Config {
-    Config {
-        cases,
-        rng_seed: RngSeed::Fixed(2005),
-        failure_persistence: None,
-        ..Config::default()
-    }
-}
 
 /// Numbers without pattern, the same on every run.
 pub(super) struct Numbers(u64);

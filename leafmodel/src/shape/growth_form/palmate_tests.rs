@@ -1,9 +1,9 @@
 //! Unions of lobes.
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 
 fn lobe(rate_ratio: f64) -> Axis {
     Axis {
@@ -144,7 +144,7 @@ fn a_lobe_apart_from_the_rest_is_refused_by_its_path() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+    #![proptest_config(fixed(200))]
 
     #[test]
     fn lobes_unite_to_a_margin_that_covers_them_all(

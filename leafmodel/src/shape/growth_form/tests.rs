@@ -1,11 +1,11 @@
 //! The model and its extensions, against closed forms and against what each is for.
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
 use crate::measure::shape;
 use crate::shape::outline::OutlineError;
+use crate::testing::fixed;
 
 fn half(veins: Vec<VeinRow>) -> HalfForm {
     HalfForm {
@@ -317,7 +317,7 @@ fn half_of(form: &mut GrowthForm, side: Side) -> &mut HalfForm {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(512) })]
+    #![proptest_config(fixed(512))]
 
     #[test]
     fn no_parameters_bring_forth_a_crossing_margin(

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 
 /// A strip 2 mm wide and 10 mm long, pointed at both ends where base and apex are.
 fn strip() -> Outline {
@@ -201,7 +201,7 @@ fn each_bad_wave_is_refused_by_name() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(64) })]
+    #![proptest_config(fixed(64))]
 
     #[test]
     fn a_toothed_symmetric_leaf_is_symmetric(

@@ -1,12 +1,12 @@
 //! Filled blades are transport systems between walls.
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
 use crate::blade::BladeForm;
 use crate::blade::mesh::BladeMesh;
 use crate::species;
+use crate::testing::fixed;
 use crate::transport::cells::NONE;
 
 /// Outlines by other kinds of growth, drawn by hand, and with sinuses narrower than a cell.
@@ -163,7 +163,7 @@ fn blades_of_all_kinds_are_supplied_and_can_be_meshed() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2007), failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+    #![proptest_config(fixed(24))]
 
     #[test]
     fn stars_are_supplied_by_any_parameters(

@@ -1,12 +1,12 @@
 //! Fields and networks of spline veins.
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::spline::Quadratic;
 use super::*;
 use crate::shape::cubic::FLATNESS;
 use crate::species::young::FORMS;
+use crate::testing::fixed;
 use crate::venation::areole::areoles;
 
 const LENGTH: f64 = 100.0;
@@ -299,7 +299,7 @@ fn every_bad_parameter_is_named_with_its_range() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+    #![proptest_config(fixed(256))]
 
     #[test]
     fn the_distance_to_a_spline_is_that_of_its_nearest_point(

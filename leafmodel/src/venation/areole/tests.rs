@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 use crate::venation::testing::{hexagons, network, poplar, squares};
 
 fn places(list: &[(f64, f64)]) -> Vec<DVec2> {
@@ -257,7 +257,7 @@ fn check_partition(found: &Areoles, low: DVec2, high: DVec2) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+    #![proptest_config(fixed(200))]
 
     #[test]
     fn random_scribbles_have_as_many_areoles_as_all_pairs_and_euler_say(

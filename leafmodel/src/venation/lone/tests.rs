@@ -1,7 +1,7 @@
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 
 /// Squared distances from a place to all nodes, as everyone has them.
 fn squared(place: DVec2, nodes: &[DVec2]) -> Vec<f64> {
@@ -39,9 +39,7 @@ fn nodes() -> impl Strategy<Value = Vec<DVec2>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(600)
-    })]
+    #![proptest_config(fixed(600))]
 
     #[test]
     fn a_lone_source_drives_the_one_node_that_hides_all_others(

@@ -244,9 +244,9 @@ fn squared_distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use proptest::test_runner::RngSeed;
 
     use super::*;
+    use crate::testing::fixed;
 
     fn edge(from: u32, to: u32) -> VeinEdge {
         VeinEdge {
@@ -259,7 +259,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+        #![proptest_config(fixed(256))]
 
         #[test]
         fn the_grid_answers_as_all_edges_do(

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
+use crate::testing::fixed;
 use crate::venation::areole::areoles;
 use crate::venation::testing::network;
 
@@ -72,7 +72,7 @@ fn scribble(places: &[DVec2], chords: &[(u32, u32)]) -> VenationNetwork {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(2005), failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+    #![proptest_config(fixed(300))]
 
     #[test]
     fn no_two_edges_meet_but_at_nodes_and_no_length_is_lost(

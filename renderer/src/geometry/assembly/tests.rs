@@ -2,11 +2,12 @@ use glam::{Affine3A, DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::super::slab::SlabRay;
-use super::super::testing::{Numbers, alone, blade, fixed, placed, ray_through, soup};
+use super::super::testing::{Numbers, alone, blade, placed, ray_through, soup};
 use super::super::triangle::ShearRay;
 use super::super::{Instance, Ray, TriangleMesh};
 use super::{Geometry, GeometryError, Hit};
 use crate::simd::Level;
+use crate::testing::fixed;
 use rayon::prelude::*;
 
 /// The nearest hit found by testing every triangle of every instance with the tracer's own test: no

@@ -1,8 +1,9 @@
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
-use super::super::testing::{Numbers, alone, blade, fixed, ray_through};
+use super::super::testing::{Numbers, alone, blade, ray_through};
 use super::{DropCause, DroppedFaces, MeshError, TriangleMesh};
+use crate::testing::fixed;
 
 fn square() -> (Vec<Vec3>, Vec<[u32; 3]>) {
     (

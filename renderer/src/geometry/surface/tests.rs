@@ -1,8 +1,9 @@
 use glam::{Affine3A, Vec2, Vec3};
 use proptest::prelude::*;
 
-use super::super::testing::{Numbers, alone, blade, fixed, placed, ray_through, soup};
+use super::super::testing::{Numbers, alone, blade, placed, ray_through, soup};
 use super::super::{Geometry, Ray, TriangleMesh};
+use crate::testing::fixed;
 
 /// Surface points that rays through the geometry find.
 fn points(seed: u64, geometry: &Geometry, count: usize) -> Vec<super::SurfacePoint> {

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::testing::fixed;
 
 fn quad(corners: [Vec3; 4]) -> [[Vec3; 3]; 2] {
     let [a, b, c, d] = corners;
@@ -80,6 +81,8 @@ fn nothing_is_drawn_from_behind_or_in_the_plane() {
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     #[test]
     fn a_rectangle_fills_the_solid_angle_of_its_two_triangles(
         x in -5.0_f32..5.0, y in -5.0_f32..5.0, height in -3.0_f32..1.0

@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::light::patch::{Patch, patches};
+use crate::testing::fixed;
 
 /// Numbers in [0, 1) from one.
 fn numbers(seed: u32) -> impl FnMut() -> f32 {
@@ -77,6 +78,8 @@ fn receiver(lamps: &[(Patch, f32)], next: &mut impl FnMut() -> f32) -> Receiver 
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     #[test]
     fn every_lamp_that_shines_on_a_point_from_either_side_can_be_chosen_there(
         seed in 0_u32..1_000_000, count in 1_usize..300

@@ -16,6 +16,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::scene::description::{Coat, SolidOptics};
+use crate::testing::fixed;
 
 const PLAIN: &str = "format = 1
 [leaves.beech]
@@ -96,6 +97,8 @@ fn shapes() -> impl Strategy<Value = SolidShape> {
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     #[test]
     fn a_body_that_is_written_reads_back_to_the_same_plan(
         shape in shapes(),
