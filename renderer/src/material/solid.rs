@@ -5,27 +5,19 @@
 use std::sync::Arc;
 
 use glam::Vec2;
+use leafmodel::optics::ProspectD;
 use leafmodel::optics::solid::{ReflectanceTable, Solid};
-use leafmodel::optics::{Contents, ProspectD};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
-use crate::material::contents_texture::ContentsTexture;
+use crate::material::coarse;
+use crate::material::held::Held;
 use crate::material::palette::Palette;
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
-
-/// What solid tissue holds per area of its surface.
-#[derive(Clone, Debug)]
-pub enum SolidTissue {
-    /// The same everywhere.
-    Uniform(Contents),
-    /// What a map gives.
-    Map(ContentsTexture),
-}
 
 /// A material of solid tissue.
 #[derive(Clone, Debug)]
 pub struct SolidMaterial {
-    tissue: SolidTissue,
+    held: Held,
     palette: Palette,
     optics: Solid,
     table: Arc<ReflectanceTable>,
@@ -56,14 +48,14 @@ impl SolidMaterial {
     /// Tissue of these optics, in range, below a coat, whose pigments are those of `palette`;
     /// `table` is that of the optics' refractive index, without a skin.
     pub fn new(
-        tissue: SolidTissue,
+        held: Held,
         palette: Palette,
         optics: Solid,
         table: Arc<ReflectanceTable>,
         coat: Coat,
     ) -> Self {
         Self {
-            tissue,
+            held,
             palette,
             optics,
             table,
@@ -73,8 +65,8 @@ impl SolidMaterial {
     }
 
     /// What it holds.
-    pub fn tissue(&self) -> &SolidTissue {
-        &self.tissue
+    pub fn held(&self) -> &Held {
+        &self.held
     }
 
     /// What its pigments are.
@@ -91,33 +83,17 @@ impl SolidMaterial {
     /// more than the tissue should; with a map its mean contents stand for all.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
-        let contents = match &self.tissue {
-            SolidTissue::Uniform(contents) => *contents,
-            SolidTissue::Map(map) => map.mean(),
-        };
-        let steps = 200;
-        (0..=steps)
-            .map(|i| range_nm[0] + (range_nm[1] - range_nm[0]) * f64::from(i) / f64::from(steps))
-            .find(|&nm| {
-                let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
-                self.reflectance(at.absorption_of_leaf(&contents)) < coat - 1e-4
-            })
+        let mean = self.held.mean();
+        coarse(range_nm).find(|&nm| {
+            let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
+            self.reflectance(at.absorption_of_leaf(&mean)) < coat - 1e-4
+        })
     }
 
     /// Works out what depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.uniform = match self.tissue {
-            SolidTissue::Map(_) => None,
-            SolidTissue::Uniform(_) => {
-                let at = |nm| {
-                    self.tissue_at(Vec2::ZERO, &Wavelengths::new([nm]))
-                        .to_lanes()
-                };
-                Some(Table::new(grid, |nm| {
-                    at(nm).map(|lanes: Lanes<1>| lanes.0[0])
-                }))
-            }
-        };
+        let table = || Tissue::table(grid, |wavelengths| self.tissue_at(Vec2::ZERO, wavelengths));
+        self.uniform = self.held.is_uniform().then(table);
     }
 
     /// The BSDF at texture coordinates `uv`.
@@ -131,10 +107,7 @@ impl SolidMaterial {
     }
 
     fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
-        let contents = match &self.tissue {
-            SolidTissue::Uniform(contents) => contents.to_texel(),
-            SolidTissue::Map(map) => map.at(uv),
-        };
+        let contents = self.held.at(uv);
         let absorption = self.palette.lanes(wavelengths).absorption(&contents);
         let reflectance = absorption.map(|absorbed| self.reflectance(f64::from(absorbed)) as f32);
         Tissue::new(&self.coats, Lanes(reflectance), Lanes::ZERO, Lanes::ONE)

@@ -44,6 +44,29 @@ pub struct Description {
     pub objects: Vec<Named<Object>>,
 }
 
+impl Material {
+    /// What it holds, if it is tissue whose contents are known.
+    pub fn held(&self) -> Option<&Held> {
+        match self {
+            Self::Leaf {
+                tissue: LeafTissue::Held(held),
+                ..
+            }
+            | Self::Solid { held, .. } => Some(held),
+            Self::Diffuse { .. } | Self::Dielectric { .. } | Self::Leaf { .. } => None,
+        }
+    }
+}
+
+impl Held {
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub fn extrapolates(&self) -> bool {
+        match self {
+            Self::Contents { extrapolate, .. } | Self::Map { extrapolate, .. } => *extrapolate,
+        }
+    }
+}
+
 impl Description {
     /// A scene with nothing in it.
     pub(crate) fn empty(name: &str, source: String) -> Self {
@@ -132,15 +155,13 @@ pub enum Material {
         tissue: LeafTissue,
         /// What the pigments of its contents are.
         pigments: Box<Pigments>,
-        /// Abaxial over adaxial reflectance.
-        abaxial_ratio: Spectrum,
-        /// Adaxial and abaxial coat.
-        coats: [Coat; 2],
+        /// What its faces are like.
+        faces: LeafFaces,
     },
     /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
     Solid {
         /// What it holds.
-        tissue: SolidTissue,
+        held: Held,
         /// What the pigments of its contents are.
         pigments: Box<Pigments>,
         /// What becomes of light in it.
@@ -148,9 +169,18 @@ pub enum Material {
     },
 }
 
-/// What solid tissue holds per area of its surface.
+/// What the two faces of a leaf are like, of a grown leaf as of a material.
 #[derive(Clone, Debug)]
-pub enum SolidTissue {
+pub struct LeafFaces {
+    /// Abaxial over adaxial reflectance.
+    pub abaxial_ratio: Spectrum,
+    /// Adaxial and abaxial coat.
+    pub coats: [Coat; 2],
+}
+
+/// What tissue holds per area of its surface.
+#[derive(Clone, Debug)]
+pub enum Held {
     /// The same everywhere.
     Contents {
         /// The contents.
@@ -158,7 +188,8 @@ pub enum SolidTissue {
         /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
         extrapolate: bool,
     },
-    /// Contents read from a map, as those of a leaf.
+    /// Contents read from a map: an EXR with a channel for each
+    /// [`leafmodel::optics::Constituent`].
     Map {
         /// The map's file, resolved and inside the scene's folder.
         file: PathBuf,
@@ -179,21 +210,8 @@ pub struct SolidOptics {
 /// What decides a leaf's R and T.
 #[derive(Clone, Debug)]
 pub enum LeafTissue {
-    /// PROSPECT-D of these contents.
-    Contents {
-        /// The contents, everywhere the same.
-        contents: leafmodel::optics::Contents,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
-    /// PROSPECT-D of contents read from a map: an EXR with a channel for each
-    /// [`leafmodel::optics::Constituent`].
-    Map {
-        /// The map's file, resolved and inside the scene's folder.
-        file: PathBuf,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
+    /// PROSPECT-D of contents.
+    Held(Held),
     /// Measured spectra.
     Measured {
         /// Directional–hemispherical reflectance, adaxial face.
@@ -245,10 +263,8 @@ pub enum Mesh {
 pub struct Leaf {
     /// What leafmodel grows.
     pub plan: LeafPlan,
-    /// Abaxial over adaxial reflectance.
-    pub abaxial_ratio: Spectrum,
-    /// Adaxial and abaxial coat.
-    pub coats: [Coat; 2],
+    /// What its faces are like.
+    pub faces: LeafFaces,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
 }
