@@ -10,7 +10,7 @@ Parameters of the plugin:
   the numbers of `prospect.CONTENTS`; or `map`, an EXR with channels of those names; or
   `reflectance` and `transmittance`, spectra;
 - `prospect` (the table's file) and `extrapolate`, for the first two;
-- `abaxial_ratio`: a spectrum, 1 if absent;
+- `abaxial_ratio`: a spectrum; if absent, the page's ratio by absorptance;
 - `adaxial_eta`, `adaxial_alpha_across`, `adaxial_alpha_along`, and the same for `abaxial_`.
 
 Import it after the variant is chosen; `register()` makes the plugin known.
@@ -163,10 +163,14 @@ class LeafBSDF(mi.BSDF):
     def tissue(self, si: Any, active: Any) -> Tissue:
         """The tissue's coefficients at a hit."""
         r, t = self.spectra(si, active)
-        ratio = Double(1.0)
+        return Tissue(r, t, self.ratio(si, r, t, active), self.coats)
+
+    def ratio(self, si: Any, r: Any, t: Any, active: Any) -> Any:
+        """Abaxial over adaxial reflectance at a hit."""
         if self.abaxial_ratio is not None:
-            ratio = Double(self.abaxial_ratio.eval(si, active))
-        return Tissue(r, t, ratio, self.coats)
+            return Double(self.abaxial_ratio.eval(si, active))
+        absorbed = dr.clip(1.0 - r - t, 0.0, 1.0)
+        return 1.0 + 0.7 * absorbed * absorbed * (3.0 - 2.0 * absorbed)
 
     def axes(self, si: Any) -> tuple[Any, Any]:
         """Cosine and sine of the turn from the page's x, y axes to Mitsuba's, about z.

@@ -38,7 +38,6 @@ class SolidBSDF(LeafBSDF):
         alpha = props.get("coat_alpha")
         self.coats = (Coat(props.get("coat_eta"), alpha, alpha),) * 2
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
-        self.abaxial_ratio = None
         self.depth = float(props.get("depth_mm"))
         self.scattering = float(props.get("scattering_per_mm"))
         self.solved = Table(half_space.table(float(props.get("eta"))), double=True)
@@ -71,6 +70,10 @@ class SolidBSDF(LeafBSDF):
         """R of the half-space at a hit, at its wavelengths, and T = 0."""
         contents = self.contents if self.kind == "contents" else self.map.at(si.uv)
         return self.reflectance(si.wavelengths, contents), Double(0.0)
+
+    def ratio(self, si: Any, r: Any, t: Any, active: Any) -> Any:
+        """Both sides are alike."""
+        return Double(1.0)
 
     def reflectance(self, wavelengths: Any, contents: dict[str, Any]) -> Any:
         """R of tissue with these contents at `wavelengths` (nm)."""

@@ -191,13 +191,13 @@ impl<'a, const N: usize> Bsdf<'a, N> {
         }
     }
 
-    /// Share of light that the surface scatters, whatever the direction: in [0, 1], free of the
-    /// view.
-    pub fn albedo(&self) -> Lanes<N> {
+    /// Share of diffuse light on the face that `wo` sees which the surface scatters, to either
+    /// side: in [0, 1].
+    pub fn albedo(&self, wo: Vec3) -> Lanes<N> {
         match self {
             Self::Diffuse(reflectance) => *reflectance,
             Self::Dielectric(_) => Lanes::ONE,
-            Self::Leaf(leaf) => leaf.albedo(),
+            Self::Leaf(leaf) => leaf.albedo(wo),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What surfaces are made of: parameters at a hit → a [`Bsdf`].
 //!
 //! ```
-//! use glam::Vec2;
+//! use glam::{Vec2, Vec3};
 //! use renderer::bsdf::Bsdf;
 //! use renderer::material::Material;
 //! use renderer::spectrum::{Curve, Wavelengths};
@@ -11,7 +11,7 @@
 //! let paint = Material::Diffuse(reflectance.into());
 //! let wavelengths = Wavelengths::new([450.0, 550.0, 650.0, 750.0]);
 //! let bsdf: Bsdf<'_, 4> = paint.bsdf(Vec2::splat(0.5), &wavelengths);
-//! assert_eq!(bsdf.albedo().0, [0.1, 0.1, 0.7, 0.7]);
+//! assert_eq!(bsdf.albedo(Vec3::Z).0, [0.1, 0.1, 0.7, 0.7]);
 //! ```
 
 pub mod contents_texture;

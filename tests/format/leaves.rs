@@ -6,7 +6,6 @@ use leafmodel::shape::growth::RateCurve;
 use leafmodel::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern,
 };
-use renderer::scene::description::Spectrum;
 
 use leafmodel::compound::{Arrangement, Feather};
 use renderer::scene::load::load_leaves;
@@ -60,9 +59,7 @@ fn a_leaf_is_planned_as_written() {
         .map(|vein| vein.position)
         .collect();
     assert_eq!(positions, [0.1, 0.3, 0.5, 0.7, 0.9]);
-    assert!(
-        matches!(&simple.faces.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)
-    );
+    assert!(simple.faces.abaxial_ratio.is_none());
 }
 
 #[test]

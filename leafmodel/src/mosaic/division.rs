@@ -8,23 +8,26 @@ use crate::venation::chance::{Use, bits, uniform};
 /// Diameter of the disc in which a child lies, over the repulsion radius.
 pub(super) const CHILD_DISC: f64 = 0.01;
 
-/// Beyond this mean (relaxation events) the spread of a Poisson number is below a third of a per
-/// cent and left away.
+/// Beyond this mean (days) the spread of a Poisson number is below a third of a per cent and left
+/// away.
 const LARGE_MEAN: f64 = 1e5;
 
 /// `exp(-mean)` of parts above this would lose digits.
 const PART: f64 = 500.0;
 
-/// Number of relaxation events, at least 1, after which a cell divides: Poisson distributed with
-/// mean `mean`. None if never.
+/// Number of the draw of the time of day; parts of a mean have those before.
+const TIME_OF_DAY: u64 = 255;
+
+/// Days after which a cell divides: a whole number, Poisson distributed with mean `mean`, then any
+/// time of that day, −½ to ½, so that a day's divisions do not all fall together. None if never.
 ///
-/// Draws of 0 count as 1: a cell has to be there before it divides.
-pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64> {
+/// Not above 0 means at once.
+pub(super) fn days_to_division(id: u64, counter: u64, mean: f64) -> Option<f64> {
     if !mean.is_finite() {
         return None;
     }
     if mean > LARGE_MEAN {
-        return Some(mean as u64);
+        return Some(mean);
     }
     let mut left = mean;
     let mut drawn = 0;
@@ -35,7 +38,8 @@ pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64
         left -= now;
         part += 1;
     }
-    Some(drawn.max(1))
+    let time_of_day = uniform(id, Use::MosaicDivision, counter * 256 + TIME_OF_DAY);
+    Some(drawn as f64 + time_of_day - 0.5)
 }
 
 /// A Poisson number from a uniform one, by inversion.
@@ -94,22 +98,17 @@ mod tests {
     fn times_of_division_are_poisson_distributed() {
         for mean in [2.0, 20.0, 700.0] {
             let n = 20_000;
-            let draws = (0..n).map(|i| events_to_division(i, 3, mean).expect("finite") as f64);
+            let draws = (0..n).map(|i| days_to_division(i, 3, mean).expect("finite"));
             let draws: Vec<f64> = draws.collect();
             let average = draws.iter().sum::<f64>() / n as f64;
             let variance = draws.iter().map(|x| (x - average).powi(2)).sum::<f64>() / n as f64;
-            // Standard error of the mean √(mean/n); zeros count as one, which for mean 2 adds e⁻² =
-            // 0.135.
-            let raised = libm::exp(-mean);
-            assert!(
-                (average - mean - raised).abs() < 4.5 * (mean / n as f64).sqrt(),
-                "{average}"
-            );
-            if mean > 10.0 {
-                assert!((variance / mean - 1.0).abs() < 0.05, "{variance}");
-            }
+            // Poisson's variance is its mean; the time of day adds a twelfth.
+            let expected = mean + 1.0 / 12.0;
+            let standard_error = (expected / n as f64).sqrt();
+            assert!((average - mean).abs() < 4.5 * standard_error, "{average}");
+            assert!((variance / expected - 1.0).abs() < 0.05, "{variance}");
         }
-        assert_eq!(events_to_division(1, 0, f64::INFINITY), None);
-        assert_eq!(events_to_division(1, 0, 3e6), Some(3_000_000));
+        assert_eq!(days_to_division(1, 0, f64::INFINITY), None);
+        assert_eq!(days_to_division(1, 0, 3e6), Some(3e6));
     }
 }

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use self::regions::Regions;
 use super::control::Controls;
-use super::division::{child_id, chosen, events_to_division, kind_of_child, place_of_child};
+use super::division::{child_id, chosen, days_to_division, kind_of_child, place_of_child};
 use super::error::{MosaicError, in_range};
 use super::live::Live;
 use super::plan::{MOST_CELLS, MosaicPlan, RadiusRule};
@@ -251,9 +251,11 @@ impl<'a> Run<'a> {
         }
         let rate = self.controls.rate(self.mature_place(cell), cell.kind);
         let days = self.plan.types[usize::from(cell.kind)].division_days / rate;
-        let mean = days * f64::from(self.plan.relaxations_per_day);
-        let events = events_to_division(cell.id, cell.divisions, mean);
-        events.map_or(NEVER, |events| self.event + events)
+        days_to_division(cell.id, cell.divisions, days).map_or(NEVER, |days| {
+            let events = (days * f64::from(self.plan.relaxations_per_day)).round();
+            // A cell has to be there before it divides.
+            self.event + (events as u64).max(1)
+        })
     }
 
     /// Divides what is due and relaxes.

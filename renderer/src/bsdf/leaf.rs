@@ -84,6 +84,28 @@ pub struct Tissue<const N: usize> {
     transmittance: [Lanes<N>; 2],
 }
 
+/// By how much the abaxial reflectance of tissue that absorbs all light exceeds the adaxial one.
+const EXCESS: f32 = 0.7;
+
+/// Abaxial over adaxial reflectance of a leaf of reflectance `R` and transmittance `T` of which
+/// nothing else is known: `1 + 0.7 A² (3 − 2 A)` of its absorptance `A = 1 − R − T`.
+///
+/// 1 for tissue that absorbs nothing, as 0.97 is measured at 800 nm; for green leaves within 5 % of
+/// the means that Noda et al. measured at 450, 550, 680 and 800 nm. The abaxial face absorbs at
+/// least 0.63 of what the adaxial one does, whatever `R` and `T`.
+#[inline]
+pub fn usual_abaxial_ratio<const N: usize>(
+    reflectance: Lanes<N>,
+    transmittance: Lanes<N>,
+) -> Lanes<N> {
+    let mut ratio = Lanes::ONE;
+    for lane in 0..N {
+        let a = (1.0 - reflectance.0[lane] - transmittance.0[lane]).clamp(0.0, 1.0);
+        ratio.0[lane] += EXCESS * a * a * (3.0 - 2.0 * a);
+    }
+    ratio
+}
+
 /// A leaf at one point.
 #[derive(Clone, Debug)]
 pub struct LeafBsdf<'a, const N: usize> {
@@ -229,14 +251,13 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         self.seen_from(wo)?.sample(lobe, u)
     }
 
-    /// Share of diffuse light that the leaf scatters, mean of the two faces.
-    pub fn albedo(&self) -> Lanes<N> {
-        let of_face = |side: usize| {
-            let coat = self.coats[side].albedo.mean();
-            (self.tissue.reflectance[side] + self.tissue.transmittance[side]) * (1.0 - coat)
-                + Lanes::splat(coat)
-        };
-        (of_face(0) + of_face(1)) * 0.5
+    /// Share of the diffuse light on the face that `wo` sees which the leaf scatters, to either
+    /// side.
+    pub fn albedo(&self, wo: Vec3) -> Lanes<N> {
+        let side = usize::from(wo.z < 0.0);
+        let coat = self.coats[side].albedo.mean();
+        (self.tissue.reflectance[side] + self.tissue.transmittance[side]) * (1.0 - coat)
+            + Lanes::splat(coat)
     }
 }
 

@@ -35,8 +35,6 @@ pub struct PathResult<const N: usize> {
 /// What the camera ray met first.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstHit<const N: usize> {
-    /// Distance, m.
-    pub distance: f32,
     /// Point, world, m.
     pub position: Vec3,
     /// Shading normal on the side of the camera, world.
@@ -159,10 +157,9 @@ impl<const N: usize> Paths<'_, N> {
                     surface.shading_normal
                 };
                 result.first = Some(FirstHit {
-                    distance: (surface.position - ray.origin).length(),
                     position: surface.position,
                     normal: facing,
-                    albedo: bsdf.albedo(),
+                    albedo: bsdf.albedo(wo),
                     object: world.objects[surface.instance as usize].object as u32,
                 });
             }

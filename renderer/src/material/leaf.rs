@@ -3,7 +3,7 @@
 use glam::Vec2;
 use leafmodel::optics::{ProspectD, Texel};
 
-use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
+use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
 use crate::material::held::Held;
 use crate::material::palette::Palette;
@@ -16,8 +16,8 @@ pub struct LeafMaterial {
     pub tissue: LeafTissue,
     /// What its pigments are; measured spectra have no use for it.
     pub palette: Palette,
-    /// Abaxial over adaxial reflectance.
-    abaxial_ratio: Spectrum,
+    /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
+    abaxial_ratio: Option<Spectrum>,
     /// Adaxial and abaxial coat.
     coats: [Coat; 2],
     /// What the tissue does, tabulated, if the leaf is the same everywhere.
@@ -40,17 +40,18 @@ pub enum LeafTissue {
 
 impl LeafMaterial {
     /// A leaf of this tissue, whose pigments are those of `palette`, under an adaxial and an
-    /// abaxial coat.
+    /// abaxial coat. Without an abaxial over adaxial reflectance it has
+    /// [`usual_abaxial_ratio`].
     pub fn new(
         tissue: LeafTissue,
         palette: Palette,
-        abaxial_ratio: Curve,
+        abaxial_ratio: Option<Curve>,
         coats: [Coat; 2],
     ) -> Self {
         Self {
             tissue,
             palette,
-            abaxial_ratio: abaxial_ratio.into(),
+            abaxial_ratio: abaxial_ratio.map(Spectrum::from),
             coats,
             uniform: None,
         }
@@ -58,7 +59,9 @@ impl LeafMaterial {
 
     /// Works out what depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.abaxial_ratio.tabulate(grid);
+        if let Some(ratio) = &mut self.abaxial_ratio {
+            ratio.tabulate(grid);
+        }
         let is_uniform = match &self.tissue {
             LeafTissue::Held(held) => held.is_uniform(),
             LeafTissue::Measured { .. } => true,
@@ -114,7 +117,10 @@ impl LeafMaterial {
                 transmittance.lanes(wavelengths),
             ),
         };
-        let ratio = self.abaxial_ratio.lanes(wavelengths);
+        let ratio = match &self.abaxial_ratio {
+            Some(ratio) => ratio.lanes(wavelengths),
+            None => usual_abaxial_ratio(reflectance, transmittance),
+        };
         Tissue::new(&self.coats, reflectance, transmittance, ratio)
     }
 }
@@ -122,6 +128,7 @@ impl LeafMaterial {
 #[cfg(test)]
 mod tests {
     use leafmodel::optics::pigments::{AnthocyaninMix, ChlorophyllMix};
+    use leafmodel::optics::presets;
     use leafmodel::optics::{Contents, Pigments};
 
     use super::*;
@@ -193,7 +200,7 @@ mod tests {
                 let mut leaf = LeafMaterial::new(
                     tissue,
                     known.of(pigments),
-                    Curve::from_points(&[(400.0, 1.7), (700.0, 1.0)]),
+                    Some(Curve::from_points(&[(400.0, 1.7), (700.0, 1.0)])),
                     [Coat::new(1.45, 0.3, 0.3), Coat::new(1.4, 0.4, 0.4)],
                 );
                 leaf.tabulate(sampler.grid());
@@ -223,7 +230,7 @@ mod tests {
             let leaf = LeafMaterial::new(
                 LeafTissue::Held(Held::Uniform(red)),
                 known.of(pigments),
-                Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+                Some(Curve::Constant(1.0)),
                 [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],
             );
             leaf.coat_exceeds_reflectance([655.0, 660.0]).is_some()
@@ -238,5 +245,82 @@ mod tests {
         };
         assert!(!exceeds(&Pigments::default()));
         assert!(exceeds(&blue));
+    }
+
+    /// What the adaxial and the abaxial face absorb of light at normal incidence.
+    fn absorbed(coats: &[Coat; 2], r: f64, t: f64) -> [f32; 2] {
+        let [r, t] = [r, t].map(|share| Lanes([share as f32]));
+        let tissue = Tissue::new(coats, r, t, usual_abaxial_ratio(r, t));
+        let [r_a, r_b, t_ab, t_ba] = tissue.to_lanes().map(|lanes| lanes.0[0]);
+        let passed = coats.each_ref().map(|coat| 1.0 - coat.albedo().normal());
+        [
+            passed[0] * (1.0 - r_a - t_ab),
+            passed[1] * (1.0 - r_b - t_ba),
+        ]
+    }
+
+    #[test]
+    fn the_usual_ratio_of_green_leaves_is_the_measured_mean() {
+        // Noda et al., 19 groups of broad leaves.
+        let measured = [(450.0, 1.74), (550.0, 1.55), (680.0, 1.65), (800.0, 0.97)];
+        let green = ["sun-green", "shade-thin", "dark-evergreen"].map(|name| {
+            let preset = presets::by_name(name);
+            preset.expect("a preset").contents
+        });
+        for (nm, expected) in measured {
+            let at = ProspectD::coefficients(nm).expect("a wavelength in range");
+            let ratios = green.map(|contents| {
+                let leaf = at.reflectance_transmittance(&contents);
+                let [r, t] =
+                    [leaf.reflectance, leaf.transmittance].map(|share| Lanes([share as f32]));
+                f64::from(usual_abaxial_ratio(r, t).0[0])
+            });
+            let mean = ratios.iter().sum::<f64>() / 3.0;
+            assert!((mean / expected - 1.0).abs() < 0.05, "{mean} at {nm} nm");
+        }
+    }
+
+    #[test]
+    fn the_usual_ratio_takes_absorption_from_neither_face() {
+        let coats = [Coat::new(1.45, 0.3, 0.3), Coat::new(1.45, 0.45, 0.45)];
+        let mut least = f32::INFINITY;
+        for preset in presets::ALL {
+            for nm in 400..=2500 {
+                let leaf = ProspectD::coefficients(f64::from(nm))
+                    .expect("a wavelength in range")
+                    .reflectance_transmittance(&preset.contents);
+                let [above, below] = absorbed(&coats, leaf.reflectance, leaf.transmittance);
+                assert!(above > 0.0, "{} at {nm} nm", preset.name);
+                assert!(
+                    below >= 0.63 * above,
+                    "{} at {nm} nm: {below} of {above}",
+                    preset.name
+                );
+                least = least.min(below / above);
+            }
+        }
+        // The bound is that of leaves that let nothing through; these do.
+        assert!((0.75..1.0).contains(&least), "{least}");
+        let [above, below] = absorbed(&coats, 0.45, 0.40);
+        assert!((above - 0.15).abs() < 1e-5, "{above}");
+        assert!((0.12..0.15).contains(&below), "{below}");
+    }
+
+    #[test]
+    fn the_albedo_is_that_of_the_face_seen() {
+        let leaf = LeafMaterial::new(
+            LeafTissue::Measured {
+                reflectance: Curve::Constant(0.1),
+                transmittance: Curve::Constant(0.1),
+            },
+            Palette::default(),
+            None,
+            [Coat::new(1.0, 0.3, 0.3), Coat::new(1.0, 0.3, 0.3)],
+        );
+        let bsdf = leaf.bsdf(Vec2::ZERO, &at(550.0));
+        // A = 0.8: ρ = 1.6272.
+        let [above, below] = [Vec3::Z, -Vec3::Z].map(|wo| bsdf.albedo(wo).0[0]);
+        assert!((above - 0.2).abs() < 1e-6, "{above}");
+        assert!((below - 0.26272).abs() < 1e-5, "{below}");
     }
 }

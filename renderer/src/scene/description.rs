@@ -172,8 +172,8 @@ pub enum Material {
 /// What the two faces of a leaf are like, of a grown leaf as of a material.
 #[derive(Clone, Debug)]
 pub struct LeafFaces {
-    /// Abaxial over adaxial reflectance.
-    pub abaxial_ratio: Spectrum,
+    /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
+    pub abaxial_ratio: Option<Spectrum>,
     /// Adaxial and abaxial coat.
     pub coats: [Coat; 2],
 }

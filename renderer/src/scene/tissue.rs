@@ -14,7 +14,7 @@ use crate::spectrum::Curve;
 
 /// Leaf tissue between its faces.
 pub(super) fn leaf(tissue: LeafTissue, palette: Palette, faces: &LeafFaces) -> LeafMaterial {
-    let ratio = Curve::from_description(&faces.abaxial_ratio);
+    let ratio = faces.abaxial_ratio.as_ref().map(Curve::from_description);
     LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of))
 }
 

@@ -23,7 +23,7 @@ const AGEING: Row = Row {
     radius_weight: 1.0,
     adhesion: [0.5, 0.8],
     division: [5.0, 10.0],
-    foreground: 0.12,
+    foreground: 0.1,
     switching: 0.12,
 };
 
@@ -31,6 +31,7 @@ const AGEING: Row = Row {
 const INDIVIDUALS: Row = Row {
     cells: 2000,
     division: [10.0, 10.0],
+    foreground: 0.12,
     switching: 0.03,
     ..AGEING
 };

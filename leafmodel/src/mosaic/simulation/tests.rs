@@ -16,16 +16,26 @@ fn small(cells: usize, days: f64) -> MosaicPlan {
     }
 }
 
-/// Expected cells at each relaxation event from one, each type for itself:
+/// Expected cells at each relaxation event from one, each type for itself, for an even number of
+/// events a day:
 /// `M(k) = P(T > k) + 2 Σ P(T = j) M(k − j)`.
-fn branching(mean_events: f64, events: usize) -> f64 {
-    let mut poisson = vec![libm::exp(-mean_events)];
-    for j in 1..=events.max(1) {
-        poisson.push(poisson[j - 1] * mean_events / j as f64);
+fn branching(mean_days: f64, per_day: usize, events: usize) -> f64 {
+    // P(T = j): a Poisson number of days and any time of that day, rounded to events.
+    let mut shares = vec![0.0; events + 2 * per_day + 2];
+    let mut of_day = libm::exp(-mean_days);
+    for day in 0..=events / per_day + 1 {
+        if day > 0 {
+            of_day *= mean_days / day as f64;
+        }
+        for part in 0..per_day {
+            // Half of the part rounds down, half up.
+            for end in [part, part + 1] {
+                let event = (day * per_day + end) as f64 - 0.5 * per_day as f64;
+                shares[event.max(1.0) as usize] += 0.5 * of_day / per_day as f64;
+            }
+        }
     }
-    // A draw of 0 counts as 1.
-    poisson[1] += poisson[0];
-    poisson[0] = 0.0;
+    let poisson = shares;
     let mut cells = vec![1.0];
     for k in 1..=events {
         let alive = 1.0 - poisson[1..=k].iter().sum::<f64>();
@@ -47,11 +57,11 @@ fn cells_multiply_as_the_branching_process_says() {
     let days = [0.0, 4.0, 6.0, 11.0, 18.0];
     let stages = Mosaic::grow_until(&surface, &plan, 3, &days, &|| false).expect("good");
     for (stage, day) in stages.iter().zip(days) {
-        for (kind, mean) in [(0, 20.0), (1, 40.0)] {
+        for (kind, mean) in [(0, 5.0), (1, 10.0)] {
             let of_kind = |mosaic: &Mosaic| {
                 mosaic.cells.iter().filter(|cell| cell.kind == kind).count() as f64
             };
-            let expected = of_kind(&stages[0]) * branching(mean, (day * 4.0) as usize);
+            let expected = of_kind(&stages[0]) * branching(mean, 4, (day * 4.0) as usize);
             // About 750 founders whose progeny spread by some 30 %: a standard error near 1 %.
             let ratio = of_kind(stage) / expected;
             assert!(

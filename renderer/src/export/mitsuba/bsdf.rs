@@ -121,7 +121,10 @@ fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Elemen
             .float(&format!("{face}_alpha_across"), coat.alpha_across)
             .float(&format!("{face}_alpha_along"), coat.alpha_along)
     });
-    bsdf.holding(spectra.element("abaxial_ratio", &faces.abaxial_ratio, 1.0))
+    match &faces.abaxial_ratio {
+        Some(ratio) => bsdf.holding(spectra.element("abaxial_ratio", ratio, 1.0)),
+        None => bsdf,
+    }
 }
 
 fn solid_optics(bsdf: Element, optics: &SolidOptics) -> Element {

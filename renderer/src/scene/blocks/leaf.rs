@@ -7,14 +7,12 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
 
 use super::spectrum::SpectrumOf;
-use crate::scene::description::{Coat, Leaf, LeafFaces, Spectrum};
+use crate::scene::description::{Coat, Leaf, LeafFaces};
 
 /// Refractive index of a coat.
 const COAT_ETA: f64 = 1.45;
 /// GGX roughness of the adaxial and the abaxial coat: satin above, matt below.
 const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
-/// Measured abaxial over adaxial reflectance, mean of 19 groups of broad leaves (Noda et al.).
-const ABAXIAL_RATIO: [(f64, f64); 4] = [(450.0, 1.74), (550.0, 1.55), (680.0, 1.65), (800.0, 0.97)];
 
 impl From<LeafPlan> for Leaf {
     /// A leaf with the usual surface.
@@ -31,11 +29,7 @@ impl LeafFaces {
     /// Faces with all defaults.
     pub(crate) fn usual() -> Self {
         Self {
-            // It goes on with its end values in any scene.
-            abaxial_ratio: Spectrum::Table {
-                points: ABAXIAL_RATIO.to_vec(),
-                extrapolate: true,
-            },
+            abaxial_ratio: None,
             coats: COAT_ALPHA.map(|alpha| Coat {
                 eta: COAT_ETA,
                 alpha_across: alpha,
@@ -58,13 +52,12 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
 
 /// The keys of a leaf's faces.
 pub(super) fn faces(faces: &mut LeafFaces, keys: &mut Keys<'_>) {
-    let about = "Abaxial over adaxial reflectance. The default is measured, the mean of 19 groups of \
-            broad leaves (Noda et al.).";
-    keys.key(
+    keys.optional(
         "abaxial_ratio",
         &mut faces.abaxial_ratio,
         SpectrumOf::Ratio,
-        about,
+        "Abaxial over adaxial reflectance. Left out, it follows what the leaf absorbs: near 1 where \
+         that is little, 1.7 where it is nearly all.",
     );
     let [adaxial, abaxial] = &mut faces.coats;
     let about = "Coat of the adaxial face.";

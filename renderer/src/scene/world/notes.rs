@@ -67,7 +67,6 @@ mod tests {
     use crate::material::held::Held;
     use crate::material::leaf::{LeafMaterial, LeafTissue};
     use crate::material::palette::Palette;
-    use crate::spectrum::Curve;
     use leafmodel::optics::Constituent;
 
     /// Two texels: what the first holds of anthocyanins, and what the second holds of betaxanthins.
@@ -79,7 +78,7 @@ mod tests {
         Material::Leaf(Box::new(LeafMaterial::new(
             LeafTissue::Held(Held::Map(ContentsTexture::new(2, 1, vec![first, second]))),
             Palette::default(),
-            Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
+            None,
             [coat.clone(), coat],
         )))
     }
