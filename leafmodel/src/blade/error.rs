@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why there is no blade.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BladeError {
-    /// A number outside the range in which it means something.
+    /// A number is outside its range.
     #[error("{field} is {value}, it must be {range}")]
     OutOfRange {
         /// Which field of [`super::BladeForm`].
