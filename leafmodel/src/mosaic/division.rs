@@ -1,4 +1,4 @@
-//! When cells divide, and into what.
+//! Times of cell divisions, and the types and places of children.
 
 use glam::DVec2;
 
@@ -8,17 +8,17 @@ use crate::venation::chance::{Use, bits, uniform};
 /// Diameter of the disc in which a child lies, over the repulsion radius.
 pub(super) const CHILD_DISC: f64 = 0.01;
 
-/// Beyond this mean (relaxation events) the spread of a Poisson number is below a third of a per
-/// cent and left away.
+/// Mean number of relaxation events above which the Poisson scatter, below a third of a per cent,
+/// is neglected.
 const LARGE_MEAN: f64 = 1e5;
 
-/// `exp(-mean)` of parts above this would lose digits.
+/// Greatest part of the mean handled at once; `exp(-mean)` of greater ones would lose precision.
 const PART: f64 = 500.0;
 
 /// Number of relaxation events, at least 1, after which a cell divides: Poisson distributed with
-/// mean `mean`. None if never.
+/// mean `mean`. `None` means never.
 ///
-/// Draws of 0 count as 1: a cell has to be there before it divides.
+/// Draws of 0 count as 1, since a cell must exist before it divides.
 pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64> {
     if !mean.is_finite() {
         return None;
@@ -38,7 +38,7 @@ pub(super) fn events_to_division(id: u64, counter: u64, mean: f64) -> Option<u64
     Some(drawn.max(1))
 }
 
-/// A Poisson number from a uniform one, by inversion.
+/// A Poisson variate from a uniform one, by inversion.
 fn poisson(mean: f64, u: f64) -> u64 {
     let mut probability = libm::exp(-mean);
     let mut up_to = probability;
@@ -73,13 +73,13 @@ pub(super) fn kind_of_child(parent: &CellType, id: u64, counter: u64) -> u16 {
     chosen(parent.switching.iter().copied(), u)
 }
 
-/// Name of the child, from which all its chances come.
+/// The child's identifier, from which all its random numbers derive.
 pub(super) fn child_id(parent: u64, counter: u64) -> u64 {
     bits(parent, Use::MosaicDivision, u64::MAX - counter)
 }
 
-/// Where the child lies, from its parent, for a radius of 1: uniform in a disc; `attempt` gives
-/// others.
+/// Offset of the child from its parent for a radius of 1, uniform in a disc. Each `attempt` gives
+/// another offset.
 pub(super) fn place_of_child(id: u64, attempt: u64) -> DVec2 {
     let u = [0, 1].map(|k| uniform(id, Use::MosaicPlace, 2 * attempt + k));
     let angle = u[1] * std::f64::consts::TAU;
