@@ -1,4 +1,4 @@
-//! What surfaces are made of: parameters at a hit → a [`Bsdf`].
+//! Materials: they turn the parameters of a hit into a [`Bsdf`].
 //!
 //! ```
 //! use glam::Vec2;
@@ -43,21 +43,21 @@ pub enum Material {
     Solid(Box<SolidMaterial>),
 }
 
-/// What a material that is tissue holds, whatever the tissue: all that others want to know of it.
+/// A material's tissue, for materials that are tissue of any kind.
 #[derive(Clone, Copy, Debug)]
 pub struct Tissue<'m> {
-    /// What its pigments are.
+    /// The palette of its pigments.
     pub palette: &'m Palette,
-    /// What it holds.
+    /// Its contents.
     pub holds: Holds<'m>,
 }
 
-/// What tissue holds.
+/// The contents of tissue.
 #[derive(Clone, Copy, Debug)]
 pub enum Holds<'m> {
-    /// The same everywhere.
+    /// Uniform contents.
     Contents(&'m Contents),
-    /// Contents by place.
+    /// Contents from a map.
     Map(&'m ContentsTexture),
     /// Unknown: its spectra were measured.
     Unknown,
@@ -66,16 +66,16 @@ pub enum Holds<'m> {
 /// A coat that alone reflects more than the whole should.
 #[derive(Clone, Copy, Debug)]
 pub struct ExceedingCoat {
-    /// Where it does, nm.
+    /// A wavelength at which it does, nm.
     pub nm: f64,
-    /// What the coat is called.
+    /// Name of the coat in messages.
     pub coat: &'static str,
-    /// What the whole is called.
+    /// Name of the whole in messages.
     pub whole: &'static str,
 }
 
 impl Material {
-    /// What it holds, if it is tissue.
+    /// Its tissue, if it is tissue.
     pub fn tissue(&self) -> Option<Tissue<'_>> {
         match self {
             Self::Diffuse(_) | Self::Dielectric(_) => None,
@@ -97,7 +97,7 @@ impl Material {
         }
     }
 
-    /// The map of what it holds, if it has one.
+    /// The map of its contents, if it has one.
     pub fn contents_map(&self) -> Option<&ContentsTexture> {
         match self.tissue()?.holds {
             Holds::Map(map) => Some(map),
@@ -121,7 +121,7 @@ impl Material {
         exceeds.map(|nm| ExceedingCoat { nm, coat, whole })
     }
 
-    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         match self {
             Self::Diffuse(reflectance) => reflectance.tabulate(grid),

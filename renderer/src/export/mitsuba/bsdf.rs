@@ -97,7 +97,7 @@ pub(super) fn bsdf(
     }
 }
 
-/// Adds what tissue holds: contents, the file of a map, or that spectra tell it.
+/// Adds the contents of tissue: uniform contents, the file of a map, or measured spectra.
 fn tissue(bsdf: Element, id: &str, material: &material::Material, extrapolate: bool) -> Element {
     let Some(tissue) = material.tissue() else {
         return bsdf;
