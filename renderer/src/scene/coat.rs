@@ -1,4 +1,4 @@
-//! Coats as a scene describes them, made ready.
+//! Conversion of coats from the description.
 
 use super::description;
 use crate::bsdf::leaf::Coat;

@@ -1,4 +1,4 @@
-//! `[leaves.NAME]`: a leaf that is grown, and the surface that grown leaves share with materials.
+//! `[leaves.NAME]`: a grown leaf, and the keys for surfaces that leaves share with materials.
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
@@ -11,17 +11,18 @@ use crate::scene::description::{Coat, Leaf, Spectrum};
 
 /// Refractive index of a coat.
 const COAT_ETA: f64 = 1.45;
-/// GGX roughness of the adaxial and the abaxial coat: satin above, matt below.
+/// GGX roughness of the adaxial and the abaxial coat: satin on the adaxial, matt on the abaxial
+/// face.
 const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
 /// Measured abaxial over adaxial reflectance, mean of 19 groups of broad leaves (Noda et al.).
 const ABAXIAL_RATIO: [(f64, f64); 4] = [(450.0, 1.74), (550.0, 1.55), (680.0, 1.65), (800.0, 0.97)];
 
 impl From<LeafPlan> for Leaf {
-    /// A leaf with the usual surface.
+    /// A leaf with the default surface.
     fn from(plan: LeafPlan) -> Self {
         Self {
             plan,
-            // It goes on with its end values in any scene.
+            // Its end values hold outside the table, in every scene.
             abaxial_ratio: Spectrum::Table {
                 points: ABAXIAL_RATIO.to_vec(),
                 extrapolate: true,
