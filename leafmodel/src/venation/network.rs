@@ -95,7 +95,7 @@ pub enum NetworkError {
         /// Number of the edge.
         edge: usize,
     },
-    /// A node lies more than 10⁶ mm from the origin, or its position is not finite.
+    /// A node lies more than 10⁶ mm from the origin in x or y, or its position is not finite.
     #[error("node {node} is not within 10⁶ mm of the origin")]
     FarNode {
         /// Number of the node.

@@ -119,7 +119,8 @@ pub struct AuxinPlan {
     /// Sources kept away from the margin at first, and arches.
     pub margin_clearance: Option<MarginClearance>,
     /// `K L²`: Gaussian curvature of the blade times its length squared, −2 to 8; 0 is a flat or
-    /// rolled blade. If it is not 0, the outline is that of the blade's conformal map.
+    /// rolled blade. Cannot be combined with anisotropic growth. If it is not 0, the outline is
+    /// that of the blade's conformal map.
     pub gaussian_curvature: f64,
 }
 
