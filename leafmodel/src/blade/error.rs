@@ -20,7 +20,7 @@ pub enum BladeError {
         "the blade would take more than {limit} triangles: raise max_edge_mm or meshed_vein_radius_mm"
     )]
     TooFine {
-        /// Most triangles allowed.
+        /// Greatest number of triangles.
         limit: usize,
     },
     /// Fold, curl and ruffle bend the blade so much that it turns inside out.

@@ -69,8 +69,8 @@ impl<const N: usize> Picture<N> {
     }
 }
 
-/// Where a layer lies. Edges are smooth steps of width `softness_mm`, centred on the place that the
-/// numbers give.
+/// The place of a layer, as a weight. Edges are smooth steps of width `softness_mm`, centred on the
+/// place that the numbers give.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mask {
     /// Everywhere alike.

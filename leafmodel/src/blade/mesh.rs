@@ -15,7 +15,7 @@ use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
-/// Most triangles of one blade.
+/// Greatest number of triangles of one blade.
 pub(super) const MOST_TRIANGLES: usize = 4_000_000;
 
 /// A sheet of triangles in space, with properties at each vertex.

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// How far the sides of a tube may lie inside the round stalk that they approximate, mm.
 const SAGITTA_MM: f64 = 0.01;
-/// Fewest and most sides.
+/// Least and greatest number of sides.
 const SIDES: [usize; 2] = [8, 48];
 
 /// Tubes in space. Lengths are millimetres.
@@ -315,7 +315,7 @@ mod tests {
             let mesh = tube(30.0);
             assert_eq!(mesh.validate(), Ok(()));
             let n = sides(radius) as f64;
-            // What is longer is a prism more.
+            // A longer tube has the side of a prism in addition.
             let side = 2.0 * n * radius * libm::sin(PI / n);
             let more = tube(50.0).area() - mesh.area();
             assert!((more - 20.0 * side).abs() < 1e-9 * more, "{more}");

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::segments::crossing;
 
-/// Which edges of a closed polygon reach into which of its horizontal slabs.
+/// For each horizontal slab of a closed polygon the edges that reach into it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slabs {
     low: f64,

@@ -21,7 +21,7 @@ use thiserror::Error;
 use super::cubic::FLATNESS;
 use super::outline::{Outline, OutlineError};
 
-/// Most corners of a polygon.
+/// Greatest number of corners of a polygon.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A contour from an SVG file.

@@ -40,7 +40,7 @@ pub enum FormVeins {
 pub struct Form {
     /// Name of the preset: `young-` and the figure's panel.
     pub name: &'static str,
-    /// What botanists call it, and where it is seen, by the figure's caption and section IV.
+    /// Its botanical term, and plants that have it, by the figure's caption and section IV.
     pub about: &'static str,
     /// `R`, axial over greatest lateral growth rate.
     pub rate_ratio: f64,

@@ -48,7 +48,7 @@ pub(crate) struct Offer {
 }
 
 impl Growth {
-    /// The root alone.
+    /// The growth of a leaf that consists of the root alone.
     pub(crate) fn new(
         [alpha, beta]: [f64; 2],
         mirrored: bool,

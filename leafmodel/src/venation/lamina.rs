@@ -57,7 +57,7 @@ impl<'a> Lamina<'a> {
         self.carried.as_ref().map_or(p, |(now, _)| now.back(p))
     }
 
-    /// Where the tissue is now that started at `start`.
+    /// The present place of the tissue that started at `start`.
     pub(crate) fn now_at(&self, start: DVec2) -> DVec2 {
         self.carried
             .as_ref()
@@ -72,7 +72,7 @@ impl<'a> Lamina<'a> {
             .map_or(p, |(now, last)| last.forward(now.back(p)))
     }
 
-    /// Where the tissue is now that will be at `p` in the full-grown leaf.
+    /// The present place of the tissue that will be at `p` in the full-grown leaf.
     pub(crate) fn now_of_full_grown(&self, p: DVec2) -> DVec2 {
         self.carried
             .as_ref()

@@ -62,7 +62,7 @@ pub(crate) struct LoneSources {
 }
 
 impl LoneSources {
-    /// None.
+    /// No sources.
     pub(crate) fn new() -> Self {
         Self {
             side: f64::INFINITY,
@@ -147,7 +147,7 @@ impl LoneSources {
         }
     }
 
-    /// Takes a source out.
+    /// Removes a source.
     pub(crate) fn remove(&mut self, lone: Lone) {
         if let Some(&number) = self.cell_numbers.get(&self.key(lone.place)) {
             for basin in &mut self.cells[number].basins {

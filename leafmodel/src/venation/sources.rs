@@ -49,7 +49,7 @@ pub(crate) struct Sources<I> {
 }
 
 impl<I: Influence> Sources<I> {
-    /// None.
+    /// An empty set of sources.
     pub(crate) fn new() -> Self {
         Self {
             places: Vec::new(),

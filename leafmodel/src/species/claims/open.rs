@@ -54,7 +54,7 @@ fn fig_10_ginkgo_veins_fork_in_two_so_that_the_gap_between_tips_stays() {
     let leaf = Grown::preset("ginkgo");
     let network = &leaf.network;
     assert_eq!(network.loops(), 0);
-    // How many veins cross circles about the base.
+    // Number of veins that cross circles around the base.
     let crossing = |share: f64| {
         let radius = share * leaf.length();
         let crosses = |s: &VeinSegment| (s.from.length() < radius) != (s.to.length() < radius);
