@@ -6,8 +6,9 @@ use leafmodel::optics::{Constituent, Contents, ProspectD};
 use renderer::bsdf::Bsdf;
 use renderer::bsdf::leaf::Coat;
 use renderer::material::Material;
+use renderer::material::held::Held;
 use renderer::material::palette::Palette;
-use renderer::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
+use renderer::material::solid::{ReflectanceTables, SolidMaterial};
 use renderer::sampling::stream::Stream;
 use renderer::spectrum::Wavelengths;
 use support::chi_square::{ChiSquare, sidak};
@@ -24,9 +25,9 @@ fn rind() -> Contents {
 
 fn material(contents: Contents, optics: Solid, coat: Coat) -> Material {
     let table = ReflectanceTables::default().of(optics.eta);
-    let tissue = SolidTissue::Uniform(contents);
+    let held = Held::Uniform(contents);
     Material::Solid(Box::new(SolidMaterial::new(
-        tissue,
+        held,
         Palette::default(),
         optics,
         table,

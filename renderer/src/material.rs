@@ -15,20 +15,21 @@
 //! ```
 
 pub mod contents_texture;
+pub mod held;
 pub mod leaf;
 pub mod palette;
 pub mod solid;
 
 use glam::Vec2;
-use leafmodel::optics::Contents;
 
 use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
 use crate::spectrum::{Spectrum, WavelengthGrid, Wavelengths};
 use contents_texture::ContentsTexture;
+use held::Held;
 use leaf::{LeafMaterial, LeafTissue};
 use palette::Palette;
-use solid::{SolidMaterial, SolidTissue};
+use solid::SolidMaterial;
 
 /// The materials, a closed set.
 #[derive(Clone, Debug)]
@@ -48,19 +49,15 @@ pub enum Material {
 pub struct Tissue<'m> {
     /// The palette of its pigments.
     pub palette: &'m Palette,
-    /// Its contents.
-    pub holds: Holds<'m>,
+    /// Its contents; `None` if its spectra were measured.
+    pub held: Option<&'m Held>,
 }
 
-/// The contents of tissue.
-#[derive(Clone, Copy, Debug)]
-pub enum Holds<'m> {
-    /// Uniform contents.
-    Contents(&'m Contents),
-    /// Contents from a map.
-    Map(&'m ContentsTexture),
-    /// Unknown: its spectra were measured.
-    Unknown,
+/// Wavelengths across a range, nm, at which a coat is compared with the whole.
+fn coarse(range_nm: [f64; 2]) -> impl Iterator<Item = f64> {
+    const STEPS: u32 = 200;
+    let [first, last] = range_nm;
+    (0..=STEPS).map(move |i| first + (last - first) * f64::from(i) / f64::from(STEPS))
 }
 
 /// A coat that alone reflects more than the whole should.
@@ -81,27 +78,23 @@ impl Material {
             Self::Diffuse(_) | Self::Dielectric(_) => None,
             Self::Leaf(leaf) => Some(Tissue {
                 palette: &leaf.palette,
-                holds: match &leaf.tissue {
-                    LeafTissue::Uniform(contents) => Holds::Contents(contents),
-                    LeafTissue::Map(map) => Holds::Map(map),
-                    LeafTissue::Measured { .. } => Holds::Unknown,
+                held: match &leaf.tissue {
+                    LeafTissue::Held(held) => Some(held),
+                    LeafTissue::Measured { .. } => None,
                 },
             }),
             Self::Solid(solid) => Some(Tissue {
                 palette: solid.palette(),
-                holds: match solid.tissue() {
-                    SolidTissue::Uniform(contents) => Holds::Contents(contents),
-                    SolidTissue::Map(map) => Holds::Map(map),
-                },
+                held: Some(solid.held()),
             }),
         }
     }
 
     /// The map of its contents, if it has one.
     pub fn contents_map(&self) -> Option<&ContentsTexture> {
-        match self.tissue()?.holds {
-            Holds::Map(map) => Some(map),
-            Holds::Contents(_) | Holds::Unknown => None,
+        match self.tissue()?.held? {
+            Held::Map(map) => Some(map),
+            Held::Uniform(_) => None,
         }
     }
 

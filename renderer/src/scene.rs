@@ -42,9 +42,9 @@
 mod angle;
 pub mod assets;
 mod blocks;
-mod coat;
 pub mod description;
 pub mod load;
 pub mod plant_cache;
 pub mod plants;
+mod tissue;
 pub mod world;

@@ -41,7 +41,7 @@ fn a_leaf_is_planned_as_written() {
     assert_near(beech.plan.form.fold, std::f64::consts::PI / 20.0);
     assert_eq!(beech.plan.tissue.vein_factors[Constituent::DryMatter], 4.0);
     assert_eq!(beech.plan.tissue.lamina[Constituent::Anthocyanins], 0.0);
-    let [adaxial, abaxial] = beech.coats;
+    let [adaxial, abaxial] = beech.faces.coats;
     assert_eq!(
         (adaxial.eta, adaxial.alpha_across, adaxial.alpha_along),
         (1.5, 0.2, 0.2)
@@ -61,7 +61,7 @@ fn a_leaf_is_planned_as_written() {
         .collect();
     assert_eq!(positions, [0.1, 0.3, 0.5, 0.7, 0.9]);
     assert!(
-        matches!(&simple.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)
+        matches!(&simple.faces.abaxial_ratio, Spectrum::Table { points, extrapolate: true } if points.len() == 4)
     );
 }
 

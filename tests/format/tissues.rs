@@ -6,7 +6,7 @@ use leafmodel::optics::betalains::{Betacyanin, Betaxanthin};
 use leafmodel::optics::pigments::{AnthocyaninMix, CarotenoidMix, ChlorophyllMix};
 use leafmodel::optics::{Constituent, Pigments};
 use leafmodel::solid::SolidShape;
-use renderer::scene::description::{Material, SolidTissue};
+use renderer::scene::description::{Held, Material};
 
 use super::{accept, text_of};
 
@@ -77,7 +77,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
     assert_eq!(a_to_b, 6.0);
     assert_eq!(solid(2).plan.pigments, Pigments::default());
     let Material::Solid {
-        tissue,
+        held,
         pigments,
         optics,
     } = &scene.materials[5].value
@@ -85,7 +85,7 @@ fn bodies_of_solid_tissue_are_planned_as_written() {
         panic!("rind is {:?}", scene.materials[5].value);
     };
     assert!(
-        matches!(tissue, SolidTissue::Contents { contents, extrapolate: true } if contents[Constituent::Betaxanthins] == 1.0)
+        matches!(held, Held::Contents { contents, extrapolate: true } if contents[Constituent::Betaxanthins] == 1.0)
     );
     assert_eq!((optics.tissue.depth_mm, optics.coat.eta), (0.5, 1.33));
     assert_eq!(pigments.betaxanthins, Betaxanthin::Vulgaxanthin);

@@ -39,7 +39,7 @@ const DEEPEST: u32 = 11;
 impl Distances {
     /// Builds the quadtree over the frame, within which distances may be queried.
     pub(super) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
-        let all = (0..segments.len() as u32).collect();
+        let all: Vec<u32> = (0..segments.len() as u32).collect();
         let (centre, half_side) = (frame.min + 0.5 * frame.size, 0.5 * frame.size.max_element());
         let mut field = Self {
             segments,
@@ -48,7 +48,7 @@ impl Distances {
             squares: vec![Square::Whole(0, 0)],
             candidates: Vec::new(),
         };
-        field.part(0, centre, half_side, all, DEEPEST);
+        field.part(0, centre, half_side, &all, DEEPEST);
         field
     }
 
@@ -58,7 +58,7 @@ impl Distances {
         place: usize,
         centre: DVec2,
         half_side: f64,
-        of_parent: Vec<u32>,
+        of_parent: &[u32],
         deeper: u32,
     ) {
         let distances: Vec<f64> = of_parent
@@ -89,13 +89,7 @@ impl Distances {
             .enumerate()
         {
             let centre = centre + quarter_side * DVec2::new(east, north);
-            self.part(
-                quarters + quarter,
-                centre,
-                quarter_side,
-                own.clone(),
-                deeper - 1,
-            );
+            self.part(quarters + quarter, centre, quarter_side, &own, deeper - 1);
         }
     }
 

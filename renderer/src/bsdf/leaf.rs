@@ -11,7 +11,7 @@ use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::{BsdfSample, Scattered};
 use crate::sampling::warp;
-use crate::spectrum::Lanes;
+use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// The rough dielectric coat of one face, with its tables.
 #[derive(Clone, Debug)]
@@ -160,6 +160,16 @@ impl<const N: usize> Tissue<N> {
             reflectance: [r_a, r_b],
             transmittance: [t_ab, t_ba],
         }
+    }
+}
+
+impl Tissue<1> {
+    /// Tabulates a uniform leaf at every wavelength of a grid.
+    pub fn table(grid: &WavelengthGrid, at: impl Fn(&Wavelengths<1>) -> Self) -> Table {
+        Table::new(grid, |nm| {
+            let lanes = at(&Wavelengths::new([nm])).to_lanes();
+            lanes.map(|lanes| lanes.0[0])
+        })
     }
 }
 

@@ -5,7 +5,7 @@ use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::{Failure, colour, load_scene, say};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, LeafTissue, Light, Material, Mesh, SolidTissue};
+use crate::scene::description::{Description, Held, Light, Mesh};
 use crate::scene::load;
 use crate::scene::world::World;
 
@@ -60,19 +60,8 @@ fn read_files(description: &Description) -> Result<(), Failure> {
             .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
     }
     for material in &description.materials {
-        let file = match &material.value {
-            Material::Leaf {
-                tissue: LeafTissue::Map { file, .. },
-                ..
-            }
-            | Material::Solid {
-                tissue: SolidTissue::Map { file, .. },
-                ..
-            } => file,
-            Material::Leaf { .. }
-            | Material::Solid { .. }
-            | Material::Diffuse { .. }
-            | Material::Dielectric { .. } => continue,
+        let Some(Held::Map { file, .. }) = material.value.held() else {
+            continue;
         };
         let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
         assets::contents_map(file).map_err(told)?;

@@ -1,10 +1,11 @@
 //! A leaf's material: its tissue, which determines R and T, and its coats.
 
 use glam::Vec2;
-use leafmodel::optics::{Contents, ProspectD, Texel};
+use leafmodel::optics::{ProspectD, Texel};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
-use crate::material::contents_texture::ContentsTexture;
+use crate::material::coarse;
+use crate::material::held::Held;
 use crate::material::palette::Palette;
 use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
@@ -26,10 +27,8 @@ pub struct LeafMaterial {
 /// The tissue of a leaf, which determines its reflectance and transmittance.
 #[derive(Clone, Debug)]
 pub enum LeafTissue {
-    /// PROSPECT-D of uniform contents.
-    Uniform(Contents),
-    /// PROSPECT-D of the contents of a map.
-    Map(ContentsTexture),
+    /// PROSPECT-D of contents.
+    Held(Held),
     /// Measured spectra.
     Measured {
         /// Reflectance of the adaxial face.
@@ -59,18 +58,12 @@ impl LeafMaterial {
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.abaxial_ratio.tabulate(grid);
-        self.uniform = match self.tissue {
-            LeafTissue::Map(_) => None,
-            LeafTissue::Uniform(_) | LeafTissue::Measured { .. } => {
-                let at = |nm| {
-                    self.tissue_at(Vec2::ZERO, &Wavelengths::new([nm]))
-                        .to_lanes()
-                };
-                Some(Table::new(grid, |nm| {
-                    at(nm).map(|lanes: Lanes<1>| lanes.0[0])
-                }))
-            }
+        let is_uniform = match &self.tissue {
+            LeafTissue::Held(held) => held.is_uniform(),
+            LeafTissue::Measured { .. } => true,
         };
+        let table = || Tissue::table(grid, |wavelengths| self.tissue_at(Vec2::ZERO, wavelengths));
+        self.uniform = is_uniform.then(table);
     }
 
     /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence
@@ -78,28 +71,19 @@ impl LeafMaterial {
     /// used.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
-        let steps = 200;
-        let contents = match &self.tissue {
-            LeafTissue::Uniform(contents) => Some(*contents),
-            LeafTissue::Map(map) => Some(map.mean()),
-            LeafTissue::Measured { .. } => None,
-        };
-        (0..=steps)
-            .map(|i| range_nm[0] + (range_nm[1] - range_nm[0]) * f64::from(i) / f64::from(steps))
-            .find(|&nm| {
-                let reflectance = match (&self.tissue, &contents) {
-                    (LeafTissue::Measured { reflectance, .. }, _) => {
-                        f64::from(reflectance.at(nm as f32))
-                    }
-                    (_, Some(contents)) => {
-                        ProspectD::coefficients_of(self.palette.pigments(), nm)
-                            .reflectance_transmittance(contents)
-                            .reflectance
-                    }
-                    (_, None) => return false,
-                };
-                reflectance < coat - 1e-4
-            })
+        let exceeds = |reflectance: f64| reflectance < coat - 1e-4;
+        match &self.tissue {
+            LeafTissue::Held(held) => {
+                let mean = held.mean();
+                coarse(range_nm).find(|&nm| {
+                    let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
+                    exceeds(at.reflectance_transmittance(&mean).reflectance)
+                })
+            }
+            LeafTissue::Measured { reflectance, .. } => {
+                coarse(range_nm).find(|&nm| exceeds(f64::from(reflectance.at(nm as f32))))
+            }
+        }
     }
 
     /// The BSDF at texture coordinates `uv`.
@@ -120,8 +104,7 @@ impl LeafMaterial {
             (Lanes(reflectance), Lanes(transmittance))
         };
         let (reflectance, transmittance) = match &self.tissue {
-            LeafTissue::Uniform(contents) => optics(&contents.to_texel()),
-            LeafTissue::Map(map) => optics(&map.at(uv)),
+            LeafTissue::Held(held) => optics(&held.at(uv)),
             LeafTissue::Measured {
                 reflectance,
                 transmittance,
@@ -137,10 +120,11 @@ impl LeafMaterial {
 
 #[cfg(test)]
 mod tests {
-    use leafmodel::optics::Pigments;
     use leafmodel::optics::pigments::{AnthocyaninMix, ChlorophyllMix};
+    use leafmodel::optics::{Contents, Pigments};
 
     use super::*;
+    use crate::material::contents_texture::ContentsTexture;
     use crate::material::palette::Palettes;
     use crate::scene::description::FilmKind;
     use crate::spectrum::WavelengthSampler;
@@ -202,8 +186,8 @@ mod tests {
         let texel = red.to_texel();
         for pigments in &palettes() {
             for tissue in [
-                LeafTissue::Uniform(red),
-                LeafTissue::Map(ContentsTexture::new(1, 1, vec![texel])),
+                LeafTissue::Held(Held::Uniform(red)),
+                LeafTissue::Held(Held::Map(ContentsTexture::new(1, 1, vec![texel]))),
             ] {
                 let mut leaf = LeafMaterial::new(
                     tissue,
@@ -236,7 +220,7 @@ mod tests {
         let mut known = Palettes::default();
         let mut exceeds = |pigments: &Pigments| {
             let leaf = LeafMaterial::new(
-                LeafTissue::Uniform(red),
+                LeafTissue::Held(Held::Uniform(red)),
                 known.of(pigments),
                 Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
                 [Coat::new(1.6, 0.3, 0.3), Coat::new(1.6, 0.3, 0.3)],

@@ -6,27 +6,19 @@
 use std::sync::Arc;
 
 use glam::Vec2;
+use leafmodel::optics::ProspectD;
 use leafmodel::optics::solid::{ReflectanceTable, Solid};
-use leafmodel::optics::{Contents, ProspectD};
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue};
-use crate::material::contents_texture::ContentsTexture;
+use crate::material::coarse;
+use crate::material::held::Held;
 use crate::material::palette::Palette;
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
-
-/// Contents of solid tissue per area of its surface.
-#[derive(Clone, Debug)]
-pub enum SolidTissue {
-    /// Uniform contents.
-    Uniform(Contents),
-    /// Contents from a map.
-    Map(ContentsTexture),
-}
 
 /// A material of solid tissue.
 #[derive(Clone, Debug)]
 pub struct SolidMaterial {
-    tissue: SolidTissue,
+    held: Held,
     palette: Palette,
     optics: Solid,
     table: Arc<ReflectanceTable>,
@@ -58,14 +50,14 @@ impl SolidMaterial {
     /// Tissue with these optics, which must be in range, and the pigments of `palette`, below a
     /// coat. `table` is that of the optics' refractive index, without a skin.
     pub fn new(
-        tissue: SolidTissue,
+        held: Held,
         palette: Palette,
         optics: Solid,
         table: Arc<ReflectanceTable>,
         coat: Coat,
     ) -> Self {
         Self {
-            tissue,
+            held,
             palette,
             optics,
             table,
@@ -75,8 +67,8 @@ impl SolidMaterial {
     }
 
     /// Its contents.
-    pub fn tissue(&self) -> &SolidTissue {
-        &self.tissue
+    pub fn held(&self) -> &Held {
+        &self.held
     }
 
     /// The palette of its pigments.
@@ -93,33 +85,17 @@ impl SolidMaterial {
     /// more than the tissue should. With a map its mean contents are used.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
-        let contents = match &self.tissue {
-            SolidTissue::Uniform(contents) => *contents,
-            SolidTissue::Map(map) => map.mean(),
-        };
-        let steps = 200;
-        (0..=steps)
-            .map(|i| range_nm[0] + (range_nm[1] - range_nm[0]) * f64::from(i) / f64::from(steps))
-            .find(|&nm| {
-                let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
-                self.reflectance(at.absorption_of_leaf(&contents)) < coat - 1e-4
-            })
+        let mean = self.held.mean();
+        coarse(range_nm).find(|&nm| {
+            let at = ProspectD::coefficients_of(self.palette.pigments(), nm);
+            self.reflectance(at.absorption_of_leaf(&mean)) < coat - 1e-4
+        })
     }
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.uniform = match self.tissue {
-            SolidTissue::Map(_) => None,
-            SolidTissue::Uniform(_) => {
-                let at = |nm| {
-                    self.tissue_at(Vec2::ZERO, &Wavelengths::new([nm]))
-                        .to_lanes()
-                };
-                Some(Table::new(grid, |nm| {
-                    at(nm).map(|lanes: Lanes<1>| lanes.0[0])
-                }))
-            }
-        };
+        let table = || Tissue::table(grid, |wavelengths| self.tissue_at(Vec2::ZERO, wavelengths));
+        self.uniform = self.held.is_uniform().then(table);
     }
 
     /// The BSDF at texture coordinates `uv`.
@@ -133,10 +109,7 @@ impl SolidMaterial {
     }
 
     fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
-        let contents = match &self.tissue {
-            SolidTissue::Uniform(contents) => contents.to_texel(),
-            SolidTissue::Map(map) => map.at(uv),
-        };
+        let contents = self.held.at(uv);
         let absorption = self.palette.lanes(wavelengths).absorption(&contents);
         let reflectance = absorption.map(|absorbed| self.reflectance(f64::from(absorbed)) as f32);
         Tissue::new(&self.coats, Lanes(reflectance), Lanes::ZERO, Lanes::ONE)

@@ -45,6 +45,29 @@ pub struct Description {
     pub objects: Vec<Named<Object>>,
 }
 
+impl Material {
+    /// What it holds, if it is tissue whose contents are known.
+    pub fn held(&self) -> Option<&Held> {
+        match self {
+            Self::Leaf {
+                tissue: LeafTissue::Held(held),
+                ..
+            }
+            | Self::Solid { held, .. } => Some(held),
+            Self::Diffuse { .. } | Self::Dielectric { .. } | Self::Leaf { .. } => None,
+        }
+    }
+}
+
+impl Held {
+    /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
+    pub fn extrapolates(&self) -> bool {
+        match self {
+            Self::Contents { extrapolate, .. } | Self::Map { extrapolate, .. } => *extrapolate,
+        }
+    }
+}
+
 impl Description {
     /// A scene with nothing in it.
     pub(crate) fn empty(name: &str, source: String) -> Self {
@@ -133,15 +156,13 @@ pub enum Material {
         tissue: LeafTissue,
         /// The kinds of pigments of its contents.
         pigments: Box<Pigments>,
-        /// Abaxial over adaxial reflectance.
-        abaxial_ratio: Spectrum,
-        /// Adaxial and abaxial coat.
-        coats: [Coat; 2],
+        /// The properties of its faces.
+        faces: LeafFaces,
     },
     /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
     Solid {
         /// Its contents.
-        tissue: SolidTissue,
+        held: Held,
         /// The kinds of pigments of its contents.
         pigments: Box<Pigments>,
         /// The optics of the tissue.
@@ -149,9 +170,18 @@ pub enum Material {
     },
 }
 
-/// Contents of solid tissue per area of its surface.
+/// The two faces of a leaf, grown or of a material.
 #[derive(Clone, Debug)]
-pub enum SolidTissue {
+pub struct LeafFaces {
+    /// Abaxial over adaxial reflectance.
+    pub abaxial_ratio: Spectrum,
+    /// Adaxial and abaxial coat.
+    pub coats: [Coat; 2],
+}
+
+/// Contents of tissue per area of its surface.
+#[derive(Clone, Debug)]
+pub enum Held {
     /// Uniform contents.
     Contents {
         /// The contents.
@@ -159,7 +189,8 @@ pub enum SolidTissue {
         /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
         extrapolate: bool,
     },
-    /// Contents read from a map, as those of a leaf.
+    /// Contents read from a map: an EXR with a channel for each
+    /// [`leafmodel::optics::Constituent`].
     Map {
         /// The map's file, resolved and inside the scene's folder.
         file: PathBuf,
@@ -168,7 +199,7 @@ pub enum SolidTissue {
     },
 }
 
-/// What becomes of light in solid tissue.
+/// The optics of solid tissue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidOptics {
     /// Depth, scattering and refractive index, in range.
@@ -180,21 +211,8 @@ pub struct SolidOptics {
 /// The tissue of a leaf, which determines R and T.
 #[derive(Clone, Debug)]
 pub enum LeafTissue {
-    /// PROSPECT-D of these contents.
-    Contents {
-        /// The uniform contents.
-        contents: leafmodel::optics::Contents,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
-    /// PROSPECT-D of contents read from a map: an EXR with a channel for each
-    /// [`leafmodel::optics::Constituent`].
-    Map {
-        /// The map's file, resolved and inside the scene's folder.
-        file: PathBuf,
-        /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
-        extrapolate: bool,
-    },
+    /// PROSPECT-D of contents.
+    Held(Held),
     /// Measured spectra.
     Measured {
         /// Directional–hemispherical reflectance, adaxial face.
@@ -246,10 +264,8 @@ pub enum Mesh {
 pub struct Leaf {
     /// The plan from which it is grown.
     pub plan: LeafPlan,
-    /// Abaxial over adaxial reflectance.
-    pub abaxial_ratio: Spectrum,
-    /// Adaxial and abaxial coat.
-    pub coats: [Coat; 2],
+    /// The properties of its faces.
+    pub faces: LeafFaces,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
 }

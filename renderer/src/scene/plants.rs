@@ -17,13 +17,13 @@ use self::parts::{LeafParts, MapParts, MeshParts};
 pub use self::parts::{Piece, PlantError};
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
+use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
-use crate::material::solid::{SolidMaterial, SolidTissue};
-use crate::scene::coat::coat_of;
+use crate::material::solid::SolidMaterial;
 use crate::scene::description;
 use crate::scene::plant_cache::PlantCache;
-use crate::spectrum::Curve;
+use crate::scene::tissue;
 
 /// A grown leaf, ready to be placed: petiole, rachis and leaflets, or a single blade.
 #[derive(Debug)]
@@ -68,15 +68,12 @@ pub fn grow_solid(
         grown.triangles,
     )?;
     let map = grown.contents;
-    let tissue = SolidTissue::Map(ContentsTexture::new(
+    let held = Held::Map(ContentsTexture::new(
         map.width as usize,
         map.height as usize,
         map.texels,
     ));
-    let optics = solid.optics;
-    let coat = coat_of(optics.coat);
-    let material = SolidMaterial::new(tissue, palette, optics.tissue, table, coat);
-    Ok((mesh, material))
+    Ok((mesh, tissue::solid(held, palette, &solid.optics, table)))
 }
 
 /// Grows a leaf with the pigments of `palette`, or takes it from `cache` if it is there.
@@ -94,15 +91,12 @@ pub fn grow(
         Some(cache) => cache.take_or_grow(&leaf.plan, grow)?,
         None => grow()?,
     };
-    let ratio = Curve::from_description(&leaf.abaxial_ratio);
-    let coats = leaf.coats.map(coat_of);
-    let material =
-        |tissue| LeafMaterial::new(tissue, palette.clone(), ratio.clone(), coats.clone());
+    let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &leaf.faces);
     let maps = parts.maps.into_iter();
     let textures = maps.map(|map| ContentsTexture::new(map.width, map.height, map.texels));
     let tissues = textures
-        .map(LeafTissue::Map)
-        .chain(parts.stalk.map(LeafTissue::Uniform));
+        .map(Held::Map)
+        .chain(parts.stalk.map(Held::Uniform));
     let meshes = parts.meshes.into_iter().map(|mesh| {
         TriangleMesh::new(mesh.positions, Some(mesh.normals), mesh.uvs, mesh.triangles)
     });

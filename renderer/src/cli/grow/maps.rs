@@ -90,7 +90,7 @@ mod tests {
 
     use super::*;
     use crate::scene::assets::contents_map;
-    use crate::scene::description::{LeafTissue, Material};
+    use crate::scene::description::Held;
     use crate::scene::load::load;
     use leafmodel::optics::Texel;
 
@@ -144,11 +144,7 @@ radiance_w_m2_sr_nm = 0.1
         std::fs::write(&scene, SCENE).expect("written");
         let loaded = load(&scene, &[]).expect("a good scene").description;
         let material = &loaded.materials[0].value;
-        let Material::Leaf {
-            tissue: LeafTissue::Map { file, .. },
-            ..
-        } = material
-        else {
+        let Some(Held::Map { file, .. }) = material.held() else {
             panic!("{material:?}");
         };
         let texture = contents_map(file).expect("a map");

@@ -1,15 +1,19 @@
 //! Materials.
 
 use crate::export::element::{Element, Layout};
-use crate::material::{self, Holds};
-use crate::scene::description::{
-    Coat, Description, LeafTissue, Material, SolidOptics, SolidTissue, Spectrum,
-};
+use crate::material;
+use crate::material::held::Held;
+use crate::scene::description::{Description, LeafFaces, LeafTissue, Material, SolidOptics};
 use crate::scene::world::{MaterialOwner, World};
 
 use super::absorption_file;
 use super::spectra::Spectra;
 use super::units::material_id;
+
+/// Plugin for leaves, in `reference/`.
+const LEAF: &str = "lamina_leaf";
+/// Plugin for solid tissue, in `reference/`.
+const SOLID: &str = "lamina_solid";
 
 /// The material with this number.
 pub(super) fn bsdf(
@@ -20,23 +24,18 @@ pub(super) fn bsdf(
 ) -> Element {
     let id = material_id(scene, world, material);
     let own = &world.materials[material];
-    let leaf_bsdf = |extrapolate| {
-        let bsdf = Element::plugin("bsdf", "lamina_leaf").called(&id);
-        tissue(bsdf, &id, own, extrapolate)
-    };
-    let solid_bsdf = |extrapolate| {
-        let bsdf = Element::plugin("bsdf", "lamina_solid").called(&id);
+    let plugin = |name, extrapolate| {
+        let bsdf = Element::plugin("bsdf", name).called(&id);
         tissue(bsdf, &id, own, extrapolate)
     };
     let number = match world.owners[material] {
         MaterialOwner::Leaf { leaf, .. } => {
             let leaf = &scene.leaves[leaf].value;
-            let bsdf = leaf_bsdf(leaf.extrapolate);
-            return leaf_surface(bsdf, &leaf.abaxial_ratio, &leaf.coats, spectra);
+            return leaf_faces(plugin(LEAF, leaf.extrapolate), &leaf.faces, spectra);
         }
         MaterialOwner::Solid(solid) => {
             let solid = &scene.solids[solid].value;
-            return solid_optics(solid_bsdf(solid.extrapolate), &solid.optics);
+            return solid_optics(plugin(SOLID, solid.extrapolate), &solid.optics);
         }
         MaterialOwner::Scene(number) => number,
     };
@@ -69,31 +68,24 @@ pub(super) fn bsdf(
         Material::Leaf {
             tissue,
             pigments: _,
-            abaxial_ratio,
-            coats,
+            faces,
         } => {
             let bsdf = match tissue {
-                LeafTissue::Contents { extrapolate, .. } | LeafTissue::Map { extrapolate, .. } => {
-                    leaf_bsdf(*extrapolate)
-                }
+                LeafTissue::Held(held) => plugin(LEAF, held.extrapolates()),
                 LeafTissue::Measured {
                     reflectance,
                     transmittance,
-                } => leaf_bsdf(false)
+                } => plugin(LEAF, false)
                     .holding(spectra.element("reflectance", reflectance, 1.0))
                     .holding(spectra.element("transmittance", transmittance, 1.0)),
             };
-            leaf_surface(bsdf, abaxial_ratio, coats, spectra)
+            leaf_faces(bsdf, faces, spectra)
         }
         Material::Solid {
-            tissue,
+            held,
             pigments: _,
             optics,
-        } => {
-            let (SolidTissue::Contents { extrapolate, .. } | SolidTissue::Map { extrapolate, .. }) =
-                tissue;
-            solid_optics(solid_bsdf(*extrapolate), optics)
-        }
+        } => solid_optics(plugin(SOLID, held.extrapolates()), optics),
     }
 }
 
@@ -106,35 +98,30 @@ fn tissue(bsdf: Element, id: &str, material: &material::Material, extrapolate: b
         bsdf.string("prospect", absorption_file(tissue.palette))
             .boolean("extrapolate", extrapolate)
     };
-    match tissue.holds {
-        Holds::Contents(contents) => {
+    match tissue.held {
+        Some(Held::Uniform(contents)) => {
             let bsdf = prospect(bsdf.string("tissue", "contents"));
             let contents = (**contents).into_iter();
             contents.fold(bsdf, |bsdf, (constituent, value)| {
                 bsdf.float(constituent.channel(), value)
             })
         }
-        Holds::Map(_) => {
+        Some(Held::Map(_)) => {
             let bsdf = bsdf.string("tissue", "map");
             prospect(bsdf.string("map", format_args!("maps/{id}.exr")))
         }
-        Holds::Unknown => bsdf.string("tissue", "measured"),
+        None => bsdf.string("tissue", "measured"),
     }
 }
 
-fn leaf_surface(
-    bsdf: Element,
-    abaxial_ratio: &Spectrum,
-    coats: &[Coat; 2],
-    spectra: &mut Spectra,
-) -> Element {
-    let faces = ["adaxial", "abaxial"].into_iter().zip(coats);
-    let bsdf = faces.fold(bsdf, |bsdf, (face, coat)| {
+fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Element {
+    let coats = ["adaxial", "abaxial"].into_iter().zip(&faces.coats);
+    let bsdf = coats.fold(bsdf, |bsdf, (face, coat)| {
         bsdf.float(&format!("{face}_eta"), coat.eta)
             .float(&format!("{face}_alpha_across"), coat.alpha_across)
             .float(&format!("{face}_alpha_along"), coat.alpha_along)
     });
-    bsdf.holding(spectra.element("abaxial_ratio", abaxial_ratio, 1.0))
+    bsdf.holding(spectra.element("abaxial_ratio", &faces.abaxial_ratio, 1.0))
 }
 
 fn solid_optics(bsdf: Element, optics: &SolidOptics) -> Element {

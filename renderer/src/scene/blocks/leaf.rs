@@ -1,4 +1,4 @@
-//! `[leaves.NAME]`: a grown leaf, and the keys for surfaces that leaves share with materials.
+//! `[leaves.NAME]`: a grown leaf, and the keys for faces that leaves share with materials.
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
@@ -7,7 +7,7 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
 
 use super::spectrum::SpectrumOf;
-use crate::scene::description::{Coat, Leaf, Spectrum};
+use crate::scene::description::{Coat, Leaf, LeafFaces, Spectrum};
 
 /// Refractive index of a coat.
 const COAT_ETA: f64 = 1.45;
@@ -22,6 +22,16 @@ impl From<LeafPlan> for Leaf {
     fn from(plan: LeafPlan) -> Self {
         Self {
             plan,
+            faces: LeafFaces::usual(),
+            extrapolate: false,
+        }
+    }
+}
+
+impl LeafFaces {
+    /// Faces with all defaults.
+    pub(crate) fn usual() -> Self {
+        Self {
             // Its end values hold outside the table, in every scene.
             abaxial_ratio: Spectrum::Table {
                 points: ABAXIAL_RATIO.to_vec(),
@@ -32,7 +42,6 @@ impl From<LeafPlan> for Leaf {
                 alpha_across: alpha,
                 alpha_along: alpha,
             }),
-            extrapolate: false,
         }
     }
 }
@@ -45,15 +54,20 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
     }
     plan_file::leaf_preset(&mut leaf.plan, keys);
     plan_file::leaf(&mut leaf.plan, keys);
-    surface(&mut leaf.abaxial_ratio, &mut leaf.coats, keys);
+    faces(&mut leaf.faces, keys);
 }
 
-/// The keys of a leaf's surface.
-pub(super) fn surface(ratio: &mut Spectrum, coats: &mut [Coat; 2], keys: &mut Keys<'_>) {
+/// The keys of a leaf's faces.
+pub(super) fn faces(faces: &mut LeafFaces, keys: &mut Keys<'_>) {
     let about = "Abaxial over adaxial reflectance. The default is measured, the mean of 19 groups of \
             broad leaves (Noda et al.).";
-    keys.key("abaxial_ratio", ratio, SpectrumOf::Ratio, about);
-    let [adaxial, abaxial] = coats;
+    keys.key(
+        "abaxial_ratio",
+        &mut faces.abaxial_ratio,
+        SpectrumOf::Ratio,
+        about,
+    );
+    let [adaxial, abaxial] = &mut faces.coats;
     let about = "Coat of the adaxial face.";
     keys.block("adaxial", about, |keys| coat(adaxial, keys));
     let about = "Coat of the abaxial face.";

@@ -9,10 +9,10 @@ use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
-use super::leaf::surface;
+use super::leaf::faces;
 use super::solid::optics;
 use super::spectrum::SpectrumOf;
-use crate::scene::description::{Leaf, LeafTissue, Material, SolidOptics, SolidTissue, Spectrum};
+use crate::scene::description::{Held, LeafFaces, LeafTissue, Material, SolidOptics, Spectrum};
 
 /// Largest map of contents that is read, bytes.
 const MOST_MAP_BYTES: u64 = 4 << 30;
@@ -68,35 +68,23 @@ const KINDS: [Variant<Material>; 4] = [
     Variant {
         name: "leaf",
         about: "A leaf of uniform contents, of a map of contents, or of measured spectra.",
-        new: || {
-            let Leaf {
-                abaxial_ratio,
-                coats,
-                ..
-            } = Leaf::from(plan_file::usual_leaf(100.0));
-            Material::Leaf {
-                tissue: LeafTissue::Contents {
-                    contents: Contents::NOTHING,
-                    extrapolate: false,
-                },
-                pigments: Box::default(),
-                abaxial_ratio,
-                coats,
-            }
+        new: || Material::Leaf {
+            tissue: LeafTissue::Held(NOTHING),
+            pigments: Box::default(),
+            faces: LeafFaces::usual(),
         },
         is: |material| matches!(material, Material::Leaf { .. }),
         declare: |material, keys| {
             if let Material::Leaf {
                 tissue,
                 pigments,
-                abaxial_ratio,
-                coats,
+                faces: both,
             } = material
             {
                 leaf_tissue(tissue, keys);
                 keys.exclude("measured", "pigments");
                 pigments_block(pigments, keys);
-                surface(abaxial_ratio, coats, keys);
+                faces(both, keys);
             }
         },
     },
@@ -104,28 +92,31 @@ const KINDS: [Variant<Material>; 4] = [
         name: "solid",
         about: "Solid tissue of uniform contents or of a map of contents.",
         new: || Material::Solid {
-            tissue: SolidTissue::Contents {
-                contents: Contents::NOTHING,
-                extrapolate: false,
-            },
+            held: NOTHING,
             pigments: Box::default(),
             optics: SolidOptics::usual(),
         },
         is: |material| matches!(material, Material::Solid { .. }),
         declare: |material, keys| {
             if let Material::Solid {
-                tissue,
+                held,
                 pigments,
                 optics: solid,
             } = material
             {
-                solid_tissue(tissue, keys);
+                solid_tissue(held, keys);
                 pigments_block(pigments, keys);
                 optics(solid, keys);
             }
         },
     },
 ];
+
+/// Contents before any are read.
+const NOTHING: Held = Held::Contents {
+    contents: Contents::NOTHING,
+    extrapolate: false,
+};
 
 const HELD: &str = "What it holds.";
 const MAP: &str = "A map of what it holds.";
@@ -143,8 +134,8 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
         .is_some_and(|block| block.cx.extrapolate.get());
     // A named preset needs no contents, but contents may be given to change it.
     let mut contents = match tissue {
-        LeafTissue::Contents { contents, .. } => *contents,
-        LeafTissue::Map { .. } | LeafTissue::Measured { .. } => Contents::NOTHING,
+        LeafTissue::Held(Held::Contents { contents, .. }) => *contents,
+        LeafTissue::Held(Held::Map { .. }) | LeafTissue::Measured { .. } => Contents::NOTHING,
     };
     plan_file::colour_preset(&mut contents, keys);
     if keys.base().is_some() {
@@ -156,10 +147,10 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
             plan_file::contents(&mut contents, keys);
         });
         require_prospect(keys);
-        *tissue = LeafTissue::Contents {
+        *tissue = LeafTissue::Held(Held::Contents {
             contents,
             extrapolate,
-        };
+        });
         return;
     }
     for kind in keys.one_of(&["contents", "map", "measured"], Some("contents")) {
@@ -167,14 +158,14 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
             "contents" => keys.required_block("contents", HELD, &[], |keys| {
                 require_prospect(keys);
                 plan_file::contents(&mut contents, keys);
-                *tissue = LeafTissue::Contents {
+                *tissue = LeafTissue::Held(Held::Contents {
                     contents,
                     extrapolate,
-                };
+                });
             }),
             "map" => keys.required_block("map", MAP, &[], |keys| {
                 let file = map_file(keys);
-                *tissue = LeafTissue::Map { file, extrapolate };
+                *tissue = LeafTissue::Held(Held::Map { file, extrapolate });
             }),
             _ => {
                 let about = "Measured spectra of a leaf.";
@@ -184,7 +175,7 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
     }
 }
 
-fn solid_tissue(tissue: &mut SolidTissue, keys: &mut Keys<'_>) {
+fn solid_tissue(held: &mut Held, keys: &mut Keys<'_>) {
     let extrapolate = keys
         .reader()
         .is_some_and(|block| block.cx.extrapolate.get());
@@ -194,7 +185,7 @@ fn solid_tissue(tissue: &mut SolidTissue, keys: &mut Keys<'_>) {
                 require_prospect(keys);
                 let mut contents: Contents = Contents::NOTHING;
                 held_contents(&mut contents, keys);
-                *tissue = SolidTissue::Contents {
+                *held = Held::Contents {
                     contents,
                     extrapolate,
                 };
@@ -202,7 +193,7 @@ fn solid_tissue(tissue: &mut SolidTissue, keys: &mut Keys<'_>) {
         } else {
             keys.required_block("map", MAP, &[], |keys| {
                 let file = map_file(keys);
-                *tissue = SolidTissue::Map { file, extrapolate };
+                *held = Held::Map { file, extrapolate };
             });
         }
     }

@@ -7,12 +7,13 @@ use leafmodel::optics::solid::ReflectanceTable;
 use super::WorldError;
 use crate::bsdf::dielectric::Dielectric;
 use crate::material::Material;
-use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::held::Held;
+use crate::material::leaf::LeafTissue;
 use crate::material::palette::{Palette, Palettes};
-use crate::material::solid::{ReflectanceTables, SolidMaterial, SolidTissue};
+use crate::material::solid::ReflectanceTables;
 use crate::scene::assets;
-use crate::scene::coat::coat_of;
 use crate::scene::description::{self, Description};
+use crate::scene::tissue;
 use crate::spectrum::{Curve, WavelengthGrid};
 
 /// Data that materials share, made on first use.
@@ -52,11 +53,15 @@ pub(super) fn build_material(
     material: &description::Material,
     known: &mut Known,
 ) -> Result<Material, WorldError> {
-    let contents_map = |file| {
-        assets::contents_map(file).map_err(|source| WorldError::Asset {
-            place: format!("materials.{name}"),
-            source,
-        })
+    let read = |held: &description::Held| match held {
+        description::Held::Contents { contents, .. } => Ok(Held::Uniform(*contents)),
+        description::Held::Map { file, .. } => match assets::contents_map(file) {
+            Ok(map) => Ok(Held::Map(map)),
+            Err(source) => Err(WorldError::Asset {
+                place: format!("materials.{name}"),
+                source,
+            }),
+        },
     };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
@@ -69,14 +74,10 @@ pub(super) fn build_material(
         description::Material::Leaf {
             tissue,
             pigments,
-            abaxial_ratio,
-            coats,
+            faces,
         } => {
-            let tissue = match tissue {
-                description::LeafTissue::Contents { contents, .. } => {
-                    LeafTissue::Uniform(*contents)
-                }
-                description::LeafTissue::Map { file, .. } => LeafTissue::Map(contents_map(file)?),
+            let made = match tissue {
+                description::LeafTissue::Held(held) => LeafTissue::Held(read(held)?),
                 description::LeafTissue::Measured {
                     reflectance,
                     transmittance,
@@ -85,33 +86,17 @@ pub(super) fn build_material(
                     transmittance: Curve::from_description(transmittance),
                 },
             };
-            Material::Leaf(Box::new(LeafMaterial::new(
-                tissue,
-                known.palettes.of(pigments),
-                Curve::from_description(abaxial_ratio),
-                coats.map(coat_of),
-            )))
+            let palette = known.palettes.of(pigments);
+            Material::Leaf(Box::new(tissue::leaf(made, palette, faces)))
         }
         description::Material::Solid {
-            tissue,
+            held,
             pigments,
             optics,
         } => {
-            let tissue = match tissue {
-                description::SolidTissue::Contents { contents, .. } => {
-                    SolidTissue::Uniform(*contents)
-                }
-                description::SolidTissue::Map { file, .. } => SolidTissue::Map(contents_map(file)?),
-            };
             let palette = known.palettes.of(pigments);
             let table = known.reflectances.of(optics.tissue.eta);
-            Material::Solid(Box::new(SolidMaterial::new(
-                tissue,
-                palette,
-                optics.tissue,
-                table,
-                coat_of(optics.coat),
-            )))
+            Material::Solid(Box::new(tissue::solid(read(held)?, palette, optics, table)))
         }
     })
 }

@@ -66,6 +66,7 @@ mod tests {
     use super::*;
     use crate::bsdf::leaf::Coat;
     use crate::material::contents_texture::ContentsTexture;
+    use crate::material::held::Held;
     use crate::material::leaf::{LeafMaterial, LeafTissue};
     use crate::material::palette::Palette;
     use crate::spectrum::Curve;
@@ -78,7 +79,7 @@ mod tests {
         let second = green.with(&[(Constituent::Betaxanthins, betaxanthins)]);
         let coat = Coat::new(1.45, 0.3, 0.3);
         Material::Leaf(Box::new(LeafMaterial::new(
-            LeafTissue::Map(ContentsTexture::new(2, 1, vec![first, second])),
+            LeafTissue::Held(Held::Map(ContentsTexture::new(2, 1, vec![first, second]))),
             Palette::default(),
             Curve::from_points(&[(400.0, 1.0), (700.0, 1.0)]),
             [coat.clone(), coat],

@@ -1,0 +1,38 @@
+//! Conversion of tissue from the description, for materials and for grown leaves and bodies.
+
+use std::sync::Arc;
+
+use leafmodel::optics::solid::ReflectanceTable;
+
+use super::description::{self, LeafFaces, SolidOptics};
+use crate::bsdf::leaf::Coat;
+use crate::material::held::Held;
+use crate::material::leaf::{LeafMaterial, LeafTissue};
+use crate::material::palette::Palette;
+use crate::material::solid::SolidMaterial;
+use crate::spectrum::Curve;
+
+/// Leaf tissue between its faces.
+pub(super) fn leaf(tissue: LeafTissue, palette: Palette, faces: &LeafFaces) -> LeafMaterial {
+    let ratio = Curve::from_description(&faces.abaxial_ratio);
+    LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of))
+}
+
+/// Solid tissue below its skin; `table` is that of its refractive index.
+pub(super) fn solid(
+    held: Held,
+    palette: Palette,
+    optics: &SolidOptics,
+    table: Arc<ReflectanceTable>,
+) -> SolidMaterial {
+    SolidMaterial::new(held, palette, optics.tissue, table, coat_of(optics.coat))
+}
+
+/// A coat with its tables.
+fn coat_of(coat: description::Coat) -> Coat {
+    Coat::new(
+        coat.eta as f32,
+        coat.alpha_across as f32,
+        coat.alpha_along as f32,
+    )
+}
