@@ -1,4 +1,4 @@
-//! The lamina in space: mesh, relief, and what the tissue holds where.
+//! The lamina in space: its mesh and relief, and the contents of its tissue at each place.
 //!
 //! [`BladeMesh::build`] cuts the flat lamina into triangles that follow the margin and the major
 //! veins, raises the veins, and bends the whole. [`petiole`] gives it a stalk.
@@ -74,12 +74,12 @@ pub struct BladeForm {
     pub thickness_mm: f64,
     /// Longest edge of the mesh, mm, 0.001 to 10000.
     pub max_edge_mm: f64,
-    /// Veins at least this wide (radius, mm) are edges of the mesh and have relief, 0.0001 to 1000.
+    /// Veins of at least this radius, mm, are edges of the mesh and have relief, 0.0001 to 1000.
     pub meshed_vein_radius_mm: f64,
 }
 
 impl BladeForm {
-    /// A blade of which nothing is said.
+    /// The default form of a leaf of this length: nearly flat.
     pub fn nearly_flat(length_mm: f64) -> Self {
         Self {
             fold: 0.0,

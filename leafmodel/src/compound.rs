@@ -1,12 +1,12 @@
 //! Compound leaves: leaflets on a rachis, flat and in space.
 //!
-//! - **In**: a [`CompoundForm`]: how leaflets are arranged; and the plan of the largest one.
-//! - **Out**: a [`CompoundLeaf`]: leaflets with their places in the plane, and the stalks as
-//!   polylines with radii; drawn flat as one network ([`FlatLeaf`]), or in space ([`WholeLeaf`]):
-//!   blades, tubes, and where each blade stands. Lengths are millimetres; the petiole starts at the
-//!   origin and goes along +y.
-//! - **Always true**: flat, no leaflet crosses another or a stalk but its own; stalks taper; the
-//!   same plan gives the same leaf.
+//! - **In**: a [`CompoundForm`], the arrangement of leaflets, and the plan of the largest leaflet.
+//! - **Out**: a [`CompoundLeaf`]: leaflets with their places in the plane, and stalks as polylines
+//!   with radii. It can be drawn flat as one network ([`FlatLeaf`]) or built in space
+//!   ([`WholeLeaf`]) as blades, tubes and the place of each blade. Lengths are millimetres; the
+//!   petiole starts at the origin and goes along +y.
+//! - **Always true**: in the plane no leaflet overlaps another one or a stalk other than its own;
+//!   stalks taper; the same plan gives the same leaf.
 //! - **Left out**: leaves whose leaflets overlap in nature. They are refused.
 //!
 //! ```
@@ -40,7 +40,7 @@ use crate::leaf::outline_plan::Contour;
 use crate::leaf::{LeafError, LeafPlan};
 use crate::shape::outline::Outline;
 
-/// Leaflets that a leaf may have.
+/// Greatest number of leaflets of a leaf.
 pub const MOST_LEAFLETS: usize = 2000;
 
 /// A leaflet in its place.
@@ -49,40 +49,40 @@ pub struct PlacedLeaflet {
     /// Which of [`CompoundForm::variants`] it is; their plans are at the size of the largest
     /// leaflet ([`leaflet_plans`]).
     pub variant: u32,
-    /// Where its stalk leaves the axis.
+    /// Where its stalk leaves the axis, mm.
     pub foot: DVec2,
-    /// Where its base is.
+    /// Place of its base, mm.
     pub base: DVec2,
     /// Direction of its midrib, radians from +y towards +x (clockwise).
     pub angle: f64,
-    /// The same from the direction of the axis that bears it, > 0 to the right.
+    /// The same, relative to the direction of the axis that bears it, > 0 to the right.
     pub from_axis: f64,
-    /// By how much to scale the plan's leaf, in (0, 1].
+    /// Scale factor on the plan's leaf, in (0, 1].
     pub scale: f64,
-    /// Whether it is the mirror image (x negated first): leaflets on the left are, so that unlike
-    /// halves match.
+    /// Whether it is mirrored (x is negated first). Leaflets on the left are, so that pairs with
+    /// unequal halves match.
     pub mirrored: bool,
 }
 
 /// What a stalk is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StalkKind {
-    /// From the stem to the first leaflets.
+    /// The stalk from the stem to the first leaflets.
     Petiole,
     /// The axis that bears leaflets or pinnae.
     Rachis,
     /// The axis of a pinna, with its stalk.
     Pinna,
-    /// Of one leaflet.
+    /// The stalk of one leaflet.
     Petiolule,
 }
 
 /// A stalk as a polyline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stalk {
-    /// What it is.
+    /// Its kind.
     pub kind: StalkKind,
-    /// From its base to its tip, at least two.
+    /// Its points, mm, from its base to its tip, at least two.
     pub points: Vec<DVec2>,
     /// Radius at each point, mm, > 0, never growing towards the tip.
     pub radii_mm: Vec<f64>,
@@ -124,13 +124,14 @@ pub enum CompoundError {
         /// Number of the leaflet, from 0.
         leaflet: usize,
     },
-    /// The leaflet has no outline.
+    /// The leaflet's outline cannot be grown.
     #[error("leaflet: {0}")]
     Leaflet(#[from] LeafError),
 }
 
 impl PlacedLeaflet {
-    /// A point of the plan's leaf (mm, base at the origin, midrib along +y) in the compound leaf.
+    /// The place in the compound leaf of a point of the plan's leaf (mm, base at the origin, midrib
+    /// along +y).
     pub fn place(&self, p: DVec2) -> DVec2 {
         let x = if self.mirrored { -p.x } else { p.x };
         let axis = direction(self.angle);
@@ -139,15 +140,14 @@ impl PlacedLeaflet {
 }
 
 impl CompoundForm {
-    /// Places the leaflets, of which this is the largest.
+    /// Places the leaflets; `leaflet` is the plan of the largest one.
     ///
     /// # Errors
     ///
-    /// [`CompoundError`], naming the parameter and its range, or which leaflets are in each other's
-    /// way.
+    /// [`CompoundError`], naming the parameter and its range, or the leaflets that overlap.
     pub fn arrange(&self, leaflet: &LeafPlan) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
-        // Only light that is uneven by chance gives leaflets margins of their own.
+        // Only randomly uneven light gives leaflets different margins.
         let plans = leaflet_plans(leaflet, self);
         let alike = !matches!(leaflet.outline.contour, Contour::Transport(_));
         let outlines = plans.iter().take(if alike { 1 } else { plans.len() });
@@ -244,7 +244,7 @@ impl Feather {
     }
 }
 
-/// `value` must lie in a range, which NaN never does.
+/// Refuses a `value` outside a range; NaN is outside every range.
 fn in_range(
     key: &'static str,
     value: f64,

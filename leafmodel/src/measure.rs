@@ -1,11 +1,12 @@
-//! What biologists measure on a leaf's shape and veins.
+//! Measures of a leaf's shape and veins as used in biology.
 //!
 //! - **In**: an [`Outline`]; for veins also a [`VenationNetwork`] and the exponent of Murray's law.
-//! - **Out**: [`Measures`]: a list of keys, units and values, from which JSON and a table are made.
-//! - **Always true**: no value is NaN or infinite; what does not exist (the median area of no
-//!   areoles) is missing. The same network gives the same bits on every machine.
-//! - **Left out**: what images show only after clearing and staining: vein widths are those of the
-//!   model.
+//! - **Out**: [`Measures`]: a list of keys, units and values, which can be written as JSON or as a
+//!   table.
+//! - **Always true**: no value is NaN or infinite; a measure that does not exist (the median area
+//!   without areoles) is missing. The same network gives the same bits on every machine.
+//! - **Left out**: the analysis of images of cleared and stained leaves. Vein widths are those of
+//!   the model.
 //!
 //! `docs/src/theory/measures.md` defines every measure.
 //!
@@ -49,35 +50,35 @@ use crate::venation::areole::{Areole, Areoles, areoles};
 use crate::venation::chance::{Use, uniform};
 use crate::venation::network::VenationNetwork;
 
-/// A vein that ends within so many segments of the margin ends there, and is no veinlet that ends
-/// freely inside the blade.
+/// Distance from the margin, in segments, within which a vein counts as ending at the margin, not
+/// as a free ending inside the blade.
 const MARGIN_SEGMENTS: f64 = 2.0;
 
-/// Points of the blade at which the distance to the nearest vein is measured.
+/// Number of points of the blade at which the distance to the nearest vein is measured.
 const PROBES: usize = 1 << 14;
 
 /// Veins from this order on are minor veins.
 const FIRST_MINOR_ORDER: usize = 4;
 
-/// Numbers of a list that a table shows.
+/// Greatest number of entries of a list that a table shows.
 const LONGEST_LIST: usize = 12;
 
 /// A measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// How many.
+    /// A count.
     Count(u64),
-    /// A finite number, or nothing where the leaf has nothing to measure.
+    /// A finite number, or `None` where the leaf has nothing to measure.
     Number(Option<f64>),
-    /// Several numbers that belong together: one an order, from order 1, or the coefficients of a
-    /// series.
+    /// Several numbers that belong together: one per vein order, from order 1, or the coefficients
+    /// of a series.
     List(Vec<f64>),
 }
 
 /// One measure of a leaf.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// What it is. The key carries the unit.
+    /// Its key, which includes the unit.
     pub key: &'static str,
     /// The unit for tables, empty for pure numbers.
     pub unit: &'static str,
@@ -107,8 +108,8 @@ pub fn shape(outline: &Outline) -> Measures {
 
 /// Measures the shape and the veins of a leaf.
 ///
-/// `murray_exponent` is the exponent `n` for which `murray_ratio_median` is taken; without a finite
-/// one above 0 that value is missing. Takes about as long as finding the areoles twice.
+/// `murray_exponent` is the exponent `n` of `murray_ratio_median`; if it is not finite and above 0,
+/// that value is missing. Takes about twice as long as finding the areoles.
 pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f64) -> Measures {
     let found = areoles(network);
     let edges: Vec<[u32; 2]> = found
@@ -204,7 +205,7 @@ impl List {
             let share = DVec2::new(uniform(0, Use::ProbeX, i), uniform(0, Use::ProbeY, i));
             low + share * (high - low)
         };
-        // A blade that fills next to nothing of its rectangle is measured at fewer points.
+        // A blade that fills very little of its rectangle is measured at fewer points.
         let mut distances: Vec<f64> = (0..64 * PROBES as u64)
             .map(probe)
             .filter(|&p| outline.contains(p))
@@ -277,7 +278,7 @@ impl Measures {
         &self.entries
     }
 
-    /// The number with a key; none if there is no such key, or nothing was there to measure.
+    /// The number with a key; `None` if there is no such key or nothing to measure.
     pub fn number(&self, key: &str) -> Option<f64> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
         match &entry.value {
@@ -287,7 +288,7 @@ impl Measures {
         }
     }
 
-    /// An object with a member a measure: a number, `null`, or an array.
+    /// A JSON object with one member per measure: a number, `null`, or an array.
     pub fn json(&self) -> Json {
         let value = |entry: &Entry| match &entry.value {
             Value::Count(count) => Json::from(*count),
@@ -301,7 +302,7 @@ impl Measures {
         Json::Object(members.collect::<Map<String, Json>>())
     }
 
-    /// Lines of key, value and unit, in columns. Values have four digits; what is missing is a
+    /// Lines of key, value and unit, in columns. Values have four digits; a missing value is a
     /// dash; long lists are cut short.
     pub fn table(&self) -> String {
         let text = |value: &Value| match value {
@@ -328,7 +329,7 @@ impl Measures {
     }
 }
 
-/// A number with four significant digits, as far as they lie behind the point.
+/// A number with four significant digits; digits before the decimal point are never dropped.
 fn four_digits(number: f64) -> String {
     let (mut digits, mut shifted) = (0, number.abs());
     while shifted < 1000.0 && digits < 8 && number != 0.0 {

@@ -1,14 +1,14 @@
 //! Clonal mosaics: cells that divide on a surface, and the pattern that their clones leave.
 //!
-//! Cells are thrown on a surface at random, each of a type. They repel one another, the less the
-//! more their types adhere, and divide at the rate of their type. A child lies beside its parent,
-//! so the descendants of one cell, its clone, stay together and make a blotch or a stripe.
+//! Cells are placed on a surface at random, each with a type. They repel one another; the more
+//! their types adhere, the less. Each divides at the rate of its type. A child lies beside its
+//! parent, so the descendants of one cell, its clone, stay together and form a blotch or a stripe.
 //!
 //! - **In**: a [`Surface`], and a plan of cell types.
 //! - **Out**: cells on the surface with their types and clones.
 //! - **Always true**: distances are measured on the surface, faces unfolded into a plane
 //!   ([`patch`]), never through space.
-//! - **Left out**: what genes do inside a cell.
+//! - **Left out**: gene regulation inside cells.
 //!
 //! ```
 //! use leafmodel::mosaic::shapes::sphere;

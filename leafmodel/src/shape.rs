@@ -1,4 +1,4 @@
-//! The flat lamina: its margin, and how it comes to be.
+//! The flat lamina: its margin, drawn by hand, read from a file or grown.
 //!
 //! ```
 //! use leafmodel::shape::svg_path::SvgContour;

@@ -1,6 +1,6 @@
 //! Bodies of solid tissue: fruits, stems, caps of mushrooms.
 //!
-//! - **In**: a shape, what its outer tissue holds, and a mosaic if it has one.
+//! - **In**: a shape, the contents of its outer tissue, and a mosaic if it has one.
 //! - **Out**: a mesh with texture coordinates, and a map of contents over them.
 //! - **Always true**: contents are per area of the surface. They are those of the tissue down to
 //!   the depth that the optics use.
@@ -39,28 +39,28 @@ use crate::mosaic::shapes::{Shape, ShapeError};
 use crate::mosaic::{Mosaic, MosaicError, Surface, SurfaceError, SurfacePoint};
 use crate::optics::{Contents, Pigments};
 
-/// Texels around each chart of the map.
+/// Width of the gutter around each chart of the map, texels.
 const GUTTER: u32 = 3;
-/// Rows of the map that are painted at once.
+/// Number of rows of the map that are painted at once.
 const BAND: usize = 128;
-/// Edges where there is no mosaic, over the root of the area.
+/// Edge length without a mosaic, over the root of the area.
 const PLAIN_EDGE: f64 = 0.02;
-/// Edges that a mosaic's suit at most instead of one: borders between cells are sought face by
-/// face.
+/// Greatest factor by which edges are made shorter than suits a mosaic, since borders between cells
+/// are searched face by face.
 const MOST_PER_SPACING: f64 = 3.0;
 
-/// Everything that decides a body.
+/// The parameters of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidPlan {
     /// Its shape.
     pub shape: SolidShape,
-    /// Same plan and seed, same body, bit for bit.
+    /// The seed; the same plan and seed give the same body, bit for bit.
     pub seed: u64,
-    /// What its outer tissue holds per area of the surface where no mosaic says otherwise.
+    /// Contents of its outer tissue per area of the surface, where no mosaic sets others.
     pub contents: Contents,
     /// Cells with contents of their own.
     pub mosaic: Option<MosaicPattern>,
-    /// What the pigments of its contents are.
+    /// The kinds of pigments of its contents.
     pub pigments: Pigments,
     /// Texels of the map of contents along a side, 16 to 8192.
     pub map_size: u32,
@@ -89,7 +89,7 @@ pub enum SolidError {
     /// Its shape.
     #[error("shape: {0}")]
     Shape(#[source] ShapeError),
-    /// A body too slender, or with too many cells, for its triangles.
+    /// The body is too slender, or has too many cells, for the allowed number of triangles.
     #[error(
         "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, or give its mosaic fewer cells"
     )]
@@ -111,7 +111,7 @@ pub enum SolidError {
 impl From<ShapeError> for SolidError {
     fn from(error: ShapeError) -> Self {
         if let ShapeError::TooFine { triangles } = error {
-            // Of edges a plan says nothing.
+            // A plan has no key for edges, so the error names triangles instead.
             return Self::TooFine { triangles };
         }
         Self::Shape(error)
@@ -119,7 +119,7 @@ impl From<ShapeError> for SolidError {
 }
 
 impl SolidError {
-    /// Whether growing was stopped, and nothing is wrong.
+    /// Whether growth was stopped by the caller.
     pub fn is_stop(&self) -> bool {
         matches!(
             self,
@@ -129,11 +129,11 @@ impl SolidError {
 }
 
 impl Solid {
-    /// Grows the body of a plan, or gives up when `is_stopped` says so.
+    /// Grows the body of a plan, or stops when `is_stopped` returns true.
     ///
     /// # Errors
     ///
-    /// [`SolidError`] of the first stage whose numbers are out of range.
+    /// [`SolidError`] for the first stage whose numbers are out of range.
     pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, SolidError> {
         if let Some(pattern) = &plan.mosaic {
             pattern.validate()?;
@@ -148,7 +148,7 @@ impl Solid {
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));
         };
-        // Meshes made elsewhere may be coarse: faces that hold many cells take long.
+        // Imported meshes may be coarse, and faces that hold many cells take long.
         let coarse = Surface::new(shape.positions.clone(), shape.faces.clone())?;
         let (surface, ancestry) = coarse.subdivided(pattern.edge_mm(area))?;
         let (mosaic, field) = pattern.grow(&surface, plan.seed, is_stopped)?;
@@ -160,7 +160,8 @@ impl Solid {
             height: texels,
             texels: Vec::with_capacity(texels as usize * texels as usize),
         };
-        // Band by band: in double precision all of it would take twice the memory of the map.
+        // The map is painted band by band; in double precision the whole would take twice the
+        // memory of the map.
         for band in (0..texels).step_by(BAND) {
             let rows = band * texels..(band + BAND as u32).min(texels) * texels;
             let shown = rows
@@ -181,7 +182,7 @@ impl Solid {
         };
         let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangles = Vec::with_capacity(surface.faces().len());
-        // A point has as many vertices as charts and unlike normals meet in it.
+        // A point has one vertex for each combination of chart and normal that meets in it.
         let mut vertices: Vec<Vec<(DVec2, DVec3, u32)>> =
             vec![Vec::new(); surface.positions().len()];
         for (face, (points, corners)) in (0..).zip(surface.faces().iter().zip(atlas.uvs())) {

@@ -1,9 +1,9 @@
-//! Leaves to start from: presets by name, each with a word on where its numbers come from.
+//! Presets: leaf plans by name, each with the source of its numbers.
 //!
 //! - **In**: a name, as in `lamina grow poplar`.
 //! - **Out**: a [`LeafPlan`] with every number in it.
-//! - **Left out**: nothing is hidden; a preset is a plan like any other and can be written out and
-//!   changed.
+//! - **Left out**: no number is hidden. A preset is a plan like any other, which can be written out
+//!   and changed.
 //!
 //! ```
 //! use leafmodel::species::{self, PRESETS};
@@ -55,16 +55,16 @@ pub use self::list::PRESETS;
 use self::table_1::Row;
 use self::young::Form;
 
-/// A leaf by name.
+/// A named leaf plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
-    /// What it is called: lower-case words joined by `-`.
+    /// Its name: lower-case words joined by `-`.
     pub name: &'static str,
-    /// What it is, and what its figure claims.
+    /// What it shows, and what the caption of its figure claims.
     pub about: &'static str,
-    /// Where its numbers come from, and where they depart from there.
+    /// The source of its numbers, and how they depart from it.
     pub source: &'static str,
-    /// The row of Table 1 of Runions et al. 2005 that it stands for, if it does.
+    /// The row of Table 1 of Runions et al. 2005 that it stands for, if any.
     pub row: Option<&'static Row>,
     /// Makes the plan.
     plan: PlanOf,
@@ -92,13 +92,14 @@ impl Preset {
     }
 }
 
-/// The preset of this name.
+/// The preset of this name, if there is one.
 pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. Species have
-/// [`leaf_traits`]; these numbers are the middle of what is usual (`docs/src/theory/tissue.md`).
+/// A flat green leaf: contents of a mature broad leaf, veins paler than the blade. It serves leaves
+/// without [`leaf_traits`] of a species; its numbers lie in the middle of the usual range
+/// (`docs/src/theory/tissue.md`).
 fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
     let veinlet = venation.veinlet_radius_mm;
     LeafPlan {

@@ -1,24 +1,24 @@
-//! A leaf grown as the cheapest transport network.
+//! A leaf grown as a cost-minimising transport network.
 //!
-//! Water comes in at the root and goes to square cells. It is cheaper to carry much together (`α`)
-//! and to carry it straight on (`β`). A cell comes into being wherever what it earns, `ε` per area,
-//! pays for its transport; then cells look for better parents; and as `ε` rises, the leaf grows.
-//! Shape and veins follow from that.
+//! Water enters at the root and is carried to square cells. Carrying water together saves cost
+//! (`α`), and turning costs extra (`β`). A cell is added wherever its revenue, `ε` per area, pays
+//! for its transport. Then every cell looks for a cheaper parent. The leaf grows as `ε` rises; its
+//! shape and its veins follow from that.
 //!
 //! - **In**: a [`TransportPlan`].
-//! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost, stages; from it an outline and a
-//!   network as of any other leaf. A [`FilledPlan`] turns it around: the outline is given, and the
-//!   network that supplies it is looked for.
-//! - **Always true**: cells touch by an edge or a corner; weights balance; no change of one parent
-//!   (in mirrored leaves of a pair) makes the transport cheaper; with even light both sides are
-//!   mirror images; same plan and seed, same bits.
-//! - **Left out**: the cheapest network of all, which nobody can find for many cells: this one is
-//!   only cheaper than all that differ from it by one parent.
+//! - **Out**: a [`TransportLeaf`]: cells, parents, weights, cost and stages. It gives an outline
+//!   and a vein network like those of any other leaf. A [`FilledPlan`] grows the network inside a
+//!   given outline instead.
+//! - **Always true**: cells touch by an edge or a corner; weights balance; no change of a single
+//!   parent (in mirrored leaves, of a pair) lowers the cost; with even light both sides are mirror
+//!   images; the same plan and seed give the same bits.
+//! - **Left out**: the global minimum, which is out of reach for many cells. The network is a local
+//!   minimum: no network that differs from it by one parent is cheaper.
 //!
 //! # Source
 //!
-//! \[xia2007\]; `docs/src/theory/transport-leaf.md` tells what it leaves open and how that is
-//! settled.
+//! \[xia2007\]; `docs/src/theory/transport-leaf.md` says what the paper leaves open and what is
+//! done here.
 //!
 //! ```
 //! use leafmodel::transport::{Ladder, TransportPlan};

@@ -1,20 +1,20 @@
-//! Veins: networks drawn towards auxin, and their widths.
+//! Veins: networks that grow towards auxin sources, with widths and orders.
 //!
-//! Auxin sources appear in the lamina away from veins; veins grow towards the sources; sources that
-//! veins have reached are used up; and the lamina grows meanwhile, which makes room for more.
-//! [`grow`] runs that loop, gives each vein its width and its order, and returns the network.
+//! Auxin sources appear in the lamina away from veins, veins grow towards them, and sources that
+//! veins have reached are used up. Meanwhile the lamina grows and makes room for more sources.
+//! [`grow`] runs that loop, gives each vein its width and order, and returns the network.
 //!
-//! - **In**: an [`Outline`], a [`AuxinPlan`], a seed.
+//! - **In**: an [`Outline`], an [`AuxinPlan`], a seed.
 //! - **Out**: a [`VenationNetwork`] in millimetres, in the frame of the outline.
 //! - **Always true**: every node lies inside the outline; every vein is connected to an origin; the
 //!   network passes its own [`VenationNetwork::validate`]; the same input gives the same bits on
 //!   every machine.
-//! - **Left out**: growth of the blade in answer to its veins.
+//! - **Left out**: feedback of the veins on the growth of the blade.
 //!
 //! # Source
 //!
-//! \[runions2005\]; `docs/src/theory/venation.md` tells what it leaves open and how that is
-//! settled.
+//! \[runions2005\]; `docs/src/theory/venation.md` says what the paper leaves open and what is done
+//! here.
 //!
 //! ```
 //! use glam::DVec2;
@@ -94,14 +94,14 @@ pub enum VenationError {
     /// The plan cannot be carried out.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The caller did not want to wait any longer.
+    /// The caller stopped the growth.
     #[error("growing the veins was stopped")]
     Stopped,
 }
 
 /// Grows the veins of a leaf.
 ///
-/// A vein segment is the midrib's length over `plan.final_length`.
+/// The length of a vein segment is the midrib's length over `plan.final_length`.
 ///
 /// # Errors
 ///
@@ -118,7 +118,7 @@ pub fn grow(
     grow_unless(outline, plan, seed, &|| false)
 }
 
-/// As [`grow`], but gives up when `is_stopped` says so, which is asked after each step.
+/// As [`grow`], but stops when `is_stopped`, which is called after each step, returns true.
 ///
 /// # Errors
 ///
@@ -133,18 +133,19 @@ pub fn grow_unless(
     Ok(network)
 }
 
-/// A leaf in the course of its development.
+/// A leaf at one step of its development.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
-    /// Steps done.
+    /// Number of steps done.
     pub step: u32,
-    /// The margin at that time, mm, true to size.
+    /// The margin at that step, mm, in its size at that step.
     pub outline: Outline,
-    /// The veins at that time, mm, true to size. A node keeps its number from stage to stage.
+    /// The veins at that step, mm, in their size at that step. A node keeps its number from stage
+    /// to stage.
     pub network: VenationNetwork,
 }
 
-/// Grows the veins of a leaf and keeps what they were after each of `steps`; 0 is before the first.
+/// Grows the veins of a leaf and returns their state after each of `steps`; 0 is before the first.
 /// A step beyond the last gives the full-grown leaf. Stages come in the order of `steps`.
 ///
 /// # Errors
@@ -170,7 +171,7 @@ pub fn grow_stages(
     Ok(steps.iter().map(at).collect())
 }
 
-/// The full-grown network, and the stages after `steps` as far as there are so many.
+/// The full-grown network, and the stages after those of `steps` that are reached.
 fn develop(
     outline: &Outline,
     plan: &AuxinPlan,
@@ -205,7 +206,7 @@ fn develop(
     ))
 }
 
-/// Whether a plan can be carried out on an outline, without doing it: refuses what [`grow`]
+/// Checks that a plan can be carried out on an outline without doing it: refuses what [`grow`]
 /// refuses.
 ///
 /// # Errors
@@ -217,13 +218,13 @@ pub fn check(outline: &Outline, plan: &AuxinPlan) -> Result<(), VenationError> {
     Ok(())
 }
 
-/// The full-grown blade in segments, base at the origin.
+/// The outline of the full-grown blade in segments, base at the origin.
 fn in_segments(outline: &Outline, plan: &AuxinPlan) -> Outline {
     let segment_mm = outline.length() / plan.final_length;
     outline.moved_and_scaled(outline.base(), 1.0 / segment_mm)
 }
 
-/// The lamina and its clock, if a plan whose numbers are in range can be carried out on this blade.
+/// The lamina and its clock. Refuses a plan that cannot be carried out on this blade.
 fn prepared<'b>(
     blade: &'b Outline,
     plan: &AuxinPlan,
@@ -236,7 +237,7 @@ fn prepared<'b>(
     Ok((lamina, clock))
 }
 
-/// Refuses plans whose darts would take forever.
+/// Refuses plans that need too many darts.
 fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let (low, high) = lamina.blade.bounds();
     let area = (high - low).x * (high - low).y * lamina.surplus();
@@ -245,7 +246,7 @@ fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result
     AuxinPlan::validate_darts(match plan.growth {
         Growth::None => per_step,
         Growth::Isogonic { .. } => {
-            // The mean of the squared size, which grows linearly up to 1.
+            // The mean of the squared size; the size grows linearly up to 1.
             let size = clock.size(0);
             per_step * (f64::from(steps) + 1.0) * (1.0 + size + size * size) / 3.0
         }
@@ -256,8 +257,8 @@ fn check_darts(plan: &AuxinPlan, lamina: &Lamina, clock: &LaminaClock) -> Result
     AuxinPlan::validate_darts(free * area)
 }
 
-/// Refuses growth that comes from nowhere: a young leaf far larger than the full-grown one, or
-/// without any size.
+/// Refuses growth functions whose young leaf is far larger than the full-grown one or has no
+/// extent.
 fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let Some(first) = clock.tissue_map(0) else {
         return Ok(());
@@ -268,7 +269,7 @@ fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     AuxinPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
 }
 
-/// A simulation's state, in segments of its time, base at the origin; no widths yet.
+/// A simulation's state, in segments of its step, base at the origin, without widths.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Grown {
     positions: Vec<DVec2>,
@@ -280,11 +281,11 @@ pub(crate) struct Grown {
     ending: Ending,
     margin: Vec<DVec2>,
     apex: DVec2,
-    /// Of the leaf whose conformal map this is: only isogonic growth scales the map.
+    /// Apex of the leaf to which the conformal map belongs: only isogonic growth scales the map.
     map_apex: DVec2,
 }
 
-/// Runs a plan that has been checked; gives the full-grown state and those after `steps`.
+/// Runs a checked plan; returns the full-grown state and those after `steps`.
 pub(crate) fn carry_out(
     plan: &AuxinPlan,
     lamina: Lamina,
@@ -309,18 +310,18 @@ pub(crate) fn carry_out(
     }
 }
 
-/// What looks on while veins grow.
+/// Records states while veins grow, and stops the growth on request.
 struct Watch<'a> {
-    /// Steps whose outcome is to be kept.
+    /// Steps whose states are to be kept.
     steps: &'a [u32],
-    /// What they brought so far.
+    /// The states kept so far.
     young: Vec<Grown>,
-    /// Whether to give up.
+    /// Returns whether to stop.
     is_stopped: &'a dyn Fn() -> bool,
 }
 
 impl Watch<'_> {
-    /// Keeps the state of a step that is wanted; says whether to go on.
+    /// Keeps the state if its step is wanted; returns whether to go on.
     fn look<I: Influence>(&mut self, now: &Simulation<'_, I>) -> bool {
         if self.steps.contains(&now.step) {
             self.young.push(now.state(Ending::Growing));
@@ -365,8 +366,8 @@ fn simulate<I: Influence>(
 }
 
 impl Grown {
-    /// With veins from the base to all origins: the base is node 0 then, and all others count on
-    /// from 1.
+    /// Adds straight veins from the base to all origins. The base becomes node 0; the numbers of
+    /// all other nodes rise by one.
     fn joined(mut self) -> Self {
         self.positions.insert(0, DVec2::ZERO);
         self.births.insert(0, 0);
@@ -377,7 +378,7 @@ impl Grown {
         self
     }
 
-    /// Widths, orders, and millimetres.
+    /// Adds widths and orders and converts to millimetres.
     fn into_network(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
         let grown = if plan.joined_origins {
             self.joined()
@@ -413,8 +414,8 @@ impl Grown {
             .iter()
             .enumerate()
             .map(|(i, &[from, to])| {
-                // A lateral starts as wide as it goes on; only the vein itself tapers where it
-                // gives one off.
+                // A lateral starts with its own radius; only a vein that continues tapers between
+                // its nodes.
                 let continues = orders.continuations[from as usize] == Some(i as u32);
                 let start = if continues {
                     radius(flows.nodes[from as usize])

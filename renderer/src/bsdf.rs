@@ -2,9 +2,9 @@
 //!
 //! - **In**: directions `wo`, `wi` in the local frame, unit, away from the surface, +z the shading
 //!   normal on the adaxial (outer) side, +y along ∂p/∂v.
-//! - **Out**: `f` without the cosine, sr⁻¹, a value a lane; densities over solid angle.
-//! - **Always true**: energy is not created; all but the dielectric are reciprocal; a density never
-//!   depends on wavelength.
+//! - **Out**: `f` without the cosine, sr⁻¹, one value per lane; densities over solid angle.
+//! - **Always true**: energy is not created; all BSDFs except the dielectric are reciprocal; a
+//!   density never depends on wavelength.
 //!
 //! ```
 //! use glam::{Vec2, Vec3};
@@ -37,7 +37,7 @@ use crate::sampling::warp;
 use dielectric::Dielectric;
 use leaf::{LeafBsdf, LeafView};
 
-/// A direction that was drawn, and what light from it is multiplied by.
+/// A sampled direction, with the weight of light from it.
 #[derive(Clone, Copy, Debug)]
 pub struct BsdfSample<const N: usize> {
     /// Direction of the light, local.
@@ -61,7 +61,7 @@ pub enum Bsdf<'a, const N: usize> {
     Leaf(LeafBsdf<'a, N>),
 }
 
-/// What light from a direction gives to a view.
+/// The value of a BSDF for a pair of directions, with its sampling density.
 #[derive(Clone, Copy, Debug)]
 pub struct Scattered<const N: usize> {
     /// `f(wo, wi)`, sr⁻¹, without the cosine; zero for specular parts.
@@ -71,26 +71,26 @@ pub struct Scattered<const N: usize> {
 }
 
 impl<const N: usize> Scattered<N> {
-    /// Nothing, and never drawn.
+    /// No scattering, and density 0.
     pub const NOTHING: Self = Self {
         f: Lanes::ZERO,
         pdf: 0.0,
     };
 }
 
-/// A [`Bsdf`] seen from one direction `wo`: what depends on it alone is worked out once.
+/// A [`Bsdf`] for one direction `wo`: everything that depends on `wo` alone is computed once.
 #[derive(Clone, Debug)]
 pub enum View<'a, const N: usize> {
     /// Lambertian reflection on both sides.
     Diffuse {
-        /// Where it is seen from.
+        /// The outgoing direction, local.
         wo: Vec3,
         /// Its reflectance.
         reflectance: Lanes<N>,
     },
     /// The boundary of a transparent medium.
     Dielectric {
-        /// Where it is seen from.
+        /// The outgoing direction, local.
         wo: Vec3,
         /// The boundary.
         dielectric: Dielectric,
@@ -100,7 +100,7 @@ pub enum View<'a, const N: usize> {
 }
 
 impl<const N: usize> View<'_, N> {
-    /// What light from `wi` gives, and how likely it is drawn.
+    /// The BSDF's value for light from `wi`, and the density with which `wi` is sampled.
     #[inline]
     pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         match self {
@@ -183,7 +183,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
         self.seen_from(wo)?.sample(lobe, u)
     }
 
-    /// Whether light samples are wasted on it.
+    /// Whether the BSDF is specular only, so that light samples contribute nothing.
     pub fn is_specular(&self) -> bool {
         match self {
             Self::Diffuse(_) | Self::Leaf(_) => false,

@@ -44,7 +44,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// For a film of `width` × `height` square pixels.
+    /// The camera for a film of `width` × `height` square pixels.
     pub fn new(camera: &View, width: u32, height: u32) -> Self {
         let axes = Self::axes(camera);
         let tan = libm::tan(0.5 * camera.vertical_fov) as f32;

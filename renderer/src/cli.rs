@@ -1,7 +1,7 @@
 //! The `lamina` command: parse, call the library, print reports.
 //!
-//! stdout carries the paths of what was written and nothing else; stderr the rest. Exit codes: 0
-//! done, 1 the system failed us, 2 bad input, 130 interrupted with the work saved.
+//! stdout carries the paths of written files and requested tables, stderr all messages. Exit codes:
+//! 0 done, 1 failure of the system, 2 bad input, 130 interrupted with the work saved.
 //!
 //! ```
 //! use std::process::ExitCode;
@@ -34,14 +34,14 @@ use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
 use leafmodel::document::report::DocumentErrors;
 
-/// Why a command did not do what it was asked to.
+/// Why a command failed.
 #[derive(Debug)]
 enum Failure {
-    /// The person at the keyboard can mend it.
+    /// An error in the input, which the user can mend.
     BadInput(String),
     /// The system failed: disk full, folder read-only, …
     System(String),
-    /// Broken off by Ctrl-C; what was rendered is saved.
+    /// Interrupted by Ctrl-C; finished samples are saved.
     Interrupted,
 }
 
@@ -67,12 +67,12 @@ impl From<DocumentErrors> for Failure {
     }
 }
 
-/// Runs the command line `arguments` (the program's name first) and gives the exit code.
+/// Runs the command line `arguments` (the program's name first) and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help and version are asked for, not errors; clap knows which stream is whose.
+            // Help and version are requests, not errors; clap chooses the stream for each.
             let code = if error.use_stderr() { 2 } else { 0 };
             let _ = error.print();
             return ExitCode::from(code);
@@ -106,24 +106,24 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// Whether stderr is a terminal that can colour letters and write over a line.
+/// Whether stderr is a terminal, which supports colours and overwriting a line.
 fn on_a_screen() -> bool {
     let is_dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
     std::io::stderr().is_terminal() && !is_dumb
 }
 
-/// Whether reports have colours: on a screen, unless somebody wants none (no-color.org).
+/// Whether reports have colours: on a terminal, unless `NO_COLOR` is set (no-color.org).
 fn colour() -> bool {
     on_a_screen() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// A result for stdout: a path, a table.
+/// Writes a result, such as a path or a table, to stdout.
 fn say(text: impl std::fmt::Display) {
-    // Who closes the pipe early (`lamina info x.exr | head`) has seen enough.
+    // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
-/// Loads a scene and tells its warnings.
+/// Loads a scene and prints its warnings.
 fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
     let loaded = load::load(&arguments.scene, &arguments.overrides)?;
     let colour = colour();

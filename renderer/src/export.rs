@@ -1,8 +1,8 @@
-//! The same scene for other programs, and flat drawings of veins.
+//! Export of scenes to other programs, and flat drawings of veins.
 //!
 //! Exporters read what the tracer reads, the resolved
 //! [`Description`](crate::scene::description::Description) and the
-//! [`World`](crate::scene::world::World) built from it, so that two programs get one input.
+//! [`World`](crate::scene::world::World) built from it, so that both programs get the same input.
 //!
 //! ```
 //! use std::path::Path;

@@ -1,14 +1,15 @@
-//! Radiance and first hits in, means and variances out.
+//! The film: sums of samples, from which means and variances are computed.
 //!
-//! - **In**: samples, each a value per channel and, where the camera ray met something, a number
-//!   per feature, block of pixels by block.
+//! - **In**: samples, block of pixels by block: each has a value per channel and, if the camera ray
+//!   hit something, a number per feature.
 //! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features
 //!   over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which
 //!   samples arrive; a sample with a number that is not finite is rejected whole and counted, one
 //!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
-//! - **Memory**: 32 bytes a channel, 4 of coverage and 8 or 4 a feature ([`Sum`]) for each pixel.
-//! - **Left out**: what channels and features mean; the maker of the film knows.
+//! - **Memory**: per pixel 32 bytes for each channel, 4 for coverage, and 8 or 4 for each feature,
+//!   depending on its [`Sum`].
+//! - **Left out**: the meaning of channels and features, which the film's creator defines.
 //!
 //! ```
 //! use renderer::film::Film;
@@ -48,25 +49,25 @@ pub use pixel::Pixel;
 use block::Faults;
 use features::{Coverage, Words};
 
-/// Most pixels of a film.
+/// Greatest number of pixels of a film.
 pub const MOST_PIXELS: u64 = 1 << 28;
-/// Most memory of a film, bytes.
+/// Greatest memory of a film, bytes.
 pub const MOST_BYTES: u64 = 8 << 30;
 
-/// Why there is no such film.
+/// Why a film cannot be made.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum FilmError {
-    /// Nothing to record on.
+    /// It has no pixels or channels.
     #[error("a film of {width} × {height} pixels and {channels} channels is empty")]
     Empty {
         /// Pixels across.
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Values a pixel.
+        /// Number of channels.
         channels: usize,
     },
-    /// It would not fit.
+    /// It would be too large.
     #[error(
         "a film of {width} × {height} pixels and {channels} channels needs {bytes} bytes, more than {MOST_BYTES} \
          (or has more than {MOST_PIXELS} pixels)"
@@ -76,27 +77,27 @@ pub enum FilmError {
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Values a pixel.
+        /// Number of channels.
         channels: usize,
-        /// What it would take.
+        /// Memory that it would need.
         bytes: u64,
     },
 }
 
 /// Sums for every pixel.
 ///
-/// One run of memory for each kind of sum, in the order of blocks, and in a block of rows: what is
-/// exposed together lies together.
+/// Each kind of sum is one array in the order of blocks, within a block row by row, so that pixels
+/// exposed together are contiguous.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     width: u32,
     height: u32,
     channels: usize,
-    /// For each block the samples that its pixels have, rejected ones included.
+    /// For each block the number of samples of its pixels, rejected ones included.
     drawn: Vec<u32>,
-    /// For each pixel as many as channels.
+    /// The moments, one per channel for each pixel.
     moments: Vec<Moments>,
-    /// What follows for each pixel.
+    /// Layout of the remaining words of each pixel.
     words: Words,
     wide: Vec<i64>,
     narrow: Vec<i32>,
@@ -104,7 +105,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// An empty film that keeps each feature in one of the `sums`.
+    /// An empty film; `sums` says how each feature is kept.
     ///
     /// # Errors
     ///
@@ -143,7 +144,7 @@ impl Film {
         })
     }
 
-    /// Memory of a pixel, bytes; a block has four more.
+    /// Memory of a pixel, bytes; each block needs four more.
     pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
         channels * size_of::<Moments>() + Coverage::BYTES + features
@@ -159,7 +160,7 @@ impl Film {
         self.height
     }
 
-    /// Values a pixel.
+    /// Number of channels.
     pub fn channels(&self) -> usize {
         self.channels
     }
@@ -191,7 +192,7 @@ impl Film {
         }
     }
 
-    /// Something of every pixel, row by row from the top, worked out on the current thread pool.
+    /// Applies `of` to every pixel, row by row from the top, on the current thread pool.
     pub fn map<T: Send>(&self, of: impl Fn(&Pixel<'_>) -> T + Sync) -> Vec<T> {
         let width = self.width as usize;
         (0..width * self.height as usize)
@@ -206,8 +207,8 @@ impl Film {
         self.map(|pixel| pixel.mean(channel) as f32)
     }
 
-    /// Lets `expose` add samples to every block, spread over the current thread pool. Which thread
-    /// exposes a block does not show.
+    /// Lets `expose` add samples to every block, on the current thread pool. The result does not
+    /// depend on which thread exposes a block.
     pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
         let (width, height, channels) = (self.width, self.height, self.channels);
         let (across, words) = (self.blocks_across(), &self.words);
@@ -262,8 +263,7 @@ impl Film {
         self.faults.merge(&found);
     }
 
-    /// Adds another film's samples. Sums add up exactly, whichever samples the films have; they
-    /// should have no sample in common.
+    /// Adds another film's samples. Sums add up exactly. The films should have no sample in common.
     ///
     /// # Panics
     ///
@@ -282,18 +282,18 @@ impl Film {
         self.faults.merge(&other.faults);
     }
 
-    /// Samples that were rejected because a value was not finite.
+    /// Number of samples that were rejected because a value was not finite.
     pub fn rejected(&self) -> u64 {
         let counts = self.faults.rejected.values();
         counts.map(|&count| u64::from(count)).sum()
     }
 
-    /// Values that were clamped.
+    /// Number of values that were clamped.
     pub fn clamped(&self) -> u64 {
         self.faults.clamped
     }
 
-    /// Samples that were drawn, rejected ones included.
+    /// Number of samples drawn, rejected ones included.
     pub fn drawn(&self) -> u64 {
         let blocks = (0..).zip(&self.drawn);
         blocks
@@ -306,7 +306,7 @@ impl Film {
         self.drawn.len()
     }
 
-    /// Samples that each pixel of a block has, rejected ones included.
+    /// Number of samples of each pixel of a block, rejected ones included.
     ///
     /// # Panics
     ///
@@ -334,12 +334,12 @@ impl Film {
     }
 }
 
-/// What the pixel at a place has, of which each has `count`.
+/// The `count` entries of the pixel at a place.
 fn of_place<T>(all: &[T], place: usize, count: usize) -> &[T] {
     &all[place * count..][..count]
 }
 
-/// Adds to each of `own` the one of `others` at its place.
+/// Adds to each entry of `own` the entry of `others` at the same place.
 fn merge_each<T: Send + Sync>(own: &mut [T], others: &[T], add: impl Fn(&mut T, &T) + Sync) {
     own.par_iter_mut()
         .zip(others)
@@ -347,7 +347,7 @@ fn merge_each<T: Send + Sync>(own: &mut [T], others: &[T], add: impl Fn(&mut T, 
         .for_each(|(own, other)| add(own, other));
 }
 
-/// Chunks of what may not be there at all: then `count` empty ones.
+/// The list in chunks of `size`; for an empty list `count` empty chunks.
 fn chunks_or_nothing<T>(all: &mut [T], size: usize, count: usize) -> Vec<&mut [T]> {
     let mut chunks: Vec<&mut [T]> = all.chunks_mut(size.max(1)).collect();
     chunks.resize_with(count, Default::default);

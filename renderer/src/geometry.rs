@@ -1,8 +1,8 @@
-//! Triangles in space: meshes, instances of them, and where a ray meets them first.
+//! Triangles in space: meshes, their instances, and the nearest hits of rays.
 //!
-//! A [`TriangleMesh`] is cleaned when it is made, so nothing behind it ever sees a vertex that is
-//! not finite or a face without area. [`Geometry`] holds one tree a mesh, in a frame centred on the
-//! mesh, and one tree over the instances; it is immutable and shared by every thread.
+//! A [`TriangleMesh`] is cleaned when it is made, so later code never sees a vertex that is not
+//! finite or a face without area. [`Geometry`] holds one tree for each mesh, in a frame centred on
+//! the mesh, and one tree over the instances; it is immutable and shared by every thread.
 //!
 //! - **In**: meshes and affine instances, `f32`, metres.
 //! - **Out**: the nearest [`Hit`] of a [`Ray`], whether anything is hit, and the [`SurfacePoint`]
@@ -11,8 +11,8 @@
 //!   are conservative, and equal distances go to the smaller (instance, triangle); so the layout of
 //!   a tree never reaches a picture. No ray slips between two triangles of a mesh that share an
 //!   edge.
-//! - **Left out**: motion, curves, and seams between *different* meshes, which are as tight as
-//!   `f32` makes them.
+//! - **Left out**: motion, curves, and watertight seams between *different* meshes, which are only
+//!   as tight as `f32` allows.
 //!
 //! ```
 //! use glam::{Affine3A, Vec3};

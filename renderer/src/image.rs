@@ -1,9 +1,7 @@
 //! Pictures and their files: `OpenEXR` for data, PNG for looking at.
 //!
-//! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or bytes that are not
-//!   trusted.
-//! - **Out**: files that are whole or not there, and the same bytes for the same picture; or a
-//!   [`Picture`].
+//! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or untrusted bytes.
+//! - **Out**: complete files, with the same bytes for the same picture; or a [`Picture`].
 //! - **Always true**: a file is replaced by renaming a finished one, so a failure leaves the old
 //!   one. A header that claims more than 2²⁸ pixels or 4 GiB is refused before anything is
 //!   allocated for it.
@@ -37,10 +35,10 @@ use thiserror::Error;
 
 pub use compare::{ChannelComparison, Comparison, compare};
 
-/// Pixels that a picture may have.
+/// Greatest number of pixels of a picture.
 pub const MOST_PIXELS: u64 = 1 << 28;
 
-/// Bytes that a picture may take in memory.
+/// Greatest memory of a picture, bytes.
 pub const MOST_BYTES: u64 = 4 << 30;
 
 /// One channel.
@@ -52,7 +50,7 @@ pub struct Layer {
     pub data: Vec<f32>,
 }
 
-/// Channels of one size, and what is known about them.
+/// Channels of one size, with attributes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Pixels across.
@@ -61,7 +59,7 @@ pub struct Picture {
     pub height: u32,
     /// Channels. Files hold them in the order of their names.
     pub layers: Vec<Layer>,
-    /// Name and value of what is known besides. Files hold them in the order of their names.
+    /// Names and values of attributes. Files hold them in the order of their names.
     pub attributes: Vec<(String, Attribute)>,
 }
 
@@ -80,7 +78,7 @@ impl Picture {
     }
 }
 
-/// What is known about a picture besides its values.
+/// The value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attribute {
     /// Text of any length.
@@ -91,7 +89,7 @@ pub enum Attribute {
     Double(f64),
     /// A whole number.
     Int(i32),
-    /// A 4 × 4 matrix, row by row, for row vectors (as `OpenEXR` has it).
+    /// A 4 × 4 matrix, row by row, for row vectors (the convention of `OpenEXR`).
     Matrix4([f32; 16]),
     /// CIE 1931 x, y of red, green, blue and white.
     Chromaticities([[f32; 2]; 4]),
@@ -104,7 +102,7 @@ pub const REC709: Attribute =
 /// Why a picture could not be read or written.
 #[derive(Debug, Error)]
 pub enum ImageError {
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error("{}: {source}", .path.display())]
     File {
         /// The file.
@@ -112,7 +110,7 @@ pub enum ImageError {
         /// What the system says.
         source: io::Error,
     },
-    /// The file was read but is not what it should be.
+    /// The file was read but its contents are not valid.
     #[error("{}: {source}", .path.display())]
     Contents {
         /// The file.
@@ -120,13 +118,13 @@ pub enum ImageError {
         /// What is wrong with it.
         source: Box<ImageError>,
     },
-    /// The bytes are not such a picture, or a damaged one.
+    /// The bytes are not a picture of this format, or a damaged one.
     #[error("not a picture that can be read: {what}")]
     Malformed {
         /// What is wrong.
         what: String,
     },
-    /// More pixels or bytes than is sensible.
+    /// The picture has too many pixels or bytes.
     #[error(
         "a picture of {width} × {height} pixels with {channels} channels; \
          the most is {MOST_PIXELS} pixels and {MOST_BYTES} bytes"
@@ -136,7 +134,7 @@ pub enum ImageError {
         width: u64,
         /// Pixels down.
         height: u64,
-        /// Values a pixel.
+        /// Number of channels.
         channels: u64,
     },
     /// The picture contradicts itself.
@@ -147,7 +145,7 @@ pub enum ImageError {
     },
 }
 
-/// Refuses sizes beyond [`MOST_PIXELS`] or [`MOST_BYTES`], and pictures of nothing.
+/// Refuses sizes beyond [`MOST_PIXELS`] or [`MOST_BYTES`], and empty pictures.
 fn check_size(
     width: u64,
     height: u64,
@@ -170,7 +168,7 @@ fn check_size(
     Ok(())
 }
 
-/// Reads a file and hands its bytes to `decode`; errors get the path.
+/// Reads a file and passes its bytes to `decode`; adds the path to errors.
 fn read_file(
     path: &Path,
     decode: impl FnOnce(&[u8]) -> Result<Picture, ImageError>,

@@ -1,8 +1,8 @@
 //! Following light: one path, and all the paths of a picture.
 //!
 //! - **In**: a [`World`](crate::scene::world::World), and a [`render::Job`]: pixels, samples, seed.
-//! - **Out**: [`render::Rendered`], sums on a film; [`develop`] makes the layers of a picture of
-//!   them.
+//! - **Out**: [`render::Rendered`], sums on a film; [`develop`] turns them into the layers of a
+//!   picture.
 //! - **Always true**: the same job gives the same sums, bit for bit, on any number of threads.
 //!
 //! ```

@@ -4,11 +4,11 @@
 //!
 //! # A tour
 //!
-//! A scene is text: [`scene::load`] reads it, or tells everything that is wrong with it.
-//! [`World::build`](scene::world::World::build) grows its leaves and builds what rays are traced
-//! through. [`integrator::render`] follows light through it, wavelength by wavelength, and adds up
-//! what arrives in a [`film`]. [`integrator::develop`] makes the layers of a picture of it, in
-//! memory; [`image`] writes them.
+//! A scene is text: [`scene::load`] reads it, or reports everything that is wrong with it.
+//! [`World::build`](scene::world::World::build) grows its leaves and builds the trees for ray
+//! tracing. [`integrator::render`] traces paths of light at several wavelengths each and adds up
+//! the arriving radiance on a [`film`]. [`integrator::develop`] computes the layers of a picture
+//! from the film; [`image`] writes them.
 //!
 //! ```
 //! use std::path::Path;
@@ -67,8 +67,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The command `lamina` is [`cli`] and nothing more. The book in `docs/` describes the scene format
-//! and derives what is computed here.
+//! The command `lamina` is [`cli`]. The book in `docs/` describes the scene format and derives what
+//! is computed here.
 
 pub mod bsdf;
 pub mod camera;

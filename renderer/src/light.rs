@@ -1,6 +1,6 @@
-//! Where light comes from.
+//! Light sources.
 //!
-//! - **In**: a point that is lit, random numbers.
+//! - **In**: an illuminated point, random numbers.
 //! - **Out**: a direction or point on the light, its radiance at the path's wavelengths, its
 //!   density over solid angle.
 //! - **Always true**: [`Light::at_infinity`] and [`AreaLight::pdf`] give the density of what
@@ -51,57 +51,56 @@ pub enum Light {
     Constant(Spectrum),
     /// A picture at infinity.
     Environment(EnvironmentLight),
-    /// A surface that shines.
+    /// An emitting surface.
     Area(AreaLight),
-    /// A point that shines into a cone.
+    /// A point that emits into a cone (a spotlight).
     Spot(SpotLight),
 }
 
-/// A point that is lit.
+/// An illuminated point.
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver {
-    /// Where it is, world, m.
+    /// Position, world, m.
     pub position: Vec3,
-    /// Unit normal, world. Light counts by the size of its cosine with it, from either side: a leaf
-    /// transmits.
+    /// Unit normal, world. Light is weighted by the absolute value of its cosine, from either side,
+    /// since a leaf transmits.
     pub normal: Vec3,
 }
 
-/// Light that may arrive at a point.
+/// A light sample: light that may arrive at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample<const N: usize> {
     /// Unit direction from the point to the light, world.
     pub wi: Vec3,
     /// Point on the light, or `None` at infinity.
     pub point: Option<Vec3>,
-    /// Radiance if nothing is in between; of a light without extent the irradiance on a surface
-    /// that faces it, W m⁻² nm⁻¹.
+    /// Radiance if the way is free, W m⁻² sr⁻¹ nm⁻¹; for a light without extent the irradiance on a
+    /// surface that faces it, W m⁻² nm⁻¹.
     pub radiance: Lanes<N>,
-    /// Density over solid angle, sr⁻¹; 1 of a light without extent.
+    /// Density over solid angle, sr⁻¹; 1 for a light without extent.
     pub pdf: f32,
     /// Whether the light has no extent, so that no bounce ever finds it.
     pub is_point: bool,
 }
 
-/// How it is decided whether a light is sampled at a point.
+/// Whether and how a light is sampled at a point.
 #[derive(Clone, Debug)]
 pub enum Sampled {
     /// Never: bounces find it best.
     Never,
-    /// Always, for it is small and strong.
+    /// Always, since it is small and strong.
     Always,
-    /// As one of those that surround the scene.
+    /// As one of the lights that surround the scene.
     Around {
-        /// On a surface that faces half of the surroundings: rough, W m⁻² nm⁻¹.
+        /// Rough irradiance on a surface that sees half of the surroundings, W m⁻² nm⁻¹.
         irradiance: f32,
     },
-    /// Part by part, each by what it may send to the point.
+    /// By parts, each with a probability according to the light that it may send to the point.
     ByParts(Vec<Emitter>),
 }
 
 impl Light {
-    /// How it is decided whether this light is sampled, on a film of the given range of
-    /// wavelengths.
+    /// Whether and how this light is sampled, on a film with the given range of wavelengths.
     pub fn sampled(&self, range_nm: [f64; 2]) -> Sampled {
         match self {
             Self::Distant(_) => Sampled::Always,
@@ -123,7 +122,7 @@ impl Light {
         }
     }
 
-    /// Whether a ray that meets nothing may find it.
+    /// Whether a ray that hits nothing may find it.
     pub fn is_at_infinity(&self) -> bool {
         match self {
             Self::Distant(_) | Self::Constant(_) | Self::Environment(_) => true,
@@ -131,8 +130,8 @@ impl Light {
         }
     }
 
-    /// Draws light arriving at `receiver` from the light's part number `part`: a patch of an area
-    /// light, 0 for the other lights. `u` picks a place on it.
+    /// Samples light that arrives at `receiver` from part `part` of the light: a patch of an area
+    /// light, 0 for other lights. `u` selects a place on it.
     pub fn sample<const N: usize>(
         &self,
         part: usize,
@@ -149,7 +148,7 @@ impl Light {
         }
     }
 
-    /// Works its spectra out at every wavelength of a grid.
+    /// Evaluates its spectra at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         match self {
             Self::Distant(light) => light.tabulate(grid),
@@ -161,7 +160,8 @@ impl Light {
     }
 
     /// Radiance from infinity along the unit direction `wi` (towards the light), and the density
-    /// with which [`Light::sample`] draws that direction; `None` if the light is not there.
+    /// with which [`Light::sample`] draws that direction; `None` if the light does not lie in that
+    /// direction.
     pub fn at_infinity<const N: usize>(
         &self,
         wi: Vec3,
@@ -176,7 +176,7 @@ impl Light {
     }
 }
 
-/// Angle between unit vectors, also where it is small, rad.
+/// Angle between unit vectors, rad, accurate for small angles too.
 fn angle(a: Vec3, b: Vec3) -> f32 {
     2.0 * libm::atan2f((a - b).length(), (a + b).length())
 }

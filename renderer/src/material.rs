@@ -1,4 +1,4 @@
-//! What surfaces are made of: parameters at a hit → a [`Bsdf`].
+//! Materials: they turn the parameters of a hit into a [`Bsdf`].
 //!
 //! ```
 //! use glam::{Vec2, Vec3};
@@ -44,12 +44,12 @@ pub enum Material {
     Solid(Box<SolidMaterial>),
 }
 
-/// What a material that is tissue holds, whatever the tissue: all that others want to know of it.
+/// A material's tissue, for materials that are tissue of any kind.
 #[derive(Clone, Copy, Debug)]
 pub struct Tissue<'m> {
-    /// What its pigments are.
+    /// The palette of its pigments.
     pub palette: &'m Palette,
-    /// What it holds; none if its spectra were measured.
+    /// Its contents; `None` if its spectra were measured.
     pub held: Option<&'m Held>,
 }
 
@@ -63,16 +63,16 @@ fn coarse(range_nm: [f64; 2]) -> impl Iterator<Item = f64> {
 /// A coat that alone reflects more than the whole should.
 #[derive(Clone, Copy, Debug)]
 pub struct ExceedingCoat {
-    /// Where it does, nm.
+    /// A wavelength at which it does, nm.
     pub nm: f64,
-    /// What the coat is called.
+    /// Name of the coat in messages.
     pub coat: &'static str,
-    /// What the whole is called.
+    /// Name of the whole in messages.
     pub whole: &'static str,
 }
 
 impl Material {
-    /// What it holds, if it is tissue.
+    /// Its tissue, if it is tissue.
     pub fn tissue(&self) -> Option<Tissue<'_>> {
         match self {
             Self::Diffuse(_) | Self::Dielectric(_) => None,
@@ -90,7 +90,7 @@ impl Material {
         }
     }
 
-    /// The map of what it holds, if it has one.
+    /// The map of its contents, if it has one.
     pub fn contents_map(&self) -> Option<&ContentsTexture> {
         match self.tissue()?.held? {
             Held::Map(map) => Some(map),
@@ -114,7 +114,7 @@ impl Material {
         exceeds.map(|nm| ExceedingCoat { nm, coat, whole })
     }
 
-    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         match self {
             Self::Diffuse(reflectance) => reflectance.tabulate(grid),

@@ -1,7 +1,7 @@
-//! Random numbers and what is drawn with them.
+//! Random numbers and sampling.
 //!
-//! A random number is a function of (seed, pixel, sample, dimension): no generator's state passes
-//! from one sample to the next, so pictures do not depend on threads, tiles or interruptions.
+//! A random number is a function of (seed, pixel, sample, dimension): there is no generator state,
+//! so pictures do not depend on threads, tiles or interruptions.
 //!
 //! ```
 //! use glam::Vec2;

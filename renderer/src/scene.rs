@@ -1,9 +1,9 @@
-//! From a scene file to the immutable scene that is traced.
+//! From a scene file to the immutable scene that rays are traced in.
 //!
 //! - **In**: a TOML file with `format = 1` ([`load::load`]), and overrides from the command line.
 //! - **Out**: a [`description::Description`], which both the tracer and the exporters read.
-//! - **Always true**: a scene is accepted whole or refused with every error that it has, each at
-//!   its place; no file outside the scene's folder is touched.
+//! - **Always true**: a scene is accepted as a whole or refused with a list of all its errors, each
+//!   at its place; no file outside the scene's folder is read.
 //!
 //! ```
 //! use std::path::Path;

@@ -8,7 +8,7 @@
 //! - **Out**: rows of eight numbers, or a bit for each lane.
 //! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
 //!   same bits at every level.
-//! - **Left out**: wider units. AVX-512 brought nothing for trees of eight children.
+//! - **Left out**: wider units. AVX-512 gave no speed-up for trees of eight children.
 //!
 //! ```
 //! use renderer::simd::Level;
@@ -33,7 +33,7 @@ mod x86;
 use scalar::Scalar;
 pub(crate) use stack::Stack;
 
-/// Numbers in a row.
+/// Number of lanes of a row.
 pub(crate) const LANES: usize = 8;
 
 /// A row of numbers, aligned for the widest unit.
@@ -43,8 +43,8 @@ pub(crate) struct Row(pub(crate) [f32; LANES]);
 
 /// The operations on rows, by the instructions of one level.
 ///
-/// A value of an implementing type is the proof that the machine has these instructions. Methods
-/// are inlined into the function of [`Level::run`] that is compiled for them.
+/// A value of an implementing type proves that the machine has these instructions. Methods are
+/// inlined into the function of [`Level::run`] that is compiled for them.
 pub(crate) trait Eight: Copy {
     /// Eight numbers in registers.
     type F: Copy;
@@ -63,24 +63,25 @@ pub(crate) trait Eight: Copy {
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a / b`.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a` where it is less, else `b`; so `b` where either is not a number.
+    /// `a` where it is less, else `b`; so `b` where either is NaN.
     fn less(self, a: Self::F, b: Self::F) -> Self::F;
-    /// `a` where it is greater, else `b`; so `b` where either is not a number.
+    /// `a` where it is greater, else `b`; so `b` where either is NaN.
     fn greater(self, a: Self::F, b: Self::F) -> Self::F;
     /// Bit `i` is set where `a ≤ b` in lane `i`.
     fn at_most(self, a: Self::F, b: Self::F) -> u32;
     /// Bit `i` is set where `a < b` in lane `i`.
     fn below(self, a: Self::F, b: Self::F) -> u32;
-    /// Asks for an element's memory before it is needed; places outside the slice do no harm.
+    /// Prefetches the memory of an element; places outside the slice do no harm.
     fn prefetch<T>(self, slice: &[T], place: usize);
 }
 
-/// What can be run at any level.
+/// A computation that can be run at any level.
 pub(crate) trait Task {
-    /// What comes of it.
+    /// Its result.
     type Output;
 
-    /// Runs it; implementations are `#[inline(always)]`, and so is what they call with `eight`.
+    /// Runs it. Implementations must be `#[inline(always)]`, and so must all functions that they
+    /// call with `eight`.
     fn run<E: Eight>(self, eight: E) -> Self::Output;
 }
 
@@ -201,7 +202,7 @@ mod tests {
                 };
                 let (a, b) = (row(0, 1), row(shift, step));
                 let bits = |(rows, bits): ([Row; 6], [u32; 2])| {
-                    // Which NaN comes out is the machine's affair; nothing here looks at it.
+                    // The bits of a NaN depend on the machine, so the test ignores them.
                     let words = rows.map(|row| {
                         row.0
                             .map(|value| if value.is_nan() { 1 } else { value.to_bits() })

@@ -1,9 +1,9 @@
-//! Wavelengths that a path carries, spectra as functions of them, and the way to colour.
+//! Wavelengths of paths, spectra as functions of wavelength, and colour.
 //!
 //! - **In**: spectra as written in a scene, wavelengths in nm.
 //! - **Out**: values at a path's own wavelengths ([`Lanes`]), colours as linear sRGB.
-//! - **Always true**: no RGB number takes part in transport; RGB is made from radiance at the film
-//!   ([`cie`]) and turned into spectra when a picture is read ([`rgb`]).
+//! - **Always true**: no RGB number takes part in transport; RGB is computed from radiance at the
+//!   film ([`cie`]), and RGB pictures are converted into spectra when they are read ([`rgb`]).
 //!
 //! ```
 //! use renderer::spectrum::cie;

@@ -1,8 +1,8 @@
-//! What tests of several modules share.
+//! Helpers for tests of several modules.
 
 use proptest::test_runner::{Config, RngSeed};
 
-/// Properties are tried on the same cases on every run.
+/// Configuration for property tests with the same cases on every run.
 pub(crate) fn fixed(cases: u32) -> Config {
     Config {
         cases,

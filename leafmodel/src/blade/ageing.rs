@@ -1,9 +1,9 @@
-//! Ageing by the calendar: when tissue at a place begins to age, and what it then holds from day to
-//! day.
+//! Ageing by the calendar: the day on which tissue at a place begins to age, and its contents on
+//! each day after.
 //!
 //! A [`Delay`] gives the day on which a place begins to age; a [`Course`] gives its contents from
-//! the number of days since. `docs/src/theory/ageing.md` has the equations, and of every number
-//! whether it was measured or is our estimate.
+//! the number of days since. `docs/src/theory/ageing.md` has the equations and says of every number
+//! whether it was measured or estimated.
 
 use glam::DVec2;
 
@@ -17,29 +17,28 @@ use crate::venation::network::VeinSegment;
 /// red-senescing species).
 pub const ANTHOCYANIN_BELOW: f64 = 20.0;
 
-/// Number of days by which something begins at a place later than at the first place: the sum of
+/// Number of days by which something begins later at a place than at the first place: the sum of
 /// all terms, each ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
-    /// Days by which tissue at veins comes after tissue far from them; negative: before. −1000 to
-    /// 1000.
+    /// Delay of tissue at veins after tissue far from them, days, −1000 to 1000; negative values
+    /// mean before.
     pub veins_days: f64,
-    /// Distance, mm, over which that falls to 1/e, 0.01 to 1000.
+    /// Distance over which that delay falls to 1/e, mm, 0.01 to 1000.
     pub veins_reach_mm: f64,
     /// Highest order of veins that count, 1 to 20.
     pub veins_order: u8,
-    /// Days by which the inside comes after the margin, 0 to 1000.
+    /// Delay of the inside after the margin, days, 0 to 1000.
     pub margin_days: f64,
-    /// Distance, mm, over which that rises to 1 − 1/e, 0.01 to 1000.
+    /// Distance over which that delay rises to 1 − 1/e of its value, mm, 0.01 to 1000.
     pub margin_reach_mm: f64,
-    /// Days by which the base comes after the apex; negative: before. −1000 to 1000.
+    /// Delay of the base after the apex, days, −1000 to 1000; negative values mean before.
     pub tip_days: f64,
-    /// Days by which patches differ at most, 0 to 1000.
+    /// Greatest difference between patches, days, 0 to 1000.
     pub noise_days: f64,
     /// Size of those patches, mm, 0.01 to 1000.
     pub noise_scale_mm: f64,
-    /// Days by which the cell of a transport leaf that dies last comes after the one that dies
-    /// first, 0 to 1000.
+    /// Delay of the last-dying cell of a transport leaf after the first-dying one, days, 0 to 1000.
     pub deaths_days: f64,
 }
 
@@ -101,24 +100,24 @@ impl Delay {
 pub struct Course {
     /// Where tissue begins to age first.
     pub onset: Delay,
-    /// Days after which half of the chlorophyll is gone, 0.1 to 1000.
+    /// Half-life of chlorophyll, days, 0.1 to 1000.
     pub half_days: f64,
-    /// Steepness of that loss: a logistic whose exponent is this much at `half_days`, 0.1 to 50.
-    /// Small is nearly first-order decay.
+    /// Steepness of that loss, 0.1 to 50: the exponent of the logistic at `half_days`. Small values
+    /// give nearly first-order decay.
     pub steepness: f64,
     /// Chlorophyll that stays, µg cm⁻², 0 to 1000; less if there was less.
     pub chlorophyll_rest: f64,
-    /// Share of carotenoids that goes with chlorophyll (violaxanthin and other xanthophylls), 0 to
-    /// 1.
+    /// Share of carotenoids that decays with chlorophyll (violaxanthin and other xanthophylls), 0
+    /// to 1.
     pub labile_carotenoids: f64,
-    /// How many times longer the others last than chlorophyll, 1 to 100.
+    /// Half-life of the other carotenoids over that of chlorophyll, 1 to 100.
     pub persistence: f64,
-    /// Anthocyanins that are made, µg cm⁻², 0 to 1000: what there is in the end, if there was less.
+    /// Final anthocyanin content where it was lower before, µg cm⁻², 0 to 1000.
     pub anthocyanins: f64,
-    /// Days in which all but 1/e of that is made once chlorophyll has fallen below
-    /// [`ANTHOCYANIN_BELOW`], 0.1 to 1000.
+    /// Time constant of the synthesis, days, 0.1 to 1000: after it all but 1/e is made. It starts
+    /// once chlorophyll has fallen below [`ANTHOCYANIN_BELOW`].
     pub anthocyanin_days: f64,
-    /// Brown pigments of tissue without chlorophyll that is still alive, 0 to 100.
+    /// Brown pigments of living tissue whose chlorophyll is gone, 0 to 100.
     pub brown: f64,
     /// Factor on structure, 1 to 10, on water, 0 to 1, and on dry matter, 0 to 1, where chlorophyll
     /// is gone.
@@ -211,8 +210,8 @@ impl Course {
         self.half_days * (1.0 + libm::log(odds) / decay.steepness)
     }
 
-    /// What tissue holds, still alive, `age` days after it began to age. At 0 and before, `living`
-    /// itself.
+    /// Contents of tissue, still alive, `age` days after it began to age. For `age` ≤ 0 that is
+    /// `living`.
     #[must_use]
     pub fn senescent(&self, living: Contents, age: f64) -> Contents {
         self.decayed(living, age, Decay::new(self.steepness))
@@ -254,11 +253,11 @@ impl Course {
     }
 }
 
-/// A logistic that falls from 1, made ready for many ages.
+/// A logistic that falls from 1, prepared for evaluation at many ages.
 #[derive(Clone, Copy, Debug)]
 struct Decay {
     steepness: f64,
-    /// What makes it 1 at the start.
+    /// Factor that makes the curve 1 at the start.
     scale: f64,
 }
 
@@ -276,10 +275,10 @@ impl Decay {
     }
 }
 
-/// The flat leaf as ageing and masks see it.
+/// The flat leaf on which ageing and masks are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
-    /// Where it is asked.
+    /// The box within which points may be queried.
     pub frame: &'a UvFrame,
     /// The margin, a closed polygon, mm.
     pub margin: &'a [DVec2],
@@ -287,7 +286,7 @@ pub struct Place<'a> {
     pub veins: &'a [VeinSegment],
     /// Where the midrib begins, mm.
     pub base: DVec2,
-    /// Where it ends, mm.
+    /// Where the midrib ends, mm.
     pub apex: DVec2,
 }
 

@@ -1,6 +1,6 @@
 //! Courses of ageing by name.
 //!
-//! Half times, reaches and delays are estimates by eye; what is left of pigments is chosen so that
+//! Half-lives, reaches and delays are estimates by eye. The remaining pigments are chosen so that
 //! leaves end near the contents that `docs/src/theory/ageing.md` lists with their sources.
 
 use super::ageing::{Course, Delay};
@@ -85,7 +85,7 @@ pub const COURSES: [(&str, Course); 5] = [
     ("brown", BROWN),
 ];
 
-/// What a dead, dry leaf holds (estimate within the ranges of litter).
+/// Contents of a dead, dry leaf (an estimate within the ranges of litter).
 pub const LITTER: Contents = Contents::of(&[
     (Structure, 2.2),
     (Chlorophyll, 0.3),

@@ -1,4 +1,4 @@
-//! Maps of what the tissue holds, sampled over the box of a blade.
+//! Maps of the contents of tissue, sampled over the box of a blade.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -29,9 +29,8 @@ pub struct ContentsMap {
 impl ContentsMap {
     /// Paints a leaf's tissue.
     ///
-    /// The longer side has `map_size` (16 to 8192) texels, the shorter so many that texels are
-    /// about square. The field goes on over all of the frame. Rows do not depend on each other; the
-    /// same input gives the same bits.
+    /// The longer side has `map_size` (16 to 8192) texels; the shorter one has as many as make
+    /// texels about square. The whole frame is painted. The same input gives the same bits.
     ///
     /// # Errors
     ///
@@ -53,9 +52,9 @@ impl ContentsMap {
         Self::paint_layered(&place, tissue, None, &[], None, map_size, seed)
     }
 
-    /// As [`ContentsMap::paint`], of a leaf with a mosaic and layers that has aged: the mosaic
-    /// replaces the tissue's lamina, layers change the tissue between veins, the result ages, then
-    /// come the factors of veins and the mottle.
+    /// As [`ContentsMap::paint`], for a leaf with mosaic, layers and ageing, applied in this order:
+    /// the mosaic replaces the tissue's lamina contents, layers change the contents between veins,
+    /// the result ages, and finally the factors of veins and the mottle apply.
     ///
     /// The field is computed up to two texels beyond the margin, so that a look-up across the
     /// margin shows no seam. No look-up reaches texels farther out; they repeat the nearest texel
@@ -262,9 +261,9 @@ mod tests {
     #[test]
     fn a_vein_thinner_than_a_texel_takes_the_same_chlorophyll_at_any_resolution() {
         // 0.02 mm radius and 0.02 mm sheath, texels from 0.005 to 0.625 mm. At exactly 45° all rows
-        // have one phase and the texels' diagonals are nearer to each other than the tent is made
-        // for: at worst 2 sinc²(√2) = 9.4 % off in one row. Elsewhere a row is off by chance, and
-        // eight rows hardly.
+        // have the same phase, and the texels' diagonals are nearer to each other than the tent
+        // filter assumes: the error of a row is at most 2 sinc²(√2) = 9.4 %. At other angles errors
+        // of rows are random and nearly cancel over eight rows.
         let tissue = Tissue {
             sheath_width_mm: 0.02,
             ..GREEN

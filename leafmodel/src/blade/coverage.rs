@@ -1,11 +1,11 @@
-//! Which texels of a map a blade can be asked for: those inside its margin, and some beyond.
+//! The texels of a map that a blade can look up: those inside its margin and some beyond.
 
 use glam::DVec2;
 
 use super::frame::UvFrame;
 
-/// Texels beyond the margin that are painted too, so that what is blended between texels is the
-/// leaf's own.
+/// Number of texels beyond the margin that are painted too, so that interpolation at the margin
+/// uses the leaf's own contents.
 const BEYOND: usize = 2;
 
 /// A flag for each texel.
@@ -79,8 +79,8 @@ impl Coverage {
     }
 }
 
-/// Lets each texel that is not covered take the value of the nearest in its row that is; a row with
-/// none is left as it is.
+/// Gives each texel that is not covered the value of the nearest covered one in its row. A row
+/// without covered texels is left unchanged.
 pub(super) fn extend<T: Copy>(texels: &mut [T], covered: &[bool]) {
     let found: Vec<usize> = (0..covered.len()).filter(|&i| covered[i]).collect();
     let mut next = 0;

@@ -31,13 +31,13 @@ enum Square {
     Whole(u32, u32),
 }
 
-/// A list this short is not worth another part.
+/// Lists of this length or shorter are not divided further.
 const SHORT: usize = 4;
-/// Squares with longer lists are parted this often: many segments may meet in one point.
+/// Greatest depth of division, since many segments may meet in one point.
 const DEEPEST: u32 = 11;
 
 impl Distances {
-    /// Sorts segments; the frame says where distances will be asked for.
+    /// Builds the quadtree over the frame, within which distances may be queried.
     pub(super) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
         let all: Vec<u32> = (0..segments.len() as u32).collect();
         let (centre, half_side) = (frame.min + 0.5 * frame.size, 0.5 * frame.size.max_element());
@@ -52,7 +52,7 @@ impl Distances {
         field
     }
 
-    /// Fills the square at a place with those of its parent's candidates that are its own.
+    /// Fills the square at a place with those of its parent's candidates that can be nearest in it.
     fn part(
         &mut self,
         place: usize,

@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why there is no blade.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BladeError {
-    /// A number outside the range in which it means something.
+    /// A number is outside its range.
     #[error("{field} is {value}, it must be {range}")]
     OutOfRange {
         /// Which field of [`super::BladeForm`].
@@ -20,7 +20,7 @@ pub enum BladeError {
         "the blade would take more than {limit} triangles: raise max_edge_mm or meshed_vein_radius_mm"
     )]
     TooFine {
-        /// Most triangles allowed.
+        /// Greatest number of triangles.
         limit: usize,
     },
     /// Fold, curl and ruffle bend the blade so much that it turns inside out.

@@ -1,10 +1,10 @@
 //! The lamina bent in space: ruffle, fold and curl, as one smooth map.
 //!
-//! A point of the flat lamina, with its height over it, is first moved by the ruffle across the
-//! lamina; if the lamina is the map of a curved blade, it is brought onto that; then it is moved by
-//! the fold about the midrib, then by the curl along it. Each step has continuous first
-//! derivatives, so the blade has no crease. Lengths across the midrib are kept by the fold and
-//! lengths along it by the curl.
+//! A point of the flat lamina, given with its height above it, is displaced in four steps: by the
+//! ruffle, perpendicular to the lamina; onto the curved blade, if the lamina is the map of one; by
+//! the fold about the midrib; and by the curl along it. Each step has continuous first derivatives,
+//! so the blade has no crease. The fold preserves lengths across the midrib, the curl lengths along
+//! it.
 
 use glam::{DVec2, DVec3};
 
@@ -17,14 +17,14 @@ use crate::venation::conformal_map::ConformalMap;
 const FOLD_ROUNDING: f64 = 0.03;
 /// Entries of the fold's table on each side.
 const FOLD_STEPS: usize = 1024;
-/// Places along the leaf at which its width is known.
+/// Number of places along the leaf at which its width is stored.
 const WIDTH_BINS: usize = 128;
 /// The width used for the ruffle is averaged over this share of the length, which hides lobes and
 /// teeth.
 const WIDTH_BLUR: f64 = 0.08;
 /// Least width for the ruffle, over the greatest.
 const LEAST_WIDTH: f64 = 0.35;
-/// By how much the waves of the left margin are ahead of those of the right one, radians: real
+/// Phase lead of the waves of the left margin over those of the right one, radians, since real
 /// margins are not mirror images.
 const LEFT_AHEAD: f64 = 1.9;
 
@@ -32,9 +32,9 @@ const LEFT_AHEAD: f64 = 1.9;
 #[derive(Debug)]
 pub(super) struct Bending {
     base: DVec2,
-    /// The map of a blade that is curved by itself.
+    /// The conformal map of a blade with Gaussian curvature.
     map: ConformalMap,
-    /// Where that brings the base.
+    /// Place of the base on the curved blade.
     base_in_space: DVec3,
     ruffle: Ruffle,
     fold: Fold,
@@ -58,7 +58,8 @@ impl Bending {
         }
     }
 
-    /// Where the point at `height` (mm, towards the adaxial side) over the flat `p` goes, mm.
+    /// The place in space, mm, of the point at `height` (mm, towards the adaxial side) above the
+    /// flat point `p`.
     pub(super) fn place(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.base;
         let height = height + self.ruffle.height(q);
@@ -77,7 +78,7 @@ impl Bending {
     fn curled(&self, x: f64, y: f64, z: f64) -> DVec3 {
         let k = self.curvature;
         let angle = k * y;
-        // Both stay exact as the curvature goes to zero.
+        // Series keep both accurate as the curvature goes to 0.
         let (s, v) = if angle.abs() < 1e-6 {
             (y, 0.5 * k * y * y)
         } else {
@@ -127,16 +128,16 @@ impl Fold {
         DVec2::new(libm::cos(turned), libm::sin(turned))
     }
 
-    /// Where a point `x` from the midrib along the lamina and `height` over it is in the plane
-    /// across the midrib.
+    /// The place, in the plane across the midrib, of a point at the distance `x` from the midrib
+    /// along the lamina and at `height` above it.
     fn place(&self, x: f64, height: f64) -> (f64, f64) {
         let side = if x < 0.0 { -1.0 } else { 1.0 };
         let x = x.abs();
         let i = ((x / self.step) as usize).min(FOLD_STEPS);
         let (left, right) = (self.step * i as f64, self.step * (i + 1) as f64);
         let t = (x - left) / self.step;
-        // Cubic through both ends with the exact directions there: continuous slopes between
-        // entries.
+        // A cubic with the exact places and directions at both entries, so that slopes are
+        // continuous.
         let (from, to) = (self.table[i], self.table[i + 1]);
         let (d_from, d_to) = (self.along(left) * self.step, self.along(right) * self.step);
         let at = from

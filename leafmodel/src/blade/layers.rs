@@ -1,8 +1,8 @@
-//! Layers of contents: what lies where on the lamina, each on top of those before.
+//! Layers of contents on the lamina, each on top of those before.
 //!
 //! A layer is a change of contents, a [`Mask`] that says where, and a share: where it weighs `w`,
-//! the contents `C` below it become `C + (C′ − C) w`. Layers make what the living lamina holds
-//! between veins; ageing, veins and the mottle come after, in this order.
+//! the contents `C` below it become `C + (C′ − C) w`. Layers set the contents of the living lamina
+//! between veins. Ageing, veins and the mottle apply afterwards, in this order.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::venation::chance::{self, Use};
 /// A layer of contents.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// What the plan calls it.
+    /// Its name in the plan.
     pub name: String,
     /// Where it lies.
     pub mask: Mask,
@@ -28,24 +28,24 @@ pub struct Layer {
     pub change: Change,
 }
 
-/// What a layer makes of the contents below it.
+/// How a layer changes the contents below it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// Some of the contents are changed by numbers; the others stay.
     Values {
         /// How.
         mode: Mode,
-        /// By what, or as factors; −1000 to 1000 with [`Mode::Add`], else 0 to 1000.
+        /// The numbers, −1000 to 1000 with [`Mode::Add`], else 0 to 1000.
         values: PerConstituent<Option<f64>>,
     },
-    /// All of them are those of a map over the leaf's box.
+    /// All contents are replaced by those of a map over the leaf's box.
     Map(Arc<Picture<{ Constituent::COUNT }>>),
 }
 
 /// How numbers change contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// They take their place.
+    /// They replace contents.
     Replace,
     /// They are added; no content falls below 0, structure not below 1.
     Add,
@@ -79,7 +79,7 @@ impl Layer {
     }
 }
 
-/// Layers made ready for many points of one leaf.
+/// Layers prepared for many points of one leaf.
 #[derive(Debug)]
 pub(super) struct LayerFields<'a> {
     frame: &'a UvFrame,
@@ -98,7 +98,7 @@ impl<'a> LayerFields<'a> {
         }
     }
 
-    /// What the lamina holds at a point (mm) where below all layers it holds `ground`.
+    /// Contents of the lamina at a point (mm); `ground` are the contents below all layers.
     pub(super) fn contents(&self, ground: Contents, p: DVec2) -> Contents {
         if self.layers.is_empty() {
             return ground;

@@ -16,16 +16,17 @@ use super::tissue::TissueError;
 /// A picture over the box of a leaf, decoded.
 ///
 /// Texel centres are at `((column + ½) / width, (row + ½) / height)` of the leaf's [`UvFrame`], row
-/// 0 at the least y; between them values are blended linearly, beyond them the outermost goes on.
+/// 0 at the least y; between them values are interpolated linearly, beyond them the outermost value
+/// is repeated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture<const N: usize> {
     /// The file that it came from, as the plan names it.
     pub file: String,
-    /// Which of its channels, if the plan names one.
+    /// The channel, if the plan names one.
     pub channel: Option<String>,
     /// Texels across, ≥ 1.
     pub width: usize,
-    /// Row by row, ≥ 1 whole rows.
+    /// The texels row by row, at least one whole row.
     pub texels: Vec<[f32; N]>,
 }
 
@@ -68,15 +69,15 @@ impl<const N: usize> Picture<N> {
     }
 }
 
-/// Where a layer lies. Edges are smooth steps of width `softness_mm`, centred on the place that the
-/// numbers give.
+/// The place of a layer, as a weight. Edges are smooth steps of width `softness_mm`, centred on the
+/// place that the numbers give.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mask {
     /// Everywhere alike.
     Everywhere,
     /// Within some distance of the margin.
     Margin {
-        /// How wide the rim is.
+        /// Width of the rim.
         width: RimWidth,
         /// Width of its edge, mm, 0.001 to 1000.
         softness_mm: f64,
@@ -103,12 +104,12 @@ pub enum Mask {
         /// Width of the edge, mm, 0.001 to 1000.
         softness_mm: f64,
     },
-    /// Nothing before one place along the midrib, all after another: 0 is the base, 1 the apex, and
-    /// either may come first.
+    /// A ramp along the midrib from weight 0 to weight 1. Places are 0 at the base, 1 at the apex,
+    /// and either end may come first.
     BaseToTip {
-        /// Where there is nothing of it, 0 to 1.
+        /// Place where the weight is 0, 0 to 1.
         from: f64,
-        /// Where there is all of it, 0 to 1, other than `from`.
+        /// Place where the weight is 1, 0 to 1, other than `from`.
         to: f64,
     },
     /// Where gradient noise in [−1, 1] is above a threshold.
@@ -119,10 +120,11 @@ pub enum Mask {
         threshold: f64,
         /// Width of the edge in the noise's own unit, 0.001 to 2.
         softness: f64,
-        /// Cells of `scale_mm` after which it repeats, 1 to 65536; never if none.
+        /// Number of cells of `scale_mm` after which the noise repeats, 1 to 65536; `None` if it
+        /// does not.
         repeat_cells: Option<u32>,
     },
-    /// What a picture says, held within 0 to 1.
+    /// The value of a picture, clamped to 0 to 1.
     Picture(Arc<Picture<1>>),
 }
 
@@ -215,7 +217,7 @@ impl Mask {
     }
 }
 
-/// A mask made ready for many points of one leaf.
+/// A mask prepared for many points of one leaf.
 #[derive(Debug)]
 pub(super) struct MaskField<'a> {
     frame: &'a UvFrame,

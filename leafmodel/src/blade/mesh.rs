@@ -15,10 +15,10 @@ use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
-/// Most triangles of one blade.
+/// Greatest number of triangles of one blade.
 pub(super) const MOST_TRIANGLES: usize = 4_000_000;
 
-/// A sheet of triangles in space, with what is known at each vertex.
+/// A sheet of triangles in space, with properties at each vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BladeMesh {
     /// Places, mm; base of the leaf at the origin, midrib along +y, adaxial side +z.
@@ -35,13 +35,13 @@ pub struct BladeMesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What is wrong with a mesh. No mesh from [`BladeMesh::build`] has any of it.
+/// What is wrong with a mesh. Meshes from [`BladeMesh::build`] have no defects.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum MeshDefect {
     /// The lists of a mesh have different lengths, or there is no triangle.
     #[error("the lists of vertices differ in length, or the mesh is empty")]
     Lists,
-    /// A triangle names a vertex that is not there, or one twice.
+    /// A triangle refers to a vertex that does not exist, or to one vertex twice.
     #[error("triangle {triangle} does not join three vertices of the mesh")]
     BadTriangle {
         /// Number of the triangle.
@@ -92,8 +92,8 @@ pub enum MeshDefect {
     },
 }
 
-/// Share by which the areas of triangles and outline may differ: the margin is kept but for points
-/// nearer to each other than a thousandth of an edge.
+/// Share by which the areas of triangles and outline may differ: the mesh keeps the margin except
+/// for points nearer together than a thousandth of an edge.
 const SAME_AREA: f64 = 1e-6;
 
 impl BladeMesh {
@@ -113,8 +113,8 @@ impl BladeMesh {
         Self::from_veins(outline, &veins, network.map(), form)
     }
 
-    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces belong together
-    /// where ends have the same bits.
+    /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
+    /// where their ends have the same bits.
     ///
     /// # Errors
     ///
@@ -166,7 +166,7 @@ impl BladeMesh {
         Ok(mesh)
     }
 
-    /// Whether a triangle looks the way its vertices' normals do.
+    /// Whether a triangle faces the same way as its vertices' normals.
     fn faces_out(&self, triangle: &[u32; 3]) -> bool {
         let normal = face_normal(triangle.map(|v| self.positions[v as usize]));
         triangle
@@ -181,18 +181,18 @@ impl BladeMesh {
     }
 
     /// Checks what every mesh must satisfy: all numbers finite, normals of unit length, every
-    /// vertex used; each edge with one face or two that agree in sense; the border one closed
-    /// curve; no triangle turned over on the lamina or in space; and the flat triangles covering
-    /// `outline_area` (mm²) within 1e-6 of it.
+    /// vertex used; each edge with one face, or with two of consistent orientation; the border one
+    /// closed curve; no triangle turned over on the lamina or in space; and the flat triangles
+    /// covering `outline_area` (mm²) within 1e-6 of it.
     ///
     /// # Errors
     ///
-    /// [`MeshDefect`], the first found.
+    /// The first [`MeshDefect`] found.
     pub fn validate(&self, outline_area: f64) -> Result<(), MeshDefect> {
         self.check_vertices()?;
         self.check_edges()?;
         for (triangle, corners) in self.triangles.iter().enumerate() {
-            // Not NaN, and not negative: either is no area.
+            // The area is neither NaN nor negative.
             let has_area = self.flat_area(corners) > 0.0;
             if !(has_area && self.faces_out(corners)) {
                 return Err(MeshDefect::TurnedOver { triangle });
@@ -257,7 +257,8 @@ impl BladeMesh {
             let [from, to] = pair[0];
             return Err(MeshDefect::Edge { from, to });
         }
-        // What has no partner is the border: one edge out of each of its vertices, one loop in all.
+        // Directed edges without a partner form the border: one leaves each of its vertices, and
+        // together they form one loop.
         let border: Vec<[u32; 2]> = edges
             .iter()
             .copied()

@@ -1,4 +1,4 @@
-//! Patches that differ a little: smooth noise over the lamina.
+//! Mottle: smooth noise over the lamina.
 
 use glam::DVec2;
 
@@ -39,8 +39,8 @@ impl Mottle {
         }
     }
 
-    /// The noise whose lattice repeats after so many cells (≥ 1) of `scale_mm`, as that of Perlin
-    /// 1985 does after the 256 of its table.
+    /// The same noise with a lattice that repeats after `cells` (≥ 1) cells of `scale_mm`, as that
+    /// of Perlin 1985 does after 256.
     #[must_use]
     pub fn repeating(self, cells: u32) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl Mottle {
     }
 }
 
-/// One octave on the unit lattice, which repeats after so many cells if it does, in [−1, 1].
+/// One octave on the unit lattice, which repeats after `repeat` cells if given, in [−1, 1].
 fn octave(state: u64, place: DVec2, repeat: Option<i64>) -> f64 {
     let corner = place.floor();
     let inside = place - corner;

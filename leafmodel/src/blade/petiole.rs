@@ -1,10 +1,10 @@
-//! The petiole: a stalk that goes on as the midrib.
+//! The petiole: a stalk that continues into the midrib.
 //!
-//! From the stem it comes along −y to the base at the origin, where the blade's own midrib leaves
-//! along +y. The blade begins inside the tube, its raised midrib too. Beyond the base the tube
-//! follows the thickest vein and gets ever thinner. Its abaxial side stays outside the relief all
-//! along, its adaxial side sinks through the blade once, so that it ends as a fine point that lies
-//! on the midrib from below. How far and how fast is by eye.
+//! It runs along the −y axis to the base at the origin, where the blade's midrib starts along +y.
+//! The blade, with its raised midrib, begins inside the tube. Beyond the base the tube follows the
+//! thickest vein and tapers. Its abaxial side stays outside the relief, while its adaxial side
+//! sinks through the blade once, so that the tube ends as a fine point on the abaxial side of the
+//! midrib. The proportions are by eye.
 
 mod midrib;
 
@@ -23,40 +23,41 @@ use midrib::Midrib;
 /// length.
 const JOINT_RADII: f64 = 14.0;
 const JOINT_SHARE: [f64; 2] = [0.03, 0.2];
-/// Pieces of the joint.
+/// Number of pieces of the joint.
 const JOINT_PIECES: usize = 24;
 /// Radius of the tube's end over the lesser of its own and the vein's.
 const END_RADIUS: f64 = 0.05;
-/// By how much of its radius the tube at the base reaches beyond the ridge of the midrib, at least.
+/// Least distance, as a share of its radius, by which the tube at the base reaches beyond the ridge
+/// of the midrib.
 const BEYOND_RIDGE: f64 = 0.25;
-/// Least radius at the base over the height of the ridge there: the tube holds the end of the blade
-/// from the ridge up.
+/// Least radius at the base over the height of the ridge there, so that the tube encloses the end
+/// of the blade from the ridge up.
 const HOLDS: f64 = 0.75;
 /// Share of the joint after which the tube has sunk, and the share of its diameter that is then
-/// beyond the ridge: a touch more than all, so that nothing of it is left on the adaxial side.
+/// beyond the ridge: slightly more than all, so that nothing of it remains on the adaxial side.
 const SUNK_AT: f64 = 0.9;
 const SUNK: f64 = 1.02;
-/// Over how many radii before the base the tube makes ready for the joint, over half its length at
-/// most.
+/// Length before the base, in radii, over which the tube adapts to the joint; at most half its
+/// length.
 const READY_RADII: f64 = 7.0;
-/// Places across the tube at which the relief is looked up, on each side.
+/// Number of places on each side across the tube at which the relief is looked up.
 const ACROSS: i32 = 4;
-/// By how much the foot is thicker, and over how many radii.
+/// Relative thickening of the foot, and its length in radii.
 const FOOT: f64 = 0.3;
 const FOOT_RADII: f64 = 5.0;
-/// Pieces of a petiole, at least, and the greatest angle between two of them, radians.
+/// Least number of pieces of a petiole, and the greatest angle between two of them, radians.
 const PIECES: f64 = 12.0;
 const PIECE_ANGLE: f64 = 0.06;
 
-/// What decides a petiole.
+/// The parameters of a petiole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PetiolePlan {
     /// Length over the leaf's, 0 to 10.
     pub length: f64,
-    /// Radius, mm, 0.001 to 100; as the midrib at its base if `None`.
+    /// Radius, mm, 0.001 to 100; `None` means that of the midrib at its base.
     pub radius_mm: Option<f64>,
-    /// Angle by which it has bent towards the abaxial side at its foot, radians, −3 to 3; 0 is
-    /// straight.
+    /// Angle through which it bends towards the abaxial side from the base to its foot, radians, −3
+    /// to 3; 0 is straight.
     pub curl: f64,
 }
 
@@ -95,7 +96,7 @@ impl PetiolePlan {
         self.radius_mm.unwrap_or_else(midrib).max(1e-3)
     }
 
-    /// The petiole of a blade of this form, mm, joint and all.
+    /// The mesh of the petiole of a blade of this form, mm, including the joint.
     ///
     /// # Errors
     ///
@@ -144,7 +145,7 @@ impl PetiolePlan {
             }
             StalkMesh::tube(&points, &radii)
         };
-        // A vein with a kink is left for the straight line.
+        // If the vein has a kink, the tube follows a straight line instead.
         let straight = || {
             let nodes = Vec::new();
             with_joint(&Midrib { nodes, ..midrib })
@@ -154,8 +155,8 @@ impl PetiolePlan {
             .expect("a smooth bend of a straight line has no kinks, and radii are above 0"))
     }
 
-    /// Distances from the base of the points of the tube behind it, from the foot on: even ones,
-    /// and closer ones where the radius changes.
+    /// Distances from the base of the points of the tube before the joint, from the foot on: evenly
+    /// spaced, and denser where the radius changes.
     fn places(&self, length: f64, foot: f64, ready: f64) -> Vec<f64> {
         let pieces = PIECES.max((self.curl.abs() / PIECE_ANGLE).ceil());
         let mut backs: Vec<f64> = (1..=pieces as u32)
@@ -164,13 +165,13 @@ impl PetiolePlan {
         let closer = |share: f64| [length - foot * share, ready * share];
         backs.extend((1..=6).flat_map(|i| closer(f64::from(i) / 6.0)));
         backs.sort_by(|a, b| b.total_cmp(a));
-        // Nothing of the base's own place, which the joint has.
+        // Points at the base itself belong to the joint.
         backs.retain(|&back| back > 0.01 * ready);
         backs.dedup_by(|next, kept| *kept - *next < 0.02 * ready.min(foot));
         backs
     }
 
-    /// A point of the petiole so far from the base.
+    /// The point of the petiole's axis at the distance `back` from the base.
     fn behind(&self, back: f64, length: f64) -> DVec3 {
         let curvature = self.curl / length;
         let angle = curvature * back;
@@ -184,7 +185,7 @@ impl PetiolePlan {
     }
 }
 
-/// The tube from the base on.
+/// The joint: the part of the tube beyond the base.
 struct Joint {
     /// Radius at the base.
     radius: f64,
@@ -199,7 +200,7 @@ struct Joint {
 }
 
 impl Joint {
-    /// Of a petiole with this radius.
+    /// The joint of a petiole with this radius.
     fn new(radius: f64, midrib: &Midrib, relief: Relief, bending: Bending, leaf: f64) -> Self {
         let [least, most] = JOINT_SHARE;
         let ridge = ridge(&relief, midrib.at(0.0).0, radius.max(midrib.radius));
@@ -216,7 +217,7 @@ impl Joint {
         }
     }
 
-    /// Axis and radius at a share of the way to its end.
+    /// Axis and radius at a share of its length.
     fn at(&self, midrib: &Midrib, t: f64) -> (DVec3, f64) {
         let (p, _) = midrib.at(self.length * t);
         let radius = self.end + (self.radius - self.end) * (1.0 - smooth_step(t));

@@ -2,9 +2,9 @@
 //!
 //! Ruppert's scheme with a size field. A triangle that is too large or too pointed gets a new
 //! vertex at its circumcentre; a forced edge that is too long, or has a vertex within the circle on
-//! it, is halved. Departures: corners more pointed than 60° are left as they are, edges that end in
-//! one are cut at powers of two from it (so that its two arms do not halve each other in turn), and
-//! no edge is cut below a share of the target length, which makes sure of an end.
+//! it, is halved. Departures: corners sharper than 60° are left as they are; edges that end in such
+//! a corner are cut at powers of two from it, so that its two arms do not keep splitting each
+//! other; and no edge is cut below a share of the target length, so that the refinement ends.
 //!
 //! # Source
 //!
@@ -24,7 +24,7 @@ use crate::shape::outline::Outline;
 /// The triangulation that is refined.
 pub(super) type Cdt = spade::ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
-/// Number of vertices, the first ones, that only frame the leaf.
+/// Number of vertices, the first ones, that only form the frame around the leaf.
 pub(super) const FRAME: usize = 4;
 /// Circumradius over target edge above which a triangle is too large.
 const LARGEST_RADIUS: f64 = 0.66;
@@ -32,12 +32,12 @@ const LARGEST_RADIUS: f64 = 0.66;
 const POINTED: f64 = 1.183;
 /// Shortest piece that a forced edge is cut to, as a share of the target length.
 const FLOOR: f64 = 0.08;
-/// Not on the margin.
+/// Marks a vertex that is not on the margin.
 const NONE: u32 = u32::MAX;
 /// Cosine of the angle below which a corner counts as sharp.
 const SHARP_COSINE: f64 = 0.5;
 
-/// A triangulation in the making.
+/// A triangulation during refinement.
 pub(super) struct Refinement<'a> {
     pub(super) cdt: Cdt,
     outline: &'a Outline,
@@ -84,7 +84,8 @@ impl<'a> Refinement<'a> {
         assert_eq!(cdt.num_vertices(), points.len(), "no point repeats another");
         let vein = |i: u32| FixedVertexHandle::from_index(FRAME + count + i as usize);
         for &[a, b] in &skeleton.edges {
-            // Where veins cross, which welding leaves possible, the thicker one came first.
+            // Veins may still cross after welding; then the thicker one, which was added first, is
+            // kept.
             if cdt.can_add_constraint(vein(a), vein(b)) {
                 cdt.add_constraint(vein(a), vein(b));
             }
@@ -120,8 +121,8 @@ impl<'a> Refinement<'a> {
         self.next[a] as usize == b || self.next[b] as usize == a
     }
 
-    /// Adds vertices until nothing is left to do. Forced edges first: circumcentres must not be
-    /// tried while edges are in the way that will be cut anyhow.
+    /// Adds vertices until nothing is left to do. Forced edges come first, since circumcentres must
+    /// not be tried while edges that still have to be cut are in the way.
     pub(super) fn run(&mut self, limit: usize) -> Result<(), BladeError> {
         // A triangulation has twice as many triangles as vertices.
         while self.next.len() <= limit / 2 {
@@ -220,7 +221,7 @@ impl<'a> Refinement<'a> {
         v as u32
     }
 
-    /// Puts the faces around a new vertex, and the forced edges of those faces, up for inspection.
+    /// Queues the faces around a new vertex, and the forced edges of those faces, for inspection.
     fn look_around(&mut self, v: u32) {
         for out in self.cdt.vertex(handle(v)).out_edges() {
             let Some(face) = out.face().as_inner() else {
@@ -263,7 +264,7 @@ impl<'a> Refinement<'a> {
         .min_by(|x, y| x.0.total_cmp(&y.0))
         .expect("three edges");
         let large = radius > LARGEST_RADIUS * target;
-        // In a sharp corner the point is the shape's own.
+        // In a sharp corner of the shape itself a pointed triangle cannot be avoided.
         let pointed = radius > POINTED * shortest
             && !self.sharp[opposite as usize]
             && radius > FLOOR * target;

@@ -14,8 +14,7 @@ use crate::venation::network::VeinSegment;
 
 /// Half-width of the mound in radii of the vein: the bundle sheath reaches beyond the vein itself.
 const HALF_WIDTH: f64 = 1.5;
-/// Veins rise to their full height while their radius goes from the least one meshed to this many
-/// times it.
+/// Ratio of a vein's radius to the least meshed one at which it has its full height.
 const FULL_AT: f64 = 1.5;
 
 /// Height of the veins over the lamina.

@@ -1,4 +1,4 @@
-//! Ageing: tissue dies where and when an age field says, and then holds something else.
+//! Ageing: an age field decides where and when tissue dies; dead tissue has other contents.
 
 use glam::DVec2;
 
@@ -7,10 +7,10 @@ use super::tissue::TissueError;
 use crate::optics::Contents;
 use crate::transport::DeathField;
 
-/// How far a leaf has aged, and what its dead tissue holds.
+/// How far a leaf has aged, and the contents of its dead tissue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Senescence {
-    /// What decides which tissue dies first, and how far it has come.
+    /// The order in which tissue dies, and how far ageing has come.
     pub source: AgeSource,
     /// Width of the transition from living to dead, in the unit of the source: 0.001 to 1 of the
     /// revenue, 0.001 to 1000 days.
@@ -19,26 +19,25 @@ pub struct Senescence {
     pub contents: Contents,
 }
 
-/// What decides which tissue dies first.
+/// The order in which tissue dies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(
     clippy::large_enum_variant,
     reason = "a leaf has one, and what copies freely is easier to change"
 )]
 pub enum AgeSource {
-    /// A transport leaf's cells die as they no longer pay for their supply (Remark 3.6 of
-    /// \[xia2007\]).
+    /// The cells of a transport leaf die when their revenue no longer covers their supply (Remark
+    /// 3.6 of \[xia2007\]).
     Revenue {
-        /// What cells earn now, as a share of what they earned when the leaf was full-grown: 1 is
-        /// summer, 0 all are dead.
+        /// The cells' revenue as a share of that of the full-grown leaf: 1 is summer, at 0 all are
+        /// dead.
         share: f64,
     },
-    /// Days of a course, at each place from when that begins to age.
+    /// Tissue follows a course, counted at each place from the day on which it begins to age.
     Day {
-        /// Days since the leaf began to age where it does so first, 0 to 10000; at 0 it has not
-        /// aged.
+        /// Days since the first place of the leaf began to age, 0 to 10000; at 0 it has not aged.
         day: f64,
-        /// What happens meanwhile, and where first.
+        /// The course of ageing, and its delays.
         course: Course,
     },
 }
@@ -94,7 +93,7 @@ impl Senescence {
         }
     }
 
-    /// The same on another day; `None` if it does not age by days.
+    /// The same ageing on another day; `None` if it is not by days.
     #[must_use]
     pub fn on_day(&self, day: f64) -> Option<Self> {
         match self.source {
@@ -106,7 +105,7 @@ impl Senescence {
         }
     }
 
-    /// Whether it can be told only from the cells of a transport leaf.
+    /// Whether it needs the cells of a transport leaf.
     pub fn needs_cells(&self) -> bool {
         match self.source {
             AgeSource::Revenue { .. } => true,
@@ -117,7 +116,7 @@ impl Senescence {
     }
 }
 
-/// An ageing leaf: how far its tissue has aged at each place.
+/// The ageing of a leaf at each of its places.
 #[derive(Clone, Debug)]
 pub struct Withering(Way);
 
@@ -134,10 +133,10 @@ enum Way {
 }
 
 impl Withering {
-    /// Ageing of the leaf that `place` describes; `deaths` tells when its cells die, if it has any,
-    /// and `seed` which patches come first.
+    /// Ageing of the leaf that `place` describes. `deaths` is the death field of its cells, if it
+    /// has any; `seed` decides which patches come first.
     ///
-    /// `None` if it cannot be told without cells.
+    /// `None` if cells are needed but missing.
     pub fn new(
         senescence: &Senescence,
         place: &Place<'_>,
@@ -166,7 +165,7 @@ impl Withering {
 
     /// Ageing by the deaths of a transport leaf's cells.
     pub fn by_revenue(field: DeathField, share: f64, blend: f64, dead: Contents) -> Self {
-        // So that at a share of 1 the first to die are still alive, and at 0 the last are dead.
+        // At a share of 1 even the first tissue to die is still alive; at 0 even the last is dead.
         let threshold = share * (1.0 + blend) - blend;
         Self(Way::Revenue {
             field: Box::new(field),
@@ -176,7 +175,7 @@ impl Withering {
         })
     }
 
-    /// How dead the tissue at a point (mm) is: 0 alive, 1 dead, a smooth step over the blend
+    /// Dead share of the tissue at a point (mm): 0 alive, 1 dead, with a smooth step over the blend
     /// between.
     pub fn dead_share(&self, point: DVec2) -> f64 {
         match &self.0 {
@@ -193,7 +192,8 @@ impl Withering {
         }
     }
 
-    /// What the tissue at a point (mm) holds between veins if `living` is what it held alive.
+    /// Contents of the tissue between veins at a point (mm); `living` are its contents before
+    /// ageing.
     pub fn contents(&self, living: Contents, point: DVec2) -> Contents {
         match &self.0 {
             Way::Revenue { dead, .. } => living.towards(*dead, self.dead_share(point)),

@@ -1,4 +1,4 @@
-//! A lamina without veins as an even sheet of triangles.
+//! A lamina without veins as a sheet of even triangles.
 
 use glam::DVec2;
 

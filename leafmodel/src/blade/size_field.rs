@@ -1,4 +1,4 @@
-//! How long the edges of the mesh are to be at each place.
+//! Target lengths of the mesh's edges.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use super::BladeForm;
 use super::vein_grid::VeinGrid;
 use crate::venation::network::VeinSegment;
 
-/// Edge over a vein's radius where relief has to be drawn: five vertices across its mound.
+/// Edge length over a vein's radius where the vein has relief: five vertices across its mound.
 const EDGE_PER_RADIUS: f64 = 0.6;
 /// Growth of the edge per unit of distance from a vein.
 const GRADING: f64 = 0.3;
@@ -16,7 +16,7 @@ const PLATEAU: f64 = 1.5;
 /// Delaunay triangles have edges up to twice their circumradius: aiming at this share of the
 /// longest edge allowed keeps them below it.
 const AIM: f64 = 0.75;
-/// No vein asks for edges shorter than this share of the longest.
+/// Shortest target edge at a vein, as a share of the longest edge.
 const SHORTEST: f64 = 1.0 / 16.0;
 
 /// Target edge length over the lamina, mm.
@@ -24,12 +24,13 @@ const SHORTEST: f64 = 1.0 / 16.0;
 pub(super) struct SizeField {
     longest: f64,
     veins: VeinGrid,
-    /// Of each vein.
+    /// A bound for each vein.
     bounds: Vec<Bound>,
 }
 
 impl SizeField {
-    /// Edges as `form` asks for: short by `veins`, growing linearly to the longest away from them.
+    /// The target lengths of `form`: short at `veins`, growing linearly with the distance from them
+    /// up to the longest.
     pub(super) fn new(form: &BladeForm, veins: &[VeinSegment]) -> Self {
         let longest = AIM * form.max_edge_mm;
         let shaping = if form.relief > 0.0 { veins } else { &[] };
@@ -68,11 +69,11 @@ impl SizeField {
     }
 }
 
-/// A bound of what a vein asks for, cheaper than the distance to it.
+/// A bound on the target of a vein that is cheaper than the distance to it.
 #[derive(Debug)]
 struct Bound {
     middle: DVec2,
-    /// Half the vein's length, and how far its least target holds.
+    /// Half the vein's length plus the distance over which its least target holds.
     reach: f64,
     /// The least target on its axis.
     least: f64,
@@ -89,7 +90,8 @@ impl Bound {
         }
     }
 
-    /// Whether the vein asks at `p` for no less than `target`, by more than rounding.
+    /// Whether the vein's target at `p` is certainly not below `target`, with a margin above
+    /// rounding.
     fn is_too_far(&self, p: DVec2, target: f64, longest: f64) -> bool {
         let spare = 1e-9 * (longest + self.reach);
         let near = self.reach + (target - self.least) * (1.0 / GRADING) + spare;

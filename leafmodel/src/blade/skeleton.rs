@@ -1,9 +1,10 @@
-//! The major veins as edges for the mesh: chains cut to the mesh's own lengths, clipped and welded.
+//! The major veins as edges for the mesh: chains resampled at the mesh's edge lengths, clipped and
+//! welded.
 //!
-//! A network as grown has nodes far closer together than a mesh needs, joins at any angle, and
-//! comes near the margin; taken as it is it would force slivers. So chains are resampled to the
-//! target edge length, points that would stand too close are welded into one, and veins end shortly
-//! before the margin.
+//! A grown network has nodes far closer together than a mesh needs, junctions at all angles, and
+//! veins close to the margin. Unchanged, it would force sliver triangles. So chains are resampled
+//! at the target edge length, points that would be too close together are welded into one, and
+//! veins end shortly before the margin.
 
 use std::collections::BTreeMap;
 
@@ -25,14 +26,14 @@ const CLEARANCE: f64 = 0.6;
 pub(super) struct Skeleton {
     /// Places, no two of them close.
     pub(super) points: Vec<DVec2>,
-    /// Pairs of points, lower number first, each pair once. Edges may still cross: the mesh takes
-    /// the first of them.
+    /// Pairs of points, lower number first, each pair once. Edges may still cross; the mesh then
+    /// uses the first one.
     pub(super) edges: Vec<[u32; 2]>,
 }
 
 impl Skeleton {
-    /// The skeleton of these veins inside `outline`. Thicker veins keep their course, thinner ones
-    /// give way.
+    /// The skeleton of these veins inside `outline`. Where veins conflict, the thicker one keeps
+    /// its course.
     pub(super) fn new(outline: &Outline, size: &SizeField, veins: &[VeinSegment]) -> Self {
         let graph = Graph::new(outline, size, veins);
         let mut welder = Welder::new(size.longest());
@@ -191,7 +192,7 @@ impl Graph {
             edges: Vec::new(),
             at: Vec::new(),
         };
-        // Ends of segments are the same node if they are the same bits: they come from one network.
+        // Ends of segments with the same bits are the same node, since they come from one network.
         let mut numbers = BTreeMap::new();
         let mut clear = Vec::new();
         for vein in veins {
@@ -225,7 +226,7 @@ impl Graph {
         let mut used = vec![false; self.edges.len()];
         let mut chains = Vec::new();
         let ends = (0..self.at.len() as u32).filter(|&n| self.at[n as usize].len() != 2);
-        // What is left after all chains with ends are closed loops, which may start anywhere.
+        // After all chains with ends only closed loops remain, which may start anywhere.
         for start in ends.chain(0..self.at.len() as u32) {
             for &edge in &self.at[start as usize] {
                 if !used[edge as usize] {

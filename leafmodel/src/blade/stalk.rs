@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-/// By how much the sides of a tube may lie inside the round stalk that they stand for, mm.
+/// How far the sides of a tube may lie inside the round stalk that they approximate, mm.
 const SAGITTA_MM: f64 = 0.01;
-/// Fewest and most sides.
+/// Least and greatest number of sides.
 const SIDES: [usize; 2] = [8, 48];
 
 /// Tubes in space. Lengths are millimetres.
@@ -29,7 +29,7 @@ pub struct StalkMesh {
 /// Why there is no tube.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum StalkError {
-    /// Not a way with a radius at each point.
+    /// There are fewer than two points, or not one radius for each.
     #[error(
         "a stalk needs two points or more and a radius for each: {points} points, {radii} radii"
     )]
@@ -39,13 +39,13 @@ pub enum StalkError {
         /// How many radii.
         radii: usize,
     },
-    /// A number that is not finite, a radius not above 0, or a point where the one before is.
+    /// A number is not finite, a radius is not above 0, or a point coincides with the one before.
     #[error("point {index} of a stalk has a bad place or radius")]
     BadPoint {
         /// Which.
         index: usize,
     },
-    /// The way turns back.
+    /// The polyline turns back.
     #[error("a stalk turns by 90° or more at point {index}")]
     Kink {
         /// At which point.
@@ -53,7 +53,7 @@ pub enum StalkError {
     },
 }
 
-/// What is wrong with tubes. None from [`StalkMesh::tube`] has any of it.
+/// What is wrong with a tube. Tubes from [`StalkMesh::tube`] have no defects.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum StalkDefect {
     /// An edge without exactly one triangle on each side of it.
@@ -73,12 +73,12 @@ pub enum StalkDefect {
 }
 
 impl StalkMesh {
-    /// A tube along `points` with a radius at each of them (both mm) and a hemisphere on either
-    /// end, about the end points.
+    /// A tube along `points` with a radius at each of them (both mm) and a hemisphere around each
+    /// end point.
     ///
     /// Cross-sections are regular polygons whose sides lie at most 10 µm inside the circle, 8 to 48
-    /// of them; they are carried along without twist (parallel transport). Bends must be wide
-    /// against the radius, or the inner side folds.
+    /// of them; they are carried along without twist (parallel transport). The radius of bends must
+    /// be large compared with that of the tube, or the inner side folds.
     ///
     /// # Errors
     ///
@@ -110,7 +110,7 @@ impl StalkMesh {
         }
         for i in 0..=last {
             across = (across - tangents[i] * across.dot(tangents[i])).normalize();
-            // Where the tube tapers its sides look a little along it.
+            // Where the tube tapers, normals are inclined along its axis.
             let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
             let slope = (radii_mm[before] - radii_mm[after]) / (lengths[after] - lengths[before]);
             let start = tube.positions.len();
@@ -152,7 +152,7 @@ impl StalkMesh {
     }
 
     /// A circle of latitude `up` on the sphere about `centre` whose pole lies towards `axis`. Rings
-    /// run counter-clockwise seen from the tube's far end; on its near end, whose pole looks the
+    /// run counter-clockwise seen from the tube's far end. On the near end, whose pole points the
     /// other way, that is `against` the axis.
     fn ring(
         &mut self,
@@ -212,11 +212,11 @@ impl StalkMesh {
     }
 
     /// Checks what every tube must satisfy: each edge has one triangle on either side, and
-    /// triangles look the way normals do.
+    /// triangles face the same way as normals.
     ///
     /// # Errors
     ///
-    /// [`StalkDefect`], the first found.
+    /// The first [`StalkDefect`] found.
     pub fn validate(&self) -> Result<(), StalkDefect> {
         let edges = |reversed: bool| {
             let mut edges: Vec<[u32; 2]> = Vec::with_capacity(3 * self.triangles.len());
@@ -249,7 +249,7 @@ impl StalkMesh {
     }
 }
 
-/// Sides of a polygon that stands for a circle of this radius, mm: its sagitta is
+/// Number of sides of a polygon that approximates a circle of this radius, mm: its sagitta is
 /// `r (1 − cos(π/n))`.
 fn sides(radius: f64) -> usize {
     let [fewest, most] = SIDES;
@@ -315,7 +315,7 @@ mod tests {
             let mesh = tube(30.0);
             assert_eq!(mesh.validate(), Ok(()));
             let n = sides(radius) as f64;
-            // What is longer is a prism more.
+            // A longer tube has the side of a prism in addition.
             let side = 2.0 * n * radius * libm::sin(PI / n);
             let more = tube(50.0).area() - mesh.area();
             assert!((more - 20.0 * side).abs() < 1e-9 * more, "{more}");

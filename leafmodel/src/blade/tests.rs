@@ -9,7 +9,7 @@ use crate::shape::outline::Outline;
 use crate::testing::fixed;
 use crate::venation::network::VeinSegment;
 
-/// A form without any bend, for tests to change.
+/// A form without any bend, which tests modify.
 pub(super) fn flat() -> BladeForm {
     BladeForm {
         fold: 0.0,
@@ -37,7 +37,7 @@ pub(super) fn ellipse(width: f64, length: f64, points: usize) -> Outline {
     Outline::new(margin, DVec2::ZERO, DVec2::new(0.0, length)).expect("an ellipse is simple")
 }
 
-/// A midrib with `pairs` of straight side veins that leave it at 45° and run out of most leaves.
+/// A midrib with `pairs` of straight side veins that leave it at 45° and extend beyond most leaves.
 pub(super) fn herringbone(length: f64, pairs: usize, radius: f64) -> Vec<VeinSegment> {
     let steps = 12 * (pairs + 1);
     let node = |i: usize| DVec2::new(0.0, length * i as f64 / steps as f64);
@@ -202,7 +202,7 @@ fn a_blade_curled_into_itself_is_refused() {
     );
 }
 
-/// A margin whose distance from a centre swings: lobes, teeth, narrow sinuses, no symmetry.
+/// A margin whose distance from a centre oscillates: lobes, teeth, narrow sinuses, no symmetry.
 fn lobed(points: usize, lobes: f64, depth: f64, skew: f64) -> Outline {
     let margin = (0..points)
         .map(|i| {

@@ -1,4 +1,4 @@
-//! What the tissue holds at every point of the lamina.
+//! Contents of the tissue at every point of the lamina.
 
 use std::sync::LazyLock;
 
@@ -12,7 +12,7 @@ use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 pub struct Tissue {
     /// Contents of the lamina between veins.
     pub lamina: Contents,
-    /// How they change in veins; structure stays at least 1.
+    /// Factors on these contents in veins; structure stays at least 1.
     pub vein_factors: VeinFactors,
     /// Radius, mm, from which a vein counts as fully developed. The factors act only partly on
     /// finer veins.
@@ -26,7 +26,7 @@ pub struct Tissue {
 }
 
 impl Tissue {
-    /// Size of patches where nothing is said, mm.
+    /// Default size of patches, mm.
     pub const MOTTLE_SCALE_MM: f64 = 1.0;
 
     /// Tissue with these contents, the usual veins and no mottle.
@@ -42,7 +42,8 @@ impl Tissue {
     }
 }
 
-/// A number of a tissue, or of what it is painted with, outside the range in which the model holds.
+/// A number of a tissue, or of anything painted on it, is outside the range in which the model
+/// holds.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("{field} is {value}, it must be {range}")]
 pub struct TissueError {
@@ -88,12 +89,12 @@ fn fields_of(whole: &str) -> PerConstituent<String> {
 const MOTTLED: [Constituent; 2] = [Constituent::Chlorophyll, Constituent::Carotenoids];
 
 impl Tissue {
-    /// Whether every field is in its range. The upper ends are far above any leaf; they keep what
-    /// follows finite in single precision and the search for veins local.
+    /// Checks that every field is in its range. Upper limits are far above the values of leaves;
+    /// they keep results finite in single precision and the search for veins local.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for the first field that is not, by name.
+    /// [`TissueError`] for the first field out of range, by name.
     pub fn validate(&self) -> Result<(), TissueError> {
         for (constituent, value) in *self.lamina {
             let field = LAMINA[constituent].as_str();
@@ -127,11 +128,11 @@ impl Tissue {
     /// in [−1, 1].
     ///
     /// Each of the contents is `C (1 + (f − 1) w)`, with its value `C` between veins, its factor
-    /// `f` and the veins' weight `w`. Structure, water and dry matter, where `f > 1`, are
-    /// `C (1 + (f − 1)(w + e))`: they come with a vein's thickness, so that their surplus goes on
-    /// growing with the radius (`e`, [`VeinCover::excess`]) while the concentrations of pigments do
-    /// not. Chlorophyll and carotenoids are multiplied by `1 + mottle share × mottle`. Structure is
-    /// at least 1, the others at least 0.
+    /// `f` and the veins' weight `w`. Structure, water and dry matter with `f > 1` are
+    /// `C (1 + (f − 1)(w + e))`: their surplus grows with a vein's thickness, so with its radius
+    /// (`e`, [`VeinCover::excess`]), whereas pigment contents do not. Chlorophyll and carotenoids
+    /// are multiplied by `1 + mottle share × mottle`. Structure is at least 1, the others at
+    /// least 0.
     #[must_use]
     pub fn contents(&self, cover: VeinCover, mottle: f64) -> Contents {
         self.contents_of(self.lamina, cover, mottle)
@@ -150,7 +151,7 @@ impl Tissue {
             if MOTTLED.contains(&constituent) {
                 *value *= patch;
             }
-            // A factor of 0 at full weight may round to just below nothing.
+            // A factor of 0 at full weight may round to slightly below 0.
             *value = value.max(constituent.least());
         }
         contents
@@ -292,7 +293,7 @@ pub(super) mod tests {
             thick[Constituent::Chlorophyll],
             full[Constituent::Chlorophyll]
         );
-        // Contents that veins lack do not become negative where they are thick.
+        // Contents with a factor below 1 do not become negative in thick veins.
         let mut dry = GREEN;
         dry.vein_factors[Constituent::Water] = 0.0;
         let drained = dry.contents(

@@ -1,7 +1,7 @@
 //! A flat lamina cut into triangles whose edges follow the margin and the major veins.
 //!
 //! Constrained Delaunay triangulation of margin and [`Skeleton`], refined by [`super::refine`],
-//! with the inside told from the outside by crossing the margin.
+//! with inside and outside distinguished by crossings of the margin.
 
 use glam::DVec2;
 use spade::Triangulation as _;
@@ -13,7 +13,7 @@ use super::skeleton::Skeleton;
 use crate::shape::outline::Outline;
 
 /// Neighbours on the margin closer than this share of the longest edge become one point: so short
-/// an edge carries no shape, but would not survive single precision.
+/// an edge does not matter to the shape and would not survive single precision.
 const SHORTEST_MARGIN_EDGE: f64 = 1e-3;
 /// Area of a triangle over that of the square on its edge, on average over refined meshes
 /// (measured).
@@ -49,7 +49,7 @@ pub(super) fn triangulate(
     Ok(inside(&refinement))
 }
 
-/// The margin without points that all but coincide with the one before.
+/// The margin without points that nearly coincide with the one before.
 fn margin_points(outline: &Outline, shortest: f64) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = Vec::with_capacity(outline.points().len());
     for &p in outline.points() {
@@ -98,7 +98,7 @@ fn inside(refinement: &Refinement) -> Triangulation {
             }
         }
     }
-    // Vertices keep their order; the frame is left out, as it bounds outer faces only.
+    // Vertices keep their order; those of the frame, which bound outer faces only, are left out.
     let points = cdt
         .vertices()
         .skip(FRAME)

@@ -1,6 +1,6 @@
-//! How much of a vein there is in the tissue at a point.
+//! The share of veins in the tissue at a point.
 
-/// Share that veins have in the tissue at a point.
+/// The share of veins in the tissue at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VeinCover {
     /// 0 between veins to 1 over a fully developed one; finer veins reach less.

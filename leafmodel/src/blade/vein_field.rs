@@ -1,4 +1,4 @@
-//! How far veins cover the lamina at any point of it.
+//! The cover of veins at any point of the lamina.
 
 use glam::DVec2;
 
@@ -7,10 +7,9 @@ use super::vein_cover::VeinCover;
 use super::vein_profile::{Profile, strength};
 use crate::venation::network::VeinSegment;
 
-/// The veins of a leaf, sorted into a uniform grid of cells that each know every segment within
-/// reach.
+/// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
 ///
-/// A query looks at one cell only and is exact: it gives what a search over all segments would, to
+/// A query looks at one cell only and gives exactly the result of a search over all segments, to
 /// the bit.
 #[derive(Clone, Debug)]
 pub struct VeinField {
@@ -26,7 +25,7 @@ pub struct VeinField {
     entries: Vec<u32>,
 }
 
-/// A vein segment made ready for many distances.
+/// A vein segment prepared for many distance queries.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     from: DVec2,
@@ -80,7 +79,7 @@ impl Segment {
 
 impl VeinField {
     /// Sorts the veins. With `texel_mm` > 0 the field is averaged over texels of that width, so
-    /// that veins thinner than a texel are neither lost nor broken; with 0 it is the field itself.
+    /// that veins thinner than a texel are neither lost nor broken; with 0 it is not averaged.
     ///
     /// # Errors
     ///
@@ -114,8 +113,8 @@ impl VeinField {
             (min, max) = (DVec2::ZERO, DVec2::ZERO);
         }
         let size = max - min;
-        // About a cell a segment, none much smaller than what the finest veins reach anyway, and
-        // never more than 4096 a side.
+        // About one cell per segment, with sides not much smaller than the reach of the finest
+        // veins, and at most 4096 cells per side.
         let even = (size.x * size.y / segments.len().max(1) as f64).sqrt();
         let cell = even
             .max(0.5 * (profile.sheath + profile.texel))
@@ -176,11 +175,10 @@ impl VeinField {
         )
     }
 
-    /// How far veins cover the tissue at a point given in millimetres: the strongest of those
-    /// nearby.
+    /// The cover of veins at a point in millimetres: that of the strongest vein nearby.
     #[must_use]
     pub fn cover(&self, point: DVec2) -> VeinCover {
-        // Outside the grid nothing reaches, and the nearest cell's segments say so themselves.
+        // No vein reaches points outside the grid; the segments of the nearest cell give 0 there.
         let (column, row) = self.cell_of(point);
         let cell = row * self.columns + column;
         let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
@@ -259,7 +257,7 @@ mod tests {
             texel in prop::sample::select(vec![0.0, 0.05, 1.0]),
         ) {
             let field = VeinField::new(&veins, &GREEN, texel).expect("all in range");
-            // Ends of veins too: there the distance changes its formula.
+            // Ends of veins are tested too, since the formula of the distance changes there.
             let ends = veins.iter().flat_map(|vein| [vein.from, vein.to]);
             for point in points.into_iter().map(DVec2::from).chain(ends) {
                 prop_assert_eq!(field.cover(point), over_all(&field, point));

@@ -1,4 +1,4 @@
-//! Which veins matter at a point: a grid of cells, each with the segments that reach into it.
+//! The veins that matter at a point: a grid of cells, each with the segments that reach into it.
 
 use glam::DVec2;
 
@@ -26,11 +26,11 @@ pub(super) struct NearVein {
     pub(super) radius: f64,
 }
 
-/// Most cells along a side: a leaf as long as this many times the reach needs no finer grid.
+/// Greatest number of cells along a side.
 const MOST_CELLS: f64 = 1024.0;
 
 impl VeinGrid {
-    /// Sorts segments; a query at distance up to `reach(segment)` from a segment will name it.
+    /// Sorts segments. A query within the distance `reach(segment)` of a segment finds it.
     pub(super) fn new(segments: Vec<VeinSegment>, reach: impl Fn(&VeinSegment) -> f64) -> Self {
         let reaches: Vec<f64> = segments.iter().map(reach).collect();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -90,7 +90,7 @@ impl VeinGrid {
         }
     }
 
-    /// The veins that may reach a point, each by its nearest point; in the order of the segments.
+    /// The nearest points of the veins that may reach a point, in the order of the segments.
     pub(super) fn near(&self, p: DVec2) -> impl Iterator<Item = NearVein> + '_ {
         let members = self.members(p).iter();
         members.map(move |&index| self.nearest(index, p))

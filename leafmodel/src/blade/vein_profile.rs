@@ -1,11 +1,10 @@
-//! How strongly a vein shows across its width, and how that is kept in a map of coarse texels.
+//! The profile of a vein across its width, and how maps of coarse texels preserve it.
 
 /// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in
 /// [0, 1].
 ///
-/// The exponent with which finer veins count less is one half by eye (no measurement known to us):
-/// with 1 the finest net all but vanishes beside the secondaries, with less than 0.3 all orders
-/// look alike.
+/// The exponent of one half is by eye; we know of no measurement. With 1 the finest net nearly
+/// vanishes beside the secondaries; below 0.3 all orders look alike.
 pub(super) fn strength(radius: f64, full_radius: f64) -> f64 {
     // A square root, unlike a power, is exact on every machine.
     (radius / full_radius).min(1.0).sqrt()
@@ -15,9 +14,9 @@ pub(super) fn strength(radius: f64, full_radius: f64) -> f64 {
 /// to 0 at `r + s`; continuous with its first derivative.
 ///
 /// With a texel width `h` it is the same profile averaged under a tent of half-width `h` (two
-/// texels wide, as bilinear look-up will use the map). What the vein covers in all,
-/// `∫ w dd = 2r + s`, is then kept in a row of texels whatever their size, and a vein thinner than
-/// a texel is wide and faint instead of broken.
+/// texels wide, as bilinear look-up will use the map). The total cover, `∫ w dd = 2r + s`, is then
+/// preserved in a row of texels of any size, and a vein thinner than a texel appears wide and faint
+/// instead of broken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     /// Sheath width `s`, mm, > 0.
@@ -41,8 +40,7 @@ impl Profile {
         if d - h >= r + self.sheath {
             return 0.0;
         }
-        // The tent hardly changes so smooth a profile, and second differences would lose their
-        // digits.
+        // Here the tent hardly changes the profile, and second differences would lose precision.
         if h < 1e-3 * self.sheath {
             return self.sharp(d, r);
         }
@@ -70,7 +68,7 @@ impl Profile {
         inside + (r + 0.5 * s) * beyond
     }
 
-    /// What a vein of radius `r` has beyond a full one at the distance `d` from its axis:
+    /// Excess of a vein of radius `r` over a fully developed one at the distance `d` from its axis:
     /// `r / r_full − 1` on the axis, falling as `(1 − (d/r)²)²` to 0 at the vein's edge; 0 for
     /// veins up to `r_full`.
     ///

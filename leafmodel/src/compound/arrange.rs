@@ -1,4 +1,4 @@
-//! Where leaflets and stalks are.
+//! Places of leaflets and stalks.
 
 use glam::DVec2;
 
@@ -6,10 +6,10 @@ use super::{
     Arrangement, CompoundForm, CompoundLeaf, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
 };
 
-/// Straight pieces of a rachis between two leaflets.
+/// Number of straight pieces of a rachis between two leaflets.
 const PIECES: u32 = 4;
 
-/// Where something stands on an axis, and how it leaves it.
+/// The place on an axis where a leaflet or pinna is inserted, and its angle.
 struct Insertion {
     /// Point and direction of the axis there.
     at: DVec2,
@@ -21,8 +21,8 @@ struct Insertion {
     size: f64,
 }
 
-/// A point on an axis that starts at `base` towards `heading`, is `length` long and turns evenly;
-/// with its direction there.
+/// A point on an axis of length `length` that starts at `base` towards `heading` and turns evenly,
+/// and the axis' direction there.
 fn on_arc(base: DVec2, heading: f64, length: f64, turn: f64, along: f64) -> (DVec2, f64) {
     let turned = turn * along / length;
     // Chord of the arc: sin(t/2)/(t/2) of its length, half-way between the directions.
@@ -36,7 +36,7 @@ fn on_arc(base: DVec2, heading: f64, length: f64, turn: f64, along: f64) -> (DVe
 }
 
 impl Feather {
-    /// Linear between first, middle and last.
+    /// Size at a share of the rachis, linear between first, middle and last.
     fn size(&self, share: f64) -> f64 {
         let [first, middle, last] = self.sizes;
         if share < 0.5 {
@@ -46,10 +46,11 @@ impl Feather {
         }
     }
 
-    /// What stands on a rachis of this length, from its base on.
+    /// The insertions on a rachis of this length, from its base on.
     fn insertions(&self, base: DVec2, heading: f64, length: f64) -> Vec<Insertion> {
         let pairs = f64::from(self.pairs);
-        // A terminal leaflet stands a gap beyond the last pair, which else is the rachis' end.
+        // A terminal leaflet is inserted one gap beyond the last pair; without one the last pair is
+        // at the rachis' end.
         let gaps =
             (pairs - 1.0 + self.alternation + if self.terminal { 1.0 } else { 0.0 }).max(1e-9);
         let gap = length / gaps;
@@ -95,7 +96,7 @@ struct Builder<'p> {
     leaf: CompoundLeaf,
 }
 
-/// Carries out a checked plan.
+/// Arranges the leaflets of a checked plan.
 pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
     let mut builder = Builder {
         plan,
@@ -106,7 +107,7 @@ pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
         },
     };
     let end = DVec2::new(0.0, plan.petiole * unit);
-    // Its radius is that of all it bears, which is known in the end.
+    // Its radius depends on everything it bears, which is known only at the end.
     let has_petiole = plan.petiole > 0.0;
     if has_petiole {
         builder.stalk(StalkKind::Petiole, vec![DVec2::ZERO, end], Vec::new());
@@ -158,13 +159,12 @@ impl Builder<'_> {
         });
     }
 
-    /// Cross-sections add up: a stalk is as thick as all the petiolules together that it bears.
+    /// Cross-sections add up: that of a stalk is the sum of those of the petiolules that it bears.
     fn radius(&self, flow: f64) -> f64 {
         self.plan.stalk_radius_mm * flow.sqrt()
     }
 
-    /// A leaflet and its stalk; gives what it needs of its rachis, in units of the largest
-    /// leaflet's.
+    /// Adds a leaflet and its stalk; returns its flow, in units of the largest leaflet's.
     fn leaflet(&mut self, insertion: &Insertion, scale: f64) -> f64 {
         let angle = insertion.heading + insertion.angle;
         let stalk = self.plan.petiolule * scale * self.unit;
@@ -191,7 +191,7 @@ impl Builder<'_> {
         flow
     }
 
-    /// An axis and what stands on it; gives what it needs of the stalk below.
+    /// Adds an axis and its leaflets or pinnae; returns their total flow.
     fn feather(
         &mut self,
         kind: StalkKind,
@@ -209,7 +209,7 @@ impl Builder<'_> {
             .collect();
         let pieces = PIECES * (feather.pairs + 1);
         let (mut points, mut radii) = (Vec::new(), Vec::new());
-        // Evenly, and where something stands.
+        // Evenly spaced places, and the insertions.
         let mut places: Vec<f64> = (0..=pieces)
             .map(|i| length * f64::from(i) / f64::from(pieces))
             .chain(insertions.iter().map(|insertion| insertion.along))
@@ -218,7 +218,7 @@ impl Builder<'_> {
         places.dedup_by(|a, b| *a - *b < 1e-9 * length);
         for along in places {
             points.push(on_arc(base, heading, length, feather.turn, along).0);
-            // What stands farther out; at the very end, what stands there.
+            // The flow of all insertions farther out; at the very end, of those there.
             let beyond = insertions.iter().zip(&flows);
             let reached = along.min(length * (1.0 - 1e-9));
             let flow: f64 = beyond
@@ -232,7 +232,7 @@ impl Builder<'_> {
         flows.iter().sum()
     }
 
-    /// A pinna: its leaflets, after a bare stalk.
+    /// Adds a pinna: a bare stalk, then its leaflets.
     fn pinna(&mut self, leaflets: &Feather, insertion: &Insertion, stalk: f64, length: f64) -> f64 {
         let heading = insertion.heading + insertion.angle;
         let size = insertion.size;
@@ -259,7 +259,7 @@ impl Builder<'_> {
         flow
     }
 
-    /// Leaflets around the petiole's end, from right to left.
+    /// Adds leaflets around the petiole's end, from right to left.
     fn fan(&mut self, at: DVec2, leaflets: u32, spread: f64, [outer, middle]: [f64; 2]) -> f64 {
         let mut flow = 0.0;
         for i in 0..leaflets {

@@ -7,7 +7,7 @@ use crate::leaf::{Lamina, LeafPlan};
 use crate::shape::outline::Outline;
 use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 
-/// Nodes of stalks nearer to each other than this are one, mm.
+/// Nodes of stalks nearer together than this are merged, mm.
 const SAME_MM: f64 = 1e-7;
 
 /// A leaf in the plane, mm: a simple one with its petiole along −y, a compound one with its
@@ -40,8 +40,8 @@ impl FlatLeaf {
         })
     }
 
-    /// A compound leaf; `laminas` are those of its different leaflets. `None` if scaling made
-    /// something of no size.
+    /// A compound leaf; `laminas` are those of its different leaflets. `None` if scaling made a
+    /// part vanish.
     pub fn compound(leaf: &CompoundLeaf, laminas: &[&Lamina]) -> Option<Self> {
         let mut graph = Graph::default();
         for (points, radii) in joined_stalks(leaf) {
@@ -89,12 +89,12 @@ fn placed(outline: &Outline, leaflet: &PlacedLeaflet) -> Option<Outline> {
     Outline::new(points, place(outline.base()), place(outline.apex())).ok()
 }
 
-/// A network in the making.
+/// A network under construction.
 #[derive(Default)]
 struct Graph {
     nodes: Vec<VeinNode>,
     edges: Vec<VeinEdge>,
-    /// Nodes of stalks, the first ones.
+    /// Number of nodes of stalks; they come first.
     stalks: usize,
     sources: u32,
 }

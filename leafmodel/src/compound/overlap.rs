@@ -1,12 +1,12 @@
-//! Whether leaflets are in each other's way.
+//! Tests for overlapping leaflets.
 
 use glam::DVec2;
 
 use super::{CompoundError, CompoundLeaf, StalkKind};
 use crate::shape::outline::Outline;
 
-/// How far a leaflet may reach over an axis, in lengths of the leaflet: a tolerance for rounding at
-/// a base that lies on the axis.
+/// How far a leaflet may overlap an axis, in lengths of the leaflet: a tolerance for rounding at a
+/// base on the axis.
 const TOUCH: f64 = 1e-6;
 
 /// Refuses leaflets that overlap each other or lie over an axis.
@@ -31,7 +31,7 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
             (points, low, high)
         })
         .collect();
-    // In the leaflet's own frame its margin answers quickly.
+    // Points are tested in the leaflet's own frame, where its margin is indexed.
     let back = |number: usize, p: DVec2| {
         let leaflet = &leaf.leaflets[number];
         let axis = super::direction(leaflet.angle);
@@ -73,8 +73,8 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
                 if from.cmpgt(*high).any() || low.cmpgt(to).any() {
                     continue;
                 }
-                // The end of a stalk may touch a base that sits on it: pieces are looked at but for
-                // a touch at their ends.
+                // The end of a stalk may touch a base that sits on it, so touches at the ends of
+                // pieces are ignored.
                 let [a, b] = [piece[0], piece[1]].map(|p| back(leaflet, p));
                 let outline = of(leaflet);
                 let touch = (TOUCH * outline.length() / a.distance(b)).min(0.5);

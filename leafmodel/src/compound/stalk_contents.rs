@@ -1,4 +1,4 @@
-//! What stalks hold.
+//! Contents of stalks.
 
 use super::WholeLeaf;
 use crate::blade::vein_cover::VeinCover;
@@ -7,13 +7,14 @@ use crate::optics::{Contents, PerConstituent};
 use crate::venation::network::VeinSegment;
 
 impl WholeLeaf {
-    /// What petiole and rachis hold, the same everywhere: the contents of a fully developed vein at
-    /// a blade's base. They age as the tissue there does. Stalks of a compound leaf age as the mean
-    /// of its different blades.
+    /// Contents of petiole and rachis, uniform along them: those of a fully developed vein at a
+    /// blade's base. They age like the tissue there; stalks of a compound leaf age like the mean of
+    /// its different blades.
     ///
     /// # Errors
     ///
-    /// [`LeafError`] if the leaf is not of this plan and its cells earn nothing.
+    /// [`LeafError`] if the plan's ageing needs cells that this leaf, grown from another plan,
+    /// lacks.
     pub fn stalk_contents(&self, plan: &LeafPlan) -> Result<Contents, LeafError> {
         let living = plan.tissue.lamina;
         let mut lamina = living;
@@ -34,7 +35,7 @@ impl WholeLeaf {
     }
 }
 
-/// What the tissue at the base of a blade holds between veins.
+/// Contents of the tissue between veins at the base of a blade.
 fn withered(blade: &Leaf, plan: &LeafPlan, living: Contents) -> Result<Contents, LeafError> {
     let lamina = &blade.lamina;
     let veins: Vec<VeinSegment> = lamina.network.segments().collect();

@@ -1,4 +1,4 @@
-//! A whole leaf in space: blades, stalks, and the place of each blade.
+//! A whole leaf in space: blades, stalks and the place of each blade.
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 
@@ -12,7 +12,7 @@ use crate::venation::chance::{Use, bits, uniform};
 
 /// Random numbers for the tilts of leaflets come after those for their seeds.
 const FIRST_TILT: u64 = 1 << 32;
-/// By how much the foot of the whole leaf is thicker, and over how many radii.
+/// Relative thickening of the foot of the whole leaf, and its length in radii.
 const FOOT: f64 = 0.35;
 const FOOT_RADII: f64 = 6.0;
 /// Longest piece of an axis in space, as a share of its length.
@@ -21,7 +21,7 @@ const PIECE: f64 = 1.0 / 40.0;
 /// A blade in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Which of [`WholeLeaf::blades`].
+    /// Its index in [`WholeLeaf::blades`].
     pub blade: usize,
     /// From the blade's own frame to the leaf's; may mirror.
     pub to_leaf: DAffine3,
@@ -30,18 +30,18 @@ pub struct Placement {
 /// A simple or compound leaf in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeLeaf {
-    /// The different blades; with a petiole each, that of the leaf or the stalk of the leaflet.
+    /// The different blades, each with its petiole or petiolule.
     pub blades: Vec<Leaf>,
-    /// Where they stand.
+    /// The places of blades.
     pub placements: Vec<Placement>,
     /// Petiole, rachis and rachides of pinnae of a compound leaf, if it has any.
     pub axes: Option<StalkMesh>,
-    /// A compound leaf as it lies in the plane.
+    /// The flat arrangement of a compound leaf; `None` for a simple one.
     pub flat: Option<CompoundLeaf>,
 }
 
 /// The plans of all blades of a leaf: the leaf's own, or its different leaflets at the size of the
-/// largest, each with a seed of its own and the leaflet's stalk for a petiole.
+/// largest, each with its own seed and with its petiolule as petiole.
 pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
     let petiole = PetiolePlan {
         length: form.petiolule,
@@ -58,16 +58,16 @@ pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
 }
 
 impl WholeLeaf {
-    /// Grows everything.
+    /// Grows blades and stalks.
     ///
     /// # Errors
     ///
-    /// [`CompoundError`]; of a simple leaf only [`CompoundError::Leaflet`].
+    /// [`CompoundError`]; for a simple leaf only [`CompoundError::Leaflet`].
     pub fn grow(plan: &LeafPlan) -> Result<Self, CompoundError> {
         let Some(form) = &plan.compound else {
             return Ok(Self::simple(Leaf::grow(plan)?));
         };
-        // Leaflets in each other's way cost no veins.
+        // Overlap is checked before any veins are grown.
         let flat = form.arrange(plan)?;
         let plans = leaflet_plans(plan, form);
         let blades: Result<Vec<Leaf>, LeafError> = plans.iter().map(Leaf::grow).collect();
@@ -165,8 +165,8 @@ impl Bend {
         }
     }
 
-    /// Where a point of the plane goes. As [`crate::blade::BladeForm::curl`] has it, lengths are
-    /// kept.
+    /// The place in space of a point of the plane. Lengths are preserved, as by
+    /// [`crate::blade::BladeForm::curl`].
     fn place(&self, p: DVec2) -> DVec3 {
         let angle = self.curvature * p.y;
         if angle.abs() < 1e-6 {
@@ -180,7 +180,7 @@ impl Bend {
         )
     }
 
-    /// The turn of the plane there.
+    /// The rotation of the plane at a point.
     fn turn(&self, p: DVec2) -> DMat3 {
         about(DVec3::X, -self.curvature * p.y)
     }
@@ -200,7 +200,7 @@ impl Bend {
         let linear = self.turn(leaflet.foot) * raised * turned * tilted * leaflet.scale;
         let foot = DAffine3::from_mat3_translation(linear, self.place(leaflet.foot));
         let side = if leaflet.mirrored { -1.0 } else { 1.0 };
-        // The foot of its own stalk comes to stand on the axis.
+        // Moves the foot of its petiolule onto the axis.
         foot * DAffine3::from_translation(DVec3::Y * (form.petiolule * unit))
             * DAffine3::from_scale(DVec3::new(side, 1.0, 1.0))
     }
@@ -233,7 +233,7 @@ impl Bend {
     }
 }
 
-/// The right-handed turn about a unit vector.
+/// The right-handed rotation about a unit vector.
 fn about(axis: DVec3, angle: f64) -> DMat3 {
     let (sin, cos) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
     DMat3::from_quat(DQuat::from_xyzw(

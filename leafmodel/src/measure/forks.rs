@@ -6,7 +6,7 @@ use super::statistics::median;
 /// Steps of Newton's method; it converges in a handful, in any case from below.
 const NEWTON_STEPS: usize = 60;
 
-/// What junctions are like.
+/// Measures of junctions.
 pub(super) struct Forks {
     /// Nodes with three or more edges.
     pub(super) junctions: usize,
@@ -14,18 +14,19 @@ pub(super) struct Forks {
     pub(super) degree_3_share: Option<f64>,
     /// Median angle between the daughters of a fork.
     pub(super) angle_deg: Option<f64>,
-    /// Median angle by which the wider daughter departs from the parent's direction.
+    /// Median deflection of the wider daughter from the parent's direction.
     pub(super) wide_deg: Option<f64>,
-    /// The same for the finer one.
+    /// Median deflection of the finer daughter.
     pub(super) fine_deg: Option<f64>,
     /// Median of `r_parentⁿ / Σ r_childⁿ`.
     pub(super) murray_ratio: Option<f64>,
-    /// Median of the `n` that makes that 1.
+    /// Median of the `n` for which that ratio is 1.
     pub(super) murray_exponent: Option<f64>,
 }
 
 impl Forks {
-    /// Looks at every junction. A *fork* has one vein that leads to it, and others that lead away.
+    /// Measures every junction. A *fork* is a junction with one vein that leads to it and two or
+    /// more that lead away.
     pub(super) fn new(skeleton: &Skeleton, exponent: f64) -> Self {
         let (mut junctions, mut of_degree_3) = (0, 0);
         let (mut angles, mut wides, mut fines) = (Vec::new(), Vec::new(), Vec::new());
@@ -54,8 +55,8 @@ impl Forks {
                 wides.push(angle_deg(arrival, wide));
                 fines.push(angle_deg(arrival, fine));
             }
-            // A vein that goes on tapers from its parent's radius to its own along its first edge:
-            // its far end counts.
+            // Along its first edge a continuing vein tapers from its parent's radius to its own, so
+            // the radius at the far end is used.
             let parent = skeleton.edge(parent).radius_to;
             let shares = out.iter().map(|&e| skeleton.edge(e).radius_to / parent);
             if murray {
@@ -77,15 +78,15 @@ impl Forks {
     }
 }
 
-/// The `n > 0` for which `Σ xᵢⁿ = 1`. There is one, and only one, if all of several `xᵢ` are below
-/// 1.
+/// The `n > 0` for which `Σ xᵢⁿ = 1`. It exists and is unique if there are several `xᵢ`, all
+/// below 1.
 fn fitted_exponent(shares: &(impl Iterator<Item = f64> + Clone)) -> Option<f64> {
     let least = shares.clone().fold(f64::INFINITY, f64::min);
     if shares.clone().any(|x| x >= 1.0) {
         return None;
     }
-    // If all were as small as the least. The sum falls and is convex, so Newton's method comes from
-    // the left and stays there.
+    // Starts at the solution for all `xᵢ` equal to the least one. The sum is decreasing and convex,
+    // so Newton's method converges from the left.
     let mut n = libm::log(shares.clone().count() as f64) / -libm::log(least);
     for _ in 0..NEWTON_STEPS {
         let (mut sum, mut slope) = (-1.0, 0.0);

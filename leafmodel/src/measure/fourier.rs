@@ -1,5 +1,5 @@
-//! Elliptic Fourier descriptors: a margin as a sum of ellipses, free of size, place, direction and
-//! starting point.
+//! Elliptic Fourier descriptors: a margin as a sum of ellipses, independent of size, place,
+//! direction and starting point.
 //!
 //! # Source
 //!
@@ -11,7 +11,7 @@ use glam::{DMat2, DVec2};
 
 use crate::shape::outline::Outline;
 
-/// Ellipses in the sum.
+/// Number of ellipses in the sum.
 pub(super) const HARMONICS: usize = 20;
 
 /// A first ellipse whose squared axes differ by less than this share is a circle, which has no
@@ -22,13 +22,13 @@ const ROUND: f64 = 1e-9;
 /// `x = Σ a cos nt + b sin nt`, `y = Σ c cos nt + d sin nt` about its mean.
 ///
 /// The unit is the first ellipse's larger half axis, which lies along x, so that the first harmonic
-/// is `1, 0, 0, d`. Of that axis' two ends the one nearer to the apex is at +x, or, where the axis
-/// lies rather across the midrib, the one to the right. If the first ellipse is a circle, +x is the
+/// is `1, 0, 0, d`. Of the two ends of that axis, the one nearer to the apex is at +x; if the axis
+/// lies rather across the midrib, the right one is. If the first ellipse is a circle, +x is the
 /// direction of the midrib.
 pub(super) fn descriptors(outline: &Outline) -> Vec<f64> {
     let ellipses = coefficients(outline.points());
     let midrib = (outline.apex() - outline.base()) / outline.length();
-    // Columns: what cos and sin of the first harmonic are multiplied by.
+    // Columns: the coefficients of cos and sin of the first harmonic.
     let (cosine, sine) = (ellipses[0].x_axis, ellipses[0].y_axis);
     let (mixed, apart) = (
         2.0 * cosine.dot(sine),

@@ -8,7 +8,7 @@ use super::statistics::{mean, variation};
 /// Length over which a secondary's angle is taken, as a share of the midrib's.
 const CHORD: f64 = 0.05;
 
-/// Where the coarser veins are.
+/// Measures of the midrib and of its secondaries and tertiaries.
 #[derive(Debug, Default)]
 pub(super) struct Hierarchy {
     /// Length of the midrib.
@@ -19,7 +19,7 @@ pub(super) struct Hierarchy {
     pub(super) right: usize,
     /// Mean distance along the midrib between neighbours on one side.
     pub(super) spacing_mm: Option<f64>,
-    /// Standard deviation of that over its mean.
+    /// Standard deviation of that distance over its mean.
     pub(super) spacing_cv: Option<f64>,
     /// Mean angle between secondaries and the midrib's direction to the apex.
     pub(super) secondary_deg: Option<f64>,
@@ -67,8 +67,8 @@ impl Hierarchy {
     }
 }
 
-/// The edge of an order in which a vein goes on from the end of another: the largest
-/// `r (1 + cos φ)`, as in [`crate::venation`].
+/// The edge of this order in which a vein continues from the end of another edge: that with the
+/// largest `r (1 + cos φ)`, as in [`crate::venation`].
 fn continuation(skeleton: &Skeleton, edge: u32, order: u8) -> Option<u32> {
     let out = skeleton.topology.leaving(skeleton.edge(edge).to);
     let mut same = out
@@ -91,7 +91,7 @@ fn continuation(skeleton: &Skeleton, edge: u32, order: u8) -> Option<u32> {
     Some(same.fold(first, better))
 }
 
-/// The point of a vein at distance `length` from its start, or its end.
+/// The point of a vein at the distance `length` from its start, or its end if it is shorter.
 fn follow(skeleton: &Skeleton, edge: u32, length: f64) -> DVec2 {
     let order = skeleton.edge(edge).order;
     let (mut edge, mut left) = (edge, length);
@@ -110,7 +110,7 @@ fn follow(skeleton: &Skeleton, edge: u32, length: f64) -> DVec2 {
     }
 }
 
-/// The vein of order 1 that starts widest, and at every branching goes on widest and straightest.
+/// The widest vein of order 1 at its start, followed along the widest and straightest branches.
 struct Midrib {
     nodes: Vec<u32>,
     /// Length from the base to each node.
@@ -118,7 +118,7 @@ struct Midrib {
 }
 
 impl Midrib {
-    /// The midrib, if any vein of order 1 starts anywhere; of equally wide ones that nearest to the
+    /// The midrib; `None` without a vein of order 1. Of equally wide ones it is the nearest to the
     /// base.
     fn new(skeleton: &Skeleton, base: DVec2) -> Option<Self> {
         let distance = |edge: u32| (skeleton.place(skeleton.edge(edge).from) - base).length();
@@ -142,7 +142,7 @@ impl Midrib {
         };
         let mut next = Some(first);
         let mut length = 0.0;
-        // A vein that crosses itself runs in a circle once the crossing is a node.
+        // A vein that crosses itself contains a cycle once the crossing is a node.
         let mut seen = vec![false; skeleton.nodes().len()];
         while let Some(edge) = next {
             let e = skeleton.edge(edge);

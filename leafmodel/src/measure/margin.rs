@@ -1,21 +1,22 @@
-//! The blade seen from its midrib: how wide it is at each height, and its convex hull.
+//! Extents of the blade along and across its midrib, and its convex hull.
 
 use glam::DVec2;
 
 use crate::shape::outline::Outline;
 
-/// Widths that differ by less than this share are equally wide: rounding only.
+/// Widths that differ by less than this share, which is rounding, count as equal.
 const EQUALLY_WIDE: f64 = 1e-9;
 
-/// Size of a margin in the frame of its midrib.
+/// Extents of a margin in the frame of its midrib.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
     /// Lowest and highest point of the margin along the midrib, mm from the base.
     pub(super) along: (f64, f64),
-    /// Largest distance across the midrib of two points of the margin at one height, mm.
+    /// Greatest width: the largest distance across the midrib between two points of the margin at
+    /// the same height, mm.
     pub(super) width: f64,
-    /// That height, mm from the base; the middle of the lowest and the highest of equally wide
-    /// ones.
+    /// Height of the greatest width, mm from the base; of several, the middle between the lowest
+    /// and the highest.
     pub(super) widest: f64,
 }
 
@@ -81,7 +82,8 @@ pub(super) fn hull_area(outline: &Outline) -> f64 {
     0.5 * doubled
 }
 
-/// Half of the hull of points sorted one way, without its last point, which starts the other half.
+/// Half of the hull of points sorted in one direction, without its last point, which starts the
+/// other half.
 fn chain(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut hull: Vec<DVec2> = Vec::new();
     for p in points {

@@ -6,10 +6,10 @@ use crate::venation::areole::{Areoles, OUTSIDE};
 /// How loops are nested.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Nesting {
-    /// Mean over the inner nodes of the loop tree of smaller over larger branch, counted in
-    /// areoles; in (0, 1].
+    /// Mean, over the inner nodes of the loop tree, of the areoles in the smaller branch over those
+    /// in the larger; in (0, 1].
     pub(super) mean: Option<f64>,
-    /// The same, weighted by the areoles below the node less one.
+    /// The same, weighted by the number of areoles below the node minus one.
     pub(super) weighted: Option<f64>,
     /// Strahler number of the loop tree: 0 without areoles, 1 for one.
     pub(super) strahler: u32,
@@ -17,9 +17,9 @@ pub(super) struct Nesting {
 
 /// Removes veins, finest first, and records which loops merge.
 ///
-/// Veins are taken from junction to junction, with their mean radius; equal ones in the order of
-/// their numbers. Veins towards the outside stay, so that groups of areoles that share no vein have
-/// trees of their own; all are counted together.
+/// Veins are removed from junction to junction, in the order of their mean radius, equal ones in
+/// the order of their numbers. Veins towards the outside stay, so groups of areoles that share no
+/// vein have separate trees; all trees are counted together.
 pub(super) fn nesting(found: &Areoles) -> Nesting {
     let chains = found.chains();
     let mut order: Vec<(u64, u32)> = (0..chains.len() as u32)

@@ -1,4 +1,4 @@
-//! Which edges meet at a node, and in which direction veins run.
+//! The edges that meet at a node, and the directions of veins.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use crate::venation::network::VeinEdge;
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
 
-/// Edges over which directions at a junction are taken, but never past the next junction.
+/// Number of edges over which directions at a junction are taken, at most up to the next junction.
 const LOOK: usize = 4;
 
 /// A plane graph with its edges sorted by the nodes at their ends.
@@ -36,7 +36,7 @@ impl<'a> Skeleton<'a> {
         &self.graph.edges()[edge as usize]
     }
 
-    /// Length of the veins of each order, mm, from order 1 to the last there is.
+    /// Length of the veins of each order, mm, from order 1 to the finest.
     pub(super) fn lengths_by_order(&self) -> Vec<f64> {
         let mut lengths = vec![0.0; usize::from(u8::MAX)];
         for edge in self.graph.edges() {

@@ -1,9 +1,9 @@
-//! How much of the veins would suffice to connect everything.
+//! The shortest part of the veins that connects the whole network.
 
 use crate::venation::areole::Chains;
 
-/// Length of the shortest part of the veins, taken from junction to junction as wholes, that still
-/// connects what the network connects, over the length of all veins (Kruskal). None without veins.
+/// Length of the minimum spanning forest of the veins, taken from junction to junction, over the
+/// length of all veins (Kruskal's algorithm). `None` without veins.
 pub(super) fn ratio(chains: &Chains) -> Option<f64> {
     let total: f64 = chains.lengths.iter().sum();
     let mut order: Vec<(u64, u32)> = chains
@@ -34,7 +34,7 @@ impl Sets {
         Self((0..count as u32).collect())
     }
 
-    /// The number that stands for the set of another.
+    /// The number that represents the set of another.
     pub(super) fn leader(&mut self, mut of: u32) -> u32 {
         while self.0[of as usize] != of {
             self.0[of as usize] = self.0[self.0[of as usize] as usize];
@@ -43,8 +43,8 @@ impl Sets {
         of
     }
 
-    /// Joins two sets; gives the leader that stays and the one that does not, or nothing if they
-    /// were one.
+    /// Joins two sets; returns the leader that remains and the one that does not, or `None` if they
+    /// were the same set.
     pub(super) fn join(&mut self, a: u32, b: u32) -> Option<(u32, u32)> {
         let (a, b) = (self.leader(a), self.leader(b));
         let (stays, goes) = (a.min(b), a.max(b));

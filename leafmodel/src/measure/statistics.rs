@@ -23,7 +23,8 @@ pub(super) fn median(values: &mut [f64]) -> Option<f64> {
     lower.map(|lower| 0.5 * (lower + upper))
 }
 
-/// Standard deviation (of a sample, `n − 1`) over mean; none below two values or about a mean of 0.
+/// Standard deviation (of a sample, `n − 1`) over mean; `None` for fewer than two values or a mean
+/// of 0.
 pub(super) fn variation(values: &[f64]) -> Option<f64> {
     let mean = mean(values)?;
     if values.len() < 2 || mean == 0.0 {

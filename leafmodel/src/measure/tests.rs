@@ -40,7 +40,7 @@ fn a_square_lattice_has_the_density_areoles_and_spanning_tree_of_one() {
     near(&measures, "areole_area_cv", 0.0);
     near(&measures, "areole_circularity_median", PI / 4.0);
     near(&measures, "freely_ending_veinlet_count", 0.0);
-    // Corners of the lattice are no junctions; the other nodes on its rim have three edges, those
+    // Corners of the lattice are not junctions; the other nodes on its rim have three edges, those
     // inside four.
     let (rim, inside) = (4.0 * (count - 1.0), (count - 1.0) * (count - 1.0));
     near(&measures, "junction_count", rim + inside);
@@ -176,7 +176,8 @@ fn a_binary_tree_forks_at_its_angle_and_obeys_its_murrays_law() {
     for _ in 0..7 {
         let mut next = Vec::new();
         for (tip, direction, radius) in tips {
-            // One daughter carries 0.7 of the flow and departs by 20°, the other 0.3 by 35°.
+            // One daughter carries 0.7 of the flow with a deflection of 20°, the other 0.3 with
+            // 35°.
             for (share, degrees) in [(0.7, 20.0_f64), (0.3, -35.0)] {
                 let turned = DVec2::from_angle(degrees.to_radians()).rotate(direction) * 0.6;
                 let node = places.len() as u32;
@@ -191,7 +192,7 @@ fn a_binary_tree_forks_at_its_angle_and_obeys_its_murrays_law() {
     let veins = wide(&places, &edges);
     let blade = rectangle((-10.0, -10.0), (10.0, 10.0));
     let measures = measure(&blade, &veins, exponent);
-    // Branches of the far generations cross; those junctions are no forks.
+    // Branches of later generations cross; those junctions are not forks.
     near(&measures, "branching_angle_deg_median", 55.0);
     near(&measures, "branching_wide_deflection_deg_median", 20.0);
     near(&measures, "branching_fine_deflection_deg_median", 35.0);
@@ -336,7 +337,7 @@ fn a_grown_leaf_obeys_the_law_by_which_it_was_grown() {
     let (blade, veins) = poplar(1);
     let measures = measure(&blade, &veins, 2.5);
     let length = number(&measures, "vein_length_mm");
-    // Where a vein was led back over itself to a junction, it counts once.
+    // A vein that leads back over itself to a junction counts once.
     let share = length / veins.vein_length_mm();
     assert!(share > 0.999 && share < 1.0 + 1e-12, "{share}");
     near(&measures, "murray_ratio_median", 1.0);

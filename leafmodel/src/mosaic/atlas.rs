@@ -1,15 +1,14 @@
-//! Texture coordinates for a surface that has none: charts laid flat, packed into the unit square.
+//! Texture coordinates for a surface that has none: flat charts, packed into the unit square.
 //!
-//! Faces grow into charts while their normals agree with that of the first; a chart is seen along
-//! that normal, so that no texel shows less than cos 40° of the area that one face on shows. Boxes
-//! around the charts stand on shelves.
+//! Faces are collected into a chart while their normals agree with that of its first face. A chart
+//! is projected along that normal, so areas shrink to no less than cos 40° of their size. The boxes
+//! around the charts are packed on shelves.
 //!
 //! - **In**: a [`Surface`], the texels along a side, and the gutter.
-//! - **Out**: texture coordinates for each corner of each face, and for each texel the place that
-//!   it shows.
-//! - **Always true**: charts do not overlap by a texel's middle; texels around a chart show the
-//!   surface as it goes on beyond the chart's border, so that bilinear look-ups on both sides of a
-//!   border see the same place.
+//! - **Out**: texture coordinates for each corner of each face, and for each texel the place on the
+//!   surface that it shows.
+//! - **Always true**: no texel's centre lies in two charts; texels around a chart show the surface
+//!   beyond the chart's border, so that bilinear look-ups on both sides of a border agree.
 //! - **Left out**: gutters for mip maps beyond the width given.
 
 mod chart;
@@ -25,19 +24,19 @@ use super::surface::{Surface, SurfacePoint};
 const LEAST_GUTTER: u32 = 2;
 /// Cosine of the greatest angle between faces of a chart and its first.
 const AGREE: f64 = 0.766;
-/// Halvings of the interval in which the scale is sought.
+/// Number of bisection steps in the search for the scale.
 const SCALE_STEPS: u32 = 40;
 
 /// Why there is no atlas.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum AtlasError {
-    /// Sides that no texture has.
+    /// The number of texels is out of range.
     #[error("an atlas of {texels} texels a side is not possible, it must be 16 to 16384")]
     Texels {
-        /// Texels a side asked for.
+        /// Number of texels per side asked for.
         texels: u32,
     },
-    /// More charts than texels can hold with their gutters.
+    /// The charts with their gutters do not fit into the texels.
     #[error(
         "{charts} charts with gutters of {gutter} texels do not fit into {texels}² texels: raise the number of texels"
     )]
@@ -46,12 +45,12 @@ pub enum AtlasError {
         charts: usize,
         /// The gutter, texels.
         gutter: u32,
-        /// Texels a side.
+        /// Texels per side.
         texels: u32,
     },
 }
 
-/// What a texel shows; face `u32::MAX` for nothing.
+/// The place that a texel shows; face `u32::MAX` means none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Texel {
     face: u32,
@@ -85,8 +84,8 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Lays a surface into `texels`² texels with at least `gutter` texels (2 or more are taken)
-    /// around each chart.
+    /// Lays a surface out on `texels`² texels with at least `gutter` texels around each chart; less
+    /// than 2 counts as 2.
     ///
     /// # Errors
     ///
@@ -104,7 +103,7 @@ impl Atlas {
             gutter,
             texels,
         };
-        // A chart of no size still takes its gutters: if these do not fit, nothing does.
+        // Even charts of size 0 need their gutters: if these do not fit, no scale does.
         let mut places = shelves(&charts, 0.0, texels, gutter).ok_or(too_many)?;
         let (mut low, mut high) = (0.0, 2.0 * finest);
         for _ in 0..SCALE_STEPS {
@@ -148,8 +147,8 @@ impl Atlas {
         self.charts
     }
 
-    /// Texels per millimetre where a chart is seen face on; elsewhere down to 0.766 of it in one
-    /// direction.
+    /// Texels per millimetre on faces perpendicular to the projection; on others down to 0.766 of
+    /// it in one direction.
     pub fn texels_per_mm(&self) -> f64 {
         self.texels_per_mm
     }
@@ -160,8 +159,8 @@ impl Atlas {
         &self.uvs
     }
 
-    /// The place that texel (`column`, `row`) shows, its middle at (column + ½, row + ½) / texels;
-    /// none where there is no chart near.
+    /// The place that texel (`column`, `row`) shows, its centre at (column + ½, row + ½) / texels;
+    /// `None` where no chart is near.
     pub fn shown(&self, column: u32, row: u32) -> Option<SurfacePoint> {
         let texel = self.shown[(row * self.texels + column) as usize];
         (texel.face != u32::MAX).then(|| {
@@ -173,13 +172,13 @@ impl Atlas {
         })
     }
 
-    /// Share of the texels that show something.
+    /// Share of the texels that show a place.
     pub fn filled(&self) -> f64 {
         let filled = self.shown.iter().filter(|texel| texel.face != u32::MAX);
         filled.count() as f64 / self.shown.len() as f64
     }
 
-    /// Least and greatest number of texels that a face takes per area, over the mean of all.
+    /// Least and greatest number of texels per area of a face, over the mean of all faces.
     pub fn density_range(&self, surface: &Surface) -> [f64; 2] {
         let side = f64::from(self.texels);
         let area = |corners: &[DVec2; 3]| {
@@ -196,7 +195,7 @@ impl Atlas {
     }
 }
 
-/// Lower corners of the charts' drawn parts in texels: boxes on shelves, tallest first. `None` if
+/// Lower corners of the charts' drawn parts, in texels: boxes on shelves, tallest first. `None` if
 /// they do not fit.
 fn shelves(charts: &[Chart], scale: f64, texels: u32, gutter: u32) -> Option<Vec<DVec2>> {
     let boxes: Vec<[u64; 2]> = charts

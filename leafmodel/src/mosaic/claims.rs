@@ -1,5 +1,5 @@
-//! What \[binsfeld2011\] says of its figures, as tests on mosaics grown with Table I's parameters
-//! on bodies of the figures' kinds.
+//! Statements of \[binsfeld2011\] about its figures, tested on mosaics grown with the parameters of
+//! Table I on similar bodies.
 //!
 //! The table leaves out the initial shares and the switching; those used here were fitted to what
 //! the pictures show: 12 % foreground at the start and 12 % of the background's children foreground
@@ -16,10 +16,10 @@ use super::{Mosaic, MosaicPlan, Surface, SurfacePoint};
 
 /// Label of the background for the measures.
 const BACKGROUND: u32 = 0;
-/// The foreground's.
+/// Label of the foreground for the measures.
 const FOREGROUND: u32 = 1;
 
-/// A row of Table I, and what it leaves out.
+/// A row of Table I, and the parameters that it leaves out.
 struct Row {
     cells: usize,
     days: f64,
@@ -28,7 +28,7 @@ struct Row {
     adhesion: [f64; 2],
     /// Days between divisions of foreground and background.
     division: [f64; 2],
-    /// Share of the foreground at the start, where no control says otherwise.
+    /// Share of the foreground at the start, where no control changes it.
     foreground: f64,
     /// Share of the background's children that are foreground.
     switching: f64,
@@ -55,7 +55,7 @@ fn surface(shape: Shape) -> Surface {
     Surface::new(shape.positions, shape.faces).expect("shapes are surfaces")
 }
 
-/// A mosaic as the measures want it.
+/// A mosaic prepared for the measures.
 struct Seen {
     voronoi: Voronoi,
     kinds: Vec<u32>,

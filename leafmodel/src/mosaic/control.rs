@@ -1,4 +1,4 @@
-//! Cylinders that steer the mosaic: an image wrapped round an axis.
+//! Controls of a mosaic: cylinders with an image wrapped around their axis.
 
 mod image;
 #[cfg(test)]
@@ -11,46 +11,46 @@ use thiserror::Error;
 
 pub use self::image::ControlImage;
 
-/// A cylinder about (a part of) the surface, an image wrapped round it, and what the image steers.
-/// It changes nothing outside the cylinder.
+/// A cylinder around the surface or a part of it, the image wrapped around it, and what the image
+/// controls. It has no effect outside the cylinder.
 ///
-/// A point's angle about the axis (over `2π`, from 0 to 1 anticlockwise as seen against the axis)
-/// and its height (0 at `from`, 1 at `to`) say where in the image it lies. Angle 0 lies towards +x;
-/// if the axis runs along x, towards +y. If the surface grows, a point counts at its place on the
-/// full-grown surface.
+/// A point's place in the image is given by its angle about the axis (over `2π`, from 0 to 1
+/// anticlockwise seen against the axis) and its height (0 at `from`, 1 at `to`). Angle 0 lies
+/// towards +x; if the axis runs along x, towards +y. If the surface grows, a point's place on the
+/// full-grown surface is used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CylinderControl {
     /// Where the axis starts, mm.
     pub from: DVec3,
     /// Where the axis ends, mm.
     pub to: DVec3,
-    /// Radius, mm; without one the cylinder is unlimited between its two ends.
+    /// Radius, mm; `None` means unlimited between the two ends.
     pub radius_mm: Option<f64>,
     /// The image.
     pub image: ControlImage,
-    /// What it steers.
+    /// What it controls.
     pub steers: Steered,
 }
 
-/// What the grey values of an image (0 to 1) steer. Cell types count from 0.
+/// What the grey values of an image (0 to 1) control. Cell types are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steered {
     /// The value is the probability that an initial cell is of a type; the other types share the
-    /// rest as they did.
+    /// rest in their old proportions.
     InitialType(u16),
-    /// How often cells divide: at value 0 `low` times, at 1 `high` times the rate of the type.
+    /// Factor on the division rate of the type: `low` at value 0, `high` at value 1.
     DivisionRate {
-        /// The type; none: all.
+        /// The type; `None` means all.
         kind: Option<u16>,
         /// Factor for black, 0 to 1000.
         low: f64,
         /// Factor for white, 0 to 1000.
         high: f64,
     },
-    /// How far cells of two types adhere: at value 0 `low` times, at 1 `high` times what the types
-    /// say, and not above 1.
+    /// Factor on the adhesion of two types: `low` at value 0, `high` at value 1. The product is at
+    /// most 1.
     Adhesion {
-        /// The two types (or one twice).
+        /// The two types, which may be the same.
         pair: [u16; 2],
         /// Factor for black, 0 to 1000.
         low: f64,
@@ -64,7 +64,7 @@ pub enum Steered {
 /// Why a control is refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ControlError {
-    /// An axis without a direction.
+    /// The axis has no direction.
     #[error("the axis runs from {from} mm to {to} mm; it needs two places, finite and apart")]
     Axis {
         /// Its start.
@@ -72,7 +72,7 @@ pub enum ControlError {
         /// Its end.
         to: DVec3,
     },
-    /// A cell type that is not there.
+    /// A cell type does not exist.
     #[error("it steers type {kind}, but there are {types} types (from 0)")]
     NoSuchType {
         /// Which one.
@@ -80,7 +80,7 @@ pub enum ControlError {
         /// How many there are.
         types: usize,
     },
-    /// A number outside its range.
+    /// A number is out of its range.
     #[error("its {field} is {value}, outside {range}")]
     OutOfRange {
         /// Which number.
@@ -90,7 +90,7 @@ pub enum ControlError {
         /// What it may be.
         range: &'static str,
     },
-    /// A picture whose values are not as many as its pixels.
+    /// A picture does not have one value per pixel.
     #[error("its picture of {width} × {height} pixels has {values} values")]
     PictureSize {
         /// Pixels across.
@@ -107,7 +107,7 @@ impl CylinderControl {
     ///
     /// # Errors
     ///
-    /// [`ControlError`] for what is wrong first.
+    /// [`ControlError`] for the first error found.
     pub fn validate(&self, types: usize) -> Result<(), ControlError> {
         let length = self.from.distance(self.to);
         if !length.is_finite() || length <= 0.0 {
@@ -149,7 +149,7 @@ impl CylinderControl {
         self.image.validate()
     }
 
-    /// The image's value at a point in space (mm), 0 to 1; none outside the cylinder.
+    /// The image's value at a point in space (mm), 0 to 1; `None` outside the cylinder.
     pub fn value(&self, at: DVec3) -> Option<f64> {
         let axis = self.to - self.from;
         let height = (at - self.from).dot(axis) / axis.length_squared();
@@ -194,7 +194,7 @@ pub(super) fn check(
 pub(super) struct Controls<'a>(pub(super) &'a [CylinderControl]);
 
 impl Controls<'_> {
-    /// Whether cells may not be at a point.
+    /// Whether a point is blocked for cells.
     pub(super) fn is_blocked(&self, at: DVec3) -> bool {
         let blocked = |control: &CylinderControl| {
             matches!(control.steers, Steered::Blocked)
@@ -215,7 +215,7 @@ impl Controls<'_> {
             .any(|control| matches!(control.steers, Steered::Adhesion { .. }))
     }
 
-    /// Changes the probabilities of an initial cell's type at a point.
+    /// Applies the controls to the probabilities of an initial cell's types at a point.
     pub(super) fn initial(&self, at: DVec3, probabilities: &mut [f64]) {
         for control in self.0 {
             let Steered::InitialType(kind) = control.steers else {
@@ -239,7 +239,7 @@ impl Controls<'_> {
         }
     }
 
-    /// How much more often a cell of a type divides at a point.
+    /// Factor on the division rate of a type at a point.
     pub(super) fn rate(&self, at: DVec3, kind: u16) -> f64 {
         let mut factor = 1.0;
         for control in self.0 {
@@ -257,7 +257,7 @@ impl Controls<'_> {
         factor
     }
 
-    /// How far a cell of type `kind` at a point adheres to each type, from what the types say.
+    /// Applies the controls to a row of the adhesion matrix: that of type `kind` at a point.
     pub(super) fn adhesion(&self, at: DVec3, kind: u16, row: &mut [f64]) {
         for control in self.0 {
             let Steered::Adhesion { pair, low, high } = control.steers else {

@@ -1,4 +1,4 @@
-//! When cells divide, and into what.
+//! Times of cell divisions, and the types and places of children.
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ pub(super) const CHILD_DISC: f64 = 0.01;
 /// away.
 const LARGE_MEAN: f64 = 1e5;
 
-/// `exp(-mean)` of parts above this would lose digits.
+/// Greatest part of the mean handled at once; `exp(-mean)` of greater ones would lose precision.
 const PART: f64 = 500.0;
 
 /// Number of the draw of the time of day; parts of a mean have those before.
@@ -21,7 +21,7 @@ const TIME_OF_DAY: u64 = 255;
 /// Days after which a cell divides: a whole number, Poisson distributed with mean `mean`, then any
 /// time of that day, −½ to ½, so that a day's divisions do not all fall together. None if never.
 ///
-/// Not above 0 means at once.
+/// A value of 0 or less means division at once.
 pub(super) fn days_to_division(id: u64, counter: u64, mean: f64) -> Option<f64> {
     if !mean.is_finite() {
         return None;
@@ -42,7 +42,7 @@ pub(super) fn days_to_division(id: u64, counter: u64, mean: f64) -> Option<f64> 
     Some(drawn as f64 + time_of_day - 0.5)
 }
 
-/// A Poisson number from a uniform one, by inversion.
+/// A Poisson variate from a uniform one, by inversion.
 fn poisson(mean: f64, u: f64) -> u64 {
     let mut probability = libm::exp(-mean);
     let mut up_to = probability;
@@ -77,13 +77,13 @@ pub(super) fn kind_of_child(parent: &CellType, id: u64, counter: u64) -> u16 {
     chosen(parent.switching.iter().copied(), u)
 }
 
-/// Name of the child, from which all its chances come.
+/// The child's identifier, from which all its random numbers derive.
 pub(super) fn child_id(parent: u64, counter: u64) -> u64 {
     bits(parent, Use::MosaicDivision, u64::MAX - counter)
 }
 
-/// Where the child lies, from its parent, for a radius of 1: uniform in a disc; `attempt` gives
-/// others.
+/// Offset of the child from its parent for a radius of 1, uniform in a disc. Each `attempt` gives
+/// another offset.
 pub(super) fn place_of_child(id: u64, attempt: u64) -> DVec2 {
     let u = [0, 1].map(|k| uniform(id, Use::MosaicPlace, 2 * attempt + k));
     let angle = u[1] * std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! Why there is no mosaic.
+//! Errors of growing a mosaic.
 
 use thiserror::Error;
 
@@ -8,7 +8,7 @@ use super::surface::SurfaceError;
 /// Why a plan cannot be grown.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MosaicError {
-    /// A number outside its range.
+    /// A number is out of its range.
     #[error("{field} is {value}, outside {range}")]
     OutOfRange {
         /// Which number.
@@ -18,25 +18,25 @@ pub enum MosaicError {
         /// What it may be.
         range: &'static str,
     },
-    /// A plan without cell types, or with more than there are numbers for.
+    /// The plan has no cell types, or too many.
     #[error("there are {count} cell types; a mosaic has 1 to 1000")]
     Types {
         /// How many there are.
         count: usize,
     },
-    /// A row with more or fewer numbers than types.
+    /// A row does not have one number per type.
     #[error("{field} of type \"{name}\" has {length} numbers; there are {types} types")]
     RowLength {
         /// Which row.
         field: &'static str,
-        /// Whose it is.
+        /// The type to which it belongs.
         name: String,
         /// Its length.
         length: usize,
         /// What its length should be.
         types: usize,
     },
-    /// Probabilities that do not make one.
+    /// Probabilities do not add up to 1.
     #[error("{field} sum to {}, not to 1", (1e9 * sum).round() / 1e9)]
     NotOne {
         /// Which ones.
@@ -44,7 +44,7 @@ pub enum MosaicError {
         /// Their sum.
         sum: f64,
     },
-    /// Adhesion that depends on who asks.
+    /// Adhesion is not symmetric.
     #[error(
         "adhesion of \"{first}\" to \"{second}\" is {there}, of \"{second}\" to \"{first}\" {back}; the two have to be equal"
     )]
@@ -58,7 +58,7 @@ pub enum MosaicError {
         /// Adhesion of the second to the first.
         back: f64,
     },
-    /// A cylinder that steers nothing sensible.
+    /// A control is not valid.
     #[error("control {number} (from 0): {error}")]
     Control {
         /// Which of the plan's controls.
@@ -66,23 +66,23 @@ pub enum MosaicError {
         /// What is wrong with it.
         error: ControlError,
     },
-    /// Blocked areas that leave no room.
+    /// Blocked areas leave no room for cells.
     #[error("the blocked areas leave no room for cells: {tries} throws found none")]
     AllBlocked {
         /// How many throws were made.
         tries: u32,
     },
-    /// More cells than can be handled.
+    /// There are more cells than allowed.
     #[error(
         "on day {day} there are more than {most} cells; make the days fewer or the divisions rarer"
     )]
     TooManyCells {
-        /// When.
+        /// The day on which the limit was passed.
         day: f64,
-        /// How many can be handled.
+        /// The greatest number of cells.
         most: usize,
     },
-    /// A type that divides so often that there would be more cells than can be handled.
+    /// A type divides so often that there would be more cells than allowed.
     #[error(
         "cells of type \"{name}\" divide every {division_days} days: after {days} days there would be more than {most}; make the days \
          fewer or the divisions rarer"
@@ -94,13 +94,13 @@ pub enum MosaicError {
         division_days: f64,
         /// The days of the plan.
         days: f64,
-        /// How many cells can be handled.
+        /// The greatest number of cells.
         most: usize,
     },
-    /// A surface that cannot be grown on.
+    /// The surface is not valid.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Growing was stopped.
+    /// The caller stopped the growth.
     #[error("stopped")]
     Stopped,
 }

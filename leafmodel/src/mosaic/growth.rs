@@ -10,18 +10,18 @@ pub enum SurfaceGrowth {
     /// It has its final size from the start. Cells divide at the rates of their types and crowd.
     #[default]
     None,
-    /// It grows in each direction from a part of its final size to that size. Cells keep their
-    /// place in the tissue and their area: a region has as many divisions as its growth makes room
-    /// for, shared among its cells by the rates of their types.
+    /// It grows along each axis from a share of its final size to that size. Cells keep their
+    /// places in the tissue and their area. A region has as many divisions as its growth makes room
+    /// for; they are shared among its cells in proportion to the rates of their types.
     Anisotropic {
         /// Size along x, y and z at the start over the final size, 0.01 to 10.
         start: DVec3,
-        /// How the size goes from the one to the other.
+        /// The course of growth.
         course: GrowthCourse,
     },
 }
 
-/// How size goes from the first to the last over the days of the plan.
+/// How the size goes from its start to its final value over the days of the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum GrowthCourse {
     /// Evenly.
@@ -31,14 +31,13 @@ pub enum GrowthCourse {
     Logistic {
         /// When growth is fastest, as a share of the days, 0 to 1.
         middle: f64,
-        /// How much faster than even it is about, 1 to 100: the rate of the logistic function over
-        /// the days.
+        /// Steepness, 1 to 100: the rate of the logistic function over all days.
         steepness: f64,
     },
 }
 
 impl GrowthCourse {
-    /// Share of growth that is done when a share of the days has gone: 0 at 0, 1 at 1, rising.
+    /// Share of growth done after a share of the days: rises from 0 at 0 to 1 at 1.
     pub fn done(&self, share: f64) -> f64 {
         let share = share.clamp(0.0, 1.0);
         match *self {
@@ -78,8 +77,8 @@ impl SurfaceGrowth {
         Ok(())
     }
 
-    /// Size over final size along each axis when a share of the days has gone; none if nothing
-    /// grows.
+    /// Size over final size along each axis after a share of the days; `None` if the surface does
+    /// not grow.
     pub(super) fn size(&self, share: f64) -> Option<DVec3> {
         match self {
             Self::None => None,

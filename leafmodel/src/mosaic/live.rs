@@ -10,9 +10,9 @@ pub(super) struct Live {
     pub(super) kind: u16,
     pub(super) clone: u32,
     pub(super) parent: u32,
-    /// From which its chances come.
+    /// Its identifier, from which its random numbers derive.
     pub(super) id: u64,
-    /// How often it has divided.
+    /// Number of its divisions so far.
     pub(super) divisions: u64,
     /// The relaxation event at which it divides next.
     pub(super) divides_at: u64,

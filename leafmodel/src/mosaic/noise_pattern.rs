@@ -1,7 +1,7 @@
-//! Patterns from thresholded gradient noise: what clonal mosaics are compared with.
+//! Patterns from thresholded gradient noise, to which clonal mosaics are compared.
 //!
-//! Nothing grows here: a pattern of greater scale is another pattern, whose patches need not hold
-//! those of the smaller one, and a lattice repeats what its gradients allow.
+//! These patterns do not grow: a pattern of greater scale is a different pattern, whose patches
+//! need not contain those of the smaller one.
 //!
 //! # Source
 //!
@@ -43,8 +43,8 @@ impl NoisePattern {
 
     /// Kind 1 for the share of places with the highest values, kind 0 for the others.
     ///
-    /// The threshold is the quantile of these very places, so that the share is kept to one place.
-    /// Values that tie with it are marked by the order of the places.
+    /// The threshold is the quantile over these places, so the share is exact up to one place. Ties
+    /// are marked in the order of the places.
     pub fn kinds(&self, places: &[DVec3], seed: u64) -> Vec<u16> {
         let values: Vec<f64> = places.iter().map(|&p| self.value(p, seed)).collect();
         let mut order: Vec<usize> = (0..places.len()).collect();

@@ -1,16 +1,16 @@
-//! From cells to tissue: which types of cells a place has, blended over the edges between unlike
-//! cells.
+//! From cells to tissue: the weights of cell types at a place, blended across borders between
+//! different types.
 //!
-//! Inside a patch of one type its weight is 1. Over an edge between unlike cells the weights pass
-//! smoothly from one to the other over a width of choice. Edges between cells of the same type show
-//! nothing.
+//! Inside a patch of one type its weight is 1. Across a border between cells of different types the
+//! weights change smoothly over a given width. Borders between cells of the same type have no
+//! effect.
 //!
 //! - **In**: a surface, cells with their types, the width over which types blend.
-//! - **Out**: weights of the types at any point, and what the tissue holds there.
+//! - **Out**: weights of the types at any point, and the contents of the tissue there.
 //! - **Always true**: weights are in [0, 1] and add up to 1; they change continuously within a
 //!   face.
-//! - **Left out**: mixing is linear in contents per area, as pigments of neighbouring cells in one
-//!   light path add up.
+//! - **Left out**: any mixing other than linear in contents per area. Linear mixing holds for
+//!   pigments of neighbouring cells in one light path.
 
 mod sheet;
 #[cfg(test)]
@@ -29,10 +29,10 @@ use super::surface::{Surface, SurfacePoint};
 use super::voronoi::{FACE_EDGE, Voronoi, distance_to_segment};
 use crate::optics::{Contents, PerConstituent};
 
-/// Faces worked on together.
+/// Number of faces processed together.
 const CHUNK: usize = 256;
 
-/// A border between cells of unlike types, in the frame of a face.
+/// A border between cells of different types, in the frame of a face.
 #[derive(Clone, Copy, Debug)]
 struct Border {
     from: DVec2,
@@ -48,13 +48,13 @@ pub struct TypeField {
     kinds: Vec<u16>,
     types: usize,
     half_blend: f64,
-    /// For each face the borders that can be felt in it.
+    /// For each face the borders within the blend's reach.
     borders: Vec<Vec<Border>>,
-    /// Where no cell may be.
+    /// Places blocked for cells, if any.
     bare: Option<Bare>,
 }
 
-/// Controls that let no cell be in places, and the surface that those are on.
+/// Controls that block places for cells, and the surface of these places.
 #[derive(Clone, Debug)]
 struct Bare {
     surface: Arc<Surface>,
@@ -65,7 +65,8 @@ impl TypeField {
     /// Cells at `sites` whose types (below `types`) are `kinds`, blended over `blend_mm` (0 for
     /// hard edges).
     ///
-    /// Searching is per face: on a mesh whose faces hold hundreds of cells, subdivide it first.
+    /// The search is per face, so a mesh whose faces hold hundreds of cells should be subdivided
+    /// first.
     ///
     /// # Panics
     ///
@@ -91,14 +92,14 @@ impl TypeField {
     ///
     /// # Panics
     ///
-    /// If a cell is of no such type.
+    /// If a cell's type is not below `types`.
     pub fn of_mosaic(mosaic: &Mosaic, types: usize, blend_mm: f64) -> Self {
         let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
         let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
         Self::new(&mosaic.surface, &sites, &kinds, types, blend_mm)
     }
 
-    /// The same from a tessellation that is there already.
+    /// The same from an existing tessellation.
     pub fn of_cells(
         surface: &Surface,
         voronoi: Voronoi,
@@ -137,7 +138,7 @@ impl TypeField {
         }
     }
 
-    /// The same with these controls heeded: where they let no cell be, the place is bare.
+    /// The same with controls applied: places that they block are bare.
     #[must_use]
     pub fn heeding(mut self, surface: Arc<Surface>, controls: &[CylinderControl]) -> Self {
         self.bare = Controls(controls).block().then(|| Bare {
@@ -147,12 +148,12 @@ impl TypeField {
         self
     }
 
-    /// Whether there are controls that let no cell be somewhere.
+    /// Whether any control may block places.
     pub(super) fn has_bare_places(&self) -> bool {
         self.bare.is_some()
     }
 
-    /// Whether controls admit no cell at a point. The tissue there is not part of the mosaic; types
+    /// Whether controls block a point. The tissue there is not part of the mosaic; the types
     /// reported for it are those of the nearest cells.
     pub fn is_bare(&self, point: &SurfacePoint) -> bool {
         self.bare.as_ref().is_some_and(|bare| {
@@ -166,7 +167,7 @@ impl TypeField {
         &self.voronoi
     }
 
-    /// How many types there are.
+    /// Number of types.
     pub fn types(&self) -> usize {
         self.types
     }
@@ -191,8 +192,8 @@ impl TypeField {
     ///
     /// With `d` the distance to the nearest border of a type's patches and `b` the blend's width, a
     /// type beyond the border has `S(½ − d / b)` and the type of the place itself `S(½ + d / b)`,
-    /// `S` the smooth step `3 t² − 2 t³` held at 0 and 1; where three types meet these are divided
-    /// by their sum.
+    /// `S` the smooth step `3 t² − 2 t³`, clamped to 0 and 1. Where three types meet, weights are
+    /// divided by their sum.
     ///
     /// # Panics
     ///
@@ -232,8 +233,8 @@ impl TypeField {
         }
     }
 
-    /// What the tissue holds at a point if tissue of each type holds `of_types`; `weights` is room
-    /// to work in.
+    /// Contents of the tissue at a point, with the contents `of_types` of each type; `weights` is a
+    /// buffer.
     ///
     /// # Panics
     ///
@@ -283,12 +284,12 @@ fn smooth_step(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The borders between unlike cells within a face.
+/// The borders between cells of different types within a face.
 fn borders_in(voronoi: &Voronoi, kinds: &[u16], face: u32) -> Vec<Border> {
     let mut borders = Vec::new();
     for piece in voronoi.pieces(face) {
         for (from, to, beside) in piece.edges() {
-            // Each border is met from both sides; the lower cell's is kept.
+            // Each border is found from both sides; that of the lower cell is kept.
             if beside == FACE_EDGE || beside < piece.cell {
                 continue;
             }

@@ -1,13 +1,12 @@
-//! What lies near a face on the surface, unfolded into the face's plane.
+//! The neighbourhood of a face, unfolded into the face's plane.
 //!
-//! Faces are laid beside one another as a cut-out of paper is laid flat. In that plane distances
-//! are those along the surface, where the straight line between two points stays in the unfolded
-//! faces. On a flat sheet or one that is bent without stretching they are exact. Near a vertex
-//! where the surface is curved a face can be laid out on either side, and only the way whose
-//! distance is least is taken.
+//! Faces are laid beside one another like an unfolded paper model. Distances in that plane equal
+//! those along the surface if the straight line between the two points stays in the unfolded faces.
+//! On developable surfaces they are exact. Near a vertex at which the surface is curved a face can
+//! be reached around either side; the shorter way is used.
 //!
 //! - **In**: a [`Surface`], a face, and a radius.
-//! - **Out**: a [`Patch`]: the faces within that radius and the motion that unfolds each.
+//! - **Out**: a [`Patch`]: the faces within that radius, each with the motion that unfolds it.
 //! - **Always true**: no face occurs twice; a face comes after one that it touches; the first is
 //!   the face itself.
 
@@ -35,13 +34,13 @@ impl Patch {
     }
 
     /// The faces that can hold points within the radius of any point of the base, by rising
-    /// distance, the base first; and how each one's frame lies in the frame of the base.
+    /// distance, the base first, each with the motion from its frame to that of the base.
     pub fn faces(&self) -> &[(u32, Unfold)] {
         &self.faces
     }
 
-    /// How the frame of a face lies in the frame of the base; none if the face is not in the patch.
-    /// Looks at all in turn.
+    /// The motion from the frame of a face to that of the base; `None` if the face is not in the
+    /// patch. A linear search.
     #[cfg(test)]
     pub(super) fn unfold(&self, face: u32) -> Option<Unfold> {
         let found = self.faces.iter().find(|(other, _)| *other == face);
@@ -49,7 +48,8 @@ impl Patch {
     }
 }
 
-/// Finds patches of one surface. Keep it: its working memory is as large as the surface.
+/// Finds patches of one surface. It should be reused, since its working memory is as large as the
+/// surface.
 #[derive(Debug)]
 pub struct PatchFinder<'a> {
     surface: &'a Surface,
@@ -59,21 +59,21 @@ pub struct PatchFinder<'a> {
     queue: BinaryHeap<Entry>,
 }
 
-/// From where distances count in a patch.
+/// The region from which distances in a patch are measured.
 #[derive(Clone, Copy)]
 enum Hub {
     /// The base, a triangle.
     Face([DVec2; 3]),
-    /// All that lies within a radius of a point of the base's plane.
+    /// A disc in the base's plane.
     Disc(DVec2, f64),
 }
 
-/// A face to be laid out next.
+/// An entry of the queue of faces to be laid out.
 #[derive(Debug)]
 struct Entry {
     distance: f64,
-    /// Distance of the middle of the edge over which it is entered: faces round a vertex are
-    /// equally near.
+    /// Distance to the middle of the edge over which it is entered, which decides between faces
+    /// around a vertex that are equally near.
     middle: f64,
     face: u32,
     /// The edge of the face over which it is entered; 3 for the base.
@@ -82,7 +82,7 @@ struct Entry {
 }
 
 impl Ord for Entry {
-    /// The nearest is the greatest, as the queue hands out the greatest.
+    /// The order is reversed, since the queue returns the greatest entry.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_distance = other.distance.total_cmp(&self.distance);
         let by_middle = other.middle.total_cmp(&self.middle);
@@ -105,7 +105,7 @@ impl PartialEq for Entry {
 impl Eq for Entry {}
 
 impl<'a> PatchFinder<'a> {
-    /// For patches of a surface.
+    /// A finder for patches of a surface.
     pub fn new(surface: &'a Surface) -> Self {
         Self {
             surface,

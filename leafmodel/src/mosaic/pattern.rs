@@ -1,4 +1,4 @@
-//! A mosaic as tissue: what cells of each type hold.
+//! A mosaic as tissue: the contents of cells of each type.
 
 use std::sync::Arc;
 
@@ -12,31 +12,30 @@ use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError, SurfacePoint
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
 
-/// Cells on a surface are drawn on triangles of about this share of the distance between cells at
-/// the start.
+/// Edge of a mosaic's triangles over the distance between cells at the start.
 const EDGE_OVER_SPACING: f64 = 1.0;
 
 /// A mosaic whose cells hold pigments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MosaicPattern {
-    /// How its cells come about.
+    /// The plan of its cells.
     pub plan: MosaicPlan,
-    /// What tissue of each type holds, in the order of the types.
+    /// Contents of tissue of each type, in the order of the types.
     pub contents: Vec<Contents>,
-    /// Width over which unlike cells blend into one another, mm, 0 to 100.
+    /// Width over which cells of different types blend, mm, 0 to 100.
     pub blend_mm: f64,
-    /// On a leaf: whether each face has cells of its own.
+    /// On a leaf, the faces on which cells live.
     pub faces: LeafFaces,
 }
 
-/// Where on a leaf cells live.
+/// The faces of a leaf on which cells live.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LeafFaces {
     /// One layer of cells: the pattern goes through the blade.
     #[default]
     Through,
-    /// Both faces, joined at the margin; a leaf holds at each point the mean of what its two faces
-    /// say.
+    /// Both faces, joined at the margin; at each point the leaf's contents are the mean of those of
+    /// its two faces.
     Both,
 }
 
@@ -52,7 +51,7 @@ pub enum PatternError {
     /// The sheet or body as triangles.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// Contents that do not belong to the types.
+    /// The number of contents differs from that of types.
     #[error("there are {types} cell types and contents for {contents}")]
     Contents {
         /// How many types there are.
@@ -60,7 +59,7 @@ pub enum PatternError {
         /// For how many there are contents.
         contents: usize,
     },
-    /// An edge that cannot be blended.
+    /// The width of the blend is out of range.
     #[error("blend_mm is {blend_mm}, it must be from 0 to 100")]
     Blend {
         /// Its width, mm.
@@ -73,7 +72,7 @@ impl MosaicPattern {
     ///
     /// # Errors
     ///
-    /// [`PatternError`] for the first that is wrong.
+    /// [`PatternError`] for the first that is out of range.
     pub fn validate(&self) -> Result<(), PatternError> {
         self.plan.validate()?;
         if self.contents.len() != self.plan.types.len() {
@@ -89,12 +88,12 @@ impl MosaicPattern {
         Ok(())
     }
 
-    /// Whether a control may keep cells off some places, where the tissue itself shows.
+    /// Whether a control may block places, where the tissue itself shows.
     pub fn may_leave_bare(&self) -> bool {
         Controls(&self.plan.controls).block()
     }
 
-    /// Length of edge, mm, that suits triangles on which the mosaic is to grow, for a surface of
+    /// Suitable edge length, mm, of the triangles on which the mosaic is to grow, for a surface of
     /// `area` mm².
     pub fn edge_mm(&self, area: f64) -> f64 {
         EDGE_OVER_SPACING * (area / self.plan.initial_cells as f64).sqrt()
@@ -104,7 +103,7 @@ impl MosaicPattern {
     ///
     /// # Errors
     ///
-    /// [`PatternError`]; [`MosaicError::Stopped`] when `is_stopped` says so.
+    /// [`PatternError`]; [`MosaicError::Stopped`] when `is_stopped` returns true.
     pub fn grow(
         &self,
         surface: &Surface,
@@ -151,7 +150,7 @@ impl MosaicPattern {
     }
 }
 
-/// A mosaic on a lamina, ready to be asked what the tissue holds.
+/// A mosaic on a lamina, prepared for queries of its contents.
 #[derive(Clone, Debug)]
 pub struct LaminaPattern {
     sheet: SheetField,
@@ -159,8 +158,8 @@ pub struct LaminaPattern {
 }
 
 impl LaminaPattern {
-    /// What the tissue holds at a point of the lamina (mm); beyond the margin as at the nearest
-    /// point of it; none where controls let no cell be. `weights` is room to work in.
+    /// Contents of the tissue at a point of the lamina (mm); beyond the margin those at its nearest
+    /// point; `None` where controls block cells. `weights` is a buffer.
     pub fn contents(&self, point: DVec2, weights: &mut Vec<f64>) -> Option<Contents> {
         let field = self.sheet.field();
         if field.has_bare_places() && field.is_bare(&self.sheet.locate(point)) {
@@ -212,7 +211,7 @@ mod tests {
                 seen[class.round() as usize] += 1.0 / 1800.0;
             }
         }
-        // Faces that know nothing of one another show the foreground on just one of them for 2 p (1
+        // If the faces were independent, the foreground would be on exactly one of them for 2 p (1
         // − p) of the leaf.
         let share = seen[0] + 0.5 * seen[1];
         assert!(share > 0.2 && share < 0.6, "{share}");

@@ -1,40 +1,40 @@
-//! What a clonal mosaic grows from.
+//! The plan of a clonal mosaic.
 
 use super::control::{CylinderControl, Steered};
 use super::error::{MosaicError, in_range};
 use super::growth::SurfaceGrowth;
 
-/// Rounding that a sum of probabilities may show.
+/// Tolerance on sums of probabilities.
 const TOLERANCE: f64 = 1e-6;
-/// More cells than this are refused.
+/// Greatest number of cells.
 pub(super) const MOST_CELLS: usize = 4_000_000;
-/// How many times as many must be expected for a plan to be refused beforehand: chance may bring
-/// forth fewer.
+/// Expected number of cells over the greatest one at which a plan is refused beforehand, since the
+/// actual number may be smaller.
 const OVERCROWDED: f64 = 4.0;
 
 /// A kind of cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellType {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Mean days between divisions, positive; infinity: it never divides.
+    /// Mean time between divisions, days, > 0; infinite if it never divides.
     pub division_days: f64,
     /// Share of the initial cells that are of this type, 0 to 1; over all types the sum is 1.
     pub initial_probability: f64,
     /// For each type the probability that a child is of it; the sum is 1.
     pub switching: Vec<f64>,
-    /// For each type how far cells of both adhere: 0 (they repel in full) to 1 (not at all). As a
-    /// matrix, symmetric.
+    /// For each type the adhesion of cells of both types, from 0 (full repulsion) to 1 (no
+    /// repulsion). The matrix is symmetric.
     pub adhesion: Vec<f64>,
 }
 
-/// Which number of cells decides the radius within which cells repel one another.
+/// The number of cells from which the repulsion radius is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RadiusRule {
-    /// The initial one: the radius stays while cells crowd.
+    /// The initial number: the radius stays the same while cells crowd.
     #[default]
     Initial,
-    /// Each day's, with that day's area.
+    /// Each day's number, with that day's area.
     Daily,
 }
 
@@ -51,25 +51,24 @@ pub struct MosaicPlan {
     pub initial_cells: usize,
     /// How long the mosaic grows, days, 0 or more.
     pub days: f64,
-    /// `w_r`: the radius within which cells repel one another over the root of the mean area of a
-    /// cell, 0.1 to 10.
+    /// `w_r`: the repulsion radius over the root of the mean area of a cell, 0.1 to 10.
     pub radius_weight: f64,
     /// `ρ`: relaxation events a day, 1 to 1000.
     pub relaxations_per_day: u32,
-    /// How far a cell moves for a force of 1, as a share of the radius, 0 to 1.
+    /// Displacement of a cell for a force of 1, as a share of the radius, 0 to 1.
     pub step: f64,
-    /// Relaxation events before the first day, with no adhesion at all.
+    /// Number of relaxation events before the first day, without adhesion.
     pub initial_relaxations: u32,
-    /// `step` in these, 0 to 1.
+    /// `step` in the initial relaxations, 0 to 1.
     pub initial_step: f64,
-    /// Which number of cells decides the radius.
+    /// The number of cells from which the radius is computed.
     pub radius: RadiusRule,
     /// The types, one or more.
     pub types: Vec<CellType>,
-    /// Cylinders that steer what happens where; of those that steer the same, each acts on what the
-    /// one before left.
+    /// Cylinders that control the mosaic by place. Of several that control the same quantity, each
+    /// acts on the result of the one before.
     pub controls: Vec<CylinderControl>,
-    /// Whether the surface grows meanwhile.
+    /// Growth of the surface.
     pub growth: SurfaceGrowth,
 }
 
@@ -177,8 +176,8 @@ impl MosaicPlan {
         self.has_room()
     }
 
-    /// Refuses what is bound to end in [`MosaicError::TooManyCells`], which may take minutes. How
-    /// far controls and the growth of the surface hold divisions back is not known beforehand.
+    /// Refuses plans that are bound to end in [`MosaicError::TooManyCells`], which may take
+    /// minutes. The effect of controls and of the growth of the surface is not known beforehand.
     fn has_room(&self) -> Result<(), MosaicError> {
         let steered = self.controls.iter().any(|control| match control.steers {
             Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
@@ -188,8 +187,8 @@ impl MosaicPlan {
             return Ok(());
         }
         for (number, kind) in self.types.iter().enumerate() {
-            // Of the type's own kind alone, all dividing after the mean time (Poisson's scatter
-            // makes them more) and one relaxation later than drawn: each division makes one cell
+            // A lower estimate: only descendants of the same type, all dividing after the mean time
+            // (Poisson scatter makes them more) plus one relaxation. Each division turns one cell
             // into 1 + s of the type.
             let wait = kind.division_days + 1.0 / f64::from(self.relaxations_per_day);
             let times = libm::exp(self.days * libm::log1p(kind.switching[number]) / wait);

@@ -1,12 +1,12 @@
-//! Cells move apart: one relaxation event.
+//! One relaxation event: cells move apart.
 //!
-//! Cells of types `a` and `b` at a distance `d` below the radius `r` push one another by
+//! Cells of types `a` and `b` at a distance `d` below the radius `r` push each other by
 //! `(1 − α_ab)(1 − d/r)`; each cell moves by the sum of pushes times `r` times the step's weight.
 //!
-//! Where cells crowd, the weight is lowered: beyond a weight of about `2/(n r²)` for `n` cells per
-//! area the moves overshoot and the cells, instead of coming to rest, are thrown to and fro. (For
-//! the mode in which cells swing most, `n w_r²` cells within `r²` act as a spring of `0.94 n r²`
-//! times the weight.) The paper does not say what its authors did about it.
+//! Where cells crowd, the weight is lowered: above about `2/(n r²)`, for `n` cells per area, moves
+//! overshoot and cells oscillate instead of coming to rest. (For the mode that oscillates most,
+//! `n w_r²` cells within `r²` act as a spring of `0.94 n r²` times the weight.) The paper does not
+//! mention this.
 
 mod blocks;
 mod kernel;
@@ -21,13 +21,13 @@ use super::live::Live;
 use super::surface::Surface;
 use super::walk::walk;
 
-/// The highest weight, times the number of cells in a square of side `r`.
+/// Greatest product of the weight and the number of cells in a square of side `r`.
 const MOST_WEIGHT: f64 = 1.0;
 
-/// The longest move at a time, over the radius.
+/// Longest move in one event, over the radius.
 const LONGEST_MOVE: f64 = 0.5;
 
-/// What cells of each type do to those of each.
+/// The interaction between types.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bonds<'a> {
     /// Rows of the adhesion matrix.
@@ -44,7 +44,7 @@ pub(super) struct Relaxation {
     blocks: Vec<Block>,
 }
 
-/// Cells by the face that they are in, in the order of the cells.
+/// Cells sorted by face, within a face in their own order.
 #[derive(Debug)]
 struct ByFace {
     first: Vec<u32>,
@@ -91,7 +91,7 @@ impl Relaxation {
         self.radius
     }
 
-    /// Moves all cells once. `mature` is the surface on which controls count.
+    /// Moves all cells once. Controls are evaluated on the surface `mature`.
     pub(super) fn relax(
         &self,
         surface: &Surface,
@@ -152,7 +152,8 @@ impl Relaxation {
         }
     }
 
-    /// `Σ (1 − α)(1 − d/r)²/2` over all pairs nearer than the radius: what relaxation lowers.
+    /// `Σ (1 − α)(1 − d/r)²/2` over all pairs nearer than the radius: the energy that relaxation
+    /// lowers.
     #[cfg(test)]
     pub(super) fn energy(&self, surface: &Surface, cells: &[Live], adhesion: &[Vec<f64>]) -> f64 {
         let by_face = ByFace::new(surface.faces().len(), cells);
@@ -169,7 +170,7 @@ impl Relaxation {
                         .iter()
                         .zip(row)
                         .map(|(places, a)| (1.0 - a) * places.energy(x, y));
-                    // Less the cell itself.
+                    // Minus the cell's own term.
                     energy += sums.sum::<f64>() - 0.5 * (1.0 - row[usize::from(cell.kind)]);
                 }
             }
@@ -183,7 +184,7 @@ impl Relaxation {
         (relative.x as f32, relative.y as f32)
     }
 
-    /// The cells that those of a block may feel, by type.
+    /// The cells within reach of those of a block, by type.
     fn gather(&self, block: &Block, cells: &[Live], by_face: &ByFace, places: &mut [Places]) {
         places.iter_mut().for_each(Places::clear);
         let reach = (block.reach + self.radius).powi(2);
@@ -201,7 +202,7 @@ impl Relaxation {
     }
 }
 
-/// A walk that does not end where cells may not be: if need be half of it, a quarter, or none.
+/// A walk that does not end in a blocked place: if necessary, only half of it, a quarter, or none.
 pub(super) fn free_walk(
     surface: &Surface,
     mature: &Surface,

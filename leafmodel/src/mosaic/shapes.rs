@@ -1,10 +1,10 @@
-//! Bodies for mosaics to grow on: fruits, caps, stems, leaves as even triangle meshes.
+//! Bodies on which mosaics grow: fruits, caps, stems and leaves as even triangle meshes.
 //!
 //! - **In**: sizes in millimetres, a profile to turn about an axis, or the outline of a leaf.
 //! - **Out**: a [`Shape`]: points, exact unit normals of the smooth body, triangles seen
 //!   counter-clockwise from outside.
-//! - **Always true**: no edge longer than asked for, triangles of about the same size everywhere:
-//!   no poles where they crowd.
+//! - **Always true**: no edge is longer than asked for; triangles have about the same size
+//!   everywhere, without crowding at poles.
 //! - **Left out**: whether a profile given by the user crosses itself.
 
 mod lathe;
@@ -19,8 +19,8 @@ pub use lathe::lathe;
 
 /// Most triangles of one shape.
 const MOST_TRIANGLES: f64 = 4e6;
-/// Edge of an icosahedron over the radius of its sphere, times how much pressing it onto the sphere
-/// stretches its middle.
+/// Edge of an icosahedron over the radius of its sphere, times the stretch of its faces' centres by
+/// projection onto the sphere.
 const ICOSAHEDRON_EDGE: f64 = 1.051_462_224 / 0.794_654_472;
 
 /// A body or sheet as triangles.
@@ -34,10 +34,10 @@ pub struct Shape {
     pub faces: Vec<[u32; 3]>,
 }
 
-/// Why there is no such shape.
+/// Why a shape cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ShapeError {
-    /// A size outside its range.
+    /// A size is out of its range.
     #[error("{field} is {value}, it must be {range}")]
     OutOfRange {
         /// Which size.
@@ -47,13 +47,13 @@ pub enum ShapeError {
         /// What it may be.
         range: &'static str,
     },
-    /// A profile of fewer than two points.
+    /// The profile has fewer than two points.
     #[error("a profile needs at least 2 points, it has {points}")]
     ShortProfile {
         /// How many there are.
         points: usize,
     },
-    /// A point of the profile that is not finite, or on the other side of the axis.
+    /// A point of the profile is not finite or has a negative radius.
     #[error(
         "point {index} of the profile is ({radius}, {height}) mm: both must be finite and the radius at least 0"
     )]
@@ -79,7 +79,7 @@ pub enum ShapeError {
         /// Where, mm.
         height: f64,
     },
-    /// Too many triangles: `max_edge_mm` is too small for the shape.
+    /// The shape would need too many triangles: `max_edge_mm` is too small.
     #[error(
         "the shape would take about {triangles:.0} triangles, at most {MOST_TRIANGLES:.0} are allowed"
     )]
@@ -92,7 +92,7 @@ pub enum ShapeError {
     Sheet(#[from] BladeError),
 }
 
-/// A sphere about the origin: the faces of an icosahedron divided evenly and pressed outwards.
+/// A sphere around the origin: the faces of an icosahedron, divided evenly and projected outwards.
 ///
 /// # Errors
 ///
@@ -102,7 +102,7 @@ pub fn sphere(radius_mm: f64, max_edge_mm: f64) -> Result<Shape, ShapeError> {
     ellipsoid(DVec3::splat(radius_mm), max_edge_mm)
 }
 
-/// An ellipsoid about the origin with these semi-axes, mm: a sphere stretched, so that its
+/// An ellipsoid around the origin with these semi-axes, mm. It is a stretched sphere, so its
 /// triangles are as unequal as its axes.
 ///
 /// # Errors
@@ -126,7 +126,7 @@ pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeEr
     })
 }
 
-/// A cube about the origin with rounded edges and corners.
+/// A cube around the origin with rounded edges and corners.
 ///
 /// Edges are quarters of cylinders, corners eighths of spheres. A corner radius of half the side
 /// gives a sphere.
@@ -157,7 +157,7 @@ pub fn rounded_cube(
     let in_arc = libm::ceil(std::f64::consts::FRAC_PI_4 * corner_radius_mm / step).max(1.0);
     let cells = in_flat + 2.0 * in_arc;
     affordable(12.0 * cells * cells)?;
-    // Along each axis: how far the flat part carries, and the slope of the direction.
+    // Along each axis: the offset by the flat part, and the slope of the direction.
     let axis: Vec<(f64, f64)> = (0..=cells as u32)
         .map(|i| {
             let i = f64::from(i);
@@ -294,7 +294,8 @@ fn divided_icosahedron(cuts: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
                 let mut point = |i: u32, j: u32| {
                     let mut shares = [(a, cuts - i - j), (b, i), (c, j)];
                     shares.sort_unstable();
-                    // Points on edges and corners are named by what takes part only.
+                    // Points on edges and corners are identified by the corners that contribute to
+                    // them.
                     let key: Vec<(usize, u32)> =
                         shares.into_iter().filter(|&(_, share)| share > 0).collect();
                     *known.entry(key.clone()).or_insert_with(|| {

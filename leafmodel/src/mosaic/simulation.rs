@@ -1,4 +1,4 @@
-//! A mosaic grows: cells are thrown, relax, divide.
+//! The growth of a mosaic: cells are placed, relax and divide.
 
 mod regions;
 #[cfg(test)]
@@ -31,24 +31,24 @@ const LONGEST_EDGE: f64 = 1.5;
 /// A cell of a mosaic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Where it is on the surface.
+    /// Its place on the surface.
     pub at: SurfacePoint,
     /// Its type, as an index of the plan's.
     pub kind: u16,
     /// Its clone: the initial cell that it descends from, from 0.
     pub clone: u32,
-    /// The cell whose child it is, as an index of the mosaic's; none for an initial cell.
+    /// The cell whose child it is, as an index of the mosaic's; `None` for an initial cell.
     pub parent: Option<u32>,
 }
 
-/// Cells on a surface at a time.
+/// A mosaic at one time: cells on a surface.
 #[derive(Clone, Debug)]
 pub struct Mosaic {
     /// The surface, at that time's size; faces as in the surface given.
     pub surface: Arc<Surface>,
     /// The cells: first the initial ones, then children by the time of their birth.
     pub cells: Vec<Cell>,
-    /// Within what distance cells repel one another at that time, mm.
+    /// Repulsion radius at that time, mm.
     pub radius_mm: f64,
     /// The time, days.
     pub day: f64,
@@ -62,17 +62,18 @@ impl Mosaic {
     ///
     /// # Errors
     ///
-    /// [`MosaicError`], for what is wrong with the plan, or if cells become too many.
+    /// [`MosaicError`], if the plan is not valid or there are too many cells.
     pub fn grow(surface: &Surface, plan: &MosaicPlan, seed: u64) -> Result<Self, MosaicError> {
         let mut mosaics = Self::grow_until(surface, plan, seed, &[plan.days], &|| false)?;
         Ok(mosaics.remove(0))
     }
 
     /// The same mosaic at several times of one run, in the order of `days` (each from 0 to the
-    /// plan's days); gives up when `is_stopped` says so, which is asked at each relaxation event.
+    /// plan's days); stops when `is_stopped`, which is called at each relaxation event, returns
+    /// true.
     ///
-    /// The same surface, plan and seed give the same bits, whatever the threads, and whatever other
-    /// days are asked for.
+    /// The same surface, plan and seed give the same bits, on any number of threads and whatever
+    /// other days are asked for.
     ///
     /// # Errors
     ///
@@ -119,7 +120,7 @@ impl Mosaic {
         Ok(grown.into_iter().flatten().collect())
     }
 
-    /// Where the cells are in space, mm.
+    /// Places of the cells in space, mm.
     pub fn positions(&self) -> Vec<DVec3> {
         let places = self
             .cells
@@ -136,10 +137,10 @@ struct Run<'a> {
     adhesion: Vec<Vec<f64>>,
     /// The surface as given.
     given: &'a Surface,
-    /// Cut finer, at its final size.
+    /// The surface subdivided, at its final size.
     mature: Surface,
     ancestry: Ancestry,
-    /// Cut finer, at the size of the day; none if that is the final size for good.
+    /// The surface subdivided, at the size of the day; `None` if it does not grow.
     grown: Option<Surface>,
     relaxation: Relaxation,
     regions: Option<Regions>,
@@ -189,7 +190,7 @@ impl<'a> Run<'a> {
             if is_stopped() {
                 return Err(MosaicError::Stopped);
             }
-            // With no adhesion there is none to be steered either, but blocked areas stay blocked.
+            // Without adhesion its controls have no effect, but blocked areas stay blocked.
             run.relax(&uniform, plan.initial_step);
         }
         Ok(run)
@@ -199,7 +200,7 @@ impl<'a> Run<'a> {
         self.grown.as_ref().unwrap_or(&self.mature)
     }
 
-    /// The initial cells.
+    /// Places the initial cells.
     fn throw_cells(&mut self, seed: u64) -> Result<(), MosaicError> {
         let mut probabilities = Vec::new();
         for number in 0..self.plan.initial_cells {
@@ -237,16 +238,16 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Where a cell will be when the surface is grown, mm.
+    /// Place of a cell on the full-grown surface, mm.
     fn mature_place(&self, cell: &Live) -> DVec3 {
         self.mature
             .position(&self.surface().point(cell.face, cell.at))
     }
 
-    /// The relaxation event at which a cell divides next, by the clock of its type.
+    /// The relaxation event at which a cell divides next, by the division time of its type.
     fn next_division(&self, cell: &Live) -> u64 {
         if self.grown.is_some() {
-            // On a surface that grows room decides, not the clock.
+            // On a growing surface the room decides about divisions.
             return NEVER;
         }
         let rate = self.controls.rate(self.mature_place(cell), cell.kind);
@@ -258,7 +259,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Divides what is due and relaxes.
+    /// Divides the cells that are due and relaxes.
     fn next_event(&mut self, most_cells: usize) -> Result<(), MosaicError> {
         self.event += 1;
         let per_day = u64::from(self.plan.relaxations_per_day);
@@ -322,7 +323,7 @@ impl<'a> Run<'a> {
             .relax(surface, &self.mature, &mut self.cells, &bonds);
     }
 
-    /// A cell becomes two: itself and a child beside it.
+    /// Adds a child beside a cell.
     fn divide(&mut self, number: u32) {
         let parent = self.cells[number as usize];
         let id = child_id(parent.id, parent.divisions);
@@ -354,7 +355,7 @@ impl<'a> Run<'a> {
         self.cells[number as usize] = parent;
     }
 
-    /// The surface takes the size that it has a day later; cells stay where they are in the tissue.
+    /// Grows the surface by one day; cells keep their places in the tissue.
     fn grow_surface(&mut self) -> Result<(), MosaicError> {
         let per_day = f64::from(self.plan.relaxations_per_day);
         let day = (self.event - 1) as f64 / per_day + 1.0;
@@ -378,7 +379,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The mosaic as it stands.
+    /// The present state as a mosaic.
     fn mosaic(&self, day: f64) -> Result<Mosaic, MosaicError> {
         let share = if self.plan.days > 0.0 {
             day / self.plan.days

@@ -1,7 +1,7 @@
-//! Measures of patterns on cells: what the claims about clonal mosaics rest on.
+//! Measures of patterns on cells, on which the claims about clonal mosaics rest.
 //!
-//! All work on a [`Voronoi`] tessellation and a label for each cell (its kind or its clone), so
-//! that a pattern of any origin, noise for one, is measured alike.
+//! All use a [`Voronoi`] tessellation and a label for each cell (its type or its clone), so that
+//! patterns of any origin, noise for example, are measured in the same way.
 //!
 //! - **In**: the tessellation, labels.
 //! - **Out**: shares, patches, widths, neighbourhoods against a null model, agreement of two
@@ -24,11 +24,11 @@ pub struct LabelPatch {
     pub label: u32,
     /// Its area, mm².
     pub area_mm2: f64,
-    /// How many cells make it up.
+    /// Number of its cells.
     pub cells: usize,
 }
 
-/// How alike neighbours are, and how alike they would be by chance.
+/// Similarity of neighbours, compared with chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbourhood {
     /// Share of pairs of neighbouring cells that have the same label.
@@ -104,8 +104,8 @@ pub fn mean_width_mm(voronoi: &Voronoi, labels_of: &[u32], label: u32) -> f64 {
     2.0 * area / border_length(voronoi, labels_of, label)
 }
 
-/// How many pairs of neighbours have the same label, against `shuffles` random reassignments of the
-/// labels.
+/// Share of pairs of neighbours with the same label, compared with `shuffles` random permutations
+/// of the labels.
 pub fn neighbourhood(
     voronoi: &Voronoi,
     labels_of: &[u32],
@@ -149,10 +149,10 @@ fn alike_share(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
     alike as f64 / pairs.max(1) as f64
 }
 
-/// Share of the cells that have a neighbour of the same label, among cells whose label another cell
-/// has too.
+/// Share of the cells that have a neighbour of the same label, among cells whose label is not
+/// unique.
 ///
-/// With clones for labels: how far clones hang together. 1 if there is no such cell.
+/// With clones as labels it measures how contiguous clones are. 1 if there is no such cell.
 pub fn contiguity(voronoi: &Voronoi, labels_of: &[u32]) -> f64 {
     let most = labels_of.iter().max().map_or(0, |&label| label as usize);
     let mut members = vec![0_u32; most + 1];
@@ -204,15 +204,14 @@ pub fn labels_at(
         .collect()
 }
 
-/// Cohen's kappa of two patterns seen at the same points: 1 the same, 0 as alike as chance makes
-/// patterns of these shares.
+/// Cohen's kappa of two patterns sampled at the same points: 1 if they are equal, 0 if they agree
+/// as often as independent patterns of these shares.
 ///
-/// `κ = (p_o − p_e) / (1 − p_e)` \[cohen1960\], eq. 1. 1 where both show one and the same label
-/// only.
+/// `κ = (p_o − p_e) / (1 − p_e)` \[cohen1960\], eq. 1. 1 if both consist of one and the same label.
 ///
 /// # Panics
 ///
-/// If the patterns are not seen at equally many points.
+/// If the patterns have different numbers of points.
 pub fn kappa(first: &[u32], second: &[u32]) -> f64 {
     assert_eq!(
         first.len(),

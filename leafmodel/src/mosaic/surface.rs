@@ -1,11 +1,11 @@
-//! Surfaces that cells live on: triangles, who touches whom, and a plane for each face.
+//! Surfaces on which cells live: triangles, their neighbours, and a plane for each face.
 //!
 //! - **In**: any triangle mesh in millimetres: closed, or with margins (a leaf's sheet).
-//! - **Out**: a [`Surface`]: neighbours across edges, areas, a flat frame per face, and how a
-//!   neighbour's frame unfolds into it.
-//! - **Always true**: an edge has one face or two, and these are turned the same way; every face
-//!   has area.
-//! - **Left out**: surfaces that branch (three faces at an edge) and surfaces with one side only.
+//! - **Out**: a [`Surface`]: neighbours across edges, areas, a flat frame per face, and the motion
+//!   that unfolds a neighbour's frame into it.
+//! - **Always true**: an edge has one face, or two of consistent orientation; every face has an
+//!   area above 0.
+//! - **Left out**: surfaces that branch (three faces at an edge) and one-sided surfaces.
 
 mod adjacency;
 mod doubled;
@@ -18,46 +18,46 @@ use thiserror::Error;
 
 pub use self::subdivide::Ancestry;
 
-/// No face: the far side of a margin.
+/// Marks the missing neighbour at a margin.
 const NONE: u32 = u32::MAX;
 
-/// A face has no plane of its own if its area is below this share of the square of its longest
-/// edge.
+/// Least area of a face as a share of the square of its longest edge; smaller faces have no
+/// well-defined plane.
 const LEAST_SHARE: f64 = 1e-12;
 
-/// Why a mesh is no surface that cells can live on. Points are in millimetres; faces count from 0.
+/// Why a mesh is not a valid surface. Points are in millimetres; faces are numbered from 0.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SurfaceError {
-    /// A mesh without faces.
+    /// The mesh has no faces.
     #[error("the mesh has no faces")]
     Empty,
-    /// More faces or vertices than the indices can name.
+    /// There are more faces or vertices than indices can number.
     #[error("the mesh has {count} faces or vertices, more than 2³⁰")]
     TooLarge {
         /// Their number.
         count: usize,
     },
-    /// More faces than a surface may be cut into.
+    /// Subdivision would give too many faces.
     #[error(
         "to cut the mesh until no edge is longer than {max_edge_mm} mm takes more than {most} faces"
     )]
     TooManyFaces {
-        /// How many there may be.
+        /// The greatest number of faces.
         most: usize,
         /// The longest edge wanted, mm.
         max_edge_mm: f64,
     },
-    /// A corner that is no vertex.
+    /// A face refers to a vertex that does not exist.
     #[error("face {face} names vertex {vertex}, but there are {vertices} (from 0)")]
     NoSuchVertex {
         /// The face.
         face: usize,
-        /// What it names.
+        /// The number of the missing vertex.
         vertex: u32,
         /// How many vertices there are.
         vertices: usize,
     },
-    /// A vertex at infinity or nowhere.
+    /// A coordinate of a vertex is not finite.
     #[error("vertex {vertex} is at {at}, which is not finite")]
     NotFinite {
         /// The vertex.
@@ -65,7 +65,7 @@ pub enum SurfaceError {
         /// Its position.
         at: DVec3,
     },
-    /// A face whose corners lie on a line or coincide.
+    /// The corners of a face lie on a line or coincide.
     #[error("face {face} has no area; its corners are {} mm, {} mm and {} mm", corners[0], corners[1], corners[2])]
     NoArea {
         /// The face.
@@ -73,7 +73,7 @@ pub enum SurfaceError {
         /// Its corners, mm.
         corners: [DVec3; 3],
     },
-    /// An edge at which the surface branches.
+    /// The surface branches at an edge.
     #[error("not a manifold: the edge from {from} mm to {to} mm has {} faces ({})", faces.len(), list(faces))]
     NotManifold {
         /// One end of the edge, mm.
@@ -83,13 +83,13 @@ pub enum SurfaceError {
         /// The faces at the edge.
         faces: Vec<u32>,
     },
-    /// A point in which parts meet that share no edge there.
+    /// Parts of the surface meet in a point without a common edge there.
     #[error("not a manifold: parts of the mesh touch at {at} mm in a point only")]
     Pinched {
         /// The point, mm.
         at: DVec3,
     },
-    /// Two neighbours of which one is turned inside out.
+    /// Two neighbouring faces have opposite orientation.
     #[error(
         "faces {} and {} are of opposite orientation: both run along their edge from {from} mm to {to} mm",
         faces[0], faces[1]
@@ -102,7 +102,7 @@ pub enum SurfaceError {
         /// The two faces.
         faces: [u32; 2],
     },
-    /// A length that has to be positive and is not.
+    /// A length is not positive.
     #[error("{name} is {value} mm; it has to be positive and finite")]
     NotALength {
         /// What it is.
@@ -118,12 +118,12 @@ fn list(faces: &[u32]) -> String {
     shown.join(", ") + more
 }
 
-/// A rigid motion of the plane: how one face's frame lies in another's.
+/// A rigid motion of the plane, from one face's frame to another's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unfold {
     /// Unit vector onto which the x axis is turned.
     pub turn: DVec2,
-    /// Where the origin comes to lie, mm.
+    /// Image of the origin, mm.
     pub shift: DVec2,
 }
 
@@ -134,17 +134,17 @@ impl Unfold {
         shift: DVec2::ZERO,
     };
 
-    /// Where a point of the unfolded frame lies in the frame unfolded into.
+    /// Maps a point of the unfolded frame into the target frame.
     pub fn apply(&self, point: DVec2) -> DVec2 {
         self.turn.rotate(point) + self.shift
     }
 
-    /// The point of the unfolded frame that lies at `point` of the frame unfolded into.
+    /// Maps a point of the target frame back into the unfolded frame.
     pub fn apply_inverse(&self, point: DVec2) -> DVec2 {
         self.turn_back(point - self.shift)
     }
 
-    /// A direction of the frame unfolded into, in the unfolded frame.
+    /// Maps a direction of the target frame back into the unfolded frame.
     pub fn turn_back(&self, direction: DVec2) -> DVec2 {
         DVec2::new(self.turn.x, -self.turn.y).rotate(direction)
     }
@@ -167,7 +167,7 @@ pub struct SurfacePoint {
     pub barycentric: [f64; 3],
 }
 
-/// A triangle mesh whose faces know their neighbours. Millimetres.
+/// A triangle mesh with the neighbours of each face. Lengths are in millimetres.
 #[derive(Clone, Debug)]
 pub struct Surface {
     positions: Vec<DVec3>,
@@ -180,10 +180,10 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Takes a mesh: vertices in mm and the corners of each face.
+    /// A surface from a mesh: vertices in mm and the corners of each face.
     ///
-    /// Vertices at exactly equal positions are one (meshes with seams of texture coordinates have
-    /// such); faces keep their order.
+    /// Vertices at exactly equal positions, as at seams of texture coordinates, are merged; faces
+    /// keep their order.
     ///
     /// # Errors
     ///
@@ -214,12 +214,12 @@ impl Surface {
         Ok(surface)
     }
 
-    /// Whether the faces around each vertex are one fan. Cells live on others too: they cross edges
-    /// only, not points.
+    /// Checks that the faces around each vertex form a single fan. Cells can live on other surfaces
+    /// too, since they cross edges only.
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::Pinched`] for the first vertex around which they are several.
+    /// [`SurfaceError::Pinched`] for the first vertex with more than one fan.
     pub fn check_vertices(&self) -> Result<(), SurfaceError> {
         let mut walked = vec![[false; 3]; self.faces.len()];
         let mut met = vec![false; self.positions.len()];
@@ -233,7 +233,7 @@ impl Surface {
                     let at = self.positions[vertex as usize];
                     return Err(SurfaceError::Pinched { at });
                 }
-                // Both ways round, across the edges that start and end at the vertex.
+                // In both directions around the vertex, across the edges that start and end there.
                 for side in [0, 2] {
                     let mut at = (face, corner);
                     loop {
@@ -258,8 +258,8 @@ impl Surface {
         Ok(())
     }
 
-    /// The same faces and neighbours with the vertices ([`Surface::positions`], in their order)
-    /// moved elsewhere.
+    /// The same faces and neighbours with new positions of the vertices, in the order of
+    /// [`Surface::positions`].
     ///
     /// # Errors
     ///
@@ -267,7 +267,7 @@ impl Surface {
     ///
     /// # Panics
     ///
-    /// If `positions` are not as many as before.
+    /// If the number of `positions` differs from that of the vertices.
     pub fn moved(&self, positions: Vec<DVec3>) -> Result<Self, SurfaceError> {
         assert_eq!(
             positions.len(),
@@ -283,7 +283,7 @@ impl Surface {
         )
     }
 
-    /// Frames, areas and unfoldings from the positions.
+    /// Computes frames, areas and unfoldings from the positions.
     fn flatten(&mut self) -> Result<(), SurfaceError> {
         let mut total = 0.0;
         for (face, ids) in self.faces.iter().enumerate() {
@@ -317,7 +317,7 @@ impl Surface {
         Ok(())
     }
 
-    /// The motion that lays the neighbour across an edge beside the face, into the face's plane.
+    /// The motion that unfolds the neighbour across an edge into the face's plane.
     fn hinge(&self, face: usize, edge: usize) -> Unfold {
         let neighbour = self.neighbours[face][edge];
         if neighbour == NONE {
@@ -325,7 +325,7 @@ impl Surface {
         }
         let theirs = usize::from(self.neighbour_edges[face][edge]);
         let (mine, other) = (&self.corners[face], &self.corners[neighbour as usize]);
-        // Both go round the same way, so that the neighbour runs along the edge backwards.
+        // Both faces have the same orientation, so the neighbour runs along the edge in reverse.
         let (end, start) = (mine[edge], mine[(edge + 1) % 3]);
         let (from, to) = (other[theirs], other[(theirs + 1) % 3]);
         let wanted = (end - start).normalize();
@@ -345,21 +345,21 @@ impl Surface {
         &self.faces
     }
 
-    /// The face across edge `edge` (from corner `edge` to the next) of a face; none across a
+    /// The face across edge `edge` (from corner `edge` to the next) of a face; `None` across a
     /// margin.
     pub fn neighbour(&self, face: u32, edge: usize) -> Option<u32> {
         let neighbour = self.neighbours[face as usize][edge];
         (neighbour != NONE).then_some(neighbour)
     }
 
-    /// Which edge of the neighbour across `edge` is the shared one; none across a margin.
+    /// The number that the shared edge has in the neighbour across `edge`; `None` across a margin.
     pub fn neighbour_edge(&self, face: u32, edge: usize) -> Option<usize> {
         self.neighbour(face, edge)?;
         Some(usize::from(self.neighbour_edges[face as usize][edge]))
     }
 
-    /// How the frame of the neighbour across `edge` unfolds into the frame of the face; none across
-    /// a margin.
+    /// The motion that unfolds the neighbour across `edge` into the frame of the face; `None`
+    /// across a margin.
     pub fn unfold(&self, face: u32, edge: usize) -> Option<Unfold> {
         self.neighbour(face, edge)?;
         Some(self.unfolds[face as usize][edge])
@@ -402,8 +402,7 @@ impl Surface {
         corners[0] * u + corners[1] * v + corners[2] * w
     }
 
-    /// The point of a face at a place of its frame (mm); places outside come to the nearest weights
-    /// inside.
+    /// The point of a face at a place of its frame (mm); places outside are clamped to the face.
     pub fn point(&self, face: u32, flat: DVec2) -> SurfacePoint {
         let [_, b, c] = self.corners[face as usize];
         let w = (flat.y / c.y).clamp(0.0, 1.0);
@@ -414,7 +413,7 @@ impl Surface {
         }
     }
 
-    /// A point of a face in the middle.
+    /// The centre of a face.
     pub fn centre(&self, face: u32) -> SurfacePoint {
         let third = 1.0 / 3.0;
         SurfacePoint {

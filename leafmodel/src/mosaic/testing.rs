@@ -28,7 +28,7 @@ pub(super) fn octahedron(radius: f64) -> Surface {
     Surface::new(corners, faces.collect()).expect("an octahedron")
 }
 
-/// A sphere: an octahedron cut fine and blown up.
+/// A sphere: an octahedron, subdivided and projected outwards.
 pub(super) fn sphere(radius: f64, max_edge: f64) -> Surface {
     let fine = octahedron(radius)
         .subdivided(max_edge)

@@ -1,17 +1,17 @@
 //! Cells as polygons: each face cut into the parts that lie nearest to each cell.
 //!
-//! Distances are those of the plane into which a face's surroundings unfold ([`super::patch`]), so
-//! never through space. Within a face the tessellation is exact; on curved surfaces two faces may
-//! unfold a far cell a little differently, and a border may then jump by as much at their edge. Far
-//! from all cells (in areas where controls admit none) a face does not search by itself. It takes
-//! the cells that its neighbours nearer to the cells have found.
+//! Distances are measured in the plane into which a face's surroundings unfold ([`super::patch`]),
+//! never through space. Within a face the tessellation is exact. On curved surfaces two faces may
+//! unfold a far cell slightly differently, so that a border is offset at their common edge. Faces
+//! far from all cells (in blocked areas) do not search themselves but take the cells found by
+//! neighbours that are nearer to cells.
 //!
 //! - **In**: a [`Surface`] and the places of the cells.
 //! - **Out**: convex pieces of faces with the cell they belong to and the cells beside them, areas,
 //!   neighbours.
-//! - **Always true**: the pieces of a face fill it and do not overlap; a cell that shares its place
-//!   with none has positive area.
-//! - **Left out**: parts of a surface that no cell can be reached from stay empty.
+//! - **Always true**: the pieces of a face fill it and do not overlap; every cell that does not
+//!   coincide with another has an area above 0.
+//! - **Left out**: parts of a surface from which no cell can be reached stay empty.
 
 #[cfg(test)]
 pub(in crate::mosaic) mod tests;
@@ -22,13 +22,13 @@ use rayon::prelude::*;
 use super::patch::PatchFinder;
 use super::surface::{Surface, SurfacePoint};
 
-/// No cell: an edge of the face itself.
+/// Marks an edge of the face itself, with no cell beyond.
 pub const FACE_EDGE: u32 = u32::MAX;
-/// First radius searched, in mean distances between cells.
+/// First search radius, in mean distances between cells.
 const FIRST_RADIUS: f64 = 2.0;
-/// Faces without any cell within this radius, in the same unit, ask their neighbours.
+/// Faces without any cell within this radius, in the same unit, use their neighbours' cells.
 const FAR_RADIUS: f64 = 4.0;
-/// Faces worked on together.
+/// Number of faces processed together.
 const CHUNK: usize = 256;
 
 /// The part of a face that lies nearest to one cell.
@@ -93,7 +93,7 @@ pub struct Voronoi {
 }
 
 impl Voronoi {
-    /// Tessellates a surface by cells at these places. Without cells nothing belongs to anyone.
+    /// Tessellates a surface by cells at these places. Without cells all faces are empty.
     pub fn new(surface: &Surface, sites: &[SurfacePoint]) -> Self {
         let in_face = by_face(surface, sites);
         let spacing = (surface.total_area() / sites.len().max(1) as f64).sqrt();
@@ -226,7 +226,7 @@ fn near(
     found
 }
 
-/// No point of the face is further than this from some cell.
+/// An upper bound of the distance from any point of the face to its nearest cell.
 fn bound(triangle: &[DVec2; 3], found: &[(u32, DVec2)]) -> f64 {
     let farthest = found.iter().map(|(_, at)| {
         let far = triangle.map(|corner| corner.distance_squared(*at));
@@ -242,8 +242,7 @@ fn keep_within(triangle: &[DVec2; 3], bound: f64, found: &mut Vec<(u32, DVec2)>)
     found.sort_by_key(|(cell, _)| *cell);
 }
 
-/// Faces that found no cell get those of their neighbours that have some, the nearer to cells
-/// first.
+/// Gives faces without cells those of their neighbours, starting with faces nearest to cells.
 fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
     let mut next: Vec<u32> = (0..found.len() as u32).collect();
     loop {
@@ -266,7 +265,7 @@ fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
             if taken.is_empty() {
                 continue;
             }
-            // Of the places that one cell has over different neighbours, the nearest.
+            // A cell may have different places over different neighbours; the nearest is kept.
             taken.sort_by(|a, b| {
                 let to = |at: DVec2| at.distance_squared(centre);
                 a.0.cmp(&b.0).then(to(a.1).total_cmp(&to(b.1)))
@@ -278,7 +277,7 @@ fn far(surface: &Surface, found: &mut [Vec<(u32, DVec2)>]) {
         if ring.is_empty() {
             return;
         }
-        // Only beside faces that have just got some is there more to take.
+        // The next faces to fill are neighbours of those just filled.
         next.clear();
         for (face, taken) in ring {
             found[face as usize] = taken;
@@ -316,7 +315,7 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
     let mut polygon: Vec<(DVec2, u32)> = Vec::with_capacity(12);
     let mut spare = Vec::with_capacity(12);
     for &(cell, at) in &near {
-        // The nearest cut away most.
+        // The nearest cells come first, since they cut away most.
         others.clear();
         others.extend(
             near.iter()
@@ -330,13 +329,14 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
                 continue;
             }
             if place == at {
-                // Of cells at one place the first takes all.
+                // Of coinciding cells the first one gets the whole polygon.
                 if other < cell {
                     polygon.clear();
                 }
                 continue;
             }
-            // The others are no nearer: beyond twice the way to the furthest corner none can cut.
+            // The remaining cells are no nearer; beyond twice the distance to the farthest corner
+            // none can cut.
             let furthest = polygon
                 .iter()
                 .map(|(p, _)| p.distance_squared(at))

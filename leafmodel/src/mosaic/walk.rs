@@ -1,18 +1,18 @@
-//! Walking straight on over a surface.
+//! Straight walks over a surface.
 
 use glam::DVec2;
 
 use super::surface::Surface;
 
-/// Edges crossed or slid along at most: a step is shorter than the repulsion radius, which few
-/// faces span.
+/// Greatest number of edges crossed or followed. A step is shorter than the repulsion radius, which
+/// spans few faces.
 const MOST_EDGES: usize = 256;
 
-/// Where a walk of the length and direction `step` (in the frame of `face`, mm) from `at` ends: the
+/// The end of a walk of length and direction `step` (in the frame of `face`, mm) from `at`: the
 /// face and the place in it.
 ///
-/// It goes straight on across edges, as on faces laid flat beside one another. At a margin what is
-/// left of it goes along the margin, so that it never leaves the surface.
+/// It continues straight across edges, as on unfolded faces. At a margin the rest of the step
+/// follows the margin, so that the walk never leaves the surface.
 pub(super) fn walk(
     surface: &Surface,
     mut face: u32,
@@ -56,7 +56,7 @@ pub(super) fn walk(
             entered = across;
         }
     }
-    // Rounding may have left the place a little outside.
+    // Rounding may have moved the place slightly outside.
     (face, surface.flat(&surface.point(face, at)))
 }
 
@@ -104,8 +104,7 @@ mod tests {
 
     #[test]
     fn round_a_closed_surface_a_walk_comes_home() {
-        // The girdle of an octahedron's four upper and lower faces, walked at mid-height of one
-        // face to itself.
+        // A walk around an octahedron, over its upper and lower faces, that returns to its start.
         let surface = octahedron(1.0);
         let start = surface.centre(0);
         let from = surface.flat(&start);

@@ -1,14 +1,13 @@
-//! Outlines drawn by hand: a smooth closed curve through control points, with corners where they
-//! are wanted.
+//! Outlines drawn by hand: a smooth closed curve through control points, any of which may be a
+//! corner.
 //!
 //! - **In**: control points in shares of the midrib's length, the base at (0, 0), the apex at (0,
-//!   1), for the right side alone or all round.
-//! - **Out**: an [`Outline`] that passes through every one of them.
+//!   1), for the right side alone or for the whole margin.
+//! - **Out**: an [`Outline`] that passes through every control point.
 //! - **Always true**: a contour given for one side is exactly mirror symmetric.
 //!
-//! Between points the curve is a Catmull–Rom cubic with chord lengths for knots, as in stretched
-//! veins. A corner has no common tangent: the curve arrives and leaves as if the point were its
-//! end.
+//! Between points the curve is a Catmull–Rom cubic with chord-length knots, as for stretched veins.
+//! At a corner the curve has no common tangent: each piece is computed as if the curve ended there.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -16,7 +15,7 @@ use thiserror::Error;
 use super::cubic::{Cubic, FLATNESS};
 use super::outline::{Outline, OutlineError};
 
-/// Most control points.
+/// The greatest number of control points.
 const MOST_POINTS: usize = 1000;
 
 /// Farthest that a control point may lie from the base across or along the leaf, in lengths of the
@@ -37,8 +36,8 @@ pub struct ControlPoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContourCurve {
     /// The points in order, 3 to 1000. If mirrored, the first is the base, (0, 0), the last the
-    /// apex, (0, 1), and those between are the right side; else they go once around, in either
-    /// sense.
+    /// apex, (0, 1), and those between are the right side; else they go once around the margin, in
+    /// either sense.
     pub points: Vec<ControlPoint>,
     /// Whether the left side is the mirror image of the right one.
     pub mirrored: bool,
@@ -53,7 +52,7 @@ pub enum ContourCurveError {
         /// How many there are.
         points: usize,
     },
-    /// A coordinate that is not finite or far outside the leaf.
+    /// A coordinate is not finite or lies far outside the leaf.
     #[error("control point {index} is ({x}, {y}), outside -10 to 10 (lengths of the midrib)")]
     OutOfRange {
         /// Which point, from 0.
@@ -63,13 +62,13 @@ pub enum ContourCurveError {
         /// Along the midrib.
         y: f64,
     },
-    /// A point at the place of the one before; for the first point that is the last one.
+    /// A point coincides with the point before it. The point before the first is the last.
     #[error("control point {index} lies where the one before it does")]
     Coincident {
         /// Which point, from 0.
         index: usize,
     },
-    /// A mirrored contour that does not go from base to apex.
+    /// A mirrored contour does not go from base to apex.
     #[error("the {order} control point of a mirrored contour is ({x}, {y}), it must be the {end}")]
     BadEnd {
         /// `first` or `last`.
@@ -81,7 +80,7 @@ pub enum ContourCurveError {
         /// Along the midrib.
         y: f64,
     },
-    /// The curve is no margin.
+    /// The curve is not a valid margin.
     #[error("the curve through the control points is no margin: {0}")]
     NoMargin(#[from] OutlineError),
 }
@@ -100,7 +99,7 @@ impl ContourCurve {
         if self.mirrored {
             let last = places.len() - 1;
             for i in 0..last {
-                // Beyond an end the curve goes on as the mirror image of how it came.
+                // Beyond base and apex a mirrored curve continues as its own mirror image.
                 let reflected = |i: usize| DVec2::new(-places[i].x, places[i].y);
                 let before = if i == 0 { reflected(1) } else { places[i - 1] };
                 let after = if i + 1 == last {
@@ -131,11 +130,11 @@ impl ContourCurve {
         )?)
     }
 
-    /// The curve between two neighbouring points, by their numbers, with those before and behind
-    /// them.
+    /// The curve between the points number `from` and `to`. `around` holds their places, between
+    /// those of the points before and after them.
     fn piece(&self, around: [DVec2; 4], from: usize, to: usize) -> Cubic {
         let [mut before, start, end, mut after] = around;
-        // At a corner the curve goes on as it came.
+        // At a corner the curve is continued straight, as at an end.
         if self.points[from].corner {
             before = 2.0 * start - end;
         }
@@ -262,8 +261,8 @@ mod tests {
             mirrored: false,
         };
         let outline = curve.grow(1.0).expect("a circle");
-        // Between two points an angle θ apart the cubic lies inside the circle, most so midway,
-        // where its radius is r (cos(θ/2) + sin θ sin(θ/2) / 4).
+        // Between two points an angle θ apart the cubic lies inside the circle. It lies deepest
+        // midway, where its radius is r (cos(θ/2) + sin θ sin(θ/2) / 4).
         let angle = std::f64::consts::TAU / f64::from(n);
         let least =
             0.5 * (libm::cos(angle / 2.0) + libm::sin(angle) * libm::sin(angle / 2.0) / 4.0);

@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::segments::turn;
 use super::slabs::Slabs;
 
-/// Two edges of the closed polygon that cross or touch apart from the corner that neighbours
-/// share, or `None` for a simple polygon. Only edges of a common slab whose x-ranges overlap are
-/// compared: `O(n √n)` for a comb, about `n log n` for ordinary margins.
+/// Two edges of the closed polygon that cross, or touch elsewhere than at the corner that
+/// neighbours share. `None` for a simple polygon. Only edges in a common slab whose x-ranges
+/// overlap are compared: `O(n √n)` for a comb, about `n log n` for ordinary margins.
 pub(crate) fn first_crossing(points: &[DVec2], slabs: &Slabs) -> Option<(usize, usize)> {
     let n = points.len();
     let ends = |i: usize| (points[i], points[(i + 1) % n]);
@@ -41,7 +41,7 @@ pub(crate) fn first_crossing(points: &[DVec2], slabs: &Slabs) -> Option<(usize, 
     None
 }
 
-/// Whether the path a → b → c returns upon itself at b.
+/// Whether the path a → b → c folds back on itself at b.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     turn(a, b, c) == 0.0 && (b - a).dot(c - b) < 0.0
 }
@@ -55,7 +55,7 @@ fn meet((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
         return false;
     }
     if abc == 0.0 && abd == 0.0 && cda == 0.0 && cdb == 0.0 {
-        // On one line: they meet if their boxes do.
+        // Collinear segments meet if their bounding boxes do.
         let (low, high) = (a.min(b), a.max(b));
         let (other_low, other_high) = (c.min(d), c.max(d));
         return low.cmple(other_high).all() && other_low.cmple(high).all();

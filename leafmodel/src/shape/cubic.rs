@@ -1,8 +1,8 @@
-//! Smooth curves: cubics, Catmull–Rom through given points, and polylines near enough to either.
+//! Smooth curves: Bézier cubics, Catmull–Rom curves, and polylines within a tolerance of either.
 
 use glam::DVec2;
 
-/// How far a polyline may lie from the curve it stands for, as a share of the outline's extent.
+/// How far a polyline may lie from the curve it approximates, as a share of the outline's extent.
 pub(crate) const FLATNESS: f64 = 1e-4;
 
 /// A cubic Bézier curve by its control points.
@@ -28,15 +28,15 @@ impl Cubic {
         a * (v * v * v) + b * (3.0 * v * v * u) + c * (3.0 * v * u * u) + d * (u * u * u)
     }
 
-    /// Adds points on the curve, without its start and with its end, so that straight lines between
-    /// them stay within `tolerance` > 0 of it.
+    /// Appends points of the curve, its start left out and its end included, so that straight lines
+    /// between them stay within `tolerance` > 0 of the curve.
     ///
-    /// A chord over a parameter step `h` is at most `h² max|B''| / 8` away, and `B''` is greatest
-    /// at an end.
+    /// The chord over a parameter step `h` is at most `h² max|B''| / 8` from the curve, and `|B''|`
+    /// is greatest at an end.
     pub(crate) fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         let [a, b, c, d] = self.0;
         let bend = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
-        // Rounding leaves a little bend in a line; NaN and infinity end as one piece, and are
+        // Rounding leaves a little bend in a line. NaN and infinity give one piece here and are
         // refused later.
         let pieces = (0.75 * bend / tolerance).sqrt().ceil().clamp(1.0, 1e4) as u32;
         let inner = (1..pieces).map(|i| self.at(f64::from(i) / f64::from(pieces)));
@@ -44,8 +44,8 @@ impl Cubic {
     }
 }
 
-/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord lengths for knots: old
-/// edges next to just subdivided ones are much longer than these, and even knots would bend the
+/// The Catmull–Rom curve from `p[1]` to `p[2]` at `u` in [0, 1], with chord-length knots. Old edges
+/// are much longer than freshly subdivided ones beside them, and evenly spaced knots would bend the
 /// curve there.
 pub(crate) fn catmull_rom(p: [DVec2; 4], u: f64) -> DVec2 {
     let chord = p[2] - p[1];
@@ -60,7 +60,7 @@ pub(crate) fn catmull_rom(p: [DVec2; 4], u: f64) -> DVec2 {
 fn slopes(p: [DVec2; 4]) -> [DVec2; 2] {
     let chords = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
     let [before, span, after] = chords.map(DVec2::length);
-    // Slope at a knot of the parabola through it and its neighbours.
+    // Slope, at a knot, of the parabola through the knot and its two neighbours.
     let slope = |first: DVec2, d0: f64, second: DVec2, d1: f64| {
         (first * (d1 / d0) + second * (d0 / d1)) / (d0 + d1)
     };

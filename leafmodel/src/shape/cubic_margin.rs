@@ -1,4 +1,4 @@
-//! A margin of two cubic splines: the simplest drawn leaf, by two angles and two lengths.
+//! A margin of two cubic splines, given by two angles and two lengths.
 //!
 //! - **In**: a [`CubicMargin`].
 //! - **Out**: an [`Outline`], base at the origin, midrib along +y, mirror symmetric.
@@ -41,10 +41,10 @@ impl Default for CubicMargin {
     }
 }
 
-/// Why the splines are no margin.
+/// Why the splines are not a valid margin.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CubicMarginError {
-    /// A number out of its range.
+    /// A number is out of its range.
     #[error("{key} is {value}, outside {range}")]
     OutOfRange {
         /// Which parameter.
@@ -54,7 +54,7 @@ pub enum CubicMarginError {
         /// What it may be.
         range: &'static str,
     },
-    /// They cross, or enclose nothing.
+    /// The splines cross, or enclose no area.
     #[error("the splines of these angles and lengths are no margin: {0}")]
     Margin(#[from] OutlineError),
 }
@@ -64,9 +64,9 @@ impl CubicMargin {
     ///
     /// # Errors
     ///
-    /// [`CubicMarginError::OutOfRange`] of the first that is out of range.
+    /// [`CubicMarginError::OutOfRange`] for the first number that is out of range.
     pub fn validate(&self) -> Result<(), CubicMarginError> {
-        // Exclusive ends are the numbers next to them.
+        // The ends are excluded, so the ranges go to the neighbouring floating-point numbers.
         let angles = (
             f64::MIN_POSITIVE..=180.0_f64.next_down(),
             "0 to 180 degrees, both excluded",
@@ -90,7 +90,8 @@ impl CubicMargin {
     ///
     /// # Errors
     ///
-    /// [`CubicMarginError`], naming what is out of range, or why the splines are no margin.
+    /// [`CubicMarginError`], naming the number that is out of range, or why the splines are not a
+    /// valid margin.
     pub fn grow(&self, length_mm: f64) -> Result<Outline, CubicMarginError> {
         self.validate()?;
         if !(1e-3..=1e5).contains(&length_mm) {

@@ -1,4 +1,5 @@
-//! How a given lamina expands from primordium to maturity: growth that differs from place to place.
+//! How a given lamina expands from primordium to maturity: growth at rates that differ from place
+//! to place.
 //!
 //! Relative elementary rates of growth across and along the leaf depend on where tissue lies along
 //! the axis at the start, and on nothing else. A point that starts at `(x0, y0)` is then, `t` steps
@@ -7,8 +8,8 @@
 //! `x = x0 RERGx(y0)^t`, `y = ∫₀^y0 RERGy(η)^t dη`, with `RERG = 1 + g`.
 //!
 //! - **In**: two [`RateCurve`]s, the length at the start, and that at the end.
-//! - **Out**: where tissue is at any time, and which tissue is at a place: both through one table.
-//! - **Always true**: going there and back is the identity up to rounding, since both ways read the
+//! - **Out**: where given tissue lies at any time, and which tissue lies at a given place.
+//! - **Always true**: the two maps are inverse to each other up to rounding, since both read the
 //!   same table.
 //!
 //! # Source
@@ -18,33 +19,32 @@
 use glam::DVec2;
 use thiserror::Error;
 
-/// Cells of the table of heights.
+/// Number of cells of the table of heights.
 const CELLS: usize = 512;
 
-/// Growth that has not arrived by then never will.
+/// Steps after which growth counts as never reaching the final length.
 const LONGEST: f64 = 1e6;
 
 /// A growth rate per step as a function of where tissue lies at the start, 0 at the base, 1 at the
-/// apex: a monotone cubic through its knots, so that it never leaves the range of neighbouring
-/// knots.
+/// apex: a monotone cubic through its knots. Between two knots its value stays between theirs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateCurve {
-    /// Place and rate, places rising.
+    /// Place and rate of each knot, in the order of rising places.
     knots: Vec<[f64; 2]>,
     /// Slope at each knot.
     slopes: Vec<f64>,
 }
 
-/// Why there is no growth of this kind.
+/// Why growth functions are refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GrowthError {
-    /// No knots, or far too many.
+    /// There are no knots, or too many.
     #[error("a growth function needs 1 to 1000 knots, it has {knots}")]
     KnotCount {
         /// How many it has.
         knots: usize,
     },
-    /// Places that do not rise, or lie outside the leaf.
+    /// The places of the knots do not rise, or lie outside the leaf.
     #[error(
         "knot {index} of a growth function lies at {at}; knots go from 0 at the base to 1 at the apex, rising"
     )]
@@ -54,7 +54,7 @@ pub enum GrowthError {
         /// Where it lies.
         at: f64,
     },
-    /// Tissue would shrink to nothing, or is no number.
+    /// A rate would shrink tissue to nothing, is above 1, or is not a number.
     #[error(
         "knot {index} of a growth function is {rate}; 1 + g must stay above 0, and g at most 1 per step"
     )]
@@ -78,7 +78,7 @@ pub enum GrowthError {
 
 impl RateCurve {
     /// A curve through `[place, rate]`, places rising from 0 to 1, rates above −1 and at most 1 per
-    /// step. Before the first knot and behind the last, the rate is constant.
+    /// step. Before the first knot and after the last the rate is constant.
     ///
     /// # Errors
     ///
@@ -153,7 +153,7 @@ impl RateCurve {
     }
 }
 
-/// Where tissue is, `t` steps after the start.
+/// The map from where tissue starts to where it lies `t` steps later, in segments.
 #[derive(Clone, Debug)]
 pub(crate) struct TissueMap {
     initial_length: f64,
@@ -195,7 +195,7 @@ impl TissueMap {
         self.heights[CELLS]
     }
 
-    /// Where tissue is that started at `start`.
+    /// The present place of the tissue that started at `start`.
     pub(crate) fn forward(&self, start: DVec2) -> DVec2 {
         let place = start.y / self.initial_length * CELLS as f64;
         let cell = (place.floor().max(0.0) as usize).min(CELLS - 1);
@@ -207,7 +207,7 @@ impl TissueMap {
         )
     }
 
-    /// Where the tissue started that is at `now`.
+    /// The place at which the tissue now at `now` started.
     pub(crate) fn back(&self, now: DVec2) -> DVec2 {
         let cell = self
             .heights
@@ -231,7 +231,7 @@ impl TissueMap {
 ///
 /// # Errors
 ///
-/// [`GrowthError::NeverArrives`].
+/// [`GrowthError::NeverArrives`] if that takes more than 1 000 000 steps.
 pub(crate) fn arrival(initial: f64, along: &RateCurve, last: f64) -> Result<f64, GrowthError> {
     // Only the length matters.
     let still = RateCurve {
@@ -276,7 +276,7 @@ mod tests {
         let p = map.forward(DVec2::new(3.0, 7.0));
         let expected = DVec2::new(3.0 * libm::pow(1.02, 40.0), 7.0 * libm::pow(1.05, 40.0));
         assert!((p - expected).length() < 1e-9, "{p} {expected}");
-        // Beyond base and apex too.
+        // Places beyond base and apex are tested too.
         for y in [-2.0, 25.0] {
             let p = map.forward(DVec2::new(1.0, y));
             assert!((p.y - y * libm::pow(1.05, 40.0)).abs() < 1e-9);

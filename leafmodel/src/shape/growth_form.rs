@@ -1,20 +1,20 @@
-//! Outlines that local growth rates bring forth by themselves (growth-algorithm model).
+//! Outlines that emerge from local growth rates (the growth-algorithm model).
 //!
 //! Half a leaf is `N` rows of cells between midrib and margin. The midrib grows at one rate along
-//! its whole length, each row at its own rate along its own direction; exponential growth over
-//! three orders of magnitude turns small differences of rate into the shape of the leaf. Beyond
-//! that first model of the paper, the growth law may be any curve, the halves may differ, rows may
-//! bend, and the midrib may bear axes that repeat it, which makes palmate leaves.
+//! its whole length, each row at its own rate in its own direction. Growth is exponential over
+//! three orders of magnitude, so small differences of rate shape the leaf. This module extends the
+//! paper's model: the growth law may be any curve, the halves may differ, rows may bend, and the
+//! midrib may bear secondary axes that repeat it, as in palmate leaves.
 //!
 //! - **In**: a [`GrowthForm`].
 //! - **Out**: an [`Outline`], base at the origin, midrib along +y; axes, vein rows and rates of
 //!   growth.
 //! - **Always true**: the outline never crosses itself, and every axis ends on the blade. Holes
-//!   between rows or lobes that meet again are filled. Vein rows of one half do not cross: those
-//!   that would are refused.
+//!   between rows or lobes that meet again are filled. Vein rows of one half do not cross; a form
+//!   whose vein rows would cross is refused.
 //! - **Left out**: lobes do not push each other aside; where two overlap they become one. Lobes
-//!   that meet below the petiole close over it, as in a peltate leaf. Compound leaves are
-//!   [`crate::compound`].
+//!   that meet below the petiole enclose its attachment, as in a peltate leaf. Compound leaves are
+//!   in [`crate::compound`].
 
 mod axes;
 mod check;
@@ -37,20 +37,21 @@ use super::outline::Outline;
 /// Growth in length from primordium to maturity: 0.1 mm to 100 mm in the paper (section III).
 pub(crate) const ENLARGEMENT: f64 = 1000.0;
 
-/// How fast rows of cells grow sideways, by where they start along their axis.
+/// Lateral growth rate of rows of cells, by where they start along their axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LateralGrowth {
     /// Eq. 3 of the paper.
     Peak {
-        /// `R = gy / gL0`, axial over greatest lateral growth rate of the axis, 0.5 to 100.
+        /// `R = gy / gL0`, the axis' growth rate over its greatest lateral growth rate, 0.5 to 100.
         rate_ratio: f64,
-        /// `yd`, where lateral growth is fastest, in (0, 1).
+        /// `yd`, the place along the axis where lateral growth is fastest, in (0, 1).
         widest_at: f64,
-        /// `k`, how late it falls off away from there, > 0 up to 100.
+        /// `k`, exponent of the fall to both sides of `yd`, > 0 up to 100: the greater, the farther
+        /// from `yd` growth stays fast.
         falloff: f64,
     },
-    /// `gL` per step over the place along the axis, 0 at its base and 1 at its tip. Negative rates
-    /// shrink.
+    /// `gL` per step as a function of the place along the axis, 0 at its base, 1 at its tip. Rows
+    /// with negative rates shrink.
     Curve(RateCurve),
 }
 
@@ -59,11 +60,12 @@ pub enum LateralGrowth {
 pub struct VeinRow {
     /// Place along the axis, 0 at its base, 1 at its tip.
     pub position: f64,
-    /// Slope `s` at the axis: rise along it per unit away from it, −20 to 20, constant in growth.
+    /// Slope `s` at the axis: rise along the axis per unit of distance from it, −20 to 20. Growth
+    /// does not change it.
     pub slope: f64,
-    /// Change of slope per axis' length away from it, −100 to 100; 0 is a straight row, above 0 the
-    /// vein curves towards the tip. It belongs to the leaf at every age, so that rows keep their
-    /// shape relative to it.
+    /// Change of slope over a distance of one axis' length from the axis, −100 to 100. 0 gives a
+    /// straight row; above 0 the vein curves towards the tip. The unit is the length of the axis at
+    /// each age, so that rows keep their shape relative to it.
     pub bend: f64,
 }
 
@@ -73,11 +75,12 @@ pub struct HalfForm {
     /// How fast rows grow.
     pub lateral: LateralGrowth,
     /// `a`, how fast growth falls off away from a vein, 0 to 100; 0 gives an entire leaf (Eq. 4).
-    /// It counts distance in rows, so a value belongs to its number of rows.
+    /// Distance is counted in rows, so a value holds for one number of rows only.
     pub lobe_decay: f64,
-    /// `n`, shape of that fall, > 0 up to 10: 1 pointed lobes, 2 rounded ones (Eq. 4).
+    /// `n`, exponent of that fall, > 0 up to 10: 1 pointed lobes, 2 rounded ones (Eq. 4).
     pub lobe_exponent: f64,
-    /// Secondary veins, from base to tip; none means straight rows of slope 0 and no lobes.
+    /// Secondary veins, from base to tip. Without any, rows are straight, of slope 0, and there are
+    /// no lobes.
     pub veins: Vec<VeinRow>,
 }
 
@@ -88,13 +91,13 @@ pub struct Axis {
     pub rows: usize,
     /// The right half, tip up.
     pub right: HalfForm,
-    /// The left half; none is the right one's mirror image.
+    /// The left half; `None` means the mirror image of the right one.
     pub left: Option<HalfForm>,
-    /// Axes on it.
+    /// Secondary axes on this one.
     pub axes: Vec<SecondaryAxis>,
 }
 
-/// An axis that replicates the midrib.
+/// A secondary axis, which repeats the midrib.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondaryAxis {
     /// Where it starts along its parent, 0 at the parent's base to 1 at its tip; 0 in a palmate
@@ -102,11 +105,11 @@ pub struct SecondaryAxis {
     pub position: f64,
     /// Its direction, radians from the parent's towards the right, −π to π.
     pub angle: f64,
-    /// Whether its mirror image about the parent is there too, with the mirror images of all axes
-    /// on it.
+    /// Whether the axis has a twin: its mirror image about the parent, with the mirror images of
+    /// all axes on it.
     pub paired: bool,
-    /// How long it gets, in midribs, 0.01 to 100; [`SecondaryAxis::axial_rate`] is the rate of
-    /// growth that makes it so.
+    /// Length at maturity, in lengths of the midrib, 0.01 to 100; [`SecondaryAxis::axial_rate`] is
+    /// the rate of growth that leads to it.
     pub length: f64,
     /// Its rows, and the axes on it.
     pub axis: Axis,
@@ -116,9 +119,9 @@ pub struct SecondaryAxis {
 ///
 /// # Source
 ///
-/// \[young2010\], Eqs. 1–4, and the extensions that its section V names; for palmate leaves section
+/// \[young2010\], Eqs. 1–4, and the extensions that its section V names. For palmate leaves section
 /// IV asks for "a self-similar organization in which the secondary veins replicate the midrib with
-/// autonomous growth characteristics". How axes are placed is ours.
+/// autonomous growth characteristics". How axes are placed is our choice.
 /// `docs/src/theory/growth-shape.md` says where this departs from the paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrowthForm {
@@ -128,12 +131,12 @@ pub struct GrowthForm {
     pub midrib: Axis,
 }
 
-/// How one row of cells has grown.
+/// Growth of one row of cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowGrowth {
     /// Where it starts along the midrib, 0 at the petiole to 1 at the tip.
     pub place: f64,
-    /// `gL`, growth of its length per step.
+    /// `gL`, rate of growth of its length per step.
     pub rate: f64,
     /// How far from the midrib it ends at maturity, as a share of the midrib's length.
     pub half_width: f64,
@@ -151,7 +154,7 @@ impl VeinRow {
 }
 
 impl HalfForm {
-    /// Half of an entire leaf by `R`, `yd` and `k`.
+    /// Half of an entire leaf, from `R`, `yd` and `k`.
     pub const fn entire(rate_ratio: f64, widest_at: f64, falloff: f64) -> Self {
         Self {
             lateral: LateralGrowth::Peak {
@@ -179,7 +182,7 @@ impl From<HalfForm> for Axis {
 }
 
 impl From<Axis> for GrowthForm {
-    /// A leaf whose midrib grows by a tenth a step, as the paper's do.
+    /// A leaf whose midrib grows by a tenth per step, as in the paper.
     fn from(midrib: Axis) -> Self {
         Self {
             axial_rate: 0.1,
@@ -189,7 +192,7 @@ impl From<Axis> for GrowthForm {
 }
 
 impl From<HalfForm> for GrowthForm {
-    /// A symmetrical leaf of 150 rows whose midrib grows by a tenth a step, as the paper's do.
+    /// A symmetrical leaf of 150 rows whose midrib grows by a tenth per step, as in the paper.
     fn from(half: HalfForm) -> Self {
         Axis::from(half).into()
     }
@@ -197,7 +200,8 @@ impl From<HalfForm> for GrowthForm {
 
 impl SecondaryAxis {
     /// The rate at which the axis grows on a midrib that grows at `main_rate`:
-    /// `(1 + gy) length^(1/T) − 1`, as both grow the same `T` steps from primordia of one size.
+    /// `(1 + gy) length^(1/T) − 1`, as both grow for the same `T` steps from primordia of equal
+    /// size.
     pub fn axial_rate(&self, main_rate: f64) -> f64 {
         let per_step = libm::log1p(main_rate) / libm::log(ENLARGEMENT);
         (1.0 + main_rate) * libm::pow(self.length, per_step) - 1.0
@@ -205,17 +209,17 @@ impl SecondaryAxis {
 }
 
 impl GrowthForm {
-    /// Grows the primordium until the midrib is a thousand times longer, and scales the outcome so
-    /// that the midrib measures `length_mm`, 0.001 to 100 000.
+    /// Grows the primordium until the midrib is 1000 times as long, then scales the outline so that
+    /// the midrib measures `length_mm`, 0.001 to 100 000.
     ///
-    /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin, over
-    /// the apex (0, `length_mm`), and down the left one; that of a leaf with axes starts at its
-    /// lowest point. Growth ends in the middle of a step, so that the enlargement is exactly 1000
-    /// (the paper: "about 1000").
+    /// The outline of a leaf without axes starts at the base (0, 0), goes up the right margin to
+    /// the apex (0, `length_mm`) and down the left margin; that of a leaf with axes starts at its
+    /// lowest point. The last step is cut short, so that the enlargement is exactly 1000 (the
+    /// paper: "about 1000").
     ///
     /// # Errors
     ///
-    /// [`GrowthFormError`], naming the parameter and its range, veins that cross, or the axis that
+    /// [`GrowthFormError`], naming a parameter and its range, veins that cross, or an axis that
     /// lies apart.
     ///
     /// # Source
@@ -236,7 +240,7 @@ impl GrowthForm {
     ///
     /// # Errors
     ///
-    /// As [`GrowthForm::grow`], but that axes may lie apart.
+    /// As [`GrowthForm::grow`], except that axes may lie apart.
     #[cfg(test)]
     pub(crate) fn axis_lines(&self, length_mm: f64) -> Result<Vec<[DVec2; 2]>, GrowthFormError> {
         check::length(length_mm)?;
@@ -265,8 +269,8 @@ impl GrowthForm {
         Ok(lines)
     }
 
-    /// Growth of each row on one side of the midrib, from base to tip (Fig. 2: the rate below, the
-    /// width above).
+    /// Growth of each row on one side of the midrib, from base to tip (Fig. 2 shows the rate below
+    /// and the width above).
     ///
     /// # Errors
     ///

@@ -1,8 +1,8 @@
-//! The inside of an outline in coarse cells: what most points need to know, by one look-up.
+//! The inside of an outline in coarse cells: answers most point queries by one look-up.
 //!
-//! Cells through which the margin passes leave the question to the edges; all others lie wholly
-//! inside or wholly outside. Cells inside know how many cells there are at least to the next that
-//! is not.
+//! A cell through which the margin passes leaves the answer to the edges. All other cells lie
+//! wholly inside or wholly outside. An inside cell stores its distance, in cells, from the nearest
+//! cell that is not inside.
 
 use glam::DVec2;
 
@@ -17,7 +17,7 @@ const MARGIN: u8 = 0;
 /// A cell outside.
 const OUTSIDE: u8 = u8::MAX;
 
-/// A cell inside, before steps to the nearest cell that is not are counted; these are fewer.
+/// A cell inside whose steps are not yet counted; step counts are always smaller.
 const INSIDE: u8 = u8::MAX - 1;
 
 /// Cells over the bounding rectangle of a polygon.
@@ -26,12 +26,12 @@ pub(crate) struct InteriorGrid {
     low: DVec2,
     cell: f64,
     columns: usize,
-    /// Row by row.
+    /// Marks or step counts of the cells, row by row.
     steps: Vec<u8>,
 }
 
 impl InteriorGrid {
-    /// The cells of a simple polygon whose edges `slabs` has.
+    /// The cells of a simple polygon; `slabs` indexes its edges.
     pub(crate) fn new(points: &[DVec2], slabs: &Slabs) -> Self {
         let (low, high) = points
             .iter()
@@ -56,7 +56,7 @@ impl InteriorGrid {
         grid
     }
 
-    /// Whether `p` is inside, where the cells can tell.
+    /// Whether `p` is inside; `None` if its cell lies on the margin.
     pub(crate) fn contains(&self, p: DVec2) -> Option<bool> {
         match self.steps_at(p) {
             MARGIN => None,
@@ -65,10 +65,10 @@ impl InteriorGrid {
         }
     }
 
-    /// Whether cells tell that the segment from `a` to `b` stays away from the margin.
+    /// Whether the cells prove that the segment from `a` to `b` stays clear of the margin.
     pub(crate) fn is_clear(&self, a: DVec2, b: DVec2) -> bool {
         let steps = self.steps_at(a);
-        // From anywhere in a cell to the cell `steps` away there are `steps − 1` between.
+        // Between a cell and one `steps` away lie `steps − 1` whole cells.
         let way = f64::from(steps.saturating_sub(1)) * self.cell;
         steps != OUTSIDE && (b - a).length_squared() < way * way * (1.0 - 1e-9)
     }
@@ -83,9 +83,10 @@ impl InteriorGrid {
         self.steps.get(at).copied().unwrap_or(OUTSIDE)
     }
 
-    /// Marks the cells that an edge passes, its ends in cells from the corner.
+    /// Marks the cells through which an edge passes; its ends are given in cells from the grid's
+    /// corner.
     fn mark_edge(&mut self, a: DVec2, b: DVec2) {
-        // Far above rounding, and far below a cell.
+        // Much greater than rounding errors, much smaller than a cell.
         let slack = 1e-6;
         let rows = self.steps.len() / self.columns;
         let (first, last) = (a.y.min(b.y) - slack, a.y.max(b.y) + slack);
@@ -108,8 +109,8 @@ impl InteriorGrid {
         }
     }
 
-    /// Tells cells inside from cells outside. Neighbours in a row without the margin between are
-    /// alike.
+    /// Decides which cells are inside. Neighbours in a row with no margin between them share the
+    /// answer.
     fn tell_sides(&mut self, points: &[DVec2], slabs: &Slabs) {
         for (row, cells) in self.steps.chunks_mut(self.columns).enumerate() {
             let mut before = MARGIN;
@@ -128,7 +129,7 @@ impl InteriorGrid {
         }
     }
 
-    /// Counts the steps, also diagonal ones, from each cell inside to the nearest that is not.
+    /// Counts the steps, diagonal ones included, from each inside cell to the nearest other cell.
     fn count_steps(&mut self) {
         let (count, columns) = (self.steps.len(), self.columns);
         for at in 0..count {
@@ -143,12 +144,12 @@ impl InteriorGrid {
         }
     }
 
-    /// One step more than the nearest of some neighbours. They exist, for the margin lies between
-    /// cells inside and the border of the grid.
+    /// Lowers a cell's count to one more than the least of some neighbours'. The neighbours exist,
+    /// since the margin lies between inside cells and the border of the grid.
     fn relax(&mut self, at: usize, neighbours: impl Fn(usize) -> [usize; 4]) {
         let steps = self.steps[at];
         if steps != MARGIN && steps != OUTSIDE {
-            // What is no step away is not inside.
+            // Cells outside or on the margin count as 0 steps.
             let nearest = neighbours(at).map(|i| match self.steps[i] {
                 OUTSIDE => MARGIN,
                 steps => steps,
@@ -197,7 +198,7 @@ mod tests {
                 if let Some(inside) = grid.contains(p) {
                     prop_assert_eq!(inside, slabs.contains(&points, p), "{}", p);
                 }
-                // Ways of all lengths, many of them near what is just clear.
+                // Segments of all lengths, many of them close to the longest that is clear.
                 for share in [0.01, 0.1, 0.3, 1.0] {
                     let to = p + (before - p) * share;
                     prop_assert!(!grid.is_clear(p, to) || !slabs.is_crossed_by(&points, p, to), "{}–{}", p, to);
@@ -221,8 +222,8 @@ mod tests {
                 .count()
         };
         assert_eq!([0.0, 2.0, 4.7, 5.3, 9.0].map(told), [1000; 5]);
-        // Cells are 0.21 wide. Steps along diagonals count as one, so that 3.5 of 5 are left of the
-        // way to the margin.
+        // Cells are 0.21 wide. A diagonal step counts as one, so only 3.5 of the 5 to the margin
+        // are known to be clear.
         assert!(grid.is_clear(DVec2::ZERO, DVec2::new(3.0, 0.0)));
         assert!(!grid.is_clear(DVec2::new(4.0, 0.0), DVec2::new(4.99, 0.0)));
     }

@@ -1,8 +1,8 @@
-//! The outside of a curve that crosses itself, or of several curves that cross each other.
+//! The outer boundary of a curve that crosses itself, or of several curves that cross each other.
 //!
 //! Rows of unlike slope can pass over each other, and then the polyline of their ends crosses
 //! itself. The blade is what the rows sweep over together, so its margin is the outer boundary of
-//! that polyline: follow it, and wherever another piece crosses, take the outermost way on.
+//! that polyline: it is followed, and at every crossing the outermost branch is taken.
 
 use glam::DVec2;
 
@@ -11,8 +11,8 @@ use super::segments::crossing;
 /// The outer boundary of the closed polyline `points`, counter-clockwise, starting at `points[0]`.
 ///
 /// `points[0]` and the last point must lie on the outer boundary, with the edge from the last to
-/// the first on it as well (the midrib of a half leaf is). Holes between crossing pieces are
-/// filled; loops that hang on to the rest by a single crossing point are cut off.
+/// the first on it as well (for half a leaf, that edge is the midrib). Holes between crossing
+/// pieces are filled; loops connected to the rest by a single crossing point are cut off.
 pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
     let web = Web::new(&[points]);
     let (start, last) = (web.same[0], web.same[points.len() - 1]);
@@ -20,12 +20,11 @@ pub(crate) fn outer_boundary(points: &[DVec2]) -> Vec<DVec2> {
     web.walk(start, last, arrival, |here, _| here == last)
 }
 
-/// The outer boundary of the union of simple counter-clockwise polygons, as far as it hangs
-/// together with the lowest point; what hangs on to that by a single point only is cut off. Holes
-/// are filled. Counter-clockwise from the lowest point.
+/// The outer boundary of the union of simple counter-clockwise polygons, restricted to the part
+/// connected to the lowest point; what touches that part in a single point only is cut off. Holes
+/// are filled. The boundary is counter-clockwise and starts at the lowest point.
 ///
-/// Polygons may share corners; edges that lie on each other are not expected, and may leave a
-/// boundary that crosses itself.
+/// Polygons may share corners. Edges must not overlap; if they do, the boundary may cross itself.
 pub(crate) fn union_boundary(polygons: &[&[DVec2]]) -> Vec<DVec2> {
     let web = Web::new(polygons);
     let lower = |&p: &usize, &q: &usize| {
@@ -38,7 +37,7 @@ pub(crate) fn union_boundary(polygons: &[&[DVec2]]) -> Vec<DVec2> {
     else {
         return Vec::new();
     };
-    // As if coming from outside, below.
+    // The direction of arrival is chosen so that the walk starts along the outside.
     web.walk(start, usize::MAX, DVec2::X, |_, next| next == start)
 }
 
@@ -47,7 +46,7 @@ struct Web {
     corners: Vec<DVec2>,
     /// Neighbours of each corner: two, or four at a crossing.
     neighbours: Vec<Vec<usize>>,
-    /// For each corner the one that stands for all at its place.
+    /// For each corner the first one at the same place.
     same: Vec<usize>,
 }
 
@@ -94,8 +93,8 @@ impl Web {
         }
     }
 
-    /// The way along the outside from `start`, reached from `previous` in direction `arrival`,
-    /// until it is `done` (here, next).
+    /// The walk along the outside from `start`, reached from `previous` in direction `arrival`,
+    /// until `done(here, next)`.
     fn walk(
         &self,
         start: usize,
@@ -114,8 +113,7 @@ impl Web {
                 break;
             }
             if let Some(at) = path.iter().position(|&corner| corner == next) {
-                // A loop closed at one point: leave it out and go on from there, as if just
-                // arrived.
+                // The walk closed a loop at one point: drop the loop and go on from that point.
                 path.truncate(at + 1);
             } else {
                 path.push(next);
@@ -128,10 +126,11 @@ impl Web {
             .collect()
     }
 
-    /// Of the ways on from `here`, reached in direction `arrival`, the one farthest to the right.
+    /// The rightmost edge that leaves `here`, when arriving in direction `arrival`.
     fn rightmost(&self, here: usize, previous: usize, arrival: DVec2) -> Option<usize> {
         let back = -arrival;
-        // Angle from the way back, counter-clockwise: the smallest is the rightmost way on.
+        // Angle from the backward direction, counter-clockwise: the smallest belongs to the
+        // rightmost edge.
         let angle = |to: usize| {
             let way = self.corners[to] - self.corners[here];
             let angle = libm::atan2(back.perp_dot(way), back.dot(way));
@@ -149,8 +148,8 @@ impl Web {
     }
 }
 
-/// Pairs of edges, smaller number first, whose bounding boxes overlap and that share no corner; in
-/// rising order.
+/// Pairs of edges, smaller number first, in rising order, whose bounding boxes overlap and that
+/// share no corner.
 fn near_pairs(corners: &[DVec2], edges: &[[usize; 2]]) -> Vec<(usize, usize)> {
     let mut boxes: Vec<(DVec2, DVec2, usize)> = edges
         .iter()
@@ -180,7 +179,7 @@ fn near_pairs(corners: &[DVec2], edges: &[[usize; 2]]) -> Vec<(usize, usize)> {
 /// For each corner the first one at the same place.
 fn one_of_equals(corners: &[DVec2]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..corners.len()).collect();
-    // Adding 0 makes −0 and 0 one place.
+    // Adding 0 turns −0 into 0.
     let key = |i: usize| corners[i] + DVec2::ZERO;
     order.sort_by(|&p, &q| {
         let (a, b) = (key(p), key(q));
@@ -259,7 +258,8 @@ mod tests {
             (0.0, 6.0),
         ]);
         let boundary = outer_boundary(&curve);
-        // Up to (4, 2), where the way out to (6, 2) crosses; that loop only hangs on there.
+        // Up to (4, 2), where the way out to (6, 2) crosses; that loop is connected to the rest
+        // only there.
         assert!(boundary.contains(&DVec2::new(4.0, 2.0)));
         assert_eq!(boundary.first(), curve.first());
         assert_eq!(boundary.last(), curve.last());

@@ -1,13 +1,13 @@
 //! The closed margin curve of a lamina.
 //!
 //! - **In**: a polygon in millimetres, and the two ends of the midrib.
-//! - **Out**: inside or outside, distance to the margin, area, perimeter.
-//! - **Always true**: counter-clockwise, no repeated point, no edge crosses or touches another,
-//!   the enclosed area is positive, both ends of the midrib lie on the blade.
+//! - **Out**: tests of inside and outside, distance to the margin, area, perimeter.
+//! - **Always true**: the polygon is counter-clockwise; no point is repeated; no edge crosses or
+//!   touches another; the enclosed area is positive; both ends of the midrib lie on the blade.
 //!
-//! Queries are answered by the coarse cells of `shape::interior_grid` away from the margin, and
-//! near it by the horizontal slabs of `shape::slabs`: their cost is that of the few edges at the
-//! same height, not of the whole margin.
+//! Away from the margin, queries are answered by the coarse cells of `shape::interior_grid`; near
+//! it, by the horizontal slabs of `shape::slabs`. The cost depends on the few edges at the same
+//! height, not on the whole margin.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -34,7 +34,7 @@ pub struct Outline {
     interior: InteriorGrid,
 }
 
-/// Why a polygon is no margin.
+/// Why a polygon is not a valid margin.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum OutlineError {
     /// Fewer than three points.
@@ -57,7 +57,7 @@ pub enum OutlineError {
         /// Number of the second edge.
         second: usize,
     },
-    /// No area.
+    /// The polygon encloses no area.
     #[error("the outline encloses no area")]
     NoArea,
     /// An end of the midrib is not finite, or lies outside the blade.
@@ -76,8 +76,8 @@ pub enum OutlineError {
 }
 
 impl Outline {
-    /// A margin from its corners in order, mm; neighbours that coincide become one, and the order
-    /// is turned counter-clockwise.
+    /// Builds a margin from its corners in order, mm. Coinciding neighbours become one; the order
+    /// is made counter-clockwise.
     ///
     /// # Errors
     ///
@@ -134,7 +134,7 @@ impl Outline {
         Ok(outline)
     }
 
-    /// The margin, counter-clockwise, mm.
+    /// The corners of the margin, counter-clockwise, mm.
     pub fn points(&self) -> &[DVec2] {
         &self.points
     }
@@ -144,7 +144,7 @@ impl Outline {
         self.base
     }
 
-    /// Where the midrib meets the margin, mm.
+    /// Where the midrib ends at the margin, mm.
     pub fn apex(&self) -> DVec2 {
         self.apex
     }
@@ -154,8 +154,8 @@ impl Outline {
         (self.apex - self.base).length()
     }
 
-    /// Whether `p` lies inside the margin. On the margin itself the answer is either, but always
-    /// the same for the same point.
+    /// Whether `p` lies inside the margin. For points on the margin the answer may be either, but
+    /// is always the same for the same point.
     pub fn contains(&self, p: DVec2) -> bool {
         self.interior
             .contains(p)
@@ -200,7 +200,7 @@ impl Outline {
     }
 
     /// The margin with `centre` moved to the origin, then enlarged by `factor` > 0. Nothing is
-    /// checked anew: similarity keeps every invariant.
+    /// checked again, since a similarity keeps every invariant.
     pub(crate) fn moved_and_scaled(&self, centre: DVec2, factor: f64) -> Self {
         let image = |p: DVec2| (p - centre) * factor;
         let points: Vec<DVec2> = self.points.iter().map(|&p| image(p)).collect();
@@ -216,8 +216,8 @@ impl Outline {
 }
 
 impl Outline {
-    /// The same margin at another time, its corners and apex moved by growth that keeps every
-    /// invariant.
+    /// The same margin at another time, with corners and apex moved by growth. The caller
+    /// guarantees that the growth keeps every invariant.
     pub(crate) fn with_points(&self, points: Vec<DVec2>, apex: DVec2) -> Self {
         let slabs = Slabs::new(&points);
         Self {
@@ -390,7 +390,7 @@ mod tests {
         ) {
             let mut points = star(n, seed);
             let i = (at * n as f64) as usize % n;
-            // Exchanging two neighbours two apart makes the three edges between them cross.
+            // Exchanging corners two apart makes edges between them cross.
             points.swap(i, (i + 2) % n);
             let brute = (0..n).any(|a| (a + 2..n).any(|b| {
                 !(a == 0 && b == n - 1)

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::segments::crossing;
 
-/// Which edges of a closed polygon reach into which of its horizontal slabs.
+/// For each horizontal slab of a closed polygon the edges that reach into it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slabs {
     low: f64,
@@ -73,8 +73,8 @@ impl Slabs {
         &self.edges[self.starts[slab] as usize..self.starts[slab + 1] as usize]
     }
 
-    /// The slab of a height; heights outside the polygon fall to the first or last one. Rounding
-    /// cannot part a point from an edge at its height, since the map is monotone.
+    /// The slab of a height; heights outside the polygon give the first or last one. The map is
+    /// monotone, so rounding cannot put a point and an edge at its height into different slabs.
     fn at(&self, y: f64) -> usize {
         let slab = (y - self.low) * self.per_height;
         // A float-to-integer cast saturates, so negative heights give 0.
@@ -135,7 +135,8 @@ impl Slabs {
     }
 
     /// A lower bound of the squared distance from height `y` to a slab that lies below (`side` < 0)
-    /// or above it. One slab's height in 10⁹ is given away, so that rounding never hides an edge.
+    /// or above it. The bound is lowered by 10⁻⁹ of a slab's height, so that rounding never hides
+    /// an edge.
     fn gap_squared(&self, slab: usize, side: f64, y: f64) -> f64 {
         if self.per_height == 0.0 {
             return 0.0;

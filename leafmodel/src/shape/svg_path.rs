@@ -1,10 +1,10 @@
-//! Outlines drawn elsewhere: a path of an SVG file.
+//! Outlines from a path of an SVG file.
 //!
 //! - **In**: the text of the file, and which path if it is not the first.
 //! - **Out**: the contour as a polygon in the coordinates of the file, and from it an [`Outline`]
 //!   of any length.
-//! - **Always true**: transforms of the path and of what it stands in are carried out; curves are
-//!   followed within 10⁻⁴ of the path's extent.
+//! - **Always true**: transforms of the path and of its ancestors are applied; the polygon stays
+//!   within 10⁻⁴ of the path's extent of its curves.
 //! - **Left out**: shapes other than `path`, style sheets, and the `viewBox`, which moves and
 //!   scales everything alike.
 //!
@@ -21,7 +21,7 @@ use thiserror::Error;
 use super::cubic::FLATNESS;
 use super::outline::{Outline, OutlineError};
 
-/// Most corners of a polygon.
+/// Greatest number of corners of a polygon.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A contour from an SVG file.
@@ -29,9 +29,10 @@ const MOST_POINTS: usize = 1_000_000;
 pub struct SvgContour {
     /// Name of the file, as the plan gives it.
     pub file: String,
-    /// The path's `id`; `None` is the first path that is drawn.
+    /// The path's `id`; `None` means the first path that is drawn.
     pub id: Option<String>,
-    /// The contour in the coordinates of the file, y down; not closed by a repeated point.
+    /// The contour in the coordinates of the file, y down; the first point is not repeated at the
+    /// end.
     pub points: Vec<[f64; 2]>,
     /// Where the petiole is attached, in the same coordinates.
     pub base: [f64; 2],
@@ -42,22 +43,22 @@ pub struct SvgContour {
 /// Why a file gives no contour.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SvgError {
-    /// Not XML.
+    /// The file is not XML.
     #[error("is no SVG file: {problem}")]
     NotXml {
         /// What the parser says.
         problem: String,
     },
-    /// No path at all.
+    /// There is no path.
     #[error("has no path that is drawn; turn shapes into paths")]
     NoPath,
-    /// No path of that name.
+    /// No path has that `id`.
     #[error("has no path with the id \"{id}\"")]
     NoSuchPath {
         /// The name.
         id: String,
     },
-    /// Path data or a transform that cannot be read.
+    /// Path data or a transform cannot be read.
     #[error("has an attribute `{attribute}` that cannot be read: {problem}")]
     BadAttribute {
         /// `d`, `transform` or `style`.
@@ -65,13 +66,13 @@ pub enum SvgError {
         /// What is wrong.
         problem: String,
     },
-    /// Holes, or several pieces.
+    /// The path has holes or several pieces.
     #[error("has a path of {parts} parts; an outline is one closed curve without holes")]
     SeveralParts {
         /// How many.
         parts: usize,
     },
-    /// Coordinates that are not finite, or more than a million corners.
+    /// A coordinate is not finite, or there are more than a million corners.
     #[error("has a path that is too large: {problem}")]
     TooLarge {
         /// In what sense.
@@ -85,7 +86,7 @@ impl SvgContour {
     ///
     /// # Errors
     ///
-    /// [`SvgError`], whose messages go on behind the name of the file.
+    /// [`SvgError`]; its messages are written to follow the name of the file.
     ///
     /// # Source
     ///
@@ -149,9 +150,8 @@ impl SvgContour {
         })
     }
 
-    /// Base and apex where nothing is said of them: the lowest and the highest point as one sees
-    /// them, y down. Where several points share that height, it is the middle between the
-    /// outermost.
+    /// Default base and apex: the lowest and the highest point as drawn, with y pointing down. If
+    /// several points share that height, it is the midpoint of the outermost ones.
     pub fn ends_of(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
         let end = |sign: f64| {
             let height = |p: &[f64; 2]| sign * p[1];
@@ -190,7 +190,7 @@ impl SvgContour {
 
 /// The path of that `id`, or else the first that is drawn.
 fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>, SvgError> {
-    // What stands in these is drawn elsewhere, or only cut out of something.
+    // Paths within these elements are templates or clips, not drawn where they stand.
     const NOT_DRAWN: [&str; 7] = [
         "defs", "clipPath", "mask", "pattern", "symbol", "marker", "font",
     ];

@@ -1,20 +1,20 @@
 //! Toothed margins: triangular waves along an outline, added up.
 //!
-//! - **In**: an [`Outline`] and waves, each so many teeth a side.
+//! - **In**: an [`Outline`] and waves, each with a number of teeth per side.
 //! - **Out**: the outline with its margin moved outward by the sum of the waves.
 //! - **Always true**: base and apex stay where they are; a mirror symmetric outline stays one.
 //!
 //! # Source
 //!
 //! \[runions2005\], section 3.2: a toothed contour is a curve plus triangular waves of several
-//! amplitudes and frequencies. How waves lean and fade is ours.
+//! amplitudes and frequencies. Lean and fade of the waves are our additions.
 
 use glam::DVec2;
 use thiserror::Error;
 
 use super::outline::{Outline, OutlineError};
 
-/// Most waves of a margin.
+/// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
 
 /// One triangular wave along each side of a margin.
@@ -22,14 +22,14 @@ const MOST_WAVES: usize = 20;
 pub struct ToothWave {
     /// Teeth on each side, 1 to 1000, of equal length along the margin.
     pub per_side: u32,
-    /// How far a tooth stands out, as a share of the midrib's length, > 0 up to 0.5.
+    /// Height of a tooth, as a share of the midrib's length, > 0 up to 0.5.
     pub height: f64,
-    /// Where the tip of a tooth points, −1 to 1: 0 gives even triangles, 1 saw teeth whose upright
-    /// side faces the apex, −1 the base.
+    /// Where the tip of a tooth points, −1 to 1: 0 gives symmetric triangles; 1 gives saw teeth
+    /// whose upright side faces the apex, −1 the base.
     pub lean: f64,
     /// Share of the side, from the base, over which teeth rise to their full height, 0 to 1.
     pub fade_base: f64,
-    /// Share of the side, up to the apex, over which they fall off again, 0 to 1.
+    /// Share of the side, up to the apex, over which their height falls to 0 again, 0 to 1.
     pub fade_apex: f64,
 }
 
@@ -54,7 +54,7 @@ pub enum TeethError {
         /// How many.
         waves: usize,
     },
-    /// Base and apex have no margin between them to bear teeth.
+    /// One side, from base to apex, has no length.
     #[error(
         "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth"
     )]
@@ -116,11 +116,12 @@ impl ToothWave {
     }
 
     /// Height at a share of the side, in shares of the midrib's length. Where a side of a tooth is
-    /// upright, the height just `before` the place or that behind it.
+    /// upright, the height just before the place if `before`, else that just after it.
     fn at(&self, share: f64, before: bool) -> f64 {
         let teeth = f64::from(self.per_side);
         let along = share * teeth;
-        // Break points come out of `breaks` rounded; they belong to the tooth they were made for.
+        // Break points from `breaks` are rounded, so a place next to one is snapped to the tooth it
+        // belongs to.
         let nearest = along.round();
         let (tooth, within) = if (along - nearest).abs() < 1e-9 {
             if before {
@@ -170,11 +171,11 @@ impl ToothWave {
 
 /// The outline with teeth: every place of the margin moved outward by the sum of `waves` there.
 ///
-/// Each side is measured along the margin from base to apex. Outward is at right angles to the
-/// chord between the places a quarter of the shortest tooth before and behind, or as far as all
-/// waves together are high if that is more: so it turns gently where the margin is a polygon, and
-/// slowly enough that neighbours do not cross in a bay. Notches and tips are corners of the result,
-/// as are those of the outline.
+/// Each side is measured along the margin from base to apex. Outward is perpendicular to the chord
+/// between two places of the margin, one before and one behind, each a quarter of the shortest
+/// tooth away, or the total height of all waves if that is more. So the direction changes smoothly
+/// along a polygonal margin, and slowly enough that neighbouring teeth do not cross in a bay.
+/// Notches and tips are corners of the result, as are those of the outline.
 ///
 /// # Errors
 ///
@@ -204,7 +205,7 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
     };
     let mut margin = shape(right, 1.0);
     let mut back = shape(left, -1.0);
-    // Both sides hold base and apex.
+    // Both sides include base and apex, which must not be repeated.
     back.reverse();
     margin.extend(back);
     Ok(Outline::new(margin, outline.base(), outline.apex())?)
@@ -213,14 +214,14 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
 /// A side of a margin, from base to apex.
 struct Side {
     points: Vec<DVec2>,
-    /// Way along the margin to each point, as a share of the side.
+    /// Distance along the margin to each point, as a share of the side.
     shares: Vec<f64>,
-    /// The whole way.
+    /// Length of the side.
     length: f64,
 }
 
 impl Side {
-    /// A side through these points, unless all are one.
+    /// A side through these points; `None` if all coincide.
     fn new(points: Vec<DVec2>) -> Option<Self> {
         let mut length = 0.0;
         let mut shares = vec![0.0];
@@ -256,7 +257,7 @@ impl Side {
         stops.extend(waves.iter().flat_map(ToothWave::breaks));
         stops.retain(|share| (0.0..=1.0).contains(share));
         stops.sort_unstable_by(f64::total_cmp);
-        // A tooth's corner beside one of the margin would give an edge of no length.
+        // A corner of a tooth at a corner of the margin would give an edge without length.
         stops.dedup_by(|next, kept| *next - *kept < 1e-9);
         let mut margin = Vec::with_capacity(stops.len());
         for share in stops {

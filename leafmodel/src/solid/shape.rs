@@ -1,4 +1,4 @@
-//! What bodies there are.
+//! The shapes of bodies.
 
 use std::sync::Arc;
 
@@ -9,31 +9,31 @@ use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, lathe, rounded_cube};
 /// The shape of a body, mm.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SolidShape {
-    /// An ellipsoid about the origin; a sphere if its semi-axes are alike.
+    /// An ellipsoid around the origin; a sphere if its semi-axes are equal.
     Ellipsoid {
         /// Half the extents along x, y and z.
         semi_axes_mm: DVec3,
     },
-    /// A cube about the origin with rounded edges.
+    /// A cube around the origin with rounded edges.
     RoundedCube {
         /// Length of a side.
         side_mm: f64,
         /// Radius of its edges, up to half the side.
         corner_radius_mm: f64,
     },
-    /// A smooth profile turned about the z axis.
+    /// A solid of revolution: a smooth profile around the z axis.
     Lathe {
-        /// Points (distance from the axis, height), from below.
+        /// Points (distance from the axis, height), mm, from the lowest part of the profile on.
         profile_mm: Vec<DVec2>,
     },
-    /// Triangles made elsewhere.
+    /// An imported mesh.
     Mesh(Arc<SolidMesh>),
 }
 
-/// Triangles made elsewhere, and the file that they come from.
+/// An imported mesh and its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidMesh {
-    /// What the scene calls the file.
+    /// Name of the file in the scene.
     pub file: String,
     /// Millimetres per unit of the file.
     pub scale_mm: f64,
@@ -42,7 +42,7 @@ pub struct SolidMesh {
 }
 
 impl SolidShape {
-    /// Area, mm², to within a tenth, of few triangles.
+    /// Area, mm², to within a tenth, computed from few triangles.
     ///
     /// # Errors
     ///
@@ -51,7 +51,7 @@ impl SolidShape {
         let size = match self {
             Self::Ellipsoid { semi_axes_mm } => semi_axes_mm.max_element(),
             Self::RoundedCube { side_mm, .. } => *side_mm,
-            // How high it stands does not matter.
+            // The height of the profile above the origin does not matter.
             Self::Lathe { profile_mm } => {
                 let of = |part: fn(f64, f64) -> f64, value: fn(&DVec2) -> f64| {
                     profile_mm.iter().map(value).reduce(part).unwrap_or(0.0)
@@ -64,7 +64,7 @@ impl SolidShape {
         self.triangles(0.1 * size).map(|shape| area(&shape))
     }
 
-    /// As triangles with edges of at most `max_edge_mm`; meshes made elsewhere as they are.
+    /// The shape as triangles with edges of at most `max_edge_mm`; imported meshes are not changed.
     ///
     /// # Errors
     ///
@@ -91,10 +91,10 @@ fn area(shape: &Shape) -> f64 {
     0.5 * doubled.sum::<f64>()
 }
 
-/// A mesh that has no normals with some: at each corner of a face the mean of those faces around
-/// that turn away from it by less than 45°, by area. So round things look round, and edges are
-/// sharp: across an edge a mean would lean so far from both its faces that light which falls on
-/// them could not be reflected. A point has as many vertices as normals.
+/// Adds normals to a mesh without normals. At each corner of a face the normal is the area-weighted
+/// mean of the adjacent faces that differ from it in direction by less than 45°. So rounded parts
+/// look smooth and edges stay sharp: across an edge a mean would deviate so far from both faces
+/// that light on them could not be reflected. A point has one vertex for each of its normals.
 pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
     let crease = std::f64::consts::FRAC_1_SQRT_2;
     let doubled: Vec<DVec3> = faces
@@ -141,7 +141,8 @@ pub fn creased(positions: &[DVec3], faces: &[[u32; 3]]) -> Shape {
     shape
 }
 
-/// Unit normals at the points of a mesh that has none: the mean of the faces around, by area.
+/// Unit normals at the points of a mesh without normals: the area-weighted mean of the adjacent
+/// faces.
 pub fn smooth_normals(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for &[a, b, c] in faces {

@@ -163,7 +163,7 @@ fn the_map_at_a_vertex_holds_what_its_cell_holds() {
         let sites: Vec<(DVec3, u16)> = sites
             .map(|cell| (mosaic.surface.position(&cell.at), cell.kind))
             .collect();
-        // Some texels, and what chords through these bodies fall short of arcs.
+        // Some texels, plus the difference between chords and arcs on these bodies.
         let clearance = 1.0;
         let (mut checked, mut dark) = (0, 0);
         for (&position, &uv) in body.positions.iter().zip(&body.uvs) {
@@ -335,7 +335,7 @@ fn how_high_a_turned_body_stands_changes_nothing_but_that() {
 
 #[test]
 fn a_profile_too_crumpled_to_be_measured_is_refused_in_words_of_the_plan() {
-    // To and fro so often that its area alone takes too many triangles.
+    // A profile that runs to and fro so often that its area takes too many triangles.
     let points = (0..8000).map(|i| {
         let radius = if i % 2 == 0 { 1.0 } else { 100.0 };
         DVec2::new(radius, 0.01 * f64::from(i))

@@ -1,7 +1,7 @@
 //! Veins as splines: from pinnate to arcuate, and palmate (\[oslveins\]).
 //!
-//! The article names its parameters and their defaults and prints none for its pictures: all else
-//! here is by eye.
+//! The article gives its parameters and their defaults, but none for its pictures. All other
+//! numbers here are by eye.
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;
@@ -45,7 +45,7 @@ const ARCUATE: ArcuatePlan = ArcuatePlan {
 
 fn leaf(length_mm: f64, margin: CubicMargin, veins: ArcuatePlan) -> LeafPlan {
     let contour = Contour::Cubic(margin);
-    // The thinnest vein stands for the finest in contents and relief.
+    // In contents and relief the thinnest vein is taken for the finest.
     let finest = AuxinPlan {
         veinlet_radius_mm: 0.02 * veins.width * length_mm,
         ..AuxinPlan::default()
@@ -56,7 +56,7 @@ fn leaf(length_mm: f64, margin: CubicMargin, veins: ArcuatePlan) -> LeafPlan {
     }
 }
 
-/// The article's default values, every one.
+/// The leaf with all of the article's default values.
 pub(super) fn defaults() -> LeafPlan {
     leaf(80.0, CubicMargin::default(), ArcuatePlan::default())
 }
@@ -69,7 +69,7 @@ pub(super) fn arcuate() -> LeafPlan {
     leaf(90.0, ELLIPTIC, ARCUATE)
 }
 
-/// The leaf at a share of the way from pinnate, 0, to arcuate, 1.
+/// The leaf between pinnate (share 0) and arcuate (share 1).
 pub(super) fn between(share: f64) -> LeafPlan {
     let mix = |from: f64, to: f64| from + (to - from) * share;
     let (p, a) = (PINNATE, ARCUATE);
@@ -112,8 +112,8 @@ mod tests {
     use super::*;
     use crate::leaf::Fields;
 
-    /// Mean turn of laterals towards the tip from their first piece to their last, radians, and how
-    /// far up they end on average, lengths.
+    /// Mean turn of laterals towards the tip from their first piece to their last, in radians, and
+    /// the mean height of their ends, in leaf lengths.
     fn sweep(share: f64) -> (f64, f64) {
         let plan = between(share);
         let lamina = plan.grow_lamina().expect("a good plan");

@@ -1,10 +1,10 @@
-//! Presets for what section 7 of Runions et al. 2005 asks for.
+//! Presets for extensions that section 7 of Runions et al. 2005 names.
 
 use super::{contours, green_leaf};
 use crate::leaf::LeafPlan;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
-/// A closed net on isogonic growth that starts with a leaf long enough for its secondaries to form
+/// A closed net under isogonic growth. The young leaf is long enough for its secondaries to form
 /// together.
 fn net(final_length: f64, initial_length: f64, veinlet_mm: f64) -> AuxinPlan {
     AuxinPlan {
@@ -57,7 +57,7 @@ pub(super) fn cupped() -> LeafPlan {
         ..net(300.0, 60.0, 0.012)
     };
     let mut leaf = green_leaf(60.0, 1, contours::orbicular(), venation);
-    // It is bent by its own curvature.
+    // Its Gaussian curvature bends it already.
     leaf.form.fold = 0.0;
     leaf.form.curl = 0.0;
     leaf

@@ -1,4 +1,4 @@
-//! What the captions of Runions et al. 2005 claim, on the presets' networks.
+//! Claims of the captions of Runions et al. 2005, tested on the presets' networks.
 
 use glam::DVec2;
 
@@ -13,7 +13,7 @@ use crate::venation::{Stage, grow_stages};
 mod beyond;
 mod open;
 
-/// A preset and what it grows into.
+/// A preset and the leaf that it grows.
 struct Grown {
     plan: LeafPlan,
     outline: Outline,
@@ -42,7 +42,7 @@ impl Grown {
         auxin.expect("the figures' veins grow towards auxin")
     }
 
-    /// The same leaf but for its veins.
+    /// The same leaf with other veins.
     fn with_veins(&self, veins: AuxinPlan) -> Self {
         Self::of(LeafPlan {
             venation: veins.into(),
@@ -63,7 +63,7 @@ impl Grown {
         self.outline.length()
     }
 
-    /// Pieces of vein of orders up to this.
+    /// Pieces of veins of this order and coarser ones.
     fn major(&self, order: u8) -> Vec<VeinSegment> {
         let segments = self.network.segments();
         segments.filter(|segment| segment.order <= order).collect()
@@ -94,8 +94,7 @@ fn roughness(grown: &Grown, scale: usize) -> f64 {
     let network = &grown.network;
     let at = |node: u32| network.nodes()[node as usize].position;
     let edges = network.edges();
-    // The edge of the same vein that leads to where one starts; edges are sorted by the node they
-    // lead to.
+    // The edge before this one on the same vein; edges are sorted by the node to which they lead.
     let before = |i: usize| {
         let first = edges.partition_point(|edge| edge.to < edges[i].from);
         let entering = first..edges.len();
@@ -132,7 +131,7 @@ fn fig_9_a_to_e_density_rises_as_the_kill_distance_falls_and_veins_meet_at_last(
     );
     assert_eq!(leaves[0].network.loops(), 0);
     assert!(leaves[4].network.loops() > 40);
-    // Orders of which there is more than a veinlet or two.
+    // Orders that hold more than a veinlet or two.
     let orders = leaves.each_ref().map(|leaf| {
         let length = |order| -> f64 {
             let of = leaf.network.segments().filter(|s| s.order == order);
@@ -217,7 +216,7 @@ fn fig_14_orchid_and_grass_have_parallel_veins_with_rungs_between() {
     assert_eq!(grass.network.origins(), 13);
     let along = grass.major(1);
     assert!(mean_angle(&along) < 8.0, "{}", mean_angle(&along));
-    // A parallel vein from every origin, all along the piece.
+    // A parallel vein from every origin, over the whole length of the piece.
     let length: f64 = along.iter().map(|s| (s.to - s.from).length()).sum();
     assert!(length > 0.9 * 13.0 * grass.length(), "{length}");
     let rungs: Vec<VeinSegment> = grass.network.segments().filter(|s| s.order > 1).collect();
@@ -235,8 +234,8 @@ fn fig_15_isogonic_growth_gives_a_net_and_marginal_growth_ladders() {
         elongation(&net),
         elongation(&ladder)
     );
-    // Tertiaries of the net have no common direction: a twelfth of them in each 15 degrees would be
-    // even.
+    // Tertiaries of the net have no common direction; if their directions were uniform, each 15
+    // degrees would hold a twelfth of them.
     let spread = |leaf: &Grown| {
         let mut bins = [0.0; 6];
         for s in leaf.network.segments().filter(|s| s.order >= 3) {
@@ -278,7 +277,8 @@ fn fig_18_urquhart_changes_the_layout_but_not_the_character() {
         }
     }
     assert_eq!(differ, 6);
-    // Urquhart's neighbours hold the relative ones: some more veins, some more areoles.
+    // Urquhart's neighbours include all relative neighbours, so there are some more veins and
+    // areoles.
     let ratio = |i: usize| means[1][i] / means[0][i];
     assert!((1.0..1.15).contains(&ratio(0)), "density {}", ratio(0));
     assert!((1.0..1.35).contains(&ratio(1)), "areoles {}", ratio(1));
@@ -299,7 +299,7 @@ fn fig_20_veins_come_by_rising_order_while_a_narrow_leaf_grows_round() {
         slenderness(&stages[1].outline),
     );
     assert!(young < 0.5 * old && old > 0.85, "{young} {old}");
-    // Mean step at which veins of an order began: of the edges that leave another order.
+    // Mean step at which veins of an order began, over edges that start on a vein of another order.
     let edges = leaf.network.edges();
     let born = |order: u8| {
         let starts = edges.iter().filter(|edge| {
@@ -338,7 +338,7 @@ fn is_closed(plan: &AuxinPlan) -> bool {
 
 #[test]
 fn every_preset_settles_is_sound_and_has_loops_only_if_it_is_closed() {
-    // Veins of leaves in colour are those of green ones, or grow by the same numbers.
+    // Veins of coloured leaves are those of green ones, or grow by the same numbers.
     let green = |name| super::colours::coloured(name).is_none();
     for preset in super::PRESETS
         .iter()

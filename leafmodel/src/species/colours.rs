@@ -1,12 +1,12 @@
-//! Leaves in other colours than summer's green: what their tissues hold, each number with where it
-//! is from.
+//! Leaves in other colours than summer's green: the contents of their tissues, each number with its
+//! source.
 //!
 //! - **In**: the name of a preset.
-//! - **Out**: its [`ColouredLeaf`], from which the preset's plan is made, so that what is told is
-//!   what is grown.
+//! - **Out**: its [`ColouredLeaf`]. The preset's plan is made from it, so that documented and grown
+//!   numbers agree.
 //! - **Always true**: every value lies within its range.
-//! - **Left out**: where the colours lie (widths of margins, delays, the parameters of mosaics),
-//!   which is by eye unless the preset says otherwise.
+//! - **Left out**: the places of the colours (widths of margins, delays, parameters of mosaics).
+//!   They are by eye unless the preset says otherwise.
 
 mod autumn;
 #[cfg(test)]
@@ -38,27 +38,27 @@ pub(super) static COLOURED: [ColouredLeaf; 13] = [
     AMARANTH,
 ];
 
-/// A leaf whose colour is not summer's green, in numbers.
+/// The contents of a leaf whose colour is not summer's green.
 #[derive(Clone, Copy, Debug)]
 pub struct ColouredLeaf {
     /// Name of the preset.
     pub preset: &'static str,
     /// The species, in Latin, and which leaf of it.
     pub species: &'static str,
-    /// The green leaf of the species; what is not told of a tissue is as there.
+    /// The green leaf of the species; a tissue holds the same unless another value is given.
     pub green: &'static LeafTraits,
-    /// Tissues that hold something else.
+    /// Tissues whose contents differ from the green leaf's.
     pub tissues: &'static [Holding],
-    /// How far it has aged, if its colour is one of age.
+    /// The days of its ageing, if its colour comes from ageing.
     pub age: Option<Age>,
     /// Makes the plan.
     plan: fn(&Self) -> LeafPlan,
 }
 
-/// What a tissue holds, as far as it is not what the green leaf does.
+/// The contents of a tissue that differ from the green leaf's.
 #[derive(Clone, Copy, Debug)]
 pub struct Holding {
-    /// Which tissue: `turned` has aged and still lives, `dead` is litter, others are places or
+    /// The tissue: `turned` has aged and still lives, `dead` is litter; other names are places or
     /// types of cells.
     pub tissue: &'static str,
     /// The contents that differ.
@@ -68,15 +68,15 @@ pub struct Holding {
 /// The days of an ageing leaf.
 #[derive(Clone, Copy, Debug)]
 pub struct Age {
-    /// Since it began to age where it does first.
+    /// Days since ageing began at the place that ages first.
     pub day: Quantity,
-    /// After which half of the chlorophyll is gone.
+    /// Half-life of the chlorophyll, days.
     pub half_days: Quantity,
-    /// When the first tissue dies.
+    /// Day on which the first tissue dies.
     pub death_day: Quantity,
 }
 
-/// The leaf that a preset stands for.
+/// The coloured leaf of a preset, if it has one.
 pub fn coloured(preset: &str) -> Option<&'static ColouredLeaf> {
     COLOURED.iter().find(|leaf| leaf.preset == preset)
 }
@@ -93,7 +93,7 @@ impl ColouredLeaf {
         (self.plan)(self)
     }
 
-    /// What differs from the green leaf, with name and unit.
+    /// The quantities that differ from the green leaf, with name and unit.
     pub fn quantities(&self) -> Vec<(String, &'static str, Quantity)> {
         let mut all = Vec::new();
         for Holding { tissue, contents } in self.tissues {
@@ -115,7 +115,7 @@ impl ColouredLeaf {
         all
     }
 
-    /// What a tissue holds.
+    /// The contents of a tissue; `None` if the table has no such tissue.
     pub fn held(&self, tissue: &str) -> Option<Contents> {
         let holding = self
             .tissues
@@ -126,7 +126,7 @@ impl ColouredLeaf {
         Some(Contents(green.zip_with(holding.contents, held)))
     }
 
-    /// What a tissue that the table has holds.
+    /// The contents of a tissue of the table.
     fn of(&self, tissue: &str) -> Contents {
         self.held(tissue)
             .expect("the table tells of all tissues that its plan asks for")
@@ -134,7 +134,7 @@ impl ColouredLeaf {
 }
 
 impl Holding {
-    /// As the green leaf.
+    /// A tissue with the contents of the green leaf.
     const fn new(tissue: &'static str) -> Self {
         Self {
             tissue,

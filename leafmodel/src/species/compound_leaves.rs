@@ -1,7 +1,7 @@
 //! Presets of compound leaves.
 //!
-//! Nothing here is measured on one specimen. Kinds of leaf, usual numbers of leaflets and their
-//! lengths are general knowledge; outlines, veins, angles, stalks and forms are by eye, contents
+//! Nothing here is measured on one specimen. Kinds of leaves, usual numbers of leaflets and their
+//! lengths are general knowledge. Outlines, veins, angles, stalks and forms are by eye. Contents
 //! lie in the range of broad leaves.
 
 use super::contours::{curve, pointed};
@@ -13,12 +13,12 @@ use crate::optics::Constituent::{Carotenoids, Chlorophyll, DryMatter, Structure,
 use crate::shape::teeth::ToothWave;
 use crate::venation::plan::{AuxinPlan, Growth};
 
-/// What the leaflets of a species are like.
+/// The leaflets of a species.
 struct Leaflet {
     length_mm: f64,
     seed: u64,
     outline: OutlinePlan,
-    /// Segments along the grown leaflet.
+    /// Length of the grown leaflet in vein segments.
     segments: f64,
     /// Structure, chlorophyll and carotenoids in µg/cm², water in cm, dry matter in g/cm².
     contents: [f64; 5],
@@ -38,7 +38,7 @@ fn leaf(leaflet: Leaflet, compound: CompoundForm) -> LeafPlan {
             length_step: 2.5,
         },
         murray_exponent: 2.3,
-        // The finest veins are a fifth of a segment across.
+        // The finest veins have a diameter of about a fifth of a segment.
         veinlet_radius_mm: 0.09 * leaflet.length_mm / leaflet.segments,
         ..AuxinPlan::default()
     };

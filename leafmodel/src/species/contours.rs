@@ -1,5 +1,5 @@
-//! Outlines of the presets, drawn by eye after the figures' captions and the plants themselves;
-//! none is measured.
+//! Outlines of the presets, drawn by eye after the figures' captions and the plants. They are not
+//! measured.
 
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
@@ -8,7 +8,7 @@ use crate::shape::teeth::ToothWave;
 /// A point of a contour: across and along, in shares of the midrib's length.
 pub(super) type Place = (f64, f64);
 
-/// A contour through `places`, smooth but at `corners` (numbers of places).
+/// A contour through `places`, smooth except at `corners` (numbers of places).
 pub(super) fn curve(places: &[Place], corners: &[usize], mirrored: bool) -> Contour {
     let point = |(i, &(x, y)): (usize, &Place)| ControlPoint {
         place: [x, y],
@@ -76,7 +76,7 @@ pub(super) fn deltoid() -> OutlinePlan {
     .into()
 }
 
-/// A ginkgo's: a fan whose margin is everywhere as far from the petiole.
+/// A ginkgo's: a fan whose margin has the same distance from the petiole everywhere.
 pub(super) fn fan() -> OutlinePlan {
     let mut places = vec![(0.0, 0.0)];
     for radius in [0.3, 0.6, 0.9] {
@@ -198,7 +198,7 @@ pub(super) fn obovate() -> OutlinePlan {
     }
 }
 
-/// A piece of a grass blade, as long as it takes.
+/// A piece of a grass blade.
 pub(super) fn strip() -> OutlinePlan {
     curve(
         &[(0.0, 0.0), (0.15, 0.0), (0.15, 1.0), (0.0, 1.0)],
@@ -273,7 +273,7 @@ pub(super) fn orbicular() -> OutlinePlan {
     .into()
 }
 
-/// Teeth all along the margin but for its ends.
+/// Teeth along the whole margin except its ends.
 pub(super) fn teeth(per_side: u32, height: f64, lean: f64) -> ToothWave {
     ToothWave {
         per_side,

@@ -1,5 +1,5 @@
-//! Leaves that need what the growth-algorithm paper names for extensions: unlike halves, veins that
-//! bend. All by eye.
+//! Leaves that use extensions named by the growth-algorithm paper: unequal halves and bent veins.
+//! All numbers are by eye.
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;

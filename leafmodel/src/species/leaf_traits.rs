@@ -1,12 +1,11 @@
-//! What is known of each species' mature leaf in summer: sizes, contents, thickness, each number
-//! with where it is from.
+//! Traits of each species' mature leaf in summer: sizes, contents and thickness, each number with
+//! its source.
 //!
 //! - **In**: the name of a preset.
-//! - **Out**: its [`LeafTraits`], from which the preset's plan is made, so that what is told is
-//!   what is grown.
+//! - **Out**: its [`LeafTraits`]. The preset's plan is made from it, so that documented and grown
+//!   numbers agree.
 //! - **Always true**: every value lies within its range.
-//! - **Left out**: what the plan holds as forms (fold, curl, ruffle, relief): all of that is by
-//!   eye.
+//! - **Left out**: the form of the blade (fold, curl, ruffle, relief), which is all by eye.
 
 pub(super) mod coloured;
 mod others;
@@ -50,60 +49,60 @@ static SPECIES: [&LeafTraits; 17] = [
     &CROTON,
 ];
 
-/// Something published. Its key is that of `docs/references.bib`.
+/// A publication, by its key in `docs/references.bib`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
     /// Key of the bibliography.
     pub key: &'static str,
-    /// What it says, and of what leaves.
+    /// What it says, and for which leaves.
     pub says: &'static str,
 }
 
-/// How a number came about.
+/// Where a number comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Provenance {
     /// The range was measured on leaves of the species; the value is chosen in it.
     Measured(Source),
-    /// The range is a flora's for the species; the value is chosen in it.
+    /// The range is from a flora of the species; the value is chosen in it.
     Flora(Source),
     /// Computed from another number by a relation that was fitted to leaves of other species.
     Fitted(Source),
-    /// The range is about what was measured on a near relative.
+    /// The range is close to what was measured on a related species.
     Relative(Source),
     /// A choice by eye. The range is that of a collection of other leaves.
     Estimate(Source),
-    /// A choice by eye, with nothing published behind it; says why so.
+    /// A choice by eye without a publication; the text gives the reason.
     ByEye(&'static str),
 }
 
 /// A number, the range that its provenance allows, and that provenance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
-    /// What the preset has.
+    /// The preset's value.
     pub value: f64,
     /// From least to greatest.
     pub range: [f64; 2],
-    /// Where the range is from.
+    /// Provenance of the range.
     pub from: Provenance,
 }
 
-/// A range that a grown leaf has to meet.
+/// A range within which a measure of the grown leaf must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// From least to greatest.
     pub range: [f64; 2],
-    /// Where it is from.
+    /// Provenance of the range.
     pub from: Provenance,
 }
 
-/// How the blade lies in space, all by eye.
+/// The form of the blade in space, all by eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lie {
     /// Angle by which each half is raised, degrees.
     fold: f64,
     /// Angle through which the midrib bends, degrees.
     curl: f64,
-    /// Height of the wave along the margin over the length, and waves a side.
+    /// Height of the marginal wave over the length of the leaf, and number of waves per side.
     ruffle: [f64; 2],
     /// Height of veins over their diameter.
     relief: f64,
@@ -150,12 +149,12 @@ const HOMOBARIC_VEINS: VeinLook = VeinLook {
     sheath_over_finest: 4.0,
 };
 
-/// A species' leaf in numbers.
+/// The traits of a species' leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeafTraits {
     /// Name of the preset.
     pub preset: &'static str,
-    /// The species, in Latin, and what of it if not a whole leaf.
+    /// The species, in Latin, and the part if it is not a whole leaf.
     pub species: &'static str,
     /// Length of the midrib, mm.
     pub length_mm: Quantity,
@@ -196,7 +195,7 @@ pub(crate) fn all() -> impl Iterator<Item = &'static LeafTraits> {
 }
 
 impl LeafTraits {
-    /// The numbers that a plan takes over, with name and unit.
+    /// The quantities that go into the plan, with name and unit.
     pub fn quantities(&self) -> [(&'static str, &'static str, Quantity); 8] {
         [
             ("length", "mm", self.length_mm),
@@ -210,7 +209,7 @@ impl LeafTraits {
         ]
     }
 
-    /// What the lamina holds between veins in summer.
+    /// Contents of the lamina between veins in summer.
     pub fn contents(&self) -> Contents {
         Contents::of(&[
             (Structure, self.structure.value),
@@ -222,7 +221,7 @@ impl LeafTraits {
         ])
     }
 
-    /// What the grown outline is held against, with name and unit.
+    /// The ranges against which the grown outline is tested, with name and unit.
     pub fn spans(&self) -> [(&'static str, &'static str, Span); 2] {
         [
             ("width", "mm", self.width_mm),
@@ -230,8 +229,7 @@ impl LeafTraits {
         ]
     }
 
-    /// The plan of a leaf of this species with another outline and venation than its preset's,
-    /// perhaps.
+    /// The plan of a leaf of this species with the given outline and venation.
     pub fn plan(&self, seed: u64, outline: OutlinePlan, venation: AuxinPlan) -> LeafPlan {
         let length_mm = self.length_mm.value;
         let finest = venation.veinlet_radius_mm;
@@ -273,7 +271,7 @@ impl LeafTraits {
 }
 
 impl Provenance {
-    /// One word for tables.
+    /// One word for tables, such as `measured`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Measured(_) => "measured",
@@ -285,7 +283,7 @@ impl Provenance {
         }
     }
 
-    /// What stands behind the number, with the bibliography's key if it is published.
+    /// The reason or source in words, with the bibliography key if it is published.
     pub fn words(self) -> String {
         match self {
             Self::Measured(source)

@@ -10,9 +10,9 @@ mod transport;
 use super::young::{FORMS, Form};
 use super::{PlanOf, Preset};
 
-/// All presets: the figures of Runions et al. 2005 in their order, what goes beyond, trees and
-/// shrubs, leaves in other colours, splines, the examples of Xia 2007, what goes beyond Young 2010,
-/// compound leaves, then the figures of Young 2010.
+/// All presets: the figures of Runions et al. 2005 in their order, extensions of that paper, trees
+/// and shrubs, leaves in other colours, splines, the examples of Xia 2007, extensions of Young
+/// 2010, compound leaves, then the figures of Young 2010.
 pub static PRESETS: &[Preset] = &joined::<{ GROWN + FORMS.len() }>();
 
 /// The presets with a function of their own.
@@ -25,7 +25,7 @@ static GROUPS: [&[Preset]; 6] = [
     compound::COMPOUND,
 ];
 
-/// How many they are.
+/// Their number.
 const GROWN: usize = {
     let (mut count, mut group) = (0, 0);
     while group < GROUPS.len() {
@@ -35,7 +35,7 @@ const GROWN: usize = {
     count
 };
 
-/// All groups one after the other, then the forms.
+/// All groups in order, then the forms.
 const fn joined<const N: usize>() -> [Preset; N] {
     let mut presets = [GROUPS[0][0]; N];
     let (mut next, mut group) = (0, 0);

@@ -1,5 +1,5 @@
-//! A true maple: five lobes, each on an axis of its own, where Fig. 9 of Young 2010 splays the
-//! veins of one midrib.
+//! A maple of five lobes, each on its own axis. (Fig. 9 of Young 2010 splays the veins of one
+//! midrib instead.)
 
 use super::green_leaf;
 use crate::leaf::LeafPlan;
@@ -34,7 +34,7 @@ fn lobe(rate_ratio: f64, widest_at: f64) -> Axis {
     }
 }
 
-/// A pair of lobes at the petiole, each as long as `length` midribs.
+/// A pair of lobes at the petiole, each `length` midribs long.
 fn pair(degrees: f64, length: f64, axis: Axis) -> SecondaryAxis {
     SecondaryAxis {
         position: 0.0,
@@ -101,10 +101,10 @@ mod tests {
         for [_, tip] in palm.axis_lines(80.0).expect("a good form") {
             assert!(outline.distance_to_margin(tip) < 1e-6 * 80.0, "{tip}");
             let (direction, length) = polar(&tip);
-            // Nothing reaches farther within 15 degrees.
+            // The farthest point of the margin within 15 degrees of the axis.
             let near = margin.iter().filter(|p| (p.0 - direction).abs() < 15.0);
             let farthest = near.map(|p| p.1).fold(0.0, f64::max);
-            // The last row is as wide as at the start, a thousandth, and slopes up.
+            // The last row keeps its width of a thousandth and slopes up.
             assert!(farthest <= length + 0.2, "{farthest} beyond {length}");
             tips.push((direction, length));
         }

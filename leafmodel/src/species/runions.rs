@@ -197,7 +197,7 @@ pub(super) static TRILLIUM: Row = Row {
     leaf_unit: 5.0,
 };
 
-/// A leaf whose veins are a row of the table as we read it.
+/// A leaf whose veins follow a row of the table as we read it.
 fn leaf(row: &Row, length_mm: f64, seed: u64, veinlet_mm: f64, outline: OutlinePlan) -> LeafPlan {
     green_leaf(
         length_mm,
@@ -207,7 +207,7 @@ fn leaf(row: &Row, length_mm: f64, seed: u64, veinlet_mm: f64, outline: OutlineP
     )
 }
 
-/// A leaf of a species whose veins are a row of the table as we read it.
+/// A leaf of a species whose veins follow a row of the table as we read it.
 fn species(
     traits: &LeafTraits,
     row: &Row,
@@ -232,8 +232,9 @@ pub(super) fn slow() -> LeafPlan {
     green_leaf(80.0, 1, contours::ovate(), venation)
 }
 
-/// Segments ten times as long change nothing but the grain: lengths and kill distance in segments
-/// fall to a tenth. So does the number of steps, and the margin still moves one segment in each.
+/// Segments ten times as long only make the pattern coarser. Lengths and the kill distance, in
+/// segments, fall to a tenth. So does the number of steps, and the margin still moves one segment
+/// per step.
 pub(super) fn ginkgo() -> LeafPlan {
     const COARSER: f64 = 10.0;
     let venation = AuxinPlan {
@@ -293,7 +294,7 @@ pub(super) fn cherry() -> LeafPlan {
 }
 
 pub(super) fn grass() -> LeafPlan {
-    // A source's birth distance apart.
+    // Veins one birth distance apart.
     let apart = GRASS.birth_distance / (GRASS.final_length / GRASS.leaf_unit);
     let venation = AuxinPlan {
         origins: (-6..=6).map(|i| [f64::from(i) * apart, 0.0]).collect(),
@@ -324,8 +325,8 @@ pub(super) fn poplar_fine() -> LeafPlan {
     species(&leaf_traits::POPLAR, &fine, 24, 0.006, contours::deltoid())
 }
 
-/// A tenth of the growth a step, so that veins keep up; a tenth of the darts, so that as many fall
-/// on the same tissue.
+/// A tenth of the growth per step, so that veins keep up with it; a tenth of the darts per step, so
+/// that equally many fall on the same tissue.
 pub(super) fn poplar_x10() -> LeafPlan {
     let fine = Row {
         leaf_unit: 1.0,

@@ -1,13 +1,13 @@
 //! The rows of Table 1 of Runions et al. 2005.
 //!
 //! The table gives leaf lengths in a unit that it does not name; it cannot be the vein segment
-//! (`docs/src/theory/venation.md` says why). [`Row::leaf_unit`] is our reading: so many units of
-//! the table to a segment.
+//! (`docs/src/theory/venation.md` says why). [`Row::leaf_unit`] is our reading: the number of table
+//! units per segment.
 
 use crate::shape::growth::RateCurve;
 use crate::venation::plan::{AuxinPlan, Growth, Pattern};
 
-/// How the leaf of a row grows.
+/// Growth type of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowGrowth {
     /// "no growth".
@@ -16,15 +16,15 @@ pub enum RowGrowth {
     Marginal(f64),
     /// "isogonic", likewise.
     Isogonic(f64),
-    /// "nonuniform": knots of the growth functions across and along the leaf, read off Fig. 5's
-    /// description.
+    /// "nonuniform": knots of the growth functions across and along the leaf, taken from the
+    /// description of Fig. 5.
     Nonuniform(&'static [[f64; 2]], &'static [[f64; 2]]),
 }
 
 /// A row of the table: its figures as printed, and how we read them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Open, or closed with the exact neighbourhood or Urquhart's.
+    /// Open, or closed with exact or Urquhart's neighbours.
     pub pattern: Pattern,
     /// `d_k`, segments.
     pub kill_distance: f64,
@@ -36,17 +36,17 @@ pub struct Row {
     pub final_length: f64,
     /// Growth type and `ΔL`.
     pub growth: RowGrowth,
-    /// `ρ × 10⁶`, darts per segment squared and step.
+    /// `ρ × 10⁶`; `ρ` is in darts per square segment and step.
     pub darts: f64,
     /// `n` of Murray's law.
     pub murray_exponent: f64,
-    /// Units of the table to a segment.
+    /// Table units per segment.
     pub leaf_unit: f64,
 }
 
 impl Row {
-    /// The plan of this row for another number of units to a segment; the finest veins have
-    /// `veinlet_radius_mm`.
+    /// The plan of this row with `leaf_unit` table units per segment. `veinlet_radius_mm` is the
+    /// radius of the finest veins.
     pub fn plan(&self, leaf_unit: f64, veinlet_radius_mm: f64) -> AuxinPlan {
         let initial_length = self.initial_length / leaf_unit;
         AuxinPlan {

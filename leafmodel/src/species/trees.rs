@@ -1,7 +1,7 @@
 //! Presets of trees and shrubs: outline, veins, contents and blade form of a mature leaf in summer.
 //!
-//! Nothing here is measured on one specimen. Where lengths and contents come from is told by
-//! [`leaf_traits`]; outlines, plans of veins and forms are fitted by eye.
+//! Nothing here is measured on one specimen. [`leaf_traits`] gives the sources of lengths and
+//! contents; outlines, vein plans and forms are fitted by eye.
 
 use super::leaf_traits::{self, LeafTraits};
 use super::trees_contours as contours;
@@ -9,8 +9,7 @@ use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
 
-/// A closed net on isogonic growth; the young leaf is `initial_length` segments long, the grown one
-/// `final_length`.
+/// A closed net under isogonic growth from `initial_length` to `final_length` segments.
 pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
     AuxinPlan {
         final_length,
@@ -26,7 +25,7 @@ pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -
     }
 }
 
-/// A leaf whose finest veins are a fifth of a segment across.
+/// A leaf whose finest veins have a diameter of a fifth of a segment.
 pub(super) fn leaf(
     traits: &LeafTraits,
     seed: u64,
@@ -116,7 +115,7 @@ pub(super) fn magnolia() -> LeafPlan {
     leaf(&leaf_traits::MAGNOLIA, 2, contours::magnolia(), venation)
 }
 
-/// The green parts of a croton; its patterns are a matter of colour, not of veins.
+/// A green croton; its patterns are added by the coloured presets.
 pub(super) fn croton() -> LeafPlan {
     leaf(
         &leaf_traits::CROTON,

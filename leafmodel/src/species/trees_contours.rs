@@ -1,4 +1,4 @@
-//! Outlines of the trees and shrubs of `trees`, drawn by eye after the plants; none is measured.
+//! Outlines of the trees and shrubs of `trees`, drawn by eye after the plants, not measured.
 
 use super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;
@@ -133,7 +133,7 @@ pub(super) fn red_oak() -> OutlinePlan {
     curve(&places, &[0, 4, 9, 11, 17, 19, 24, 27], true).into()
 }
 
-/// An eastern cottonwood's: a triangle as wide as long with a cut-off base, coarse teeth that lean
+/// An eastern cottonwood's: a triangle as wide as long with a cut-off base, coarse leaning teeth
 /// and a drawn-out tip.
 pub(super) fn cottonwood() -> OutlinePlan {
     OutlinePlan {
@@ -159,9 +159,9 @@ pub(super) fn cottonwood() -> OutlinePlan {
     }
 }
 
-/// A silver birch's: a triangle with rounded corners below, twice toothed.
+/// A silver birch's: a triangle with rounded lower corners, doubly toothed.
 pub(super) fn birch() -> OutlinePlan {
-    // None at the base, which is entire, and small ones towards the apex.
+    // There are no teeth at the base and small ones towards the apex.
     let wave = |per_side, height, lean, fade_base, fade_apex| ToothWave {
         per_side,
         height,

@@ -1,9 +1,9 @@
-//! The leaves of Xia 2007: blades that grow as the cheapest transport network, with that network as
-//! veins.
+//! The leaves of Xia 2007: blades that grow as transport networks, with these networks as veins.
 //!
-//! Examples 1 and 2 have the paper's parameters. It prints none for Examples 3 and 4, and only says
-//! of Example 5 that `α` varies while `β` does not: `docs/src/theory/transport-leaf.md` tells how
-//! those here were searched for. Lengths, radii, contents and forms are ours.
+//! Examples 1 and 2 have the paper's parameters. It prints none for Examples 3 and 4, and of
+//! Example 5 it only says that `α` varies while `β` does not. `docs/src/theory/transport-leaf.md`
+//! describes the search for the parameters used here. Lengths, radii, contents and forms are our
+//! own.
 
 use super::{green_leaf, trees};
 use crate::blade::senescence::{AgeSource, Senescence};
@@ -32,7 +32,7 @@ fn leaf(plan: TransportPlan, look: &Look) -> LeafPlan {
         base_radius_mm: look.base_radius_mm,
         least_cells: look.least_cells,
     };
-    // Only the radius of the finest veins matters here: what they look like follows from it.
+    // Only the radius of the finest veins is used, for the contents and relief of veins.
     let usual = AuxinPlan {
         veinlet_radius_mm: look.base_radius_mm * finest.sqrt(),
         ..AuxinPlan::default()
@@ -78,7 +78,7 @@ pub(super) fn example_3() -> LeafPlan {
 }
 
 pub(super) fn example_4() -> LeafPlan {
-    // As long from end to end as the paper has scaled both of its leaves: 4.5 cm.
+    // The paper scales both of its leaves to 4.5 cm from end to end.
     let look = Look {
         length_mm: 39.8,
         base_radius_mm: 0.45,
@@ -88,8 +88,8 @@ pub(super) fn example_4() -> LeafPlan {
     leaf(plan(4), &look)
 }
 
-/// Example 1 when its outer cells have died, which the paper foresees (Remark 3.6) and does not
-/// show.
+/// Example 1 after its outer cells have died. The paper mentions this (Remark 3.6) but does not
+/// show it.
 pub(super) fn autumn() -> LeafPlan {
     let mut leaf = example_1();
     leaf.tissue.lamina[Chlorophyll] = 20.0;
@@ -110,7 +110,7 @@ pub(super) fn autumn() -> LeafPlan {
     leaf
 }
 
-/// The maple of the trees with veins that supply it as cheaply as they can.
+/// The maple of `trees` with transport-optimal veins.
 pub(super) fn maple() -> LeafPlan {
     let plan = FilledPlan {
         alpha: 0.6,

@@ -1,8 +1,8 @@
 //! The 28 leaves of Young 2010, Figs. 3–9, by their parameters.
 //!
-//! - **Out**: a [`Form`] a figure; `shape()` is its outline's [`GrowthForm`].
-//! - **Left out**: the paper's model has no veins but those that steer growth; the presets' veins
-//!   are ours.
+//! - **Out**: a [`Form`] for each panel; `shape()` is its outline's [`GrowthForm`].
+//! - **Left out**: the paper's model has only the veins that steer growth; the presets' venation is
+//!   our own.
 
 #[cfg(test)]
 mod tests;
@@ -16,8 +16,8 @@ use crate::venation::plan::{AuxinPlan, Growth};
 /// Rows of cells, the paper's typical value.
 const ROWS: u16 = 150;
 
-/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. Its paired values
-/// of `a` for `n` = 1 and 2 make equal notches half-way between veins some 28 rows apart.
+/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. With veins some 28
+/// rows apart, its paired values of `a` for `n` = 1 and 2 give equally deep notches.
 const OAK_VEINS: [u16; 5] = [15, 45, 75, 105, 135];
 
 /// Rows, from 1, and slopes of the splayed veins of Fig. 9, which the paper does not print either:
@@ -40,23 +40,23 @@ pub enum FormVeins {
 pub struct Form {
     /// Name of the preset: `young-` and the figure's panel.
     pub name: &'static str,
-    /// What botanists call it, and where it is seen, by the figure's caption and section IV.
+    /// Its botanical term, and plants that have it, by the figure's caption and section IV.
     pub about: &'static str,
     /// `R`, axial over greatest lateral growth rate.
     pub rate_ratio: f64,
     /// `yd`, where lateral growth is fastest.
     pub widest_at: f64,
-    /// `k`, how late it falls off.
+    /// `k`, exponent of the fall to both sides of `yd`.
     pub falloff: f64,
-    /// `n`, pointed (1) or rounded (2) lobes.
+    /// `n`, exponent of the fall away from a vein: 1 for pointed, 2 for rounded lobes.
     pub lobe_exponent: f64,
-    /// `a`, how deep lobes are.
+    /// `a`, how fast growth falls off away from a vein: the greater, the deeper the sinuses.
     pub lobe_decay: f64,
     /// Where veins are, and their slopes `s`.
     pub veins: FormVeins,
 }
 
-/// An entire leaf: name, word, and `R`, `yd`, `k`, `s`.
+/// An entire leaf from its name, description, `R`, `yd`, `k` and `s`.
 const fn entire(
     name: &'static str,
     about: &'static str,
@@ -74,7 +74,7 @@ const fn entire(
     }
 }
 
-/// A dissected leaf of Figs. 7–9: name, word, veins, `n` and `a`.
+/// A dissected leaf of Figs. 7–9 from its name, description, veins, `n` and `a`.
 const fn dissected(
     name: &'static str,
     about: &'static str,
@@ -128,7 +128,7 @@ pub static FORMS: [Form; 28] = [
 ];
 
 impl Form {
-    /// The growth algorithm's parameters.
+    /// The parameters of the growth algorithm.
     pub fn shape(&self) -> GrowthForm {
         let last = f64::from(ROWS - 1);
         let vein = |(row, slope): (u16, f64)| VeinRow::straight(f64::from(row - 1) / last, slope);
@@ -149,7 +149,7 @@ impl Form {
         midrib.into()
     }
 
-    /// Where the numbers come from.
+    /// The source of the numbers.
     pub(super) const fn source(&self) -> &'static str {
         match self.veins {
             FormVeins::Slope(_) => "outline: Young 2010; veins by eye",

@@ -1,4 +1,4 @@
-//! Where a cell leaf lies in millimetres, and its outline, like that of any other leaf.
+//! The frame of a transport leaf in millimetres, and its outline.
 
 use glam::DVec2;
 
@@ -9,12 +9,13 @@ use super::vein_style::{VeinStyle, check};
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::VenationNetwork;
 
-/// How far a point of the margin may be smoothed away from the middle between two cells, in cells.
-/// Other parts of the margin are never nearer than 0.7, so that with the second figure they cannot
-/// meet.
+/// How far, in cells, smoothing may move a point of the margin from the middle between two cells.
+/// The second value is tried if the first gives a margin that crosses itself. Different parts of
+/// the margin are at least 0.7 cells apart, so with 0.3 they cannot meet.
 const TETHERS: [f64; 2] = [0.45, 0.3];
 
-/// Where a blade lies in the grid, and the grid in millimetres. All but the scale is in cells.
+/// Where a blade lies in the grid of cells, and the scale of the grid. All but the scale is in
+/// cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) margin: Vec<DVec2>,
@@ -22,11 +23,12 @@ pub(crate) struct Frame {
     pub(crate) apex: DVec2,
     /// The origin of millimetres: the base of the leaf when full-grown.
     pub(crate) origin: DVec2,
-    /// Direction of the midrib.
+    /// Unit direction of the midrib.
     pub(crate) up: DVec2,
-    /// Millimetres a cell.
+    /// Millimetres per cell.
     pub(crate) scale: f64,
-    /// Whether veins must not cross the margin, which is then no contour of the cells.
+    /// Whether the margin was given, not derived from the cells, so that veins must be kept from
+    /// crossing it.
     pub(crate) is_walled: bool,
 }
 
@@ -49,19 +51,21 @@ impl Frame {
 }
 
 impl TransportLeaf {
-    /// A smooth margin around the cells: base below the root at the origin, apex where the midrib
-    /// comes to the margin, `length_mm` above it (0.001 to 100 000). If the blade has closed below
-    /// the root, the base is the root itself. Holes in the leaf are filled.
+    /// A smooth margin around the cells: base at the origin, below the root; apex where the midrib
+    /// meets the margin, `length_mm` (0.001 to 100 000) above the base. If the blade has closed
+    /// below the root, the base is the root itself. Holes in the leaf are filled.
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`]; [`TransportError::Outline`] should no margin come of it.
+    /// [`TransportError::OutOfRange`] for `length_mm`; [`TransportError::Outline`] if the cells
+    /// give no valid margin.
     pub fn outline(&self, length_mm: f64) -> Result<Outline, TransportError> {
         Ok(self.framed(length_mm)?.1)
     }
 
-    /// Margin and veins at each of some stages, all true to the scale of the full-grown leaf of
-    /// this length, with the root in one place. Stages beyond the last are the full-grown leaf.
+    /// Margin and veins at each of the given stages, all at the scale of the full-grown leaf of
+    /// this length and with the root in the same place. A stage beyond the last means the
+    /// full-grown leaf.
     ///
     /// # Errors
     ///
@@ -95,7 +99,7 @@ impl TransportLeaf {
         self.framed_in(|frame| frame.scale = length_mm / (frame.apex - frame.base).length())
     }
 
-    /// The frame as `settle` leaves it, and the outline in it.
+    /// The frame after `settle` has adjusted it, and the outline in it.
     fn framed_in(&self, settle: impl Fn(&mut Frame)) -> Result<(Frame, Outline), TransportError> {
         let steps = contour(self.cells());
         let midrib = self.midrib();
@@ -113,8 +117,8 @@ impl TransportLeaf {
         Ok(result?)
     }
 
-    /// Base and apex: where the midrib comes to the margin, back from its first cell inside and on
-    /// from its last.
+    /// The frame with base and apex where the midrib, continued backwards from its first cell and
+    /// onwards from its last, meets the margin.
     fn frame(&self, margin: Vec<DVec2>, midrib: &[usize]) -> Option<Frame> {
         let centre = |v: &usize| place(self.cells()[*v]);
         let inside = |v: &usize| is_inside(&margin, centre(v));
@@ -126,7 +130,7 @@ impl TransportLeaf {
         };
         let start = centre(&midrib[first]);
         let below = first_hit(&margin, start, -step_to(first))?;
-        // A blade that has closed around the petiole is attached inside the margin.
+        // In a blade that has closed around the petiole the base lies inside the margin.
         let closed = (start - below).length() > 1.0;
         let base = if closed { start } else { below };
         let apex = first_hit(&margin, centre(&midrib[last]), step_to(last))?;

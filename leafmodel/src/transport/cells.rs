@@ -1,4 +1,4 @@
-//! Cells of a square grid, and which of them a leaf has.
+//! Cells of a square grid, and the index of those that a leaf has.
 //!
 //! Everything here is counted in cells: the cell `(m, n)` has its centre at `(m h, n h)`, the root
 //! is `(0, 0)`.
@@ -18,10 +18,10 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The root, and the step to nowhere.
+    /// The root; as a step, the zero step.
     pub const ROOT: Self = Self::new(0, 0);
 
-    /// The step in which water leaves the root.
+    /// The direction in which water leaves the root.
     pub const UP: Self = Self::new(0, 1);
 
     /// The cell of column `m` and row `n`.
@@ -39,12 +39,12 @@ impl Cell {
         (self.squared() as f64).sqrt()
     }
 
-    /// Product of two steps: positive where they differ by less than a right angle.
+    /// Scalar product of two steps: positive if the angle between them is less than a right angle.
     pub fn dot(self, other: Self) -> i64 {
         i64::from(self.m) * i64::from(other.m) + i64::from(self.n) * i64::from(other.n)
     }
 
-    /// The cell on the other side of the midrib.
+    /// The mirror image about the midrib.
     pub fn mirrored(self) -> Self {
         Self::new(-self.m, self.n)
     }
@@ -55,7 +55,7 @@ impl Cell {
     }
 }
 
-/// Steps to the eight neighbours, all that are shorter than two cells.
+/// Steps to the eight neighbours: all non-zero steps shorter than two cells.
 pub(crate) const AROUND: [Cell; 8] = [
     Cell::new(0, -1),
     Cell::new(-1, 0),
@@ -83,7 +83,7 @@ impl Sub for Cell {
     }
 }
 
-/// Which number each cell of a rectangle has; the rectangle grows with the leaf.
+/// The number of each cell of a rectangle of the grid. The rectangle grows with the leaf.
 #[derive(Clone, Debug)]
 pub(crate) struct CellIndex {
     low: Cell,
@@ -93,7 +93,7 @@ pub(crate) struct CellIndex {
 }
 
 impl CellIndex {
-    /// No cell has a number yet.
+    /// An index in which no cell has a number.
     pub(crate) fn new() -> Self {
         Self {
             low: Cell::new(-16, -16),
@@ -123,8 +123,7 @@ impl CellIndex {
         inside.then(|| at.n as usize * self.width as usize + at.m as usize)
     }
 
-    /// Half as much room again on every side that `cell` lies beyond; a leaf one cell wide takes
-    /// one row of rooms.
+    /// Enlarges the rectangle by half on every side beyond which `cell` lies.
     fn make_room(&mut self, cell: Cell) {
         let (mut low, mut high) = (self.low, self.low + Cell::new(self.width, self.height));
         if cell.m < low.m {

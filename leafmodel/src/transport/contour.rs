@@ -1,19 +1,19 @@
 //! A smooth margin around cells.
 //!
-//! The contour runs half-way between cells of the leaf and cells outside, cuts corners, and keeps
-//! cells that touch by a corner together; it never touches itself. Then its steps are smoothed by
-//! Taubin's filter (\[taubin1995\]), which takes away what is finer than a few cells and, unlike
-//! plain averaging, does not shrink the rest.
+//! The contour runs half-way between cells of the leaf and cells outside and cuts corners. It never
+//! touches itself, and cells that touch by a corner stay connected. Its steps are then smoothed by
+//! Taubin's filter (\[taubin1995\]), which removes detail finer than a few cells and, unlike plain
+//! averaging, does not shrink the rest.
 
 use glam::DVec2;
 
 use super::cells::{Cell, CellIndex, NONE};
 
-/// Rounds of smoothing.
+/// Number of rounds of smoothing.
 const ROUNDS: usize = 60;
 
-/// Share by which a point moves towards the middle of its neighbours, and then away from it. Waves
-/// of more than about ten cells pass unchanged.
+/// Share by which a point moves towards the middle of its neighbours, and then away from it.
+/// Wavelengths above about ten cells pass unchanged.
 const TO_AND_FRO: [f64; 2] = [0.5, -0.526];
 
 /// The outermost contour of cells that are connected by edges or corners, counter-clockwise, in
@@ -27,7 +27,8 @@ pub(crate) fn contour(cells: &[Cell]) -> Vec<DVec2> {
     let Some(&lowest) = cells.iter().min_by_key(|cell| (cell.n, cell.m)) else {
         return Vec::new();
     };
-    // A cell of the leaf, and the step to a neighbour outside; the leaf lies on the left.
+    // The state of the walk: a cell of the leaf and the step to a neighbour outside. The leaf lies
+    // to the left.
     let start = (lowest, Cell::new(0, -1));
     let (mut cell, mut out) = start;
     let mut points = Vec::new();
@@ -48,7 +49,7 @@ pub(crate) fn contour(cells: &[Cell]) -> Vec<DVec2> {
     }
 }
 
-/// The contour without its steps; no point moves farther than `most` cells.
+/// The contour with its steps smoothed; no point moves farther than `most` cells.
 pub(crate) fn smoothed(contour: &[DVec2], most: f64) -> Vec<DVec2> {
     let count = 2 * contour.len();
     let before: Vec<DVec2> = (0..count)
@@ -91,12 +92,12 @@ pub(crate) fn is_inside(polygon: &[DVec2], point: DVec2) -> bool {
     hits(polygon, point, DVec2::Y).count() % 2 == 1
 }
 
-/// How far along a ray it meets each edge of a closed polygon, times the length of `direction`.
+/// Where a ray meets the edges of a closed polygon, as multiples of `direction`.
 fn hits(polygon: &[DVec2], start: DVec2, direction: DVec2) -> impl Iterator<Item = f64> + '_ {
     let edges = (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]));
     edges.filter_map(move |(a, b)| {
         let (side_a, side_b) = (direction.perp_dot(a - start), direction.perp_dot(b - start));
-        // Half-open, so that a ray through a corner meets one of its two edges.
+        // Edges are half-open, so that a ray through a corner meets only one of its two edges.
         let crosses = (side_a < 0.0) != (side_b < 0.0);
         let at = a + (b - a) * (side_a / (side_a - side_b));
         let along = direction.dot(at - start);

@@ -1,31 +1,30 @@
-//! What transport costs: turning, sharing, and the two together, by their definitions.
+//! The cost of transport, computed from its definitions.
 //!
-//! [`TransportSystem`] computes everything from cells and parents alone, in the paper's own words;
-//! the growing leaf keeps the same quantities up to date in a `Tree`, and tests hold the two
-//! against each other.
+//! [`TransportSystem`] computes everything from cells and parents, as the paper defines it. The
+//! growing leaf keeps the same quantities up to date in a `Tree`; tests compare the two.
 
 use super::cells::{Cell, NONE};
 
 /// `H_β(u, v) = (u · v)^{−β}` of the directions of two steps, infinite from a right angle on.
 ///
-/// Computed from whole numbers, so that mirror images cost the same to the last bit.
+/// Computed from integers, so that mirror images cost the same to the last bit.
 pub(crate) fn turn(beta: f64, u: Cell, v: Cell) -> f64 {
     let dot = u.dot(v);
     if dot <= 0 {
         return f64::INFINITY;
     }
     let (dot, squares) = (dot as f64, u.squared() as f64 * v.squared() as f64);
-    // The cosine is exactly 1 along one line, where rounding could give a little less.
+    // For parallel steps the cosine is exactly 1; rounding could give a little less.
     if dot * dot == squares {
         return 1.0;
     }
     libm::pow(squares / (dot * dot), 0.5 * beta)
 }
 
-/// A transport system by its definition: cells, and from which cell each is supplied (Definition
-/// 2.1 of \[xia2007\]). Cell 0 is the root; its parent does not matter.
+/// A transport system (Definition 2.1 of \[xia2007\]): cells, and for each the cell that supplies
+/// it. Cell 0 is the root; its parent is ignored.
 ///
-/// Lengths are in the unit of `h`, weights `h²` a cell.
+/// Lengths are in the unit of `h`; a cell has weight `h²`.
 #[derive(Clone, Copy, Debug)]
 pub struct TransportSystem<'a> {
     cells: &'a [Cell],
@@ -36,8 +35,9 @@ pub struct TransportSystem<'a> {
 }
 
 impl<'a> TransportSystem<'a> {
-    /// A system of cells and the numbers of their parents, with the parameters of its cost. Every
-    /// cell must lead back to cell 0; [`crate::transport::TransportLeaf`] gives no others.
+    /// A system of cells and the numbers of their parents, with the parameters of its cost. From
+    /// every cell, parents must lead back to cell 0; [`crate::transport::TransportLeaf`] guarantees
+    /// that.
     pub(crate) fn new(cells: &'a [Cell], parents: &'a [u32], [alpha, beta, h]: [f64; 3]) -> Self {
         Self {
             cells,
@@ -48,7 +48,7 @@ impl<'a> TransportSystem<'a> {
         }
     }
 
-    /// Numbers of all cells so that each comes after its parent.
+    /// The numbers of all cells, each after its parent.
     pub(crate) fn root_to_tip(&self) -> Vec<usize> {
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); self.cells.len()];
         for v in 1..self.cells.len() {
@@ -63,8 +63,8 @@ impl<'a> TransportSystem<'a> {
         order
     }
 
-    /// `w(e_v)` in cells: how many are supplied through each cell, itself included (Eq. 2.4). The
-    /// root's is their total number.
+    /// `w(e_v)` in cells: how many cells are supplied through each cell, itself included (Eq. 2.4).
+    /// For the root it is the total number of cells.
     pub fn counts(&self) -> Vec<u32> {
         let mut counts = vec![1; self.cells.len()];
         for &v in self.root_to_tip().iter().rev() {
@@ -75,7 +75,8 @@ impl<'a> TransportSystem<'a> {
         counts
     }
 
-    /// `m_β(v)`, ≥ 1: what turning costs on the way from the root (Eq. 2.6); 1 at the root.
+    /// `m_β(v)`, ≥ 1: the product of the costs of all turns on the way from the root (Eq. 2.6); 1
+    /// at the root.
     pub fn multiples(&self) -> Vec<f64> {
         let mut multiples = vec![1.0; self.cells.len()];
         for v in self.root_to_tip() {
@@ -98,8 +99,8 @@ impl<'a> TransportSystem<'a> {
             .sum()
     }
 
-    /// `P_G(x, v)` for all `v` (Definition 2.3): what `x` more at `v` would cost on the way to it;
-    /// 0 at the root.
+    /// `P_G(x, v)` for all `v` (Definition 2.3): the extra cost, on the way from the root to `v`,
+    /// of an additional weight `x` at `v`; 0 at the root.
     #[cfg(test)]
     pub(crate) fn potentials(&self, x: f64) -> Vec<f64> {
         let (counts, multiples) = (self.counts(), self.multiples());
@@ -132,7 +133,7 @@ impl<'a> TransportSystem<'a> {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// The step that leads to a cell; to the root, the direction in which water leaves it.
+    /// The step that leads to a cell; for the root, the direction in which water leaves it.
     fn step(&self, v: usize) -> Cell {
         match self.parents.get(v) {
             Some(&p) if v != 0 && p != NONE => self.cells[v] - self.cells[p as usize],
@@ -157,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_forked_system_costs_what_pencil_and_paper_say() {
-        // A stem of two, and a cell on either side of its end.
+        // A stem of two cells, with a cell on either side of its end.
         let cells = [(0, 0), (0, 1), (-1, 2), (1, 2)].map(|(m, n)| Cell::new(m, n));
         let parents = [NONE, 0, 1, 1];
         let system = TransportSystem::new(&cells, &parents, [0.5, 1.0, 2.0]);

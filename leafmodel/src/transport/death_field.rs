@@ -9,23 +9,25 @@ use super::filled::FilledBlade;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
-/// Steps in which the revenue falls: deaths are known to half a thousandth of it.
+/// Steps in which the revenue falls; deaths are resolved to a thousandth of it.
 const STEPS: u32 = 1000;
 
-/// Columns and rows of the grid around all cells, so that the field is smooth beyond them too.
+/// Extra columns and rows of the grid around the cells, so that the field is smooth beyond them
+/// too.
 const AROUND: i32 = 3;
 
-/// At which share of the full-grown leaf's revenue tissue dies: 1 first, 0 last.
+/// The share of the full-grown leaf's revenue at which tissue dies, as a field over the blade: 1
+/// dies first, 0 last.
 ///
-/// Values of [`TransportLeaf::deaths`] at the centres of cells; beyond the cells, means of the
-/// nearest; between, quadratic B-splines, continuous with their first derivative. Far outside, the
-/// value at the edge of the grid.
+/// Coefficients are the values of [`TransportLeaf::deaths`] at the centres of cells and, beyond the
+/// cells, means of the nearest ones. Between centres the field is a quadratic B-spline, continuous
+/// with its first derivative. Far outside it has the value at the edge of the grid.
 #[derive(Clone, Debug)]
 pub struct DeathField {
     frame: Frame,
     low: Cell,
     width: usize,
-    /// Row by row.
+    /// B-spline coefficients, row by row.
     values: Vec<f64>,
 }
 
@@ -96,14 +98,14 @@ impl DeathField {
 fn spline(x: f64, count: usize) -> (usize, [f64; 3]) {
     let x = x.clamp(0.0, (count - 1) as f64);
     let nearest = x.round().clamp(1.0, (count - 2) as f64);
-    // Within half a cell but at the edge, where the last cells hold on.
+    // Clamping matters only beyond the edge of the grid, where the field stays constant.
     let t = (x - nearest).clamp(-0.5, 0.5);
     let (before, after) = (0.5 - t, 0.5 + t);
     let weights = [0.5 * before * before, 0.75 - t * t, 0.5 * after * after];
     (nearest as usize - 1, weights)
 }
 
-/// Gives every place a value: ring by ring, the mean of the neighbours that have one.
+/// Gives every place a value, ring by ring: the mean of the neighbours that have one.
 fn outwards(mut known: Vec<Option<f64>>, width: usize) -> Vec<f64> {
     let height = known.len() / width;
     loop {

@@ -2,12 +2,12 @@
 
 use super::plan::{Ladder, TransportPlan};
 
-/// The plan of Example 1 to 5; none for other numbers.
+/// The plan of Example 1 to 5; `None` for other numbers.
 ///
-/// Examples 1 and 2 are printed with all their parameters. Examples 3 (maple-like) and 4
-/// (mulberry-like) are not: theirs were searched for, and `docs/src/theory/transport-leaf.md` has
-/// the outcome beside the paper's. Example 5 is a sweep over `α` at one `β`; this is one of its
-/// members, and any other is the same plan with another `alpha`.
+/// The paper prints all parameters of Examples 1 and 2. It prints none of Examples 3 (maple-like)
+/// and 4 (mulberry-like); these were found by a search, and `docs/src/theory/transport-leaf.md`
+/// compares the outcome with the paper's. Example 5 is a sweep over `α` at one `β`. This is one of
+/// its members; the others are the same plan with another `alpha`.
 pub fn example(number: usize) -> Option<TransportPlan> {
     let plan = |[alpha, beta, epsilon]: [f64; 3], steps| TransportPlan {
         alpha,
@@ -46,9 +46,9 @@ mod tests {
         (extent(|cell| cell.m), extent(|cell| cell.n))
     }
 
-    /// By how much of the leaf's length each lobe stands out: from its tip, the farthest from the
-    /// root around, back to the deeper sinus on the way to a lobe that is farther from the root.
-    /// The largest first.
+    /// Prominence of each lobe as a share of the leaf's length, the largest first: from the tip, a
+    /// local maximum of the distance from the root, back to the deeper sinus on the way to a lobe
+    /// that reaches farther.
     fn lobes(leaf: &TransportLeaf) -> Vec<f64> {
         let outline = leaf.outline(1.0).expect("a margin");
         let (low, high) = outline.bounds();
@@ -75,8 +75,8 @@ mod tests {
     fn example_1_is_as_large_as_an_independent_program_had_it() {
         let leaf = grown(1);
         let count = leaf.cells().len() as f64;
-        // That program had 562 cells in 25 columns and 33 rows, and between 540 and 556 with finer
-        // and coarser steps.
+        // An independent program gave 562 cells in 25 columns and 33 rows, and between 540 and 556
+        // with finer and coarser steps.
         assert!((count / 562.0 - 1.0).abs() < 0.04, "{count}");
         assert_eq!(size(&leaf), (25.0, 33.0));
     }

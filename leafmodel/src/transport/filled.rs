@@ -1,11 +1,11 @@
-//! Transport-optimal veins on an outline that is there already.
+//! Transport-optimal veins inside a given outline.
 //!
-//! The paper's leaf decides its shape itself. Here cells come only where the blade is, by the same
-//! rule: each as soon as it earns what its transport costs, `ε` rising until all have come. Three
-//! things are ours. Edges span at most two columns and rows and do not cross the margin. `ε` rises
-//! by equal shares rather than equal steps, since where it will end is not known. And a cell that
-//! no edge can reach without turning back by a right angle or more stays without supply; such cells
-//! lie beside and behind the root.
+//! In the paper the shape of the leaf follows from its growth. Here cells are added only on the
+//! given blade, by the same rule: each as soon as its revenue covers its transport, while `ε` rises
+//! until all cells are supplied. Three rules are our own. Edges span at most two columns and rows
+//! and do not cross the margin. `ε` rises by equal factors rather than equal steps, since its final
+//! value is not known. A cell that no edge can reach without a turn of a right angle or more stays
+//! without supply; such cells lie beside and behind the root.
 
 use glam::DVec2;
 
@@ -20,20 +20,22 @@ use super::walls::Walls;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
-/// Cells that a blade may have.
+/// Greatest number of cells of a blade.
 const MOST_CELLS: usize = 20_000;
 
-/// By what factor `ε` rises at a time, at least.
+/// Least factor by which `ε` rises at a time.
 const RISE: f64 = 1.04;
 
-/// How veins fill a blade as the cheapest transport network of its cells.
+/// How veins fill a blade as the transport network of its cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilledPlan {
-    /// `α`: how little it saves to transport much together. 0 to 1, exclusive.
+    /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
+    /// together saves. 0 to 1, both excluded.
     pub alpha: f64,
-    /// `β`: how dearly a change of direction is paid. Above 0, at most 20.
+    /// `β`, exponent of the cost of a turn: the greater, the more a change of direction costs.
+    /// Above 0, at most 20.
     pub beta: f64,
-    /// Cells along the midrib, 4 to 200; the blade may have 20 000 in all.
+    /// Cells along the midrib, 4 to 200; the whole blade may have 20 000.
     pub cells_along: u32,
     /// How veins are drawn.
     pub style: VeinStyle,
@@ -53,7 +55,7 @@ impl Default for FilledPlan {
     }
 }
 
-/// A blade whose cells are supplied.
+/// A blade with the transport network that supplies its cells.
 #[derive(Clone, Debug)]
 pub struct FilledBlade {
     leaf: TransportLeaf,
@@ -63,7 +65,7 @@ pub struct FilledBlade {
 
 impl PartialEq for FilledBlade {
     fn eq(&self, other: &Self) -> bool {
-        // The frame is decided by the place of the root.
+        // The frame is left out: it follows from the place of the root.
         (&self.leaf, &self.unsupplied) == (&other.leaf, &other.unsupplied)
             && self.frame.base == other.frame.base
             && self.frame.scale == other.frame.scale
@@ -87,7 +89,7 @@ impl FilledPlan {
     ///
     /// # Errors
     ///
-    /// [`TransportError::OutOfRange`], [`TransportError::TooFine`].
+    /// [`TransportError::OutOfRange`] for a number; [`TransportError::TooFine`] for too many cells.
     pub fn check(&self, outline: &Outline) -> Result<(), TransportError> {
         self.validate()?;
         self.grid(outline)?;
@@ -95,9 +97,10 @@ impl FilledPlan {
     }
 
     /// Supplies the cells of a blade with its base at the origin and its midrib along +y: those
-    /// whose centre lies on it and that hang together with the root, the lowest cell on the midrib.
+    /// whose centre lies on the blade and that are connected to the root, the lowest cell on the
+    /// midrib.
     ///
-    /// Both sides are grown as one where the cells are symmetric about the midrib.
+    /// Both sides are grown as one if the cells are symmetric about the midrib.
     ///
     /// # Errors
     ///
@@ -124,7 +127,8 @@ impl FilledPlan {
             settled.map_err(|Outgrown { cells }| too_fine(cells))?;
             stages.push(plan.stage(&growth, epsilon));
             match growth.next_event(f64::INFINITY) {
-                // Rounding must not keep the cheapest cell away.
+                // Slightly above the break-even value, so that rounding does not keep the cheapest
+                // cell out.
                 Some(next) => epsilon = (epsilon * RISE).max(next * (1.0 + 1e-9)),
                 None => break,
             }
@@ -170,7 +174,7 @@ impl FilledPlan {
             }
         };
         let inside = |frame: &Frame, cell: Cell| outline.contains(frame.to_mm(place(cell)));
-        // A base may be too narrow for a cell.
+        // The base may be too narrow for a cell, so the root is looked for row by row.
         let mut rows = (0..self.cells_along).map(frame_with);
         let frame = rows
             .find(|frame| inside(frame, Cell::ROOT))
@@ -190,12 +194,12 @@ impl FilledPlan {
 }
 
 impl FilledBlade {
-    /// The cells with their tree, as of a leaf that has grown into this shape.
+    /// The cells with their network, as a transport leaf of this shape.
     pub fn leaf(&self) -> &TransportLeaf {
         &self.leaf
     }
 
-    /// Cells of the blade that are left without supply, in a fixed order.
+    /// Cells of the blade that no edge supplies, in a fixed order.
     pub fn unsupplied(&self) -> &[Cell] {
         &self.unsupplied
     }
@@ -219,7 +223,8 @@ impl FilledBlade {
         Ok(self.leaf.network_in(&self.frame, outline, style, widest))
     }
 
-    /// The veins at each of some stages of the rise of `ε`; beyond the last they are complete.
+    /// The veins at each of the given stages of the rise of `ε`. A stage beyond the last means all
+    /// veins.
     ///
     /// # Errors
     ///

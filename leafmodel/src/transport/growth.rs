@@ -1,4 +1,4 @@
-//! Growth: a cell comes into being where it earns more than its transport costs (section 3 of
+//! Growth: a cell is added where its revenue exceeds the cost of its transport (section 3 of
 //! \[xia2007\]).
 
 use super::cells::{Cell, CellIndex, NONE};
@@ -6,32 +6,32 @@ use super::optimiser::Optimiser;
 use super::revenue::Revenue;
 use super::tree::Tree;
 
-/// What a cell earns may fall short of what it costs by this share, which is rounding.
+/// Share by which a cell's revenue may fall short of its cost, to allow for rounding.
 const BREAK_EVEN: f64 = 1e-12;
 
-/// The leaf outgrew its limit.
+/// The leaf has grown beyond its greatest number of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Outgrown {
-    /// Cells that it would have had, at least.
+    /// Number of cells that it would have, at least.
     pub(crate) cells: usize,
 }
 
-/// A leaf while it grows. Lengths and weights are in cells: `ε` here is `ε h^{1−2α}`.
+/// A growing leaf. Lengths and weights are in cells, so `ε` stands for `ε h^{1−2α}`.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
     pub(crate) tree: Tree,
     pub(crate) optimiser: Optimiser,
     revenue: Revenue,
     most_cells: usize,
-    /// In which application of `L` each cell came into being.
+    /// For each cell the number of the application of `L` that added it.
     pub(crate) generations: Vec<u32>,
     generation: u32,
-    /// Steps by length, so far as they have been needed.
+    /// Steps in the order of their length, up to the greatest length needed so far.
     disc: Vec<(f64, Cell)>,
     disc_radius: f64,
     potentials: Vec<f64>,
     order: Vec<u32>,
-    /// The cells that came last, in the order of their numbers.
+    /// The cells added last, in the order of their numbers.
     pub(crate) offers: Vec<Offer>,
     offered: CellIndex,
 }
@@ -42,13 +42,13 @@ pub(crate) struct Offer {
     pub(crate) cell: Cell,
     /// `C_Ω(x)` in units of `h^{2α+1}`.
     pub(crate) expense: f64,
-    /// `b(x)`, where it would be supplied from.
+    /// `b(x)`, the cell that would supply it.
     pub(crate) parent: u32,
     step: Cell,
 }
 
 impl Growth {
-    /// The root alone.
+    /// The growth of a leaf that consists of the root alone.
     pub(crate) fn new(
         [alpha, beta]: [f64; 2],
         mirrored: bool,
@@ -71,13 +71,14 @@ impl Growth {
         }
     }
 
-    /// Cells of the whole leaf.
+    /// Number of cells of the whole leaf.
     pub(crate) fn cells(&self) -> usize {
         self.tree.nodes[0].weight as usize
     }
 
-    /// The map `L` (Eqs. 3.3, 3.4): adds all cells that pay, each at the end of its cheapest edge,
-    /// and optimises. Gives the number of cells that came, of the whole leaf.
+    /// The map `L` (Eqs. 3.3, 3.4): adds all cells whose revenue covers their cost, each at the end
+    /// of its cheapest edge, and optimises the network. Returns the number of cells added, counted
+    /// in the whole leaf.
     pub(crate) fn apply(&mut self, epsilon: f64) -> Result<usize, Outgrown> {
         self.select(epsilon)?;
         let before = self.cells();
@@ -102,13 +103,13 @@ impl Growth {
         Ok(self.cells() - before)
     }
 
-    /// The generation map `g` (Eq. 3.6): `L` until nothing comes any more.
+    /// The generation map `g` (Eq. 3.6): applies `L` until no cell is added.
     pub(crate) fn settle(&mut self, epsilon: f64) -> Result<(), Outgrown> {
         while self.apply(epsilon)? > 0 {}
         Ok(())
     }
 
-    /// The smallest `ε` above which a cell would come, if at most `most`.
+    /// The smallest `ε` above which a cell would be added; `None` if it exceeds `most`.
     pub(crate) fn next_event(&mut self, most: f64) -> Option<f64> {
         self.tree.potentials(&mut self.potentials, &mut self.order);
         let greatest = self.revenue.greatest();
@@ -137,7 +138,7 @@ impl Growth {
         found.then_some(best.min(most))
     }
 
-    /// Collects the cells that pay, with their cheapest supply.
+    /// Collects the cells whose revenue covers their cost, each with its cheapest supply.
     fn select(&mut self, epsilon: f64) -> Result<(), Outgrown> {
         self.tree.potentials(&mut self.potentials, &mut self.order);
         for offer in self.offers.drain(..) {
@@ -194,14 +195,14 @@ impl Growth {
         Ok(())
     }
 
-    /// Length of the longest edge from `b` that `most` could pay for, unless it is too short for
-    /// any or `b` is neither on the boundary nor the root.
+    /// Length of the longest edge from `b` that a revenue of `most` could pay for. `None` if no
+    /// edge is that short, or if `b` is neither on the boundary nor the root.
     fn room(&self, b: u32, most: f64) -> Option<f64> {
         let room = (most - self.potentials[b as usize]) / self.tree.nodes[b as usize].multiple;
         let cell = self.tree.cells[b as usize];
         let is_free = |place: Cell| self.tree.is_free(place);
-        // Between walls a cell may be beside others that can only be supplied from a little farther
-        // away.
+        // On a given blade a neighbouring cell may be behind the margin, so that a free cell can
+        // only be supplied from a little farther away.
         let reach = self.tree.reach();
         let is_boundary = reach.is_some() || b == 0 || cell.neighbours().any(is_free);
         let longest = reach.map_or(f64::INFINITY, |reach| f64::from(2 * reach * reach).sqrt());
@@ -220,7 +221,7 @@ impl Growth {
             .then(|| length * node.multiple * turned + self.potentials[b as usize])
     }
 
-    /// Makes the disc reach as far as `radius`.
+    /// Extends the list of steps to length `radius`.
     fn reach(&mut self, radius: f64) {
         if radius <= self.disc_radius {
             return;

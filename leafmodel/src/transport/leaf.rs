@@ -1,4 +1,4 @@
-//! The grown leaf: cells, who supplies whom, what it cost, and how it came to be.
+//! The grown leaf: its cells, their parents, its cost and the stages of its growth.
 
 use super::cells::{Cell, NONE};
 use super::cost::TransportSystem;
@@ -7,28 +7,28 @@ use super::plan::{Ladder, TransportError, TransportPlan};
 use super::revenue::Revenue;
 use super::tree::Tree;
 
-/// The leaf when its revenue had risen to a step of the ladder.
+/// The leaf at one step of the rising revenue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
     /// `ε` of the step.
     pub epsilon: f64,
     /// `F` of the leaf at that time.
     pub cost: f64,
-    /// The parent of each cell that it had then: the first ones of the full-grown leaf.
+    /// The parent of each cell of the stage; these cells are the first ones of the full-grown leaf.
     pub(crate) parents: Vec<u32>,
 }
 
 impl Stage {
-    /// How many cells the leaf had.
+    /// Number of cells at this stage.
     pub fn cells(&self) -> usize {
         self.parents.len()
     }
 }
 
-/// A leaf that is the cheapest transport network of its cells, as far as small changes can tell.
+/// A leaf whose transport network is a local minimum of the cost.
 ///
-/// Cells are numbered in the order in which they came, the root is 0; every other has a parent.
-/// Mirrored leaves number a cell of the right half just before its image.
+/// Cells are numbered in the order in which they were added. The root is 0; every other cell has a
+/// parent. In mirrored leaves a cell of the right half comes just before its mirror image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransportLeaf {
     plan: TransportPlan,
@@ -42,7 +42,7 @@ pub struct TransportLeaf {
 }
 
 impl TransportPlan {
-    /// Grows the leaf: an (`ε`, `h`) leaf of Definition 3.5 of \[xia2007\]. `seed` matters to
+    /// Grows the leaf: an (`ε`, `h`) leaf of Definition 3.5 of \[xia2007\]. `seed` is used for
     /// uneven light only.
     ///
     /// # Errors
@@ -61,7 +61,7 @@ impl TransportPlan {
         let mut stages = Vec::new();
         match self.ladder {
             Ladder::Equal(steps) => {
-                // With uneven light the first cell may come as early as this.
+                // The least revenue at which the first cell can be added under uneven light.
                 let first = last.min(1.0 / self.revenue(seed).greatest());
                 for step in 0..=steps {
                     let share = f64::from(step) / f64::from(steps);
@@ -75,7 +75,7 @@ impl TransportPlan {
                     let before = growth.cells();
                     growth.settle(epsilon).map_err(outgrown)?;
                     stages.push(self.stage(&growth, self.epsilon * (epsilon / last)));
-                    // A cell that would just break even may not come, by rounding.
+                    // By rounding, a cell that would just break even may not be added.
                     if growth.cells() == before {
                         break;
                     }
@@ -86,7 +86,7 @@ impl TransportPlan {
         Ok(self.leaf_of(&growth, seed, stages))
     }
 
-    /// The leaf as it stands.
+    /// A copy of the growing leaf as a grown one.
     pub(crate) fn leaf_of(&self, growth: &Growth, seed: u64, stages: Vec<Stage>) -> TransportLeaf {
         let (cells, parents, copied) = unfolded(&growth.tree);
         let counts = copied.iter().map(|&v| growth.tree.nodes[v as usize].weight);
@@ -122,7 +122,7 @@ impl TransportPlan {
         }
     }
 
-    /// A cost in the plan's unit of length from one in cells: `h^{2α+1}` times as much.
+    /// Converts a cost from cells to the plan's unit of length, a factor of `h^{2α+1}`.
     pub(crate) fn to_scale(&self, cost: f64) -> f64 {
         cost * libm::pow(self.cell, 2.0 * self.alpha + 1.0)
     }
@@ -136,10 +136,11 @@ impl TransportPlan {
     }
 }
 
-/// Cells and parents of the whole leaf, and which node of the tree each stands for.
+/// Cells and parents of the whole leaf, and the node of the tree for each.
 pub(crate) fn unfolded(tree: &Tree) -> (Vec<Cell>, Vec<u32>, Vec<u32>) {
     let (mut cells, mut parents, mut copied) = (Vec::new(), Vec::new(), Vec::new());
-    // First number of each node's cells. A parent may be younger than its child.
+    // The number of each node's first cell. All are needed first, since a parent may be younger
+    // than its child.
     let mut numbers = Vec::with_capacity(tree.nodes.len());
     let mut next = 0;
     for node in &tree.nodes {
@@ -162,12 +163,12 @@ pub(crate) fn unfolded(tree: &Tree) -> (Vec<Cell>, Vec<u32>, Vec<u32>) {
 }
 
 impl TransportLeaf {
-    /// What it was grown from.
+    /// The plan from which it was grown.
     pub fn plan(&self) -> &TransportPlan {
         &self.plan
     }
 
-    /// The seed of its light.
+    /// The seed of its uneven light.
     pub fn seed(&self) -> u64 {
         self.seed
     }
@@ -177,12 +178,12 @@ impl TransportLeaf {
         &self.cells
     }
 
-    /// The cell that supplies a cell; none supplies the root.
+    /// The number of the cell that supplies cell `v`; `None` for the root.
     pub fn parent(&self, v: usize) -> Option<usize> {
         (self.parents[v] != NONE).then_some(self.parents[v] as usize)
     }
 
-    /// All cells, each after the one that supplies it.
+    /// The numbers of all cells, each after that of its parent.
     pub fn root_to_tip(&self) -> Vec<usize> {
         self.system().root_to_tip()
     }
@@ -197,23 +198,23 @@ impl TransportLeaf {
         &self.counts
     }
 
-    /// In which step of generation each cell came; 0 is the root, and a ladder's step takes
-    /// several.
+    /// For each cell the number of the application of `L` that added it; 0 for the root. A step of
+    /// the ladder takes several applications.
     pub fn generations(&self) -> &[u32] {
         &self.generations
     }
 
-    /// `F`, what its transport costs, in the unit of `h^{2α+1}`.
+    /// `F`, the cost of transport, in the plan's unit of length to the power 2α + 1.
     pub fn cost(&self) -> f64 {
         self.cost
     }
 
-    /// The leaf at each step of the ladder, the last full-grown.
+    /// The leaf at each step of the ladder; the last is full-grown.
     pub fn stages(&self) -> &[Stage] {
         &self.stages
     }
 
-    /// The leaf as it was at a stage; beyond the last it is full-grown.
+    /// The leaf at a stage; a stage beyond the last means the full-grown leaf.
     pub fn at_stage(&self, stage: usize) -> Self {
         let Some(then) = self.stages.get(stage) else {
             return self.clone();
@@ -225,7 +226,7 @@ impl TransportLeaf {
         young
     }
 
-    /// The leaf with some of its cells only, ascending, and the numbers of their parents among
+    /// The leaf with only the `kept` cells, ascending. `parent` gives the parents' numbers among
     /// them.
     pub(crate) fn part(&self, kept: &[usize], parent: impl Fn(usize) -> u32) -> Self {
         let mut part = Self {
@@ -243,7 +244,7 @@ impl TransportLeaf {
         part
     }
 
-    /// The same as a system of which everything can be computed from the definitions.
+    /// The leaf as a transport system, whose quantities are computed from the definitions.
     pub fn system(&self) -> TransportSystem<'_> {
         let TransportPlan {
             alpha, beta, cell, ..

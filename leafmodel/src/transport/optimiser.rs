@@ -1,4 +1,5 @@
-//! Better parents, cell by cell, until none has a better one (section 2.2 of \[xia2007\]).
+//! Local optimisation: gives each cell its best parent until no cell has a better one (section 2.2
+//! of \[xia2007\]).
 
 #[cfg(test)]
 mod tests;
@@ -6,32 +7,32 @@ mod tests;
 use super::cells::{AROUND, Cell, NONE};
 use super::tree::{Node, Tree};
 
-/// A parent is better if it saves more than this share of what it costs to supply a cell from its
-/// parent. Less is rounding, and could go round in circles.
+/// A parent is better if it saves more than this share of the cost of supply from the present
+/// parent. Smaller savings may be rounding errors and could repeat without end.
 const SAVING: f64 = 1e-11;
 
-/// Passes over all cells. Every change of parent lowers the cost, so passes come to an end long
-/// before; the bound only guards against rounding.
+/// Greatest number of passes over all cells. Every change of parent lowers the cost, so passes end
+/// much earlier; the bound guards against rounding.
 const MOST_PASSES: usize = 1000;
 
-/// The local optimiser, with the memory that it uses again and again.
+/// The local optimiser, with buffers that are kept for reuse.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Optimiser {
     /// Which cells may have a better parent.
     open: Vec<bool>,
-    /// In which evaluation `relative` was last written.
+    /// For each cell the evaluation in which `relative` was last written.
     stamps: Vec<u32>,
     stamp: u32,
-    /// `P_{G0}(weight, u)`, less the same for the present parent.
+    /// `P_{G0}(weight, u)` minus that of the present parent.
     relative: Vec<f64>,
     way: Vec<u32>,
     subtree: Vec<u32>,
     tried: Vec<u32>,
-    /// Changes of parent so far.
+    /// Number of changes of parent so far.
     pub(crate) changes: u64,
 }
 
-/// What is known of a cell while its parents are compared.
+/// The cell whose possible parents are compared.
 struct Candidate<'a> {
     tree: &'a Tree,
     node: Node,
@@ -40,8 +41,8 @@ struct Candidate<'a> {
 }
 
 impl Candidate<'_> {
-    /// The part of `K(u)` that lies beyond `u`: `v`'s own edge and all beyond it. Infinite if water
-    /// cannot turn so far.
+    /// The part of `K(u)` that lies beyond `u`: the edge to `v` and all beyond it. Infinite if a
+    /// turn is a right angle or more.
     fn beyond(&self, u: u32, step: Cell) -> f64 {
         let parent = &self.tree.nodes[u as usize];
         let turned = self.tree.tables.turn(step, parent.step);
@@ -57,7 +58,8 @@ impl Candidate<'_> {
         f64::from(self.node.copies) * parent.multiple * turned * (further + edge)
     }
 
-    /// What the weight of `v` costs on the edge to `z`: as it is there now, or if it came to it.
+    /// The share of the weight of `v` in the cost of the edge to `z`: if `there`, of the weight
+    /// that already includes it, else if it were added.
     fn share(&self, z: u32, there: bool) -> f64 {
         let node = &self.tree.nodes[z as usize];
         let weight = self.node.weight * self.node.copies / node.copies;
@@ -72,9 +74,9 @@ impl Candidate<'_> {
 }
 
 impl Optimiser {
-    /// Steps 2 to 4: goes through all cells, youngest first, giving each its best parent; then
-    /// again through those about which something has changed, until nothing does; then through all
-    /// once more, and so on until all have the best.
+    /// Steps 2 to 4: gives each cell its best parent, youngest first; then repeats that for cells
+    /// whose surroundings have changed, until nothing changes; then goes through all cells again,
+    /// until every cell has its best parent.
     pub(crate) fn run(&mut self, tree: &mut Tree) {
         let count = tree.nodes.len();
         self.stamps.resize(count, 0);
@@ -103,11 +105,12 @@ impl Optimiser {
         }
     }
 
-    /// The parent of `v` that minimises `K`, if that saves anything.
+    /// The parent of `v` that minimises `K`; `None` if the present one is as good.
     ///
     /// The paper prints `K(u)` with the potential of the graph in which `u` already is the parent.
-    /// It is meant in `G0`, from which `v` has been taken: only then is `K` what the cost rises by.
-    /// Common terms are left out: all that lies above the cell where the ways of two parents part.
+    /// The potential must be that of `G0`, the graph without `v`: only then is `K` the increase of
+    /// the cost. Common terms are left out, namely everything above the cell where the ways to two
+    /// parents part.
     pub(crate) fn better_parent(&mut self, tree: &Tree, v: u32) -> Option<u32> {
         let cell = tree.cells[v as usize];
         let node = tree.nodes[v as usize];
@@ -152,7 +155,7 @@ impl Optimiser {
             self.stamp = 0;
         }
         self.stamp += 1;
-        // What v supplies cannot supply v.
+        // The cells that v supplies cannot supply v.
         self.know(v, f64::INFINITY);
         self.know(parent, 0.0);
     }
@@ -162,8 +165,8 @@ impl Optimiser {
         self.relative[z as usize] = value;
     }
 
-    /// `P_{G0}(weight, u)` less that of the present parent. `top` is how far up the way from that
-    /// parent has been followed.
+    /// `P_{G0}(weight, u)` minus that of the present parent. `top` is the cell up to which the way
+    /// from that parent to the root has been followed.
     fn relative_potential(&mut self, candidate: &Candidate, u: u32, top: &mut u32) -> f64 {
         let nodes = &candidate.tree.nodes;
         self.way.clear();
@@ -182,7 +185,7 @@ impl Optimiser {
         }
         let mut value = self.relative[z as usize];
         while let Some(z) = self.way.pop() {
-            // Below v there is nothing to compute: its weight cannot come on top of itself.
+            // Cells that v supplies are no candidates, so nothing is computed for them.
             if value < f64::INFINITY {
                 value += candidate.share(z, false);
             }
@@ -191,8 +194,8 @@ impl Optimiser {
         value
     }
 
-    /// Changes the parent of `v`, and opens all cells whose choice that may alter most: about those
-    /// it supplies, and about both ways to it.
+    /// Changes the parent of `v`, and marks as open the cells whose best parent this affects most:
+    /// those around the cells that `v` supplies and around the old and the new way to `v`.
     fn change(&mut self, tree: &mut Tree, v: u32, u: u32) {
         let old = tree.nodes[v as usize].parent;
         let mut subtree = std::mem::take(&mut self.subtree);

@@ -1,50 +1,51 @@
-//! What a transport leaf is grown from, and what it may be grown from.
+//! The parameters of a transport leaf and their ranges.
 
 use thiserror::Error;
 
 use crate::shape::outline::OutlineError;
 
-/// Cells that a plan may allow.
+/// The greatest `most_cells`.
 const MOST_CELLS: usize = 1_000_000;
 
-/// A number: its name, its value, least and greatest, and both in words.
+/// A number to be checked: key, value, least and greatest value, and the range in words.
 type Check = (&'static str, f64, f64, f64, &'static str);
 
-/// In which steps the revenue `ε` rises (Definition 3.5 leaves it open).
+/// The steps in which the revenue `ε` rises (Definition 3.5 leaves them open).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ladder {
-    /// So many equal steps, 1 to 10 000, from the revenue at which the first cell comes.
+    /// A number of equal steps, 1 to 10 000, from the revenue at which the first cell is added.
     Equal(u32),
-    /// From one cell coming to the next: each step is the smallest that brings any.
+    /// Each step is the smallest that adds any cell.
     Events,
 }
 
-/// Everything that decides a transport leaf.
+/// The parameters of a transport leaf.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransportPlan {
-    /// `α`: how little it saves to transport much together. 0 to 1, exclusive. Above ½ every leaf
-    /// stops growing; up to ½ some would only stop at `most_cells`, which is an error. Larger is
-    /// rounder.
+    /// `α`, exponent of the weight in the cost of an edge: the smaller, the more carrying water
+    /// together saves. 0 to 1, both excluded. Above ½ every leaf stops growing; up to ½ some would
+    /// stop only at `most_cells`, which is an error. Larger values give rounder leaves.
     pub alpha: f64,
-    /// `β`: how dearly a change of direction is paid. Above 0, at most 20.
+    /// `β`, exponent of the cost of a turn: the greater, the more a change of direction costs.
+    /// Above 0, at most 20.
     pub beta: f64,
-    /// `ε`: what a full-grown leaf's cell earns per area. Above 0; `ε h^{1−2α}` is at most 100. At
-    /// `h^{2α−1}` the first cell comes.
+    /// `ε`, revenue per area of the full-grown leaf. Above 0; `ε h^{1−2α}` is at most 100. The
+    /// first cell is added at `ε = h^{2α−1}`.
     pub epsilon: f64,
-    /// `h`: edge of a cell, in the leaf's own unit; 10⁻⁶ to 10⁶. A leaf's length in millimetres is
-    /// chosen later.
+    /// `h`, edge of a cell, in the leaf's own unit, 10⁻⁶ to 10⁶. The length of the leaf in
+    /// millimetres is chosen separately.
     pub cell: f64,
     /// How `ε` rises to its final value.
     pub ladder: Ladder,
-    /// Whether both sides are grown as one, so that they are exact mirror images. Uneven light
-    /// overrules it.
+    /// Whether both sides are grown as one, so that they are exact mirror images. Ignored under
+    /// uneven light.
     pub mirrored: bool,
-    /// Uneven light: greatest departure of a cell's `ε` from its mean, as a share of it. At least
-    /// 0, below 1.
+    /// Uneven light: greatest deviation of a cell's `ε` from its mean, as a share of the mean. At
+    /// least 0, below 1; 0 is even light.
     pub noise: f64,
     /// Width of patches of light and shadow, cells, 1 to 1000.
     pub noise_cells: f64,
-    /// A leaf with more cells is an error. 1 to 1 000 000.
+    /// Greatest number of cells; a larger leaf is an error. 1 to 1 000 000.
     pub most_cells: usize,
 }
 
@@ -64,10 +65,10 @@ impl Default for TransportPlan {
     }
 }
 
-/// Why a plan brings forth no leaf.
+/// Why a plan gives no leaf.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TransportError {
-    /// A number outside the range in which the model holds.
+    /// A number is outside the range in which the model holds.
     #[error("{key} is {value}, outside {range}")]
     OutOfRange {
         /// Which parameter.
@@ -82,22 +83,22 @@ pub enum TransportError {
         "the leaf has {cells} cells when most_cells is {limit}; only for alpha above 0.5 is it sure to stop growing (alpha is {alpha})"
     )]
     TooManyCells {
-        /// How many it has, and counting.
+        /// How many it has so far.
         cells: usize,
         /// How many it may have.
         limit: usize,
         /// The plan's `α`.
         alpha: f64,
     },
-    /// A grid too fine for the blade that it is to fill.
+    /// The grid is too fine for the blade that it is to fill.
     #[error("the blade takes {cells} cells, more than {limit}")]
     TooFine {
-        /// How many cells it takes, about.
+        /// About how many cells it would have.
         cells: usize,
-        /// How many it may take.
+        /// How many it may have.
         limit: usize,
     },
-    /// The cells have no margin that an outline could be.
+    /// The cells give no valid margin.
     #[error("no outline comes of the cells: {0}")]
     Outline(#[from] OutlineError),
 }
@@ -109,7 +110,7 @@ impl TransportPlan {
     ///
     /// [`TransportError::OutOfRange`], naming the parameter and its range.
     pub fn validate(&self) -> Result<(), TransportError> {
-        // Exclusive ends are the numbers next to them.
+        // Excluded ends are replaced by the neighbouring floating-point numbers.
         let above_0 = f64::MIN_POSITIVE;
         let below_1 = 1.0 - f64::EPSILON / 2.0;
         let steps = match self.ladder {
@@ -162,8 +163,8 @@ impl TransportPlan {
         self.mirrored && self.noise == 0.0
     }
 
-    /// `ε h^{1−2α}`: a revenue in the unit in which a cell is as long as wide as 1. The first cell
-    /// comes at 1.
+    /// `ε h^{1−2α}`: a revenue in the unit in which the edge of a cell is 1. The first cell is
+    /// added at 1.
     pub(crate) fn in_cells(&self, epsilon: f64) -> f64 {
         epsilon * libm::pow(self.cell, 1.0 - 2.0 * self.alpha)
     }

@@ -1,30 +1,32 @@
-//! What a cell earns: `ε`, the same everywhere or unevenly lit (Remark 3.6 of \[xia2007\]).
+//! The revenue of a cell: `ε`, the same everywhere or varied by uneven light (Remark 3.6 of
+//! \[xia2007\]).
 
 use super::cells::Cell;
 use crate::venation::chance::{Use, uniform};
 
-/// How much a cell earns, as a factor on `ε`.
+/// The revenue of each cell, as a factor on `ε`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Revenue {
-    /// Greatest departure from 1, at least 0, below 1.
+    /// Greatest deviation from 1, at least 0, below 1.
     pub(crate) noise: f64,
-    /// Width of light and shadow in cells, ≥ 1.
+    /// Width of patches of light and shadow in cells, ≥ 1.
     pub(crate) patch: f64,
     pub(crate) seed: u64,
 }
 
 impl Revenue {
-    /// Whether every cell earns the same.
+    /// Whether every cell has the same revenue.
     pub(crate) fn is_uniform(&self) -> bool {
         self.noise == 0.0
     }
 
-    /// Nothing earns more.
+    /// Upper bound of the factor.
     pub(crate) fn greatest(&self) -> f64 {
         1.0 + self.noise
     }
 
-    /// Factor of one cell: random numbers on a lattice with spacing `patch`, smoothly interpolated.
+    /// The factor of one cell: value noise, that is, random numbers on a lattice with spacing
+    /// `patch`, smoothly interpolated.
     pub(crate) fn of(&self, cell: Cell) -> f64 {
         if self.is_uniform() {
             return 1.0;

@@ -1,18 +1,18 @@
-//! Autumn: revenue falls, and cells that no longer pay die (Remark 3.6 of \[xia2007\]).
+//! Autumn: revenue falls, and cells whose revenue no longer covers their cost die (Remark 3.6 of
+//! \[xia2007\]).
 
 use super::cells::NONE;
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
 impl TransportLeaf {
-    /// At which share of the full-grown leaf's revenue `ε` each cell dies while `ε` falls from
-    /// there to 0: 1 dies first, 0 last.
+    /// For each cell the share of the full-grown leaf's revenue `ε` at which it dies as `ε` falls
+    /// to 0: 1 dies first, 0 last.
     ///
-    /// A tip dies when its transport, `F` less what `F` would be without it, costs more than it
-    /// earns; then what supplied it may be a tip. The share is one of `steps` (1 to 10 000) equal
-    /// steps. The veins that are left stay where they are. The root, from which everything comes,
-    /// has 0. For a revenue that is a periodic function of time, a cell is alive in the falling
-    /// half of a period while the share is above this.
+    /// A tip dies when the cost of its transport, `F` minus `F` without it, exceeds its revenue.
+    /// Then its parent may become a tip. The share is a multiple of 1/`steps` (1 to 10 000). The
+    /// remaining veins stay where they are. The root has 0. If revenue is a periodic function of
+    /// time, a cell is alive in the falling half of a period while the share is above its value.
     ///
     /// # Errors
     ///
@@ -20,8 +20,8 @@ impl TransportLeaf {
     ///
     /// # Source
     ///
-    /// \[xia2007\], Remark 3.6, which says that, not how; the expense of a cell that is there is
-    /// ours.
+    /// \[xia2007\], Remark 3.6, which says that cells die, not how. The expense of an existing cell
+    /// is our definition.
     pub fn deaths(&self, steps: u32) -> Result<Vec<f64>, TransportError> {
         if !(1..=10_000).contains(&steps) {
             let (key, range) = ("steps", "1 to 10000");
@@ -75,7 +75,7 @@ impl TransportLeaf {
         Ok(deaths)
     }
 
-    /// The leaf without the cells that are dead at this share of its revenue, by their
+    /// The leaf without the cells that are dead at this share of its revenue; `deaths` is from
     /// [`TransportLeaf::deaths`].
     pub fn without_dead(&self, deaths: &[f64], share: f64) -> Self {
         let mut numbers = vec![NONE; self.cells().len()];

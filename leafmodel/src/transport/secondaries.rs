@@ -1,16 +1,16 @@
-//! Secondary veins as one would measure them with a ruler (Fig. 4 and its tables in \[xia2007\]).
+//! Secondary veins and their lengths (Fig. 4 and its tables in \[xia2007\]).
 
 use super::cells::Cell;
 use super::leaf::TransportLeaf;
 
-/// A lateral counts as a secondary vein if it supplies at least this share of what the greatest
-/// supplies: a quarter of its width, as vein orders have it everywhere else.
+/// A lateral counts as a secondary vein if it supplies at least this share of the cells of the
+/// greatest lateral. That is a quarter of its width, as for vein orders elsewhere.
 const SHARE: f64 = 1.0 / 16.0;
 
-/// A vein that leaves the midrib. Lengths are in cells.
+/// A secondary vein. Lengths are in cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Secondary {
-    /// Cell of the midrib that it leaves.
+    /// Cell of the midrib from which it leaves.
     pub from: Cell,
     /// Where it ends.
     pub tip: Cell,
@@ -48,15 +48,15 @@ impl TransportLeaf {
         laterals
     }
 
-    /// The cells of the midrib, from the root: the vein that starts there, on the axis in a
-    /// mirrored leaf.
+    /// The cells of the midrib, from the root: the vein that starts at the root; in a mirrored leaf
+    /// it stays on the axis.
     pub fn midrib(&self) -> Vec<usize> {
         let on_axis = |v: usize| !self.is_mirrored() || self.cells()[v].m == 0;
         self.vein(&self.children(), 0, Cell::UP, on_axis)
     }
 
-    /// The vein that comes to `start` by `step`: always on to the allowed cell with the largest
-    /// `w^½ (1 + cos φ)`.
+    /// The vein that reaches `start` by `step`. It always goes on to the allowed cell with the
+    /// largest `w^½ (1 + cos φ)`, with the deflection `φ`.
     fn vein(
         &self,
         children: &[Vec<usize>],

@@ -1,4 +1,4 @@
-//! The paper's propositions, on real runs.
+//! The paper's propositions, tested on grown leaves.
 
 mod extremes;
 
@@ -45,7 +45,7 @@ fn c_alpha(alpha: f64) -> f64 {
 
 /// `R_ε` of section 3.2.
 fn greatest_radius(plan: &TransportPlan) -> f64 {
-    // With uneven light no cell earns more than this.
+    // The greatest revenue of a cell under uneven light.
     let epsilon = plan.epsilon * (1.0 + plan.noise);
     libm::pow(
         epsilon / c_alpha(plan.alpha),
@@ -53,7 +53,7 @@ fn greatest_radius(plan: &TransportPlan) -> f64 {
     )
 }
 
-/// Applies `L` once and hands over: the leaf before, `ε`, and the leaf after.
+/// Calls `look` for each application of `L` with the leaf before, `ε`, and the leaf after.
 fn each_application(plan: &TransportPlan, mut look: impl FnMut(&Growth, f64, &Growth)) {
     let mut growth = plan.seedling(7);
     let steps = 6;
@@ -210,8 +210,8 @@ proptest! {
 
     #[test]
     fn equation_3_3_exactly_the_cells_that_pay_are_added(plan in plans()) {
-        // On both sides at once only edges that keep them alike are allowed, so here each side is
-        // on its own.
+        // Mirrored leaves allow only edges that keep both sides alike, so this test uses unmirrored
+        // ones.
         let plan = TransportPlan { mirrored: false, epsilon: plan.epsilon.min(2.5), ..plan };
         let light = plan.revenue(7);
         each_application(&plan, |before, epsilon, after| {
@@ -303,7 +303,7 @@ fn remark_3_6_cells_die_from_the_margin_inwards_and_none_before_its_own_supplies
             .position(|&c| c == leaf.cells()[v].mirrored());
         assert_eq!(Some(deaths[v]), image.map(|image| deaths[image]));
     }
-    // The share of revenue left falls, and with it the leaf: it stays a system all the way.
+    // As the revenue falls, the leaf shrinks and remains a valid system.
     let mut count = leaf.cells().len();
     for share in [0.95, 0.7, 0.4, 0.1] {
         let rest = leaf.without_dead(&deaths, share);
@@ -312,7 +312,7 @@ fn remark_3_6_cells_die_from_the_margin_inwards_and_none_before_its_own_supplies
     }
 }
 
-/// `F` by its definition of some cells of a leaf, ascending, that lead back to the root.
+/// `F`, by definition, of some cells of a leaf, ascending, whose parents are among them.
 fn cost_of(leaf: &TransportLeaf, kept: &[usize]) -> f64 {
     let number = |v: usize| kept.binary_search(&v).expect("kept with what supplies it") as u32;
     let cells: Vec<Cell> = kept.iter().map(|&v| leaf.cells()[v]).collect();
@@ -352,7 +352,7 @@ fn remark_3_6_living_tips_pay_for_their_transport_and_those_that_just_died_would
             let kept: Vec<usize> = (0..leaf.cells().len()).filter(|&v| lives(v)).collect();
             assert_eq!(leaf.without_dead(&deaths, share).cells().len(), kept.len());
             let cost = cost_of(&leaf, &kept);
-            // Each is a difference of sums, rounded.
+            // Each cost is a difference of rounded sums.
             let rounding = ROUNDING * cost;
             for &tip in kept[1..].iter().filter(|&&v| !supplies(v)) {
                 let others: Vec<usize> = kept.iter().copied().filter(|&v| v != tip).collect();
@@ -360,8 +360,8 @@ fn remark_3_6_living_tips_pay_for_their_transport_and_those_that_just_died_would
                 assert!(expense <= earned(tip) + rounding, "{tip} costs {expense}");
                 living += 1;
             }
-            // Of those that died in this step, the last on each vein: back alone they cost more
-            // than they earn, for what is shared with fewer costs more.
+            // The last cell on each vein that died in this step: added back alone, it costs more
+            // than its revenue, since it shares the way with fewer cells.
             let last =
                 |&v: &usize| !lives(v) && deaths[v] == share && leaf.parent(v).is_some_and(lives);
             for v in (1..leaf.cells().len()).filter(last) {
@@ -376,7 +376,7 @@ fn remark_3_6_living_tips_pay_for_their_transport_and_those_that_just_died_would
     }
 }
 
-/// Area over that of the circle around the root's leaf: as wide as its longest extent.
+/// Area over that of a circle whose diameter is the longest extent of the leaf.
 fn roundness(leaf: &TransportLeaf) -> f64 {
     let outline = leaf.outline(1.0).expect("a margin");
     let mut longest = 0.0_f64;

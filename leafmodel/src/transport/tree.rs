@@ -1,20 +1,20 @@
-//! A transport system that is being changed: every quantity of its cost, kept up to date.
+//! A changing transport system, with every quantity of its cost kept up to date.
 //!
 //! Lengths and weights are in cells, so `h` is 1 here. In a **mirrored** tree only the cells with
-//! `m ≥ 0` are kept: one off the axis stands for itself and its mirror image, and whatever is done
-//! to it is done to both.
+//! `m ≥ 0` are kept: a cell off the axis stands for itself and its mirror image, and every change
+//! applies to both.
 
 use super::cells::{Cell, CellIndex, NONE};
 use super::cost::turn;
 use super::walls::{REACH, Walls};
 
-/// Steps of up to this many cells have their turns in a table.
+/// The costs of turns between steps of up to this many columns and rows are tabulated.
 const SHORT: i32 = 3;
 
-/// How many such steps there are, with the one to nowhere.
+/// Number of such steps, the zero step included.
 const SHORT_STEPS: usize = (2 * SHORT as usize + 1) * (2 * SHORT as usize + 1);
 
-/// What both cost parameters come to: turns of short steps, and `w^α` of whole weights.
+/// Tables of both cost functions: turns between short steps, and `w^α` of integer weights.
 #[derive(Clone, Debug)]
 pub(crate) struct CostTables {
     alpha: f64,
@@ -50,7 +50,7 @@ impl CostTables {
         }
     }
 
-    /// Makes room for weights up to `most`.
+    /// Extends the table of powers to weights up to `most`.
     fn extend(&mut self, most: u32) {
         while self.powers.len() <= most as usize {
             self.powers
@@ -76,20 +76,20 @@ pub(crate) struct Node {
     pub(crate) parent: u32,
     first_child: u32,
     next_sibling: u32,
-    /// Edges between it and the root.
+    /// Number of edges between it and the root.
     pub(crate) depth: u32,
-    /// `w(e_v)` in cells. In a mirrored tree, of this one edge.
+    /// `w(e_v)` in cells. In a mirrored tree, of this edge alone, without its mirror image.
     pub(crate) weight: u32,
-    /// How many cells of the leaf it stands for: 2 off the axis of a mirrored tree.
+    /// Number of cells of the leaf that it stands for: 2 off the axis of a mirrored tree, else 1.
     pub(crate) copies: u32,
     /// The step from its parent.
     pub(crate) step: Cell,
-    /// Length of that.
+    /// Length of that step.
     pub(crate) length: f64,
     /// `m_β(v)`.
     pub(crate) multiple: f64,
-    /// Cost of all edges beyond it, over `m_β(v)`: the paper's child(v)/`m_β(v)`, which does not
-    /// depend on how water gets here.
+    /// Cost of all edges beyond it, divided by `m_β(v)`: the paper's child(v)/`m_β(v)`. It does not
+    /// depend on the way from the root.
     pub(crate) beyond: f64,
 }
 
@@ -101,7 +101,7 @@ pub(crate) struct Tree {
     pub(crate) index: CellIndex,
     pub(crate) tables: CostTables,
     mirrored: bool,
-    /// The blade that cells must keep to, if there is one.
+    /// The given blade that cells must stay on, if any.
     walls: Option<Walls>,
 }
 
@@ -144,19 +144,19 @@ impl Tree {
         self.index.get(kept)
     }
 
-    /// Whether `u` may supply `v` without the two sides of a mirrored leaf becoming unlike: no edge
-    /// crosses the axis, none leads to it from one side. And without a way through a wall.
+    /// Whether `u` may supply `v`. In a mirrored leaf no edge may cross the axis or lead to it from
+    /// one side. On a given blade no edge may cross the margin.
     pub(crate) fn may_join(&self, u: Cell, v: Cell) -> bool {
         let keeps_sides = !self.mirrored || (u.m >= 0 && v.m >= 0 && (v.m > 0 || u.m == 0));
         keeps_sides && self.walls.as_ref().is_none_or(|walls| walls.allow(u, v))
     }
 
-    /// From now on cells keep to a blade, which holds those that there are.
+    /// Restricts cells from now on to a blade, on which all present cells must lie.
     pub(crate) fn enclose(&mut self, walls: Walls) {
         self.walls = Some(walls);
     }
 
-    /// Columns and rows that an edge may span, if that is limited.
+    /// Greatest number of columns and rows that an edge may span, if limited.
     pub(crate) fn reach(&self) -> Option<i32> {
         self.walls.as_ref().map(|_| REACH)
     }
@@ -166,7 +166,7 @@ impl Tree {
         self.find(cell) != NONE
     }
 
-    /// Whether a cell could come here.
+    /// Whether a cell could be added here.
     pub(crate) fn is_free(&self, cell: Cell) -> bool {
         !self.has(cell) && self.walls.as_ref().is_none_or(|walls| walls.hold(cell))
     }
@@ -188,8 +188,8 @@ impl Tree {
         });
     }
 
-    /// Adds a cell at the end of an edge from `parent`. Costs are out of date until
-    /// [`Tree::refresh`].
+    /// Adds a cell at the end of an edge from `parent`. Costs are not valid until [`Tree::refresh`]
+    /// is called.
     pub(crate) fn add(&mut self, cell: Cell, parent: u32) {
         let v = self.count();
         self.push(cell);
@@ -247,7 +247,7 @@ impl Tree {
         self.nodes[before as usize].next_sibling = next_sibling;
     }
 
-    /// Adds `weight`, times `copies`, to all edges from the root to `v`, or takes it off.
+    /// Adds `weight` times `copies` to all edges from the root to `v` if `more`, else subtracts it.
     fn change_weights(&mut self, v: u32, weight: u32, copies: u32, more: bool) {
         let mut z = v;
         while z != NONE {
@@ -293,7 +293,7 @@ impl Tree {
         self.nodes[v as usize].beyond = self.beyond_after(v, node.step);
     }
 
-    /// What the cost beyond `v` over its multiple would be if `step` led to it.
+    /// The cost beyond `v` divided by its multiple, if `step` led to it.
     pub(crate) fn beyond_after(&self, v: u32, step: Cell) -> f64 {
         let copies = self.nodes[v as usize].copies;
         self.children(v)
@@ -306,7 +306,7 @@ impl Tree {
             .sum()
     }
 
-    /// Supplies `v` from `u` instead of its parent; `scratch` is only there to be used again.
+    /// Supplies `v` from `u` instead of its parent; `scratch` is a buffer kept for reuse.
     pub(crate) fn reparent(&mut self, v: u32, u: u32, scratch: &mut Vec<u32>) {
         let Node {
             parent: old,
@@ -323,7 +323,7 @@ impl Tree {
             self.inherit(z);
         }
         self.add_up(v);
-        // Both ways to the root; above the cell where they meet, once.
+        // Both ways to the root, up to the cell where they meet; the common part is counted once.
         let (mut a, mut b) = (old, u);
         while a != b {
             if self.nodes[a as usize].depth >= self.nodes[b as usize].depth {
@@ -340,8 +340,8 @@ impl Tree {
         }
     }
 
-    /// `P_G(h², v)` of all cells in units of `h^{2α+1}`: what one more cell at `v` would cost on
-    /// the way to it.
+    /// `P_G(h², v)` of all cells in units of `h^{2α+1}`: the extra cost, on the way to `v`, of one
+    /// more cell at `v`.
     pub(crate) fn potentials(&self, potentials: &mut Vec<f64>, order: &mut Vec<u32>) {
         self.supplied_by(0, order);
         potentials.clear();

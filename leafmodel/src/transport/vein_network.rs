@@ -1,4 +1,4 @@
-//! The cells of a leaf as a network of veins, like that of any other leaf.
+//! The network of veins of a transport leaf.
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order;
 use crate::venation::topology::Topology;
 
-/// How far a point of a vein may be smoothed away from the centre of its cell, in cells.
+/// How far, in cells, smoothing may move a point of a vein from the centre of its cell.
 const VEIN_TETHER: f64 = 0.4;
 
 /// Rounds of smoothing of veins.
@@ -21,8 +21,9 @@ const VEIN_ROUNDS: usize = 3;
 impl TransportLeaf {
     /// The veins, in the frame of [`TransportLeaf::outline`] for the same length.
     ///
-    /// A vein runs through the centres of the cells it supplies, but for less than half a cell by
-    /// which it is smoothed. The first node is the base. Orders are given as to any other network.
+    /// A vein runs through the cells that it supplies; smoothing moves it from their centres by
+    /// less than half a cell. The first node is the base. Vein orders are assigned as in any other
+    /// network.
     ///
     /// # Errors
     ///
@@ -37,8 +38,8 @@ impl TransportLeaf {
         Ok(self.network_in(&frame, &outline, style, self.counts()[0]))
     }
 
-    /// The veins in a frame, as wide at the base as `style` says if `widest` cells are supplied
-    /// from there.
+    /// The veins in a frame. A vein that supplies `widest` cells has the radius that `style` gives
+    /// for the base.
     pub(crate) fn network_in(
         &self,
         frame: &Frame,
@@ -61,7 +62,7 @@ impl TransportLeaf {
         let mut flows = vec![width(0)];
         let mut radii = Vec::new();
         let mut numbers: Vec<Option<u32>> = vec![None; self.cells().len()];
-        // Where the margin has been smoothed past the root's centre, the base stands for it.
+        // Where smoothing has moved the margin past the root's centre, the base takes its place.
         for v in self.root_to_tip() {
             let parent = self.parent(v).and_then(|p| numbers[p]);
             let position = frame.to_mm(places[v]);
@@ -96,8 +97,8 @@ impl TransportLeaf {
         let orders = order::orders(&topology, &positions, &radii, &base_to_tip);
         let edges = (0..).zip(&pairs).map(|(edge, &[from, to])| {
             let radius_to = radii[edge as usize];
-            // A lateral starts as wide as it goes on; only the vein itself tapers where it gives
-            // one off.
+            // A lateral starts with its own radius; only a vein that continues tapers between its
+            // nodes.
             let continues = orders.continuations[from as usize] == Some(edge);
             VeinEdge {
                 from,
@@ -115,8 +116,8 @@ impl TransportLeaf {
         network.expect("a tree whose weights fall from root to tip is a network")
     }
 
-    /// Where veins run: cells' centres, smoothed along each vein. Where `is_barred` says that the
-    /// way between two places is, it goes from centre to centre.
+    /// The places of veins: the centres of cells, smoothed along each vein. Where `is_barred`
+    /// rejects the straight way between two smoothed places, the centres are kept.
     fn vein_places(
         &self,
         least_cells: u32,

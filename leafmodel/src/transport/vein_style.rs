@@ -2,10 +2,11 @@
 
 use super::TransportError;
 
-/// How veins are drawn from weights.
+/// How the veins are drawn from the numbers of cells that they supply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VeinStyle {
-    /// Radius of the midrib at the base, mm, 0.0001 to 100. Elsewhere `r ∝ w^½`.
+    /// Radius of the midrib at the base, mm, 0.0001 to 100. Elsewhere `r ∝ w^½`, with the number of
+    /// supplied cells `w`.
     pub base_radius_mm: f64,
     /// Veins that supply fewer cells are left out; with 1 every cell has a vein. 1 to 1 000 000.
     pub least_cells: u32,
@@ -25,7 +26,7 @@ impl VeinStyle {
     }
 }
 
-/// Whether a number is in its range.
+/// Checks that a number is in its range.
 ///
 /// # Errors
 ///

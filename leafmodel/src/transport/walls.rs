@@ -1,26 +1,26 @@
-//! The blade that cells must keep to when they fill a given outline.
+//! The cells of a given outline, and the edges between them that stay on the blade.
 
 use glam::DVec2;
 
 use super::cells::{Cell, CellIndex, NONE};
 use super::contour::place;
 
-/// Columns and rows that an edge may span between walls.
+/// Greatest number of columns and rows that an edge may span on a given blade.
 pub(crate) const REACH: i32 = 2;
 
-/// Steps that an edge may take, with the one to nowhere.
+/// Side of the square of possible steps, the zero step included.
 const SIDE: i32 = 2 * REACH + 1;
 
-/// Which cells there may be, and between which of them an edge stays on the blade.
+/// The allowed cells, and for each the steps along which an edge stays on the blade.
 #[derive(Clone, Debug)]
 pub(crate) struct Walls {
     index: CellIndex,
-    /// A bit for each step of up to [`REACH`] columns and rows.
+    /// For each cell a bit for every step of up to [`REACH`] columns and rows.
     open: Vec<u32>,
 }
 
 impl Walls {
-    /// Walls around some cells; `is_crossed` tells whether the margin lies between two places.
+    /// Walls for the given cells; `is_crossed` says whether the margin lies between two places.
     pub(crate) fn around(cells: &[Cell], is_crossed: impl Fn(DVec2, DVec2) -> bool) -> Self {
         let mut index = CellIndex::new();
         for (number, &cell) in (0..).zip(cells) {
@@ -30,7 +30,7 @@ impl Walls {
         for (v, &cell) in cells.iter().enumerate() {
             for step in steps() {
                 let other = index.get(cell + step);
-                // Both ways at once.
+                // Each pair is tested once and stored for both directions.
                 if other == NONE || other <= v as u32 || is_crossed(place(cell), place(cell + step))
                 {
                     continue;
@@ -42,7 +42,7 @@ impl Walls {
         Self { index, open }
     }
 
-    /// Whether there may be a cell.
+    /// Whether `cell` is allowed.
     pub(crate) fn hold(&self, cell: Cell) -> bool {
         self.index.get(cell) != NONE
     }

@@ -3,10 +3,10 @@
 use super::leaf::TransportLeaf;
 use super::plan::TransportError;
 
-/// A leaf through the year, each year like the last: in the rising half it grows, in the falling
-/// half it dies.
+/// A leaf through the year, every year the same: in the half with rising revenue it grows, in the
+/// half with falling revenue cells die.
 ///
-/// Time is counted in years. The revenue is `ε (1 − cos 2πt) / 2`: none at whole years, that of the
+/// Time is counted in years. The revenue is `ε (1 − cos 2πt) / 2`: 0 at whole years, that of the
 /// full-grown leaf in the middle.
 #[derive(Clone, Debug)]
 pub struct Year<'a> {
@@ -15,7 +15,7 @@ pub struct Year<'a> {
 }
 
 impl TransportLeaf {
-    /// Its year, with autumn in `steps` (1 to 10 000) equal steps of the revenue.
+    /// The year of the leaf, with autumn in `steps` (1 to 10 000) equal steps of the revenue.
     ///
     /// # Errors
     ///
@@ -27,16 +27,15 @@ impl TransportLeaf {
 }
 
 impl Year<'_> {
-    /// The revenue at a time as a share of the full-grown leaf's, 0 to 1.
+    /// The revenue at a time in years, as a share of the full-grown leaf's, 0 to 1.
     pub fn revenue_share(time: f64) -> f64 {
         0.5 - 0.5 * libm::cos(std::f64::consts::TAU * time)
     }
 
-    /// The leaf at a finite time: its living cells, the root always among them.
+    /// The leaf at a finite time in years: its living cells, always including the root.
     ///
-    /// In the rising half it is the last stage of growth that the revenue has reached; in the
-    /// falling half it has lost the cells that no longer pay, and those that are left keep their
-    /// places in the network.
+    /// In the rising half it is the last stage of growth that the revenue has reached. In the
+    /// falling half it lacks the cells that have died; the others keep their places in the network.
     pub fn at(&self, time: f64) -> TransportLeaf {
         let share = Self::revenue_share(time);
         if time - time.floor() > 0.5 {
@@ -77,7 +76,7 @@ mod tests {
                 };
                 assert!(some.cells().iter().all(|cell| more.cells().contains(cell)));
             }
-            // Both slopes of the year are more than all or nothing.
+            // In both halves of the year the leaf passes through several sizes.
             for half in [&living[..32], &living[33..]] {
                 let partly = |leaf: &&TransportLeaf| (10..540).contains(&leaf.cells().len());
                 assert!(half.iter().filter(partly).count() > 2);

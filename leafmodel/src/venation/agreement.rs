@@ -1,5 +1,5 @@
-//! Tests of whole networks: against the all-pairs oracle, against the laws they must obey, and
-//! against what the paper says of its figures.
+//! Tests of whole networks: against the all-pairs oracle, against laws, and against the paper's
+//! statements about its figures.
 
 use glam::DVec2;
 use proptest::prelude::*;
@@ -36,7 +36,7 @@ fn outline(slope: f64, lobe_decay: f64) -> Outline {
     shape(slope, lobe_decay).grow(70.0).expect("a good shape")
 }
 
-/// The poplar row of Table 1 at 10 units of the table to a segment.
+/// The poplar row of Table 1 at 10 table units per segment.
 fn poplar() -> AuxinPlan {
     AuxinPlan::default()
 }
@@ -74,7 +74,7 @@ fn growths(final_length: f64) -> impl Strategy<Value = Growth> {
     )
 }
 
-/// Leaves of every kind, so many segments long.
+/// Leaves of every kind, with lengths in segments from the given range.
 fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = AuxinPlan> {
     let distances = (0.4..4.0, 0.7..4.0, 0.7..4.0);
     let extras = (0_u8..3, 0_u8..3, 0_u8..3, -1.0..6.0);
@@ -117,7 +117,8 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = AuxinPlan> {
     )
 }
 
-/// Names the first node in which two states differ; a failure of the whole would fill pages.
+/// Compares two states and names the first node that differs, since printing both states would fill
+/// pages.
 fn alike(fast: &Grown, slow: &Grown) -> Result<(), TestCaseError> {
     let pairs = fast.positions.iter().zip(&slow.positions);
     let first = pairs.enumerate().find(|(_, (p, q))| p != q);
@@ -191,8 +192,9 @@ fn the_poplar_row_has_thousands_of_nodes_and_hundreds_of_loops() {
     let network = grow(&outline, &poplar(), 1).expect("a good plan");
     let area = outline.area() / network.segment_mm().powi(2);
     let (nodes, loops) = (network.nodes().len(), network.loops());
-    // A prototype by other hands had 7783 nodes and 539 loops on an outline of its own, of about
-    // 61 000 segments squared: 0.127 nodes and 0.0088 loops per area. Seeds differ by a tenth.
+    // An independent prototype had 7783 nodes and 539 loops on another outline of about 61 000
+    // square segments: 0.127 nodes and 0.0088 loops per area. Results for different seeds differ by
+    // a tenth.
     let (node_density, loop_density) = (nodes as f64 / area, loops as f64 / area);
     assert!(
         (0.09..0.18).contains(&node_density),
@@ -208,8 +210,8 @@ fn the_poplar_row_has_thousands_of_nodes_and_hundreds_of_loops() {
 
 #[test]
 fn no_vein_starts_after_growth_but_those_that_are_left() {
-    // Growth ends at step 377. Sources of the last step draw veins over the emptiest spots, some
-    // tens of segments wide; darts that went on would keep veins coming for hundreds of steps.
+    // Growth ends at step 377. Sources of the last step draw veins across the largest gaps, some
+    // tens of segments wide. If darts went on, veins would keep growing for hundreds of steps.
     let steps = network(&poplar(), 1).steps();
     assert!((378..420).contains(&steps), "{steps} steps");
 }
@@ -237,7 +239,7 @@ fn the_midvein_of_an_isogonic_leaf_reaches_its_tip() {
 
 #[test]
 fn veins_get_denser_as_the_kill_distance_falls() {
-    // Fig. 9a–e at 4 units of the table to a segment.
+    // Fig. 9a–e at 4 table units per segment.
     let nodes = [40.0, 20.0, 10.0, 5.0, 1.0].map(|kill_distance| {
         let plan = AuxinPlan {
             kill_distance,
@@ -336,7 +338,7 @@ fn the_network_follows_its_outline_to_any_place_and_size() {
         ..poplar()
     };
     let here = outline(0.3, 0.0);
-    // A power of two and whole numbers: nothing is rounded on the way.
+    // With a power of two and integers nothing is rounded.
     let there = here.moved_and_scaled(DVec2::new(-64.0, 32.0), 4.0);
     let (a, b) = (
         grow(&here, &plan, 1).expect("good"),
@@ -433,7 +435,7 @@ fn joined_origins_hang_on_the_base_and_change_no_other_vein() {
         assert_eq!([edge.from, edge.to], [other.from + 1, other.to + 1]);
         assert_eq!(edge.radius_to, other.radius_to);
     }
-    // Murray's law where they part, with the poplar's exponent.
+    // Murray's law at their fork, with the poplar's exponent.
     let power = |radius: f64| radius.powf(poplar().murray_exponent);
     let joints = &joined.edges()[..3];
     let widest = joints.iter().map(|joint| joint.radius_from);

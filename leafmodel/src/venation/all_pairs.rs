@@ -1,10 +1,10 @@
-//! The algorithm as the definitions read, by comparing everything with everything: the oracle that
-//! the fast code has to agree with, node for node.
+//! The algorithm straight from the definitions, comparing all pairs: the oracle with which the fast
+//! code must agree node for node.
 //!
-//! It shares with the fast code what the tests of other modules prove: where darts land and when
-//! the margin passes over them, the clock and the map of the lamina, the outline, where arches are
-//! laid out, the curve on which stretched edges are cut; and the two constants that say when to
-//! give up.
+//! It shares with the fast code what other modules' tests cover: where darts land and when the
+//! margin passes over them, the clock and the map of the lamina, the outline, the layout of arches,
+//! the curve on which stretched edges are subdivided, and the two constants that say when to give
+//! up.
 
 use glam::DVec2;
 
@@ -44,7 +44,7 @@ struct Oracle<'a> {
     starts: Vec<DVec2>,
     births: Vec<u32>,
     edges: Vec<[usize; 2]>,
-    /// Edges that cannot be cut where they are, since they leave the blade.
+    /// Edges that are not subdivided, since the pieces would leave the blade.
     uncut: Vec<bool>,
     parents: Vec<Option<usize>>,
     first_children: Vec<Option<usize>>,
@@ -53,12 +53,12 @@ struct Oracle<'a> {
     step: u32,
     vain: f64,
     origins: u32,
-    /// Steps whose outcome is to be kept, and what they were.
+    /// Steps whose states are to be kept, and these states.
     wanted: Vec<u32>,
     young: Vec<Grown>,
 }
 
-/// What [`super::simulate`] gives, the slow way.
+/// The result of [`super::simulate`], by the slow method.
 pub(crate) fn simulate(
     plan: &AuxinPlan,
     lamina: Lamina,
@@ -167,7 +167,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// The leaf at this step, true to size, given its length over the final one.
+    /// The leaf at this step in its size at that step; `size` is its length over the final one.
     fn state(&self, size: f64, ending: Ending) -> Grown {
         let (veins, margin) = match self.plan.growth {
             Growth::None | Growth::Anisotropic { .. } => (1.0, 1.0),
@@ -291,7 +291,7 @@ impl Oracle<'_> {
             if !is_near || self.first_children[v].is_some() {
                 return Outcome::OffBlade;
             }
-            // The least of all turns, left before right.
+            // The smallest turn that works, left before right.
             let mut least = None;
             for (number, way) in turned(straight).enumerate() {
                 if self.stays(at, at + way) && least.is_none_or(|(n, _)| number < n) {

@@ -1,36 +1,37 @@
-//! Where secondary veins are to meet in arches: sources laid out before those that chance throws.
+//! Arches between secondary veins: sources that are laid out before random ones are thrown.
 //!
 //! In brochidodromous leaves each secondary vein bends towards the apex near the margin and joins
-//! the next. Rounds of sources bring that about under the ordinary rules, one round after the other
-//! is used up. Under the rule of open patterns, the first draws the midrib; the next ones draw
-//! every secondary along a curve, out and up to its place on a line inside the margin, as peaks of
-//! auxin do that the growing lamina carries outward. The last, under the rule of closed patterns,
-//! lies between neighbouring ends, where each source draws the two veins beside it, and they join.
+//! the next. Here rounds of sources produce that under the ordinary rules; each round starts when
+//! the one before is used up. Under the rule of open patterns the first round draws the midrib. The
+//! next rounds draw every secondary along a curve, outwards and upwards to its end on a line inside
+//! the margin, like peaks of auxin that the growing lamina carries outwards. The last round, under
+//! the rule of closed patterns, lies between neighbouring ends, where each source draws the two
+//! veins beside it so that they join.
 //!
 //! # Source
 //!
 //! Section 7 of \[runions2005\] asks for such patterns; that peaks of auxin along the margin
-//! precede secondary veins is from \[runions2017\]. The layout is ours.
+//! precede secondary veins is from \[runions2017\]. The layout is our own.
 
 use glam::DVec2;
 
 use super::chance::{Use, uniform};
 use super::plan::MarginClearance;
 
-/// Share of the distance between neighbouring places by which chance moves each.
+/// Greatest random displacement of a place, as a share of the distance between neighbouring places.
 const JITTER: f64 = 0.25;
 
-/// Rounds in which a secondary vein grows to its end.
+/// Number of rounds in which a secondary vein grows to its end.
 const LEGS: u32 = 8;
 
-/// How far along the midrib a secondary rises, over how far it reaches away from it.
+/// Rise of a secondary along the midrib over its reach away from it.
 const RISE: f64 = 0.8;
 
 /// The margin from base to apex on one side, and its length up to each corner.
 struct Side {
     points: Vec<DVec2>,
     lengths: Vec<f64>,
-    /// 1 if the blade lies on the left of the way from base to apex, −1 if on the right.
+    /// 1 if the blade lies to the left when going from base to apex, −1 if to the right.
     inward: f64,
 }
 
@@ -59,8 +60,8 @@ impl Side {
         self.points[i - 1] + (self.points[i] - self.points[i - 1]) * along
     }
 
-    /// A place at a share of the side, `distance` inward. Teeth do not turn the direction: it is
-    /// taken over a twentieth of the side.
+    /// A place at a share of the side, `distance` inward. The direction is taken over a twentieth
+    /// of the side, so that teeth do not turn it.
     fn inside(&self, share: f64, distance: f64) -> DVec2 {
         let way = (self.at(share + 0.025) - self.at(share - 0.025)).normalize_or_zero();
         self.at(share) + way.perp() * (self.inward * distance)
@@ -127,7 +128,7 @@ pub(crate) fn rounds(
                 let (height, reach) = ((end - base).dot(up), reach(end));
                 let rise = (RISE * reach.abs()).min(0.9 * height).max(0.0);
                 let start = base + up * (height - rise);
-                // First mostly outward, at last mostly upward.
+                // The path first leads mostly outwards, at its end mostly upwards.
                 [
                     start,
                     start + up * (0.4 * rise) - up.perp() * (0.8 * reach),
@@ -142,8 +143,9 @@ pub(crate) fn rounds(
             rounds[leg as usize].extend(curves.iter().map(|&curve| at(curve, t)));
         }
         for pair in curves.windows(2) {
-            // Close to the outer part of the next vein, between it and the end: both are its
-            // relative neighbours there, and the vein that comes goes on until it meets the other.
+            // The source lies between the end and the outer part of the next vein, close to the
+            // latter. There both veins are its relative neighbours, and the arriving vein grows on
+            // until it meets the other.
             let end = pair[0][2];
             let outer = (5..=10).map(|i| at(pair[1], 0.1 * f64::from(i)));
             let near = outer.min_by(|p, q| (*p - end).length().total_cmp(&(*q - end).length()));
@@ -172,7 +174,7 @@ mod tests {
         let rounds = rounds(&rule, &margin, DVec2::ZERO, apex, 3);
         assert_eq!(rounds.len(), 10);
         assert_eq!(rounds[0], [DVec2::new(0.0, 95.0)]);
-        // Is there room for all ends of this ellipse?.
+        // This ellipse has room for all ends.
         assert_eq!((rounds[8].len(), rounds[9].len()), (12, 10));
         for p in &rounds[8] {
             let away = margin.iter().map(|q| (*q - *p).length());

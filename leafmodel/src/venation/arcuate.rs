@@ -1,20 +1,20 @@
-//! Veins as splines: pinnate to arcuate patterns in closed form, without simulation.
+//! Veins as splines: pinnate to arcuate patterns in closed form, without a simulation.
 //!
-//! Each lateral vein is a quadratic spline from the midrib to the margin whose control point lies
-//! on a copy of the margin that is narrowed towards the midrib. How start, control and end points
-//! are bunched up decides between straight pinnate veins and arcuate ones that sweep along the
-//! margin to the tip.
+//! Each lateral vein is a quadratic spline from the midrib to the margin. Its control point lies on
+//! a copy of the margin that is narrowed towards the midrib. The distributions of start, control
+//! and end points along the leaf decide between straight pinnate veins and arcuate ones that sweep
+//! along the margin to the tip.
 //!
 //! - **In**: an [`ArcuatePlan`], and any [`Outline`] or the article's own, a [`CubicMargin`].
-//! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], whose fields Vein, Net and Fac can be had
+//! - **Out**: a [`VenationNetwork`]; or [`ArcuateVeins`], which give the fields Vein, Net and Fac
 //!   at any point.
 //! - **Always true**: every vein of the network starts on the midrib or a primary and ends on the
 //!   margin, or where it meets another vein; no vein crosses the margin or another vein.
-//! - **Left out**: veins of the third order and above. Net says where they would be.
+//! - **Left out**: veins of the third order and above. Net marks where they would be.
 //!
 //! # Source
 //!
-//! \[oslveins\]; `docs/src/theory/arcuate-veins.md` tells where we depart from its code.
+//! \[oslveins\]; `docs/src/theory/arcuate-veins.md` says where this departs from its code.
 
 mod cell_noise;
 mod fields;
@@ -38,13 +38,13 @@ use crate::shape::outline::Outline;
 /// Primary veins that fan out from the petiole beside the midrib.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PalmateVeins {
-    /// How many a side, 1 to 12.
+    /// Number per side, 1 to 12.
     pub per_side: u32,
-    /// How far down the margin they end: 1 spreads them evenly from base to tip, less bunches them
-    /// towards the tip; 0.05 to 1.
+    /// Distribution of their ends along the margin, 0.05 to 1: 1 spreads them evenly from base to
+    /// tip, smaller values gather them towards the tip.
     pub spread: f64,
-    /// How much they bow outwards, in shares of half their length: 0 straight, above 0 running
-    /// along the margin; −0.8 to 0.8.
+    /// How far they bow outwards, as a share of half their length, −0.8 to 0.8: 0 is straight;
+    /// above 0 they follow the margin.
     pub bow: f64,
 }
 
@@ -52,29 +52,30 @@ pub struct PalmateVeins {
 /// article's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcuatePlan {
-    /// `Veins`: lateral veins a side of each primary, 1 to 100.
+    /// `Veins`: number of lateral veins on each side of each primary, 1 to 100.
     pub veins: u32,
     /// `Seed` of the variation.
     pub seed: u32,
-    /// `Var`: how irregularly laterals start, 0 to 1.
+    /// `Var`: irregularity of the starts of laterals, 0 to 1.
     pub variation: f64,
     /// `Width`: half width of the midrib at the base, 0.0001 to 0.5.
     pub width: f64,
-    /// `NWidth`: how far from veins the finer net reaches, 0 to 1.
+    /// `NWidth`: distance from veins up to which the finer net reaches, 0 to 1.
     pub net_width: f64,
-    /// `Squish`: how end points are spread over the margin, 0 (all at the tip) to 1 (evenly).
+    /// `Squish`: distribution of end points over the margin, 0 (all at the tip) to 1 (even).
     pub squish: f64,
-    /// `Squish2`: how control points are spread, 0 (all at the tip) to 1.
+    /// `Squish2`: distribution of control points, 0 (all at the tip) to 1 (even).
     pub squish2: f64,
-    /// `Squish3`: how starting points are spread over the midrib, 0 (all near the base) to 1.
+    /// `Squish3`: distribution of starting points over the midrib, 0 (all near the base) to 1
+    /// (even).
     pub squish3: f64,
-    /// `Up`: how far control points are from the midrib, as a share of the margin's distance; 0 to
-    /// 2.
+    /// `Up`: distance of control points from the midrib, as a share of the margin's distance, 0
+    /// to 2.
     pub up: f64,
-    /// Share of a vein's width that is left at its tip, 0 to 1; 0 in the article, whose author
-    /// wished for control here.
+    /// Width of a vein at its tip as a share of that at its base, 0 to 1. Our extension; the
+    /// article has 0.
     pub tip_width: f64,
-    /// Primaries beside the midrib; none in the article, whose author wished for them.
+    /// Primaries beside the midrib, if any. Our extension.
     pub palmate: Option<PalmateVeins>,
 }
 
@@ -97,10 +98,10 @@ impl Default for ArcuatePlan {
     }
 }
 
-/// Why there are no such veins.
+/// Why no veins can be laid out.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ArcuateError {
-    /// A number out of its range.
+    /// A number is out of its range.
     #[error("{key} is {value}, outside {range}")]
     OutOfRange {
         /// Which parameter.
@@ -110,7 +111,7 @@ pub enum ArcuateError {
         /// What it may be.
         range: &'static str,
     },
-    /// The margin that they belong to.
+    /// The article's margin is not valid.
     #[error(transparent)]
     Margin(#[from] CubicMarginError),
     /// No veins fit on the blade.
@@ -125,7 +126,7 @@ pub struct ArcuateVeins {
     plan: ArcuatePlan,
     /// Midrib first, then the primaries beside it.
     axes: Vec<Vein>,
-    /// In the order in which the article's code looks at them: base to tip, up before down.
+    /// In the order of the article's code: from base to tip, upper side before lower side.
     laterals: Vec<Vein>,
 }
 
@@ -134,7 +135,7 @@ impl ArcuatePlan {
     ///
     /// # Errors
     ///
-    /// [`ArcuateError::OutOfRange`] of the first that is out of range.
+    /// [`ArcuateError::OutOfRange`] for the first number that is out of range.
     pub fn validate(&self) -> Result<(), ArcuateError> {
         in_range("veins", f64::from(self.veins), 1.0..=100.0, "1 to 100")?;
         in_range("variation", self.variation, 0.0..=1.0, "0 to 1")?;
@@ -154,12 +155,13 @@ impl ArcuatePlan {
         Ok(())
     }
 
-    /// The network on the margin that the article draws, whose points are told by the spline's own
+    /// The network on the article's margin, with places on the margin given by the spline's own
     /// parameter.
     ///
     /// # Errors
     ///
-    /// [`ArcuateError`], naming what is out of range, or why the splines are no margin.
+    /// [`ArcuateError`], naming the number that is out of range, or why the splines are not a valid
+    /// margin.
     pub fn network_within(
         &self,
         margin: &CubicMargin,
@@ -172,22 +174,22 @@ impl ArcuatePlan {
         Ok(graph::network(&veins, &outline)?)
     }
 
-    /// The network on any margin, whose two sides from base to apex, by arc length, stand for the
-    /// article's splines.
+    /// The network on any margin. Its two sides from base to apex, parametrised by arc length,
+    /// replace the article's splines.
     ///
     /// # Errors
     ///
-    /// [`ArcuateError`], naming what is out of range.
+    /// [`ArcuateError`], naming the number that is out of range.
     pub fn network(&self, outline: &Outline) -> Result<VenationNetwork, ArcuateError> {
         let veins = self.veins_on(outline)?;
         Ok(graph::network(&veins, outline)?)
     }
 
-    /// The veins as splines, exactly those of the article's code, on the margin that it draws.
+    /// The veins as splines on the article's margin, exactly as in its code.
     ///
     /// # Errors
     ///
-    /// As [`ArcuatePlan::network_within`], but that the margin may cross itself.
+    /// As [`ArcuatePlan::network_within`], except that the margin may cross itself.
     pub fn veins_within(
         &self,
         margin: &CubicMargin,
@@ -214,7 +216,7 @@ impl ArcuatePlan {
         Ok(self.veins_between(frame, &Sides::of(outline, frame), Some(outline)))
     }
 
-    /// Veins between two sides; primaries keep to the blade if there is one.
+    /// Veins between two sides. If a blade is given, primaries stay on it.
     fn veins_between(&self, frame: Frame, sides: &Sides, blade: Option<&Outline>) -> ArcuateVeins {
         let on_blade = |p: DVec2| blade.is_none_or(|blade| blade.contains(frame.to_mm(p)));
         let (axes, laterals) = lay_out(self, sides, &on_blade);
@@ -228,9 +230,9 @@ impl ArcuatePlan {
 }
 
 impl ArcuatePlan {
-    /// How much of each primary beside the midrib there is room for on a blade, as a share of its
-    /// length, 0 to 1: a bay of the margin or another vein may lie in its way. In pairs, left
-    /// before right, those nearest the base first; none if `palmate` is `None`.
+    /// For each primary beside the midrib the share of its length, 0 to 1, that has room on the
+    /// blade: a sinus of the margin or another vein may cut it short. Primaries come in pairs, left
+    /// before right, those nearest the base first. Empty if `palmate` is `None`.
     ///
     /// # Errors
     ///
@@ -241,7 +243,7 @@ impl ArcuatePlan {
 }
 
 impl ArcuateVeins {
-    /// Lateral veins, both sides together.
+    /// Number of lateral veins of both sides.
     #[cfg(test)]
     pub(crate) fn laterals(&self) -> usize {
         self.laterals.len()
@@ -256,7 +258,7 @@ impl ArcuateVeins {
     }
 }
 
-/// `value` must lie in `range`, which NaN never does.
+/// Refuses a `value` outside `range`; NaN is outside every range.
 fn in_range(
     key: &'static str,
     value: f64,

@@ -1,15 +1,15 @@
 //! Areoles: the regions that veins enclose.
 //!
-//! Areoles are the bounded faces of the plane graph of veins ([`PlaneGraph`]). The margin is no
-//! vein, so what is open towards it is no areole. Veins are followed from junction to junction;
-//! turning to the next one clockwise at each junction leads around the face on the left, once, in a
-//! time that is proportional to the network.
+//! Areoles are the bounded faces of the plane graph of veins ([`PlaneGraph`]). The margin is not a
+//! vein, so regions open towards it are not areoles. Faces are found by following veins from
+//! junction to junction and turning to the next vein clockwise at each, which leads once around the
+//! face on the left. The time is proportional to the size of the network.
 //!
 //! - **In**: a [`VenationNetwork`].
-//! - **Out**: [`Areoles`]: for each its corners, area, perimeter and shape; and the veinlets that
-//!   end freely.
-//! - **Always true**: areas are above 0; there are edges − nodes + components areoles (of the graph
-//!   after cutting), but for some without area up to rounding.
+//! - **Out**: [`Areoles`], with corners, area, perimeter and shape of each, and the free veinlet
+//!   endings.
+//! - **Always true**: areas are above 0; the number of areoles is edges − nodes + components (of
+//!   the graph after cutting), less those whose area is 0 up to rounding.
 //! - **Left out**: the width of veins. Corners lie on their midlines.
 
 mod chains;
@@ -24,21 +24,21 @@ pub(crate) use self::chains::Chains;
 use super::network::VenationNetwork;
 use super::planar::PlaneGraph;
 
-/// Stands for "in no areole" in lists of numbers.
+/// Marks "in no areole" in lists of areole numbers.
 pub(crate) const OUTSIDE: u32 = u32::MAX;
 
 /// One region enclosed by veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Areole {
-    /// Area, mm², > 0. What other veins enclose inside it (a ring on a stalk, a network of its own)
-    /// is not counted: that is another areole.
+    /// Area, mm², > 0. Areas that other veins enclose inside it (a ring on a stalk, a separate
+    /// network) are areoles of their own and not included.
     pub area_mm2: f64,
     /// Area inside the enclosing cycle of veins, mm², at least `area_mm2`.
     pub outline_area_mm2: f64,
     /// Length of the enclosing cycle of veins, mm. Veins that end inside do not count.
     pub perimeter_mm: f64,
-    /// Longer over shorter axis of the ellipse with the second moments of the enclosing polygon, 1
-    /// to 10⁶.
+    /// Longer over shorter axis of the ellipse that has the second moments of the enclosing
+    /// polygon, 1 to 10⁶.
     pub elongation: f64,
     /// Centre of mass of the enclosing polygon, mm.
     pub centroid: DVec2,
@@ -52,14 +52,14 @@ impl Areole {
     }
 }
 
-/// A vein that ends freely: from its tip back to the first junction.
+/// A free ending: a vein from its free tip back to the first junction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeEnding {
     /// Where it ends, mm.
     pub tip: DVec2,
     /// Length, mm, > 0.
     pub length_mm: f64,
-    /// Number of the areole in which it lies, if it lies in any.
+    /// Number of the areole in which it lies, if any.
     pub areole: Option<usize>,
 }
 
@@ -69,14 +69,15 @@ pub struct Areoles {
     graph: PlaneGraph,
     chains: Chains,
     list: Vec<Areole>,
-    /// The halves around areole `i`, counter-clockwise: `halves[starts[i]..starts[i + 1]]`.
+    /// The directed halves of veins around areole `i`, counter-clockwise:
+    /// `halves[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     halves: Vec<u32>,
     /// Areole on the left of each half, or [`OUTSIDE`].
     on_left: Vec<u32>,
 }
 
-/// Finds the regions that the veins of a network enclose.
+/// Finds the areoles of a network.
 pub fn areoles(network: &VenationNetwork) -> Areoles {
     let graph = PlaneGraph::new(network);
     let chains = Chains::new(&graph);
@@ -107,7 +108,7 @@ pub fn areoles(network: &VenationNetwork) -> Areoles {
 }
 
 impl Areoles {
-    /// How many there are.
+    /// Number of areoles.
     pub fn len(&self) -> usize {
         self.list.len()
     }
@@ -134,8 +135,8 @@ impl Areoles {
             .flat_map(|&half| self.chains.corners(half))
     }
 
-    /// All veins that end freely: from a node with one edge, which is not where veins started, back
-    /// to the first node with three or more.
+    /// All veins that end freely: from a node with one edge that is not an origin back to the first
+    /// node with three or more edges.
     pub fn free_endings(&self) -> impl Iterator<Item = FreeEnding> + '_ {
         (0..self.chains.len() as u32).filter_map(|chain| {
             let at_end = |end: usize| self.chains.ends[chain as usize][end];
@@ -161,7 +162,7 @@ impl Areoles {
         })
     }
 
-    /// The plane graph whose faces they are.
+    /// The plane graph whose faces are the areoles.
     pub fn graph(&self) -> &PlaneGraph {
         &self.graph
     }
@@ -170,7 +171,7 @@ impl Areoles {
         &self.chains
     }
 
-    /// Areoles on the left and on the right of a vein between junctions, or [`OUTSIDE`].
+    /// Numbers of the areoles on the left and on the right of a chain, or [`OUTSIDE`].
     pub(crate) fn beside(&self, chain: u32) -> [u32; 2] {
         let half = 2 * chain as usize;
         [self.on_left[half], self.on_left[half + 1]]

@@ -1,4 +1,4 @@
-//! Where auxin sources are put: dart throwing (section 3.3).
+//! Placing of auxin sources by dart throwing (section 3.3).
 //!
 //! Diffuse growth throws darts at the whole lamina in every step until it ends, and a lamina that
 //! does not grow gets darts in every step until there is no room left. Marginal growth brings new
@@ -13,21 +13,20 @@ use super::lamina_clock::LaminaClock;
 use super::plan::{AuxinPlan, FreeEndings, Growth};
 use super::point_tree::PointTree;
 
-/// Darts per square of the birth distance beyond which more of them find next to no room: the
-/// set is saturated.
+/// Number of darts per square of the birth distance beyond which further darts find almost no room.
 const SATURATION: f64 = 20.0;
 
-/// Where candidates for sources come from.
+/// The supply of candidates for sources.
 pub(crate) enum Darts {
     /// Thrown in each step.
     Thrown {
         /// Darts per unit area and step, `ρ`.
         per_area: f64,
-        /// Darts that should have been thrown so far; their number is this, rounded down.
+        /// Expected number of darts so far; the actual number is this, rounded down.
         due: f64,
         /// Number of the next dart.
         next: u64,
-        /// The last step in which darts are thrown: none are once growth has ended.
+        /// The last step in which darts are thrown; there are none after growth has ended.
         until: u32,
     },
     /// Thrown beforehand: (step of appearance, place), by step.
@@ -66,14 +65,14 @@ impl Darts {
                         waiting.push((appearance(lamina.blade.points(), clock, dart), dart));
                     }
                 }
-                // Stable: darts that appear together keep their order.
+                // The sort is stable, so darts that appear together keep their order.
                 waiting.sort_by_key(|&(step, _)| step);
                 Self::Waiting(waiting.into_iter())
             }
         }
     }
 
-    /// Darts for veinlets that end freely, all at once.
+    /// Darts for free veinlet endings, all thrown at once.
     pub(crate) fn at_once(free: &FreeEndings, lamina: &Lamina, seed: u64) -> Self {
         let (low, high) = lamina.bounds_now();
         let size = high - low;
@@ -93,8 +92,8 @@ impl Darts {
         }
     }
 
-    /// Candidates of one step, to be called once for every step in turn. Those of diffuse growth
-    /// have not been tested against each other, and may lie outside the margin.
+    /// Candidates of one step, to be called once for every step in turn. Candidates of diffuse
+    /// growth have not been tested against each other and may lie outside the margin.
     pub(crate) fn of_step(
         &mut self,
         step: u32,
@@ -131,7 +130,7 @@ impl Darts {
     }
 }
 
-/// How many darts the whole growth at the margin asks for. [`super::plan`] bounds it.
+/// Number of darts for the whole of marginal growth. [`super::plan`] bounds it.
 pub(crate) fn waiting_darts(plan: &AuxinPlan, lamina: &Lamina, steps: u32) -> f64 {
     let (low, high) = lamina.bounds_now();
     let size = high - low;
@@ -142,7 +141,8 @@ pub(crate) fn waiting_darts(plan: &AuxinPlan, lamina: &Lamina, steps: u32) -> f6
 }
 
 /// Where dart `number` of a run lands: uniform over the rectangle around the lamina. On a curved
-/// blade some are taken back, so that they are uniform over the blade and not over its map.
+/// blade some darts are rejected (`None`), so that the others are uniform over the blade, not over
+/// its map.
 pub(crate) fn dart(uses: [Use; 2], seed: u64, number: u64, lamina: &Lamina) -> Option<DVec2> {
     let (low, high) = lamina.bounds_now();
     let u = DVec2::new(
@@ -158,9 +158,9 @@ pub(crate) fn dart(uses: [Use; 2], seed: u64, number: u64, lamina: &Lamina) -> O
 
 /// The first step at which `p` is inside the margin, which grows by scaling about the origin.
 ///
-/// Instead of the margin growing over `p`, let `p` move towards the base along its ray, from
-/// `p / σ_0` to `p`: it is inside between the first and the second crossing of the ray with the
-/// margin, counted from outside, between the third and the fourth, and so on.
+/// Instead of scaling the margin, `p` is moved towards the base along its ray, from `p / σ_0` to
+/// `p`. It is inside between the first and second crossing of the ray with the margin, counted from
+/// outside, between the third and fourth, and so on.
 pub(crate) fn appearance(margin: &[DVec2], clock: &LaminaClock, p: DVec2) -> u32 {
     let mut crossings: Vec<f64> = Vec::new();
     for (i, &a) in margin.iter().enumerate() {
@@ -181,8 +181,8 @@ pub(crate) fn appearance(margin: &[DVec2], clock: &LaminaClock, p: DVec2) -> u32
     last
 }
 
-/// The first step up to `last` for which `reached`, once true and then always, is true; `last + 1`
-/// if none is.
+/// The first step up to `last` for which `reached` is true, or `last + 1`. Once true, `reached`
+/// must stay true.
 fn first_step(last: u32, reached: impl Fn(u32) -> bool) -> u32 {
     let (mut low, mut high) = (0, last + 1);
     while low < high {
@@ -213,7 +213,7 @@ mod tests {
             radii in proptest::collection::vec(0.3..1.0, 5..14), x in -1.0..1.0, y in -1.0..1.0,
             initial in 5.0..40.0, length_step in 0.3..4.0,
         ) {
-            // A lobed margin about a point beside the base, so that rays from the base cross it
+            // A lobed margin around a point beside the base, so that rays from the base cross it
             // several times.
             let n = radii.len();
             let corners = radii.iter().enumerate().map(|(i, r)| {
@@ -232,7 +232,7 @@ mod tests {
             let clock = LaminaClock::new(&plan).expect("it grows");
             let p = inside + DVec2::new(x, y) * 50.0;
             prop_assume!(outline.contains(p));
-            // Step by step: the margin of each step, scaled about the origin.
+            // For comparison, the margin of each step, scaled about the origin.
             let held = |step: &u32| outline.contains(p / clock.size(*step));
             let first = (0..=clock.last_growth_step()).find(held);
             prop_assert_eq!(Some(appearance(outline.points(), &clock, p)), first);

@@ -1,9 +1,8 @@
-//! Random numbers as a function of what they are for.
+//! Random numbers as a function of seed, use and counter.
 //!
-//! No generator state: a number depends on the seed, on its use and on a counter only, so that
-//! results cannot depend on the order of work.
+//! There is no generator state, so results cannot depend on the order of work.
 
-/// What a random number decides. The discriminants keep the uses apart and never change.
+/// What a random number is used for. The discriminants separate the uses and must never change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Use {
     /// Where a dart lands, across the leaf.
@@ -20,25 +19,25 @@ pub(crate) enum Use {
     DartKept = 6,
     /// Where along the margin a secondary vein ends.
     Arch = 7,
-    /// How brightly a patch of a transport leaf is lit.
+    /// The light on a patch of a transport leaf.
     Light = 8,
     /// The seed of a leaflet of a compound leaf.
     Leaflet = 9,
-    /// Where a cell of a mosaic is thrown, and where beside its parent a child lies.
+    /// The place of a cell of a mosaic, and that of a child beside its parent.
     MosaicPlace = 11,
     /// The type of a cell of a mosaic.
     MosaicKind = 12,
     /// When a cell of a mosaic divides.
     MosaicDivision = 13,
-    /// The images that steer a mosaic.
+    /// The images that control a mosaic.
     MosaicImage = 14,
     /// Gradients of noise patterns.
     NoiseGradient = 15,
-    /// How a null model shuffles the kinds of cells.
+    /// The shuffling of types of cells for a null model.
     Shuffle = 16,
-    /// Where the pattern of a mosaic is looked at.
+    /// The places at which the pattern of a mosaic is sampled.
     PatternProbe = 17,
-    /// The seed of the patches in which a leaf begins to age, or dies.
+    /// The seed of the patches in which a leaf begins to age or dies.
     Ageing = 18,
     /// The seed of the noise in a layer of contents.
     Layer = 19,
@@ -51,7 +50,7 @@ pub(crate) enum Use {
 /// 64 random bits for one use, number `counter` of its kind.
 ///
 /// Two rounds of the output function of `SplitMix64` (\[steele2014\]), the second keyed by the
-/// first; the increment of the counter is that generator's.
+/// first. The counter's increment is that of the generator.
 pub(crate) fn bits(seed: u64, purpose: Use, counter: u64) -> u64 {
     let key = scramble(seed ^ (purpose as u64).wrapping_mul(0xd1b5_4a32_d192_ed03));
     scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)))

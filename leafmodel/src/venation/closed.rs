@@ -1,15 +1,15 @@
-//! Closed patterns: a source drives all its neighbours, and is used up when every vein
-//! that was on its way has come (section 4).
+//! Closed patterns: a source drives all its neighbours and is used up when every vein on its way to
+//! the source has arrived (section 4).
 //!
-//! The paper's rule for tags, made definite:
+//! The paper's rule for tags, made precise:
 //!
 //! - When a step leaves a neighbour of the source nearer than the kill distance, that node has
 //!   *arrived* and the other neighbours are *tagged*. From then on the source drives tagged nodes
 //!   only.
-//! - A tagged node keeps its tag and hands it to its children. At the end of each step, tagged
+//! - A tagged node keeps its tag and passes it on to its children. At the end of each step, tagged
 //!   nodes that are no longer neighbours have left the zone of influence and lose the tag; those
-//!   nearer than the kill distance arrive.
-//! - With no tagged node left, the source is used up. Those that arrived are joined.
+//!   nearer than the kill distance have arrived.
+//! - When no tagged node is left, the source is used up, and the arrived nodes are joined.
 //!
 //! Neighbours are relative neighbours, or Urquhart's approximation of them.
 
@@ -20,12 +20,12 @@ use super::influence::{Fate, Influence, Surroundings};
 use super::relative_neighbourhood::RelativeNeighbourhood;
 use super::urquhart::UrquhartNeighbourhood;
 
-/// Which nodes are neighbours of a source.
+/// The rule that decides which nodes are neighbours of a source.
 pub(crate) trait Zone: Send + Sized {
     /// The neighbours of a source at `place` among all nodes.
     fn find(place: DVec2, surroundings: &Surroundings) -> Self;
 
-    /// Takes in nodes that have come since.
+    /// Takes in the nodes added since the last call.
     fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
 
     /// Number and squared distance of each neighbour.

@@ -1,7 +1,7 @@
 //! The flat map in which the veins of a curved blade are computed.
 //!
-//! A blade of Gaussian curvature `K` everywhere has a map that is true in angles, and in which a
-//! length at distance `r` from its centre appears enlarged by `1 + K r²/4` in every direction: the
+//! A blade of constant Gaussian curvature `K` has a map that preserves angles. A length at distance
+//! `r` from the map's centre appears enlarged by `1 + K r²/4` in every direction. The map is the
 //! stereographic projection of a sphere if `K > 0`, the Poincaré disc if `K < 0`.
 
 use glam::{DVec2, DVec3};
@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 pub struct ConformalMap {
     /// `K`, one over the square of the unit of length.
     curvature: f64,
-    /// Where the map is true to scale.
+    /// The point at which the map has scale 1.
     centre: DVec2,
 }
 
@@ -33,17 +33,16 @@ impl ConformalMap {
         self.curvature == 0.0
     }
 
-    /// How much larger lengths at `p` appear in the map than they are; 1 on a flat blade, > 0 where
-    /// a map exists.
+    /// Lengths in the map over true lengths at `p`; 1 on a flat blade, > 0 where the map exists.
     pub fn enlargement(&self, p: DVec2) -> f64 {
         1.0 + 0.25 * self.curvature * (p - self.centre).length_squared()
     }
 
     /// The point of the blade at `p`, raised by `height` towards the adaxial side; the map's centre
-    /// is at the origin, the blade level there. For `K > 0` that is a sphere that bends up towards
-    /// the adaxial side (a cup), and true in every length. A whole surface with `K < 0` has no such
-    /// simple form: this saddle has the curvature `K` at the centre, and its lengths are true to
-    /// second order in the distance from there.
+    /// is at the origin, where the blade is horizontal. For `K > 0` the surface is a sphere that
+    /// bends up towards the adaxial side (a cup), and all lengths are exact. No complete surface
+    /// with constant `K < 0` has a simple form, so a saddle is used: it has the curvature `K` at
+    /// the centre, and its lengths are exact to second order in the distance from there.
     pub fn in_space(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.centre;
         if self.curvature > 0.0 {

@@ -1,7 +1,7 @@
-//! Nodes that came into being since everyone last looked.
+//! Nodes added since sources were last updated.
 //!
-//! What a source knows of the veins can only change through new nodes near it. A step brings few
-//! of them, so they get a small tree of boxes of their own, built anew each time.
+//! A source's neighbourhood changes only through new nodes near it. A step adds few nodes, so they
+//! get a small tree of boxes, rebuilt each time.
 
 use std::ops::ControlFlow;
 
@@ -9,16 +9,16 @@ use glam::DVec2;
 
 use super::probe::Probe;
 
-/// Nodes in a box that is not divided further.
+/// Greatest number of nodes in a box that is not divided.
 const CAPACITY: usize = 6;
 
 /// The nodes numbered from `first` on, in nested boxes.
 pub(crate) struct FreshNodes<'a> {
     first: u32,
     positions: &'a [DVec2],
-    /// Indices into `positions`; a box holds a range of them.
+    /// Indices into `positions`, sorted so that each box holds a range of them.
     sorted: Vec<u32>,
-    /// Each box before those inside it.
+    /// All boxes, each before those inside it.
     boxes: Vec<NodeBox>,
 }
 
@@ -35,7 +35,7 @@ pub(crate) struct NodeBox {
 }
 
 impl<'a> FreshNodes<'a> {
-    /// Those of `positions` whose number is `first` or above.
+    /// The nodes of `positions` with numbers from `first` on.
     pub(crate) fn new(positions: &'a [DVec2], first: u32) -> Self {
         let positions = &positions[first as usize..];
         let mut fresh = Self {
@@ -50,8 +50,8 @@ impl<'a> FreshNodes<'a> {
         fresh
     }
 
-    /// Boxes for the nodes in a range of `sorted`, halved across the longer side until few are
-    /// left.
+    /// Adds boxes for the nodes in a range of `sorted`, halved across the longer side until few
+    /// nodes are left.
     fn divide(&mut self, from: usize, to: usize) {
         let positions = self.positions;
         let range = &mut self.sorted[from..to];
@@ -91,7 +91,7 @@ impl<'a> FreshNodes<'a> {
         self.positions.is_empty()
     }
 
-    /// Shows the nodes to `probe`, in no order to be relied on, as far as it enters their boxes.
+    /// Passes to `probe` the nodes in all boxes that it enters, in no particular order.
     pub(crate) fn visit(&self, probe: &mut impl Probe) -> ControlFlow<()> {
         let mut next = 0;
         while let Some(node_box) = self.boxes.get(next) {

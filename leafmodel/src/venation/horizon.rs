@@ -1,17 +1,18 @@
-//! How far from a source, direction by direction, a relative neighbour of it can be.
+//! Bound of the distance of a source's relative neighbours, by direction.
 //!
 //! By Eq. 2 a node at `w` (seen from the source) keeps a node at `v` from being a relative
 //! neighbour if it is no farther from the source, `‖w‖ ≤ ‖v‖`, and `v` lies on its side of their
-//! bisector, `‖w‖ ≤ 2 ‖v‖ cos φ`, with `φ` the angle between `v` and `w`. In the direction at `φ`
-//! it thus *hides* whatever is at `‖w‖ / min(1, 2 cos φ)` or farther, and nothing from a right
-//! angle on. What a set of nodes leaves visible is star-shaped, and it only shrinks as nodes come.
+//! bisector, `‖w‖ ≤ 2 ‖v‖ cos φ`, with `φ` the angle between `v` and `w`. So in the direction at
+//! `φ` it *hides* everything at a distance of `‖w‖ / min(1, 2 cos φ)` or more, and nothing from a
+//! right angle on. The region that a set of nodes leaves visible is star-shaped, and it only
+//! shrinks as nodes are added.
 //!
 //! A [`Horizon`] bounds the visible region from outside in sixteen sectors. It stores inverse
-//! distances: `cos φ` has no minimum within a sector but at its ends, so the two ends tell what a
-//! node hides all over the sector.
+//! distances. Within a sector `cos φ` is least at one of the ends, so the two ends bound what a
+//! node hides over the whole sector.
 //!
-//! - **Always true**: single precision errs on the side of visibility, by [`SLACK`], far above
-//!   rounding. So what the horizon hides is hidden by one of its nodes in double precision too.
+//! - **Always true**: single precision errs towards visibility, by [`SLACK`], far above rounding.
+//!   So whatever the horizon hides is hidden by one of its nodes in double precision too.
 
 use glam::DVec2;
 
@@ -23,7 +24,7 @@ const C1: f32 = 0.923_879_5;
 const C2: f32 = 0.707_106_77;
 const C3: f32 = 0.382_683_43;
 
-/// Unit vectors between the sectors, from +x counter-clockwise: their x, and their y.
+/// Unit vectors between the sectors, counter-clockwise from +x: x components, then y components.
 const X: [f32; SECTORS] = [
     1.0, C1, C2, C3, 0.0, -C3, -C2, -C1, -1.0, -C1, -C2, -C3, 0.0, C3, C2, C1,
 ];
@@ -31,32 +32,32 @@ const Y: [f32; SECTORS] = [
     0.0, C3, C2, C1, 1.0, C1, C2, C3, 0.0, -C3, -C2, -C1, -1.0, -C1, -C2, -C3,
 ];
 
-/// What is given away on lengths and cosines: some ten times what single precision can lose.
+/// Slack on lengths and cosines: about ten times the rounding error of single precision.
 const SLACK: f32 = 2e-6;
 
 /// The nearest distance that single precision can square and invert with room to spare.
 const NEAR: f32 = 1e-15;
 
-/// A bound in every direction of how far relative neighbours of a source can be.
+/// An upper bound, in every direction, of the distance of a source's relative neighbours.
 #[derive(Clone, Debug)]
 pub(crate) struct Horizon {
-    /// For the sector from each direction to the next: whatever in it has this inverse distance or
-    /// less is hidden.
+    /// For the sector from each direction to the next: everything in it with this inverse distance
+    /// or less is hidden.
     hidden: [f32; SECTORS],
-    /// The least of them.
+    /// The least entry of `hidden`.
     least: f32,
 }
 
 impl Horizon {
-    /// The horizon of a source that sees a rectangle without nodes, from its corners relative to
-    /// the source.
+    /// The horizon of a source in a rectangle without nodes; `low` and `high` are its corners
+    /// relative to the source.
     pub(crate) fn of_rectangle(low: DVec2, high: DVec2) -> Self {
-        // A source may lie on a side.
+        // The source may lie on a side of the rectangle.
         let inverse = |distance: f64| (1.0 - SLACK) / (distance as f32).max(NEAR);
         let (left, right) = (inverse(-low.x), inverse(high.x));
         let (below, above) = (inverse(-low.y), inverse(high.y));
         let hidden = std::array::from_fn(|k| {
-            // No sector lies on both sides of an axis.
+            // No sector crosses an axis.
             let next = (k + 1) % SECTORS;
             let side = if X[k] + X[next] > 0.0 { right } else { left };
             let end = if Y[k] + Y[next] > 0.0 { above } else { below };
@@ -116,11 +117,12 @@ impl Horizon {
         }
     }
 
-    /// Takes in what a node at `offset` from the source hides.
+    /// Adds a node at `offset` from the source.
     pub(crate) fn hide_behind(&mut self, offset: DVec2, distance_squared: f64) {
         let distance = distance_squared.sqrt() as f32;
         if distance_squared == 0.0 {
-            // Twice the same place: it hides everything, even itself from others there.
+            // A node at the place of the source hides everything, even another node at the same
+            // place.
             self.hidden = [f32::MAX; SECTORS];
         } else if distance >= NEAR {
             let (x, y) = (offset.x as f32, offset.y as f32);
@@ -141,7 +143,7 @@ impl Horizon {
     }
 }
 
-/// Number of the sector a direction is in. On the border it may be either.
+/// Number of the sector of a direction. On a border it may be either.
 fn sector(offset: DVec2) -> usize {
     let (x, y) = (offset.x.abs(), offset.y.abs());
     // Within a quadrant from the x axis on; the tangent of a sixteenth of a turn is √2 − 1.
@@ -162,13 +164,12 @@ mod tests {
     use super::*;
     use crate::testing::fixed;
 
-    /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 word by
-    /// word.
+    /// Whether a node at `w` hides what is at `v` from the source at the origin: Eq. 2 as written.
     fn hides(w: DVec2, v: DVec2) -> bool {
         v.length_squared() >= w.length_squared().max((v - w).length_squared())
     }
 
-    /// Places on rings about the source, some exactly on axes and diagonals.
+    /// Places on rings around the source, some exactly on axes and diagonals.
     fn places(count: std::ops::Range<usize>) -> impl Strategy<Value = Vec<DVec2>> {
         let place = (0.0..1.0_f64, 0_u32..64, 0.01..10.0_f64, 0_u8..3).prop_map(
             |(turn, step, distance, kind)| {

@@ -1,22 +1,22 @@
-//! What an auxin source does to the veins: the part in which open and closed patterns differ.
+//! The influence of an auxin source on veins, in which open and closed patterns differ.
 
 use glam::DVec2;
 
 use super::fresh_nodes::FreshNodes;
 use super::point_tree::PointTree;
 
-/// What sources share while they look at the veins.
+/// The data that all sources use.
 pub(crate) struct Surroundings<'a> {
     /// All vein nodes.
     pub(crate) tree: &'a PointTree,
-    /// Seed of the simulation, for ties.
+    /// Seed of the simulation, which decides ties.
     pub(crate) seed: u64,
 }
 
-/// What becomes of a source at the end of a step.
+/// The fate of a source at the end of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Fate {
-    /// It goes on drawing veins.
+    /// It remains.
     Stays,
     /// It is used up; these veins have reached it and are to be joined.
     UsedUp(Vec<u32>),
@@ -24,29 +24,30 @@ pub(crate) enum Fate {
 
 /// A source's relation to the veins around it.
 pub(crate) trait Influence: Send + Sized {
-    /// The relation of a new source, number `id`, at `place`.
+    /// The influence of a new source, number `id`, at `place`.
     fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
 
-    /// The source has moved to `place`, and all nodes with it: what it drives is found anew, but
-    /// what it knows of tags stays.
+    /// Called when the source and all nodes have moved: the driven nodes are determined anew for
+    /// `place`; tags are kept.
     fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings);
 
-    /// Takes in nodes that have come since the last call.
+    /// Takes in the nodes added since the last call.
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
 
-    /// Whether no vein has reached the source yet: what it drives follows from the places of the
-    /// nodes alone.
+    /// Whether no vein has reached the source yet, so that the driven nodes follow from the places
+    /// of the nodes alone.
     fn is_untouched(&self) -> bool;
 
     /// Calls `visit` with each node that this source drives.
     fn each_driven(&self, visit: impl FnMut(u32));
 
-    /// Tells that `child` has grown from the driven node `parent`.
+    /// Called when `child` has grown from the driven node `parent`.
     fn inherit(&mut self, parent: u32, child: u32);
 
-    /// Decides at the end of a step, all its nodes noticed, for kill distance `kill`.
+    /// Decides the source's fate at the end of a step, after all new nodes were noticed; `kill` is
+    /// the kill distance.
     fn judge(&mut self, kill: f64) -> Fate;
 
-    /// The veins that have reached the source so far, if it has to give up.
+    /// Called when the source is given up: returns the veins that have reached it so far.
     fn give_up(&mut self) -> Vec<u32>;
 }

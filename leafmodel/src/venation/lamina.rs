@@ -1,6 +1,6 @@
-//! The lamina that veins grow on: where it ends, and how long a segment is at each place.
+//! The lamina on which veins grow: its margin, and the length of a segment at each place.
 //!
-//! A flat lamina has one unit of length for all of it. On a curved blade, veins grow in its
+//! A flat lamina has the same unit of length everywhere. On a curved blade, veins grow in its
 //! conformal map ([`super::conformal_map`]): segments, birth and kill distances are multiplied by
 //! the map's enlargement at the place.
 
@@ -16,11 +16,11 @@ use crate::shape::outline::Outline;
 pub(crate) struct Lamina<'a> {
     /// The full-grown margin, in segments.
     pub(crate) blade: &'a Outline,
-    /// How tissue moves, if growth is anisotropic: its map at this step and at the end.
+    /// For anisotropic growth, the tissue maps at this step and at the end.
     carried: Option<(TissueMap, TissueMap)>,
-    /// The map that this frame is of the blade.
+    /// The conformal map of the blade.
     map: ConformalMap,
-    /// The smallest upright rectangle around the blade now.
+    /// The smallest upright rectangle around the blade at this step.
     bounds: (DVec2, DVec2),
 }
 
@@ -39,7 +39,7 @@ impl<'a> Lamina<'a> {
         }
     }
 
-    /// Lets the tissue move to where `now` has it.
+    /// Moves the tissue to its places in `now`.
     pub(crate) fn carry(&mut self, now: TissueMap) {
         if let Some((current, _)) = &mut self.carried {
             *current = now;
@@ -57,42 +57,43 @@ impl<'a> Lamina<'a> {
         self.carried.as_ref().map_or(p, |(now, _)| now.back(p))
     }
 
-    /// Where the tissue is now that started at `start`.
+    /// The present place of the tissue that started at `start`.
     pub(crate) fn now_at(&self, start: DVec2) -> DVec2 {
         self.carried
             .as_ref()
             .map_or(start, |(now, _)| now.forward(start))
     }
 
-    /// Where the tissue now at `p` will be in the full-grown leaf. Whether it is on the blade is
-    /// decided there, so that nothing can slip off while the lamina grows.
+    /// Where the tissue now at `p` will be in the full-grown leaf. Whether a place is on the blade
+    /// is decided in the full-grown leaf, so that nothing can leave the blade as it grows.
     pub(crate) fn full_grown(&self, p: DVec2) -> DVec2 {
         self.carried
             .as_ref()
             .map_or(p, |(now, last)| last.forward(now.back(p)))
     }
 
-    /// Where the tissue is now that will be at `p` in the full-grown leaf.
+    /// The present place of the tissue that will be at `p` in the full-grown leaf.
     pub(crate) fn now_of_full_grown(&self, p: DVec2) -> DVec2 {
         self.carried
             .as_ref()
             .map_or(p, |(now, last)| now.forward(last.back(p)))
     }
 
-    /// The margin as it is now.
+    /// The margin at this step.
     pub(crate) fn margin_now(&self) -> Vec<DVec2> {
         let margin = self.blade.points().iter();
         margin.map(|&p| self.now_of_full_grown(p)).collect()
     }
 
-    /// Lower left and upper right corner of the smallest upright rectangle around the blade now.
+    /// Lower left and upper right corner of the smallest upright rectangle around the blade at this
+    /// step.
     pub(crate) fn bounds_now(&self) -> (DVec2, DVec2) {
         self.bounds
     }
 
-    /// Corners of a rectangle that holds all that grows on the blade now. Where tissue moves,
-    /// straight margins of the full-grown leaf bulge between the corners that [`Self::bounds_now`]
-    /// sees.
+    /// Corners of a rectangle that holds everything on the blade at this step. If tissue moves,
+    /// straight edges of the full-grown margin bulge between their corners, which
+    /// [`Self::bounds_now`] does not account for.
     pub(crate) fn room(&self) -> (DVec2, DVec2) {
         let (low, high) = self.bounds;
         let spare = match self.carried {
@@ -112,9 +113,9 @@ impl<'a> Lamina<'a> {
         self.blade.contains(self.full_grown(p))
     }
 
-    /// Whether a straight vein from a node at `from` to `to` stays on the blade. An origin of the
-    /// veins may lie on the margin, on either side of it after rounding, so the first millionth of
-    /// the way does not count.
+    /// Whether a straight vein from a node at `from` to `to` stays on the blade. An origin may lie
+    /// on the margin, after rounding on either side of it, so the first millionth of the line is
+    /// ignored.
     pub(crate) fn can_reach(&self, from: DVec2, to: DVec2) -> bool {
         let (from, to) = (self.full_grown(from), self.full_grown(to));
         self.blade.contains(to) && !self.blade.is_crossed_by(from + (to - from) * 1e-6, to)
@@ -130,8 +131,8 @@ impl<'a> Lamina<'a> {
         self.map.is_flat()
     }
 
-    /// How many times as many darts the map needs as its area tells, ≥ 1: as many as where it
-    /// shrinks most.
+    /// Factor on the number of darts that allows for the rejection of darts on a curved blade, ≥ 1:
+    /// the greatest ratio of true area to area in the map.
     pub(crate) fn surplus(&self) -> f64 {
         let (low, high) = self.bounds;
         let smallest = [
@@ -146,7 +147,7 @@ impl<'a> Lamina<'a> {
         1.0 / (smallest * smallest)
     }
 
-    /// How much larger lengths at `p` appear in the map than they are, > 0; 1 on a flat blade.
+    /// Lengths in the map over true lengths at `p`, > 0; 1 on a flat blade.
     pub(crate) fn enlargement(&self, p: DVec2) -> f64 {
         self.map.enlargement(p)
     }

@@ -1,13 +1,14 @@
-//! How large the lamina is at each step.
+//! The size of the lamina at each step.
 //!
-//! Positions are kept in segments, base at the origin. Where growth is marginal or isogonic they
-//! are those of the full-grown leaf, and growth (section 3.3) is a change of two numbers:
+//! Positions are kept in segments, base at the origin. Under marginal and isogonic growth these are
+//! positions in the full-grown leaf, and growth (section 3.3) changes one number:
 //!
 //! - marginal: the margin of step `t` is the final one shrunk about the base by `σ_t / σ_final`;
-//! - isogonic: lamina and veins keep their place while the unit of length shrinks,
-//!   `λ_t = λ_final σ_final / σ_t`, and with it segment, kill distance and birth distances.
+//! - isogonic: lamina and veins keep their places while the unit of length shrinks,
+//!   `λ_t = λ_final σ_final / σ_t`, and with it the segment, the kill distance and the birth
+//!   distances.
 //!
-//! Anisotropic growth has no such frame: there positions are those of the step, and move.
+//! Anisotropic growth has no such frame: positions are those of the current step and move.
 
 use super::plan::{AuxinPlan, Growth};
 use crate::shape::growth::{GrowthError, TissueMap, arrival};
@@ -17,7 +18,7 @@ use crate::shape::growth::{GrowthError, TissueMap, arrival};
 pub(crate) struct Stage {
     /// The unit of length `λ`: a segment of this step, in segments of the frame, ≥ 1.
     pub(crate) unit: f64,
-    /// Whether a later step will find the lamina larger.
+    /// Whether the lamina still grows after this step.
     pub(crate) still_growing: bool,
 }
 
@@ -26,12 +27,12 @@ pub(crate) struct Stage {
 pub(crate) struct LaminaClock {
     final_length: f64,
     growth: Growth,
-    /// When anisotropic growth ends, in steps and parts of one.
+    /// Time at which anisotropic growth ends, in steps, not rounded.
     arrival: f64,
 }
 
 impl LaminaClock {
-    /// The clock of a plan that has been checked.
+    /// The clock of a checked plan.
     ///
     /// # Errors
     ///
@@ -90,7 +91,7 @@ impl LaminaClock {
         }
     }
 
-    /// For anisotropic growth, where tissue is at a step.
+    /// For anisotropic growth, the tissue map at a step.
     pub(crate) fn tissue_map(&self, step: u32) -> Option<TissueMap> {
         match &self.growth {
             Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => None,

@@ -1,21 +1,21 @@
-//! Edges by length, for those that outgrow a limit which falls in time.
+//! Edges by length, to find those longer than a limit that falls in time.
 //!
-//! Nearly all edges wait for a long time until they are next. So they are only sorted roughly, by
-//! the first digits of their lengths, until the limit falls below them; those few that it has
-//! passed go in exact order.
+//! Nearly all edges wait for a long time. So they are sorted only roughly, by the leading digits of
+//! their lengths, until the limit falls below them. The few edges that it has passed are kept in
+//! exact order.
 
 use std::collections::BinaryHeap;
 
-/// Bits of a squared length that make no difference to the rough order: 128 steps to an octave.
+/// Low bits of a squared length that the rough order ignores: 128 steps per octave.
 const FINE_BITS: u32 = 45;
 
 /// Number of steps; lengths beyond the last share it.
 const STEPS: usize = 128 * 24;
 
-/// Edges, given out by length, the longest first and among equals the oldest.
+/// A queue of edges, the longest first and among equals the oldest.
 #[derive(Clone, Debug)]
 pub(crate) struct LengthQueue {
-    /// No edge is asked for whose squared length is this or less.
+    /// Edges with this squared length or less are never asked for.
     least: f64,
     /// The lowest limit so far; longer edges are in `due`.
     limit: f64,
@@ -26,8 +26,7 @@ pub(crate) struct LengthQueue {
 }
 
 impl LengthQueue {
-    /// A queue without edges that will not be asked for edges whose squared length is `least` or
-    /// less.
+    /// An empty queue that will never be asked for edges with a squared length of `least` or less.
     pub(crate) fn new(least: f64) -> Self {
         Self {
             least,
@@ -54,8 +53,8 @@ impl LengthQueue {
         self.waiting[step].push(item);
     }
 
-    /// Takes out the longest edge, if its squared length is above `limit`; gives its number and
-    /// that length.
+    /// Removes the longest edge if its squared length is above `limit`; returns its number and its
+    /// squared length.
     pub(crate) fn pop_above(&mut self, limit: f64) -> Option<(u32, f64)> {
         debug_assert!(limit >= self.least, "{limit} is less than said at first");
         if limit < self.limit {
@@ -77,7 +76,7 @@ impl LengthQueue {
         Some((!complement, length_squared))
     }
 
-    /// The place of a squared length in the rough order.
+    /// The step of the rough order of a squared length.
     fn step(&self, length_squared: f64) -> usize {
         let above = (length_squared.to_bits() >> FINE_BITS) - (self.least.to_bits() >> FINE_BITS);
         (above as usize).min(STEPS - 1)

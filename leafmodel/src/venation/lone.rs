@@ -1,21 +1,20 @@
-//! Sources far from all veins, looked after many at a time.
+//! Sources far from all veins, updated many at a time.
 //!
-//! Where nothing but its nearest node is in view, a source is *lone*: every other node is hidden by
-//! the nearest ([`super::horizon`] tells what hiding is), so that one is all that it drives,
-//! whether patterns are open or closed and whichever neighbourhood counts. Sources that wait for
-//! veins to come are mostly like that, by the ten thousand where growth is slow against the net. A
-//! new node matters to one of them only if it is nearer than the nearest, or not hidden by it. So
-//! lone sources lie in *cells*, and within a cell in *basins*, those with the same nearest node:
-//! one look decides for all of a basin whether any of the new nodes matters.
+//! A source is *lone* if its nearest node hides every other node (see [`super::horizon`]). A lone
+//! source drives its nearest node only, in open and closed patterns and under either neighbourhood.
+//! Most sources that wait for veins are lone, tens of thousands where growth is slow relative to
+//! the net. A new node affects a lone source only if it is nearer than the nearest node or not
+//! hidden by it. So lone sources are kept in *cells*, and within a cell in *basins* with the same
+//! nearest node: one test decides for a whole basin whether any new node affects it.
 //!
 //! A node at `p` is hidden by the nearest node, at the origin, from a source at `s` if
 //! `‖p‖ ≤ ‖p − s‖`, which is `2 p·s ≤ ‖s‖²`. The greatest `2 p·s − ‖s‖²` over a box of nodes and a
-//! box of sources is a sum of one number for each axis.
+//! box of sources is a sum of one term for each axis.
 //!
-//! - **Always true**: a source stays only while its nearest node is nearest by the squared
-//!   distances that everyone uses, without a tie, and hides all others by a margin far above
-//!   rounding. When in doubt it leaves, and is dealt with one by one; so which sources are lone can
-//!   never be seen in the veins.
+//! - **Always true**: a source stays lone only while its nearest node is nearest without a tie, by
+//!   the same squared distances as elsewhere, and hides all others by a margin far above rounding.
+//!   In doubtful cases the source is treated individually. So the veins do not depend on which
+//!   sources are lone.
 //! - **Left out**: tissue that moves, and curved blades.
 
 mod cell;
@@ -36,16 +35,16 @@ use super::point_tree::PointTree;
 /// Side of a cell in birth distances of sources.
 const CELL_SIDE: f64 = 9.0;
 
-/// Cells are laid out anew when the birth distance has shrunk to this share.
+/// Cells are rebuilt when the birth distance has shrunk to this share.
 const REFINEMENT: f64 = 0.6;
 
-/// Cells from which on several threads pay.
+/// Number of cells from which several threads are used.
 const MANY: usize = 64;
 
 /// A lone source.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lone {
-    /// Where it is.
+    /// Its place.
     pub(crate) place: DVec2,
     /// Its place in the list of all sources.
     pub(crate) slot: u32,
@@ -58,12 +57,12 @@ pub(crate) struct LoneSources {
     cells: Vec<Cell>,
     /// The node of each basin, by number.
     nodes: Vec<u32>,
-    /// Numbers that no basin has.
+    /// Numbers that are free for new basins.
     free: Vec<u32>,
 }
 
 impl LoneSources {
-    /// None.
+    /// No sources.
     pub(crate) fn new() -> Self {
         Self {
             side: f64::INFINITY,
@@ -79,8 +78,8 @@ impl LoneSources {
         self.nodes[basin as usize]
     }
 
-    /// Fits the cells to sources that are born `spacing` apart. Calls `settled` with each source
-    /// that has another basin.
+    /// Adapts the size of cells to sources that are born `spacing` apart. Calls `settled` with each
+    /// source whose basin has changed.
     pub(crate) fn fit_cells(&mut self, spacing: f64, mut settled: impl FnMut(Lone, u32)) {
         let side = CELL_SIDE * spacing;
         if side < REFINEMENT * self.side {
@@ -100,7 +99,7 @@ impl LoneSources {
     }
 
     /// Takes in the source at `place` with the number `slot`, if it is lone among the nodes of
-    /// `tree` and not nearer than `near` to any of them; gives its basin.
+    /// `tree` and not nearer than `near` to any of them; returns its basin.
     pub(crate) fn try_insert(
         &mut self,
         lone: Lone,
@@ -148,7 +147,7 @@ impl LoneSources {
         }
     }
 
-    /// Takes a source out.
+    /// Removes a source.
     pub(crate) fn remove(&mut self, lone: Lone) {
         if let Some(&number) = self.cell_numbers.get(&self.key(lone.place)) {
             for basin in &mut self.cells[number].basins {
@@ -157,8 +156,8 @@ impl LoneSources {
         }
     }
 
-    /// Takes in new nodes. Calls `settled` with each source that has another basin; gives those
-    /// that are lone no more, or have a node nearer than `near`.
+    /// Takes in new nodes. Calls `settled` with each source whose basin has changed. Returns the
+    /// sources that are no longer lone or have a node nearer than `near`.
     pub(crate) fn notice(
         &mut self,
         fresh: &FreshNodes,
@@ -200,7 +199,7 @@ impl LoneSources {
         leaving
     }
 
-    /// Gives sources the slots that `slots` has for their old ones.
+    /// Replaces each source's slot by the one that `slots` has for it.
     pub(crate) fn renumber(&mut self, slots: &[u32]) {
         let basins = self.cells.iter_mut().flat_map(|cell| &mut cell.basins);
         for lone in basins.flat_map(|basin| &mut basin.lone) {

@@ -1,19 +1,19 @@
-//! The graph that every venation algorithm builds.
+//! The graph of veins that every venation model produces.
 //!
 //! - **In**: positions of nodes and the edges between them, from older to younger tissue.
 //! - **Out**: nodes, edges with radius and order, segments in millimetres, counts.
 //! - **Always true**: see [`VenationNetwork::validate`].
 //!
-//! Numbers of nodes and edges are given in order of birth and never change while a network grows:
-//! the network of an earlier step is made of the first nodes of a later one (an edge may since have
-//! been subdivided).
+//! Nodes and edges are numbered in order of birth, and numbers never change while a network grows.
+//! So the network of an earlier step consists of the first nodes of a later one, though edges may
+//! have been subdivided since.
 
 use glam::DVec2;
 use thiserror::Error;
 
 use super::conformal_map::ConformalMap;
 
-/// How far from the origin a node of a network from elsewhere may lie in x and y, mm: a kilometre.
+/// Greatest x and y of a node of an external network, mm: one kilometre.
 const FARTHEST_MM: f64 = 1e6;
 
 /// A piece of vein between two neighbouring nodes, in millimetres.
@@ -34,13 +34,13 @@ pub struct VeinSegment {
 /// A point of a vein.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VeinNode {
-    /// Where it is, mm, in the frame of the outline.
+    /// Its place, mm, in the frame of the outline.
     pub position: DVec2,
-    /// Step of the simulation that brought it.
+    /// Step of the simulation that added it.
     pub born: u32,
 }
 
-/// A piece of vein by the numbers of its nodes.
+/// A piece of vein between two nodes, given by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VeinEdge {
     /// Node nearer to the petiole: the older tissue.
@@ -55,13 +55,12 @@ pub struct VeinEdge {
     pub order: u8,
 }
 
-/// How a simulation came to its end.
+/// How a simulation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// No source was left that could still draw a vein.
     Settled,
-    /// It had not come to its end when this was taken: a stage of a leaf, or a leaf whose growth
-    /// was stopped.
+    /// It had not ended: the network is a stage of a leaf, or its growth was stopped.
     Growing,
     /// The pattern had not settled after far more steps than veins need to cross the leaf.
     StepLimit,
@@ -80,29 +79,29 @@ pub struct VenationNetwork {
     pub(crate) ending: Ending,
 }
 
-/// What is wrong with a network. No network from [`super::grow`] has any of it.
+/// Why a network is not valid. Networks from [`super::grow`] are always valid.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum NetworkError {
-    /// An edge names a node that is not there, or one node twice.
+    /// An edge refers to a node that does not exist, or to one node twice.
     #[error("edge {edge} does not join two nodes of the network")]
     BadEdge {
         /// Number of the edge.
         edge: usize,
     },
-    /// A position or a radius is not finite, or a radius not above 0 or growing away from the
+    /// A position or radius is not finite, or a radius is not above 0 or grows away from the
     /// petiole.
     #[error("edge {edge} has a bad position or radius")]
     BadNumber {
         /// Number of the edge.
         edge: usize,
     },
-    /// A node lies farther from the origin than any leaf reaches, or nowhere.
+    /// A node lies more than 10⁶ mm from the origin in x or y, or its position is not finite.
     #[error("node {node} is not within 10⁶ mm of the origin")]
     FarNode {
         /// Number of the node.
         node: usize,
     },
-    /// The length of a segment is no length.
+    /// The length of a segment is not finite and above 0.
     #[error("a vein segment is {value} mm long; it must be finite and above 0")]
     BadSegment {
         /// The length given.
@@ -120,13 +119,13 @@ pub enum NetworkError {
         /// Number of the second edge.
         edge: usize,
     },
-    /// Following edges away from the petiole leads back to where one came from.
+    /// The directed edges contain a cycle.
     #[error("the edges about node {node} run in a circle")]
     Circle {
-        /// Number of a node on or behind the circle.
+        /// Number of a node on or beyond the cycle.
         node: usize,
     },
-    /// Order 0.
+    /// An edge has order 0.
     #[error("edge {edge} has order 0; orders start at 1")]
     NoOrder {
         /// Number of the edge.
@@ -135,15 +134,16 @@ pub enum NetworkError {
 }
 
 impl VenationNetwork {
-    /// A network from elsewhere: another program, or a drawing. Edges lead away from the petiole.
+    /// A network from another program or a drawing. Edges lead away from the petiole.
     ///
-    /// `segment_mm` is the length by which veins were resolved, as [`VenationNetwork::segment_mm`]
-    /// will give it back. The number of steps is the last node's; no sources are known.
+    /// `segment_mm` is the resolution of the veins, which [`VenationNetwork::segment_mm`] returns.
+    /// The number of steps is that of the last node; the number of sources is 0.
     ///
     /// # Errors
     ///
-    /// [`NetworkError`]: whatever [`VenationNetwork::validate`] refuses, a node farther than 10⁶ mm
-    /// from the origin in x or y, a segment that is not finite and above 0.
+    /// [`NetworkError`]: for whatever [`VenationNetwork::validate`] refuses, for a node farther
+    /// than 10⁶ mm from the origin in x or y, and for a `segment_mm` that is not finite and
+    /// above 0.
     pub fn from_parts(
         nodes: Vec<VeinNode>,
         edges: Vec<VeinEdge>,
@@ -160,7 +160,7 @@ impl VenationNetwork {
             return Err(NetworkError::BadSegment { value: segment_mm });
         }
         let steps = nodes.iter().map(|node| node.born).max().unwrap_or(0);
-        // The first nodes, as far as nothing leads to them.
+        // The origins: the first nodes up to the first one that an edge leads to.
         let mut led_to = vec![false; nodes.len()];
         for edge in &edges {
             if let Some(node) = led_to.get_mut(edge.to as usize) {
@@ -182,12 +182,12 @@ impl VenationNetwork {
         Ok(network)
     }
 
-    /// The nodes, by number; the first are those the veins started from.
+    /// The nodes, by number; the origins come first.
     pub fn nodes(&self) -> &[VeinNode] {
         &self.nodes
     }
 
-    /// The edges, by number of the node they lead to.
+    /// The edges, in the order of the nodes to which they lead.
     pub fn edges(&self) -> &[VeinEdge] {
         &self.edges
     }
@@ -203,23 +203,23 @@ impl VenationNetwork {
         })
     }
 
-    /// The map of the blade in which positions, lengths and radii are given; flat but for curved
+    /// The map of the blade in which positions, lengths and radii are given; flat except for curved
     /// blades.
     pub fn map(&self) -> ConformalMap {
         self.map
     }
 
-    /// How many nodes, the first ones, veins started from, ≥ 1.
+    /// Number of origins, from which veins started, ≥ 1; they are the first nodes.
     pub fn origins(&self) -> usize {
         self.origins as usize
     }
 
-    /// Steps that the simulation took.
+    /// Number of steps of the simulation.
     pub fn steps(&self) -> u32 {
         self.steps
     }
 
-    /// Auxin sources that appeared in the course of it.
+    /// Number of auxin sources that appeared.
     pub fn sources(&self) -> u32 {
         self.sources
     }
@@ -234,7 +234,7 @@ impl VenationNetwork {
         self.ending
     }
 
-    /// Connected pieces of the network, ≥ 1.
+    /// Number of connected components, ≥ 1.
     pub fn components(&self) -> usize {
         let mut leaders: Vec<u32> = (0..self.nodes.len() as u32).collect();
         let find = |leaders: &mut Vec<u32>, mut node: u32| {
@@ -256,8 +256,8 @@ impl VenationNetwork {
         components
     }
 
-    /// Independent loops: edges − nodes + components. In a network whose veins do not cross these
-    /// are its areoles.
+    /// Number of independent loops: edges − nodes + components. If veins do not cross, it is the
+    /// number of areoles.
     pub fn loops(&self) -> usize {
         self.edges.len() + self.components() - self.nodes.len()
     }
@@ -267,13 +267,14 @@ impl VenationNetwork {
         self.segments().map(|s| (s.to - s.from).length()).sum()
     }
 
-    /// Checks what every network must satisfy: edges join two different nodes, never the same two
-    /// twice, never in a circle; every edge has a length, an order from 1, and radii that are
-    /// finite, above 0 and do not grow away from the petiole.
+    /// Checks what every network must satisfy: edges join two different nodes, no two edges join
+    /// the same two nodes, and there is no directed cycle; every edge has a length above 0, an
+    /// order of at least 1, and radii that are finite, above 0 and do not grow away from the
+    /// petiole.
     ///
     /// # Errors
     ///
-    /// [`NetworkError`], the first found.
+    /// The first [`NetworkError`] found.
     pub fn validate(&self) -> Result<(), NetworkError> {
         let count = self.nodes.len();
         for (edge, e) in self.edges.iter().enumerate() {
@@ -281,7 +282,7 @@ impl VenationNetwork {
                 return Err(NetworkError::BadEdge { edge });
             }
             let (from, to) = (self.nodes[e.from as usize], self.nodes[e.to as usize]);
-            // On the blade, not in its map; what is equal there may differ by rounding here.
+            // Radii are compared on the blade, not in its map; equal ones may differ by rounding.
             let on_blade =
                 |radius: f64, node: &VeinNode| radius / self.map.enlargement(node.position);
             let (start, end) = (on_blade(e.radius_from, &from), on_blade(e.radius_to, &to));

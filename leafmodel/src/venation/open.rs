@@ -19,13 +19,14 @@ pub(crate) struct NearestNode {
     distance_squared: f64,
 }
 
-/// Which of two equally near nodes the source drives: the one with the smaller draw.
+/// The random key that decides between equally near nodes: the source drives the one with the
+/// smaller key.
 pub(crate) fn lot(seed: u64, source: u32, node: u32) -> (u64, u32) {
     let counter = u64::from(source) << 32 | u64::from(node);
     (bits(seed, Use::Tie, counter), node)
 }
 
-/// Looks for nodes as near as the nearest so far, or nearer.
+/// Searches nodes that are at least as near as the nearest found so far.
 struct Look<'a> {
     nearest: &'a mut NearestNode,
     seed: u64,

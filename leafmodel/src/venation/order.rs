@@ -2,44 +2,43 @@
 //!
 //! The rule, order by order from the midrib on:
 //!
-//! 1. Where a vein branches, it **continues** in the branch with the largest `r (1 + cos φ)`, `r`
-//!    being the branch's radius and `φ` the angle by which it departs from the vein's direction:
-//!    the widest, unless a slightly finer one goes straight on. Directions are taken over a few
+//! 1. Where a vein branches, it **continues** in the branch with the largest `r (1 + cos φ)`, with
+//!    the branch's radius `r` and its deflection `φ` from the vein's direction. That is the widest
+//!    branch, unless a slightly finer one goes straight on. Directions are taken over a few
 //!    segments.
-//! 2. A branch **forks** if it is at least 3/4 as wide as the continuation and departs about as far
-//!    from the vein's direction (within 20°) on the other side: then both keep the order. So do, at
-//!    the leaf's base, all branches at least 3/4 as wide as the widest (primaries of actinodromous
+//! 2. A branch and the continuation **fork** if the branch is at least 3/4 as wide and deflected to
+//!    the other side by about the same angle (within 20°). Then both keep the order. At the leaf's
+//!    base so do all branches at least 3/4 as wide as the widest (primaries of actinodromous
 //!    leaves).
-//! 3. All other branches are **laterals**. Those at least 1/4 as wide as the widest lateral of any
-//!    vein of their parent's order count one order more than it, those at least 1/16 as wide two,
-//!    and so on. Thus a veinlet that springs from the midrib is no secondary vein.
-//! 4. Where veins meet, the widest goes on, and the others end.
+//! 3. All other branches are **laterals**. A lateral at least 1/4 as wide as the widest lateral of
+//!    all veins of its parent's order is one order finer than the parent, one at least 1/16 as wide
+//!    two orders, and so on. So a veinlet on the midrib is not a secondary vein.
+//! 4. Where veins meet, the widest continues and the others end.
 
 use glam::DVec2;
 
 use super::topology::Topology;
 
-/// A branch this wide, compared to the continuation or the widest primary, can be of the same
-/// order.
+/// Least width of a branch of the same order, relative to the continuation or the widest primary.
 const ALIKE: f64 = 0.75;
 
-/// Each order finer starts where laterals are this much narrower than the widest of their kind.
+/// Ratio of widths, relative to the widest lateral, at which the next finer order starts.
 const NARROWER: f64 = 0.25;
 
-/// How unlike two prongs of a fork may depart from the vein's direction, radians (20°).
+/// Greatest difference between the deflections of the two branches of a fork, radians (20°).
 const FORK_SKEW: f64 = 0.35;
 
-/// Segments over which directions are taken.
+/// Number of segments over which directions are taken.
 const LOOK: usize = 4;
 
-/// The finest order there is; finer veins count as this.
+/// The finest order; still finer veins get it too.
 const FINEST: u8 = 12;
 
-/// Orders, and which edge continues the vein that enters each node.
+/// Vein orders, and the edge that continues the vein at each node.
 pub(crate) struct Orders {
     /// Order of each edge, ≥ 1.
     pub(crate) edges: Vec<u8>,
-    /// For each node the edge in which the vein goes on, if any does.
+    /// For each node the edge in which the vein continues, if any.
     pub(crate) continuations: Vec<Option<u32>>,
 }
 
@@ -52,7 +51,7 @@ pub(crate) fn orders(
 ) -> Orders {
     let survey = Survey::new(topology, positions, radii);
     let mut edges = vec![0; topology.edge_count()];
-    // Edges where a vein of each order starts, found while coarser orders are followed.
+    // For each order the edges that start a vein of it, found while coarser orders are followed.
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
     let mut laterals: Vec<u32> = Vec::new();
     for &seed in base_to_tip
@@ -69,7 +68,8 @@ pub(crate) fn orders(
     }
     for order in 1..=FINEST {
         let mut pending = std::mem::take(&mut starts[usize::from(order)]);
-        // In the order found: neighbours in the list are unrelated, so memory fetches overlap.
+        // Veins are followed in the order found. Neighbours in the list are unrelated, so memory
+        // fetches overlap.
         let mut next = 0;
         while let Some(&edge) = pending.get(next) {
             next += 1;
@@ -118,7 +118,7 @@ pub(crate) fn orders(
     }
 }
 
-/// What is known of every node before orders are given.
+/// Properties of every node that are computed before orders are assigned.
 struct Survey<'a> {
     topology: &'a Topology<'a>,
     positions: &'a [DVec2],
@@ -126,9 +126,9 @@ struct Survey<'a> {
     /// The widest edge into each node.
     main_entry: Vec<Option<u32>>,
     continuations: Vec<Option<u32>>,
-    /// Where the widest edge into each node comes from; where none is, the node itself.
+    /// The start of the widest edge into each node, or the node itself if there is none.
     back: Vec<u32>,
-    /// Where the continuation of each node leads; where none is, the node itself.
+    /// The end of the continuation of each node, or the node itself if there is none.
     ahead: Vec<u32>,
 }
 
@@ -138,7 +138,7 @@ impl<'a> Survey<'a> {
             edges
                 .iter()
                 .copied()
-                // `max_by` keeps the last of equals: reversed, the lowest number.
+                // `max_by` keeps the last of equals; in reverse order that is the lowest number.
                 .rev()
                 .max_by(|&a, &b| radii[a as usize].total_cmp(&radii[b as usize]))
         };
@@ -150,14 +150,14 @@ impl<'a> Survey<'a> {
             main_entry: (0..nodes)
                 .map(|node| widest(topology.entering(node)))
                 .collect(),
-            // To begin with, the widest; directions look along these.
+            // The widest edges are preliminary continuations, along which directions are taken.
             continuations: (0..nodes)
                 .map(|node| widest(topology.leaving(node)))
                 .collect(),
             back: Vec::new(),
             ahead: Vec::new(),
         };
-        // Steps along veins are what takes time here, so that each should be one look-up.
+        // Steps along veins dominate the time, so each is made a single look-up.
         let end = |node: u32, edge: Option<u32>, end: usize| {
             edge.map_or(node, |edge| topology.edge(edge)[end])
         };
@@ -178,7 +178,7 @@ impl<'a> Survey<'a> {
         survey
     }
 
-    /// In which of several branches the vein goes on.
+    /// The edge in which the vein continues.
     fn continuation(&self, node: u32) -> Option<u32> {
         let out = self.topology.leaving(node);
         let arrival = self.arrival(node);
@@ -192,13 +192,13 @@ impl<'a> Survey<'a> {
             .max_by(|&a, &b| score(a).total_cmp(&score(b)))
     }
 
-    /// Direction in which the vein comes to a node; zero at its start.
+    /// Direction in which the vein arrives at a node; zero at its start.
     fn arrival(&self, node: u32) -> DVec2 {
         let back = (0..LOOK).fold(node, |at, _| self.back[at as usize]);
         self.direction(back, node)
     }
 
-    /// Direction in which the vein that starts with an edge leaves.
+    /// Direction in which a vein leaves along an edge.
     fn departure(&self, edge: u32) -> DVec2 {
         let [from, to] = self.topology.edge(edge);
         let ahead = (1..LOOK).fold(to, |at, _| self.ahead[at as usize]);
@@ -266,7 +266,7 @@ mod tests {
                 }
             }
         }
-        // The last pair, as wide as each other and nothing between, is a fork of the midrib.
+        // The last pair has equal widths and no branch between them, so it is a fork of the midrib.
         let last = expected.len();
         expected[last - 10..].fill(1);
         assert_eq!(orders_of(&places, &edges), expected);

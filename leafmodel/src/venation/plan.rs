@@ -1,4 +1,4 @@
-//! What a venation simulation is told. Lengths are in vein segments, `D = 1`.
+//! Parameters of a venation simulation. Lengths are in vein segments, `D = 1`.
 
 mod check;
 
@@ -35,50 +35,51 @@ pub enum Growth {
     Marginal {
         /// Length of the leaf at the start, in segments, > 0 up to the final length.
         initial_length: f64,
-        /// What is added to the length each step, in segments, > 0; growth takes at most 10⁶ steps.
+        /// Growth in length per step, in segments, > 0; growth takes at most 10⁶ steps.
         length_step: f64,
     },
     /// The whole lamina is scaled, veins and sources with it.
     Isogonic {
         /// Length of the leaf at the start, in segments, > 0 up to the final length.
         initial_length: f64,
-        /// What is added to the length each step, in segments, > 0; growth takes at most 10⁶ steps.
+        /// Growth in length per step, in segments, > 0; growth takes at most 10⁶ steps.
         length_step: f64,
     },
-    /// Every part is stretched at rates of its own, unlike across and along the leaf; veins and
-    /// sources move with the tissue (Appendix). Ends when the leaf has its final length.
+    /// Tissue is stretched at local rates that differ across and along the leaf; veins and sources
+    /// move with it (Appendix A). Ends when the leaf has its final length.
     Anisotropic {
         /// Length of the leaf at the start, in segments, > 0, below the final length.
         initial_length: f64,
-        /// `gx`: growth across the leaf per step by where tissue lies at the start;
+        /// `gx`, growth across the leaf per step as a function of where tissue lies at the start;
         /// `RERGx = 1 + gx`.
         across: RateCurve,
-        /// `gy`: growth along the leaf per step, likewise.
+        /// `gy`, growth along the leaf per step, likewise.
         along: RateCurve,
     },
 }
 
-/// Veinlets that end freely inside areoles: a last round of growth in which veins no longer meet.
+/// Free veinlet endings inside areoles: a last round of growth in which veins do not meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeEndings {
     /// Least distance of its sources from each other and from veins, in segments, 0.01 to 10 000.
     pub birth_distance: f64,
-    /// A source is used up when a veinlet comes nearer than this, in segments, 0.01 to 10 000.
+    /// A source is used up when a veinlet is nearer than this, in segments, 0.01 to 10 000.
     pub kill_distance: f64,
-    /// Darts per unit area thrown at once, > 0 up to 1000.
+    /// Darts per unit area (square segments), all thrown at once, > 0 up to 1000.
     pub darts_per_area: f64,
 }
 
-/// Sources kept off the margin of the young leaf, and secondary veins that meet there in arches.
+/// Keeps sources away from the margin of the young leaf, and lets secondary veins meet there in
+/// arches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarginClearance {
     /// Least distance of sources from the margin as a share of the leaf's length, > 0 up to 0.5.
     pub distance: f64,
-    /// The share of the final length at which the rule ends, 0 to 1.
+    /// The rule holds until the leaf has this share of its final length, 0 to 1.
     pub until: f64,
-    /// Secondary veins a side that are laid out first, before the lamina grows, and joined by
-    /// arches at that distance from the margin; 0 to 50, 0 leaves all veins to chance. For closed
-    /// patterns.
+    /// Number of secondary veins per side, 0 to 50, that are laid out before the lamina grows and
+    /// joined by arches at that distance from the margin. With 0 all veins come from random
+    /// sources. Needs a closed pattern.
     pub arches: u32,
 }
 
@@ -88,21 +89,21 @@ pub struct AuxinPlan {
     /// Open or closed.
     pub pattern: Pattern,
     /// Where veins start, as shares of the midrib's length: across it (to the right) and along it
-    /// from the base. None means one node at the base; at most 1000.
+    /// from the base. At most 1000. Empty means one node at the base.
     pub origins: Vec<[f64; 2]>,
-    /// Whether straight veins lead from the base to all origins, as where the bundles of a petiole
-    /// part. None of them may then lie at the base.
+    /// Whether straight veins lead from the base to all origins, as where the vascular bundles of a
+    /// petiole separate. If so, no origin may lie at the base.
     pub joined_origins: bool,
-    /// Length of the full-grown leaf in vein segments, 2 to 100 000; fixes the segment's length in
-    /// mm.
+    /// Length of the full-grown leaf in vein segments, 2 to 100 000; this sets the length of a
+    /// segment in mm.
     pub final_length: f64,
-    /// `dk`, a source is used up when a vein comes nearer than this, 0.01 to 10 000.
+    /// `dk`, kill distance: a source is used up when a vein is nearer than this, 0.01 to 10 000.
     pub kill_distance: f64,
     /// `bs`, least distance of a new source from other sources, 0.01 to 10 000.
     pub source_birth_distance: f64,
     /// `bv`, least distance of a new source from vein nodes, 0.01 to 10 000.
     pub vein_birth_distance: f64,
-    /// `ρ`, darts per unit area (segments squared) per step, > 0 up to 1000.
+    /// `ρ`, darts per unit area (square segments) and step, > 0 up to 1000.
     pub darts_per_area: f64,
     /// How the lamina grows.
     pub growth: Growth,
@@ -110,15 +111,16 @@ pub struct AuxinPlan {
     pub murray_exponent: f64,
     /// Radius of the finest veins in mm, 10⁻⁶ to 10.
     pub veinlet_radius_mm: f64,
-    /// Veinlets that each node of a vein of order 1 or 2 bears unseen and is widened for, 0 to
-    /// 1000; for models without a detailed pattern of tertiary veins (section 3.5).
+    /// Number of unmodelled veinlets at each node of a vein of order 1 or 2, which widen the vein,
+    /// 0 to 1000. For plans without a detailed pattern of tertiary veins (section 3.5).
     pub unseen_veinlets: f64,
-    /// Veinlets that end freely, for closed patterns.
+    /// Free veinlet endings. Needs a closed pattern.
     pub free_endings: Option<FreeEndings>,
-    /// Sources kept off the margin at first.
+    /// Sources kept away from the margin at first, and arches.
     pub margin_clearance: Option<MarginClearance>,
     /// `K L²`: Gaussian curvature of the blade times its length squared, −2 to 8; 0 is a flat or
-    /// rolled blade. The outline is then that of the blade's conformal map.
+    /// rolled blade. Cannot be combined with anisotropic growth. If it is not 0, the outline is
+    /// that of the blade's conformal map.
     pub gaussian_curvature: f64,
 }
 
@@ -134,7 +136,7 @@ impl AuxinPlan {
 }
 
 impl FreeEndings {
-    /// What the last round is told: an open pattern on the full-grown leaf.
+    /// The plan of the last round: an open pattern on the full-grown leaf.
     pub(crate) fn as_plan(&self, plan: &AuxinPlan) -> AuxinPlan {
         AuxinPlan {
             pattern: Pattern::Open,
@@ -151,7 +153,7 @@ impl FreeEndings {
 
 impl Default for AuxinPlan {
     /// A closed pattern on a leaf of 350 segments that grows isogonically: the paper's poplar at
-    /// ten units of its Table 1 to a segment.
+    /// ten units of Table 1 per segment.
     fn default() -> Self {
         Self {
             pattern: Pattern::Closed(Neighbourhood::Relative),

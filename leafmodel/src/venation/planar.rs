@@ -1,16 +1,15 @@
 //! The veins as a plane graph: edges meet at nodes only.
 //!
-//! In a grown network veins may in rare cases pass over each other, and networks of other programs
-//! may do so anywhere. Faces can be followed only where every crossing is a node, so crossings are
-//! cut first.
+//! In a grown network veins cross in rare cases; in networks of other programs they may cross
+//! anywhere. Faces can be followed only if every crossing is a node, so edges are cut at crossings
+//! first.
 //!
 //! - **In**: a [`VenationNetwork`].
-//! - **Out**: nodes and edges without crossings, in an order that follows their places (rows of a
-//!   grid), so that neighbours on the leaf are neighbours in memory; and a grid that finds edges
-//!   near a point.
-//! - **Always true**: up to rounding, two edges share nothing but a node at their ends; no two
-//!   edges join the same two nodes.
-//! - **Left out**: crossings that arise because a cut edge is displaced by rounding.
+//! - **Out**: nodes and edges without crossings, ordered by place (rows of a grid) so that
+//!   neighbours on the leaf are neighbours in memory; and a grid that finds edges near a point.
+//! - **Always true**: up to rounding, two edges share at most a node at their ends; no two edges
+//!   join the same two nodes.
+//! - **Left out**: crossings that arise when rounding displaces a cut edge.
 
 mod contacts;
 mod grid;
@@ -33,8 +32,8 @@ pub struct PlaneGraph {
 }
 
 impl PlaneGraph {
-    /// Cuts the edges of a network wherever they cross or touch. Takes time in proportion to the
-    /// edges, for edges of like length.
+    /// Cuts the edges of a network wherever they cross or touch. The time is proportional to the
+    /// number of edges if they have similar lengths.
     pub fn new(network: &VenationNetwork) -> Self {
         let (mut nodes, mut edges) = in_rows(network);
         let length = |e: &VeinEdge| (nodes[e.to as usize] - nodes[e.from as usize]).length();
@@ -54,19 +53,19 @@ impl PlaneGraph {
         }
     }
 
-    /// Where the nodes are, mm. Those that a cut left without an edge stay in the list.
+    /// Places of the nodes, mm. Nodes that a cut left without an edge stay in the list.
     pub fn nodes(&self) -> &[DVec2] {
         &self.nodes
     }
 
-    /// The edges, with numbers of [`PlaneGraph::nodes`]. The pieces of a cut edge have its order,
-    /// and radii between its own.
+    /// The edges; their node numbers refer to [`PlaneGraph::nodes`]. The pieces of a cut edge have
+    /// its order, and radii between its own.
     pub fn edges(&self) -> &[VeinEdge] {
         &self.edges
     }
 
-    /// Pairs of edges that crossed. Each crossing closes one more loop than the network's own, if
-    /// it does not join what was apart.
+    /// Number of pairs of edges that crossed. Each crossing adds one loop to those of the network,
+    /// unless it joins two components.
     pub fn crossings(&self) -> usize {
         self.crossings
     }
@@ -75,7 +74,7 @@ impl PlaneGraph {
         &self.grid
     }
 
-    /// Distance from `p` to the midline of the nearest vein, mm; none without veins.
+    /// Distance from `p` to the midline of the nearest vein, mm; `None` without veins.
     pub fn distance_to_vein(&self, p: DVec2) -> Option<f64> {
         self.grid.distance(&self.nodes, &self.edges, p)
     }
@@ -118,7 +117,7 @@ fn in_rows(network: &VenationNetwork) -> (Vec<DVec2>, Vec<VeinEdge>) {
     (nodes, edges)
 }
 
-/// Counting sort of edges by the node they come from.
+/// Counting sort of edges by the node from which they come.
 fn by_from(count: usize, edges: &[VeinEdge]) -> Vec<VeinEdge> {
     let mut next = vec![0_u32; count + 1];
     for edge in edges {

@@ -1,10 +1,10 @@
-//! Points by place: a quadtree that grows while veins do.
+//! A quadtree of points that grows with the veins.
 //!
-//! Veins crowd along lines and leave the rest empty, which a regular grid serves badly; a tree
-//! follows them. Points are added one by one and can be removed; cells split when they overflow.
+//! Vein nodes crowd along lines and leave the rest empty. That suits a tree better than a regular
+//! grid. Points are added one by one and can be removed; cells split when they overflow.
 //!
-//! A cell is one number, its place follows from the way to it, and empty cells have no room for
-//! points: the tree of a million points fits into the caches, apart from the points themselves.
+//! A cell is a single number, its place follows from the path to it, and empty cells have no
+//! bucket. So the tree of a million points, without the points themselves, fits into the caches.
 
 use std::ops::ControlFlow;
 
@@ -12,16 +12,16 @@ use glam::DVec2;
 
 use super::probe::{Probe, SLACK, distance_squared};
 
-/// Points a cell holds before it splits.
+/// Greatest number of points in a cell before it splits.
 const CAPACITY: usize = 16;
 
-/// Depth at which cells no longer split: points that near are as good as one.
+/// Depth at which cells no longer split, since points that near count as coincident.
 const MAX_DEPTH: u32 = 40;
 
 /// No bucket.
 const NONE: u32 = u32::MAX;
 
-/// Marks the number of a cell's first child, as against that of its bucket.
+/// Flag that marks a number as that of a cell's first child instead of its bucket.
 const BRANCH: u32 = 1 << 31;
 
 /// The points of a leaf, or some of them.
@@ -60,7 +60,7 @@ impl Bucket {
     }
 }
 
-/// Where a cell of the tree lies.
+/// The square of a cell of the tree.
 #[derive(Clone, Copy, Debug)]
 struct Square {
     centre: DVec2,
@@ -83,7 +83,7 @@ impl Square {
     }
 }
 
-/// A quadtree over a rectangle that holds every point it will ever get.
+/// A quadtree over a rectangle that must hold every point that will be inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct PointTree {
     low: DVec2,
@@ -115,7 +115,7 @@ impl PointTree {
         (self.low, self.high)
     }
 
-    /// Number of the leaf about `p`, its square and its depth.
+    /// Number, square and depth of the leaf that holds `p`.
     fn leaf(&self, p: DVec2) -> (usize, Square, u32) {
         let (mut at, mut square, mut depth) = (0, self.root, 0);
         while let Some(first) = children(self.cells[at]) {
@@ -127,7 +127,7 @@ impl PointTree {
         (at, square, depth)
     }
 
-    /// Adds a point, which must lie in the rectangle: searches rely on it.
+    /// Adds a point, which must lie in the rectangle, since searches rely on that.
     pub(crate) fn insert(&mut self, id: u32, position: DVec2) {
         let (mut at, mut square, mut depth) = self.leaf(position);
         loop {
@@ -140,7 +140,7 @@ impl PointTree {
                     square = square.quarter(quadrant);
                     depth += 1;
                 }
-                // Empty, or so deep that more buckets have to do.
+                // The leaf is empty, or at the greatest depth, where buckets are chained.
                 _ => {
                     self.cells[at] = self.add_bucket(number);
                 }
@@ -157,7 +157,7 @@ impl PointTree {
         number
     }
 
-    /// Turns a leaf with one bucket into a branch; gives the first child.
+    /// Turns a leaf with one bucket into a branch; returns the first child.
     fn split(&mut self, at: usize, square: Square) -> u32 {
         let first = self.cells.len() as u32;
         let number = std::mem::replace(&mut self.cells[at], first | BRANCH);
@@ -176,7 +176,7 @@ impl PointTree {
         first
     }
 
-    /// Takes a point out again. Nothing happens if it is not there.
+    /// Removes a point. Does nothing if it is not in the tree.
     pub(crate) fn remove(&mut self, id: u32, position: DVec2) {
         let (at, ..) = self.leaf(position);
         let mut number = self.cells[at];
@@ -192,13 +192,13 @@ impl PointTree {
         }
     }
 
-    /// Shows the points to `probe`, those about `p` first, as far as it enters their cells.
+    /// Passes to `probe` the points in all cells that it enters, those around `p` first.
     pub(crate) fn visit(&self, p: DVec2, probe: &mut impl Probe) -> ControlFlow<()> {
         self.visit_cell(self.cells[0], self.root, p, probe)
     }
 
-    /// The same for a probe that nothing matters to but between two corners, that of the smaller
-    /// and that of the larger coordinates: starts at the smallest cell that holds all of it.
+    /// The same for a probe that only needs points between the corners `low` and `high`: starts at
+    /// the smallest cell that holds that rectangle.
     fn visit_within(
         &self,
         low: DVec2,
@@ -264,8 +264,8 @@ impl PointTree {
             .is_break()
     }
 
-    /// Whether a point other than number `except` lies as near as this, or nearer, both to `p` and
-    /// to `q`.
+    /// Whether a point other than number `except` lies within a distance, given by its square, of
+    /// both `p` and `q`.
     pub(crate) fn any_near_both(&self, p: DVec2, q: DVec2, squared: f64, except: u32) -> bool {
         let mut lune = Lune {
             ends: [p, q],
@@ -278,12 +278,12 @@ impl PointTree {
     }
 }
 
-/// The first of four children of a cell that is a branch.
+/// The first of the four children if the cell is a branch.
 fn children(cell: u32) -> Option<u32> {
     (cell & BRANCH != 0 && cell != NONE).then_some(cell & !BRANCH)
 }
 
-/// Looks for any point in a circle.
+/// Searches any point in a circle.
 struct Within {
     p: DVec2,
     radius_squared: f64,
@@ -303,7 +303,7 @@ impl Probe for Within {
     }
 }
 
-/// Looks for any point in two circles at once.
+/// Searches any point in the intersection of two circles.
 struct Lune {
     ends: [DVec2; 2],
     squared: f64,
@@ -334,7 +334,7 @@ mod tests {
     use super::*;
     use crate::testing::fixed;
 
-    /// Meets every point.
+    /// Collects every point.
     struct All(Vec<u32>);
 
     impl Probe for All {
@@ -378,7 +378,7 @@ mod tests {
             let mut tree = PointTree::new(DVec2::ZERO, DVec2::splat(10.0));
             let mut list: Vec<(u32, DVec2)> = Vec::new();
             for (id, &(px, py)) in points.iter().enumerate() {
-                // Whole numbers now and then, so that points meet cell walls and each other.
+                // Some coordinates are integers, so that points lie on cell borders and coincide.
                 let p = DVec2::new(px, py);
                 let p = if id % 3 == 0 { p.floor() } else { p };
                 tree.insert(id as u32, p);

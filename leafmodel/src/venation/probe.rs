@@ -1,15 +1,16 @@
-//! A question put to points in nested boxes.
+//! A query over points in nested boxes.
 
 use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-/// Something that looks for points, and knows in which boxes there can be none for it.
+/// A query that collects points and can rule out whole boxes.
 pub(crate) trait Probe {
-    /// Whether points between these corners, lower left and upper right, could matter.
+    /// Whether the box between these corners, lower left and upper right, may hold points that
+    /// matter.
     fn enters(&self, low: DVec2, high: DVec2) -> bool;
 
-    /// Takes in a point, by number and place; a break says that nothing more is needed.
+    /// Takes a point, by number and place. A break ends the query.
     fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()>;
 }
 
@@ -18,6 +19,6 @@ pub(crate) fn distance_squared(low: DVec2, high: DVec2, p: DVec2) -> f64 {
     (low - p).max(p - high).max(DVec2::ZERO).length_squared()
 }
 
-/// Squared distances to boxes are compared with this much to spare: a box that is entered in vain
-/// costs little, and a point in one that is not would be missed.
+/// Safety factor on squared distances to boxes. Entering a box in vain costs little, whereas a
+/// point in a skipped box would be missed.
 pub(crate) const SLACK: f64 = 1.0 + 1e-9;

@@ -1,17 +1,17 @@
-//! Which vein nodes are relative neighbours of a source: exact, and without all pairs.
+//! The exact relative neighbours of a source, found without comparing all pairs.
 //!
 //! Node `v` is a relative neighbour of source `s` if and only if every other node `u` satisfies
-//! `‖v − s‖ < max(‖u − s‖, ‖v − u‖)` (Eq. 2). A node that fails is *hidden* by some `u`, and a
-//! [`Horizon`] bounds from above how far from the source, in each direction, nodes are not hidden.
-//! So only nodes before the horizon are candidates. A candidate is a relative neighbour if its
-//! *lune*, the points that are as near as `v` is to `s` or nearer both to `s` and to `v`, holds no
-//! other node, which the tree of nodes tells.
+//! `‖v − s‖ < max(‖u − s‖, ‖v − u‖)` (Eq. 2). A node that fails is *hidden* by some `u`. A
+//! [`Horizon`] bounds, in each direction, the distance up to which nodes are not hidden, so only
+//! nodes before the horizon are candidates. A candidate is a relative neighbour if no other node
+//! lies in its *lune*, the points within the distance `‖v − s‖` of both `s` and `v`. The tree of
+//! nodes answers that.
 //!
-//! - **Always true**: the answer is that of the definition evaluated in floating point on squared
-//!   distances. The horizon only says which nodes can matter, with a margin far above rounding.
-//! - **Time coherence**: nodes that come hide more, and nothing that was hidden appears again. So
-//!   with new nodes only those of them that lie before the horizon are candidates, and a relative
-//!   neighbour remains one unless a new node lies in its lune.
+//! - **Always true**: the result equals that of the definition, evaluated in floating point on
+//!   squared distances. The horizon only selects candidates, with a margin far above rounding.
+//! - **Time coherence**: new nodes can only hide more. So of the new nodes only those before the
+//!   horizon are candidates, and a relative neighbour remains one unless a new node lies in its
+//!   lune.
 
 use std::ops::ControlFlow;
 
@@ -54,21 +54,21 @@ impl RelativeNeighbourhood {
         found
     }
 
-    /// Takes in nodes that have come since, and are in `tree` too.
+    /// Takes in new nodes, which must be in `tree` too.
     pub(crate) fn update(&mut self, fresh: &FreshNodes, tree: &PointTree) {
         let _ = fresh.visit(&mut Update(self));
         self.ascertain(tree);
     }
 
-    /// Number and squared distance of each relative neighbour, in no order to be relied on. The
-    /// nearest node is always one, unless another is at exactly the same distance and near it.
+    /// Number and squared distance of each relative neighbour, in no particular order. The nearest
+    /// node is always among them, unless another node close to it has exactly the same distance.
     pub(crate) fn members(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.neighbours
             .iter()
             .map(|node| (node.id, node.distance_squared))
     }
 
-    /// Leaves those whose lunes are empty.
+    /// Keeps the neighbours whose lunes are empty.
     fn ascertain(&mut self, tree: &PointTree) {
         let source = self.source;
         self.neighbours.retain_mut(|node| {
@@ -101,7 +101,7 @@ impl RelativeNeighbourhood {
     }
 }
 
-/// Looks for nodes before the horizon.
+/// Searches nodes before the horizon.
 struct Search<'a>(&'a mut RelativeNeighbourhood);
 
 impl Probe for Search<'_> {
@@ -120,7 +120,7 @@ impl Probe for Search<'_> {
     }
 }
 
-/// Looks for new nodes before the horizon or in the lunes of neighbours.
+/// Searches new nodes before the horizon or in the lunes of neighbours.
 struct Update<'a>(&'a mut RelativeNeighbourhood);
 
 impl Probe for Update<'_> {
@@ -148,7 +148,7 @@ mod tests {
     use super::*;
     use crate::testing::fixed;
 
-    /// Eq. 2 word by word.
+    /// Eq. 2 as written.
     fn by_definition(source: DVec2, nodes: &[DVec2]) -> Vec<u32> {
         let neighbour = |i: usize| {
             let squared = |p: DVec2, q: DVec2| (p - q).length_squared();

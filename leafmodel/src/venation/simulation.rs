@@ -1,8 +1,8 @@
 //! The loop of section 3.3: the lamina grows, sources appear, veins grow towards them, sources
 //! are used up.
 //!
-//! Within a step everything is decided from the state at the step's beginning and in the order of
-//! numbers, so that neither the order of work nor the number of threads could show.
+//! Within a step all decisions depend on the state at its beginning and follow the order of
+//! numbers. So results depend neither on the order of work nor on the number of threads.
 
 mod rounds;
 
@@ -20,21 +20,21 @@ use super::point_tree::PointTree;
 use super::sources::{Known, Sources};
 use super::veins::{COINCIDENT, Veins};
 
-/// Steps after which a source none of whose nodes can grow is given up, and after which, with
-/// the lamina full-grown and no vein growing, all is over.
+/// Number of steps after which a source is given up if none of its nodes can grow, and after which
+/// the simulation ends if the lamina is full-grown and no vein grows.
 pub(crate) const PATIENCE: u32 = 3;
 
-/// Below this length the sum of unit vectors has no direction worth following.
+/// Below this length the sum of unit vectors is taken to cancel.
 pub(crate) const NO_DIRECTION: f64 = 1e-9;
 
-/// How much farther than the kill distance from all veins, in segments, sources are looked after
-/// together.
+/// Sources can be lone if they are farther from all veins than the kill distance plus this, in
+/// segments.
 const CLEAR: f64 = 1.0;
 
-/// How near to an origin, in segments, veins turn aside at the margin.
+/// Distance from an origin, in segments, within which veins turn aside at the margin.
 pub(crate) const TURNING: f64 = 12.0;
 
-/// The ways next to one that leaves the blade, those that turn least first, up to a right angle.
+/// Directions beside one that leaves the blade, the smallest turns first, up to a right angle.
 pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=6).flat_map(move |k| {
         let (sin, cos) = libm::sincos(f64::from(k) * 15.0_f64.to_radians());
@@ -42,19 +42,19 @@ pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
     })
 }
 
-/// What a driven node came to.
+/// The outcome of a driven node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outcome {
-    /// This child.
+    /// It grew this child.
     Child(u32),
-    /// None: it would fall upon a node that is there, or the pulls cancel.
+    /// No child: it would coincide with an existing node, or the pulls cancel.
     Blocked,
-    /// None: the way there would leave the blade. Another vein may still come, so this is no reason
-    /// to give up.
+    /// No child: the new edge would leave the blade. Another vein may still reach the source, so it
+    /// is not given up for this.
     OffBlade,
 }
 
-/// A venation simulation under way, in the frame of [`super::lamina_clock`].
+/// A running venation simulation, in the frame of [`super::lamina_clock`].
 pub(crate) struct Simulation<'a, I> {
     plan: &'a AuxinPlan,
     pub(crate) lamina: Lamina<'a>,
@@ -65,28 +65,28 @@ pub(crate) struct Simulation<'a, I> {
     pub(crate) veins: Veins,
     sources: Sources<I>,
     source_tree: PointTree,
-    /// How many nodes were there at the start.
+    /// Number of nodes at the start.
     origins: u32,
     /// The step in which the lamina starts to grow; arches are laid out before.
     first_step: u32,
     /// Whether arches are being laid out.
     is_laying_out: bool,
-    /// Nodes that all sources have noticed.
+    /// Number of nodes of which all sources have taken notice.
     noticed: u32,
-    /// Sources that have appeared.
+    /// Number of sources that have appeared.
     pub(crate) sources_born: u32,
-    /// Steps done.
+    /// Number of steps done.
     pub(crate) step: u32,
     idle_steps: u32,
     darts_in_vain: f64,
     pulls: Vec<DVec2>,
     is_driven: Vec<bool>,
-    /// What the driven nodes of this step came to, by node.
+    /// Outcomes of the driven nodes of this step, by node.
     outcomes: Vec<Outcome>,
 }
 
 impl<'a, I: Influence> Simulation<'a, I> {
-    /// Before the first step: nodes where veins start, on a lamina as it is at step 0.
+    /// The state before the first step: the origins, on the lamina of step 0.
     pub(crate) fn new(
         plan: &'a AuxinPlan,
         mut lamina: Lamina<'a>,
@@ -110,7 +110,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         Self::resume(plan, lamina, clock, seed, veins, darts)
     }
 
-    /// Goes on with veins that are there.
+    /// Continues with existing veins.
     pub(crate) fn resume(
         plan: &'a AuxinPlan,
         lamina: Lamina<'a>,
@@ -143,10 +143,10 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// What there is now, at the size that the lamina had in the last step.
+    /// The present state, at the size of the lamina in the last step.
     pub(crate) fn state(&self, ending: Ending) -> Grown {
         let size = self.clock.size(self.age(self.step.saturating_sub(1)));
-        // Marginal growth leaves veins where they are.
+        // Marginal growth does not move veins.
         let (veins, margin) = match self.plan.growth {
             Growth::None | Growth::Anisotropic { .. } => (1.0, 1.0),
             Growth::Marginal { .. } => (1.0, size),
@@ -169,12 +169,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Steps until nothing is left to do, or `look`, called after each step,
-    /// says no.
+    /// Runs steps until nothing is left to do, or until `look`, which is called after each step,
+    /// returns false.
     pub(crate) fn run(&mut self, mut look: impl FnMut(&Self) -> bool) -> Ending {
         let growth = f64::from(self.clock.last_growth_step());
-        // Far beyond what a vein needs to cross the leaf; only a pattern that never settles gets
-        // there.
+        // Far more than a vein needs to cross the leaf; only a pattern that never settles reaches
+        // it.
         let limit = self.step + (growth + 1000.0 + 50.0 * self.plan.final_length) as u32;
         while self.step < limit {
             let grown = self.advance();
@@ -192,7 +192,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
     }
 
     /// Whether no further source can be expected on a full-grown lamina: after growth there are no
-    /// darts, and without growth so many have missed in a row that a free spot is unlikely.
+    /// darts, and without growth so many darts in a row have missed that a free place is unlikely.
     fn is_saturated(&self) -> bool {
         match self.plan.growth {
             Growth::Marginal { .. } | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => true,
@@ -208,7 +208,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// One step; gives the number of veins that grew.
+    /// Does one step; returns the number of veins that grew.
     pub(crate) fn advance(&mut self) -> usize {
         let age = self.age(self.step);
         let stage = self.clock.stage(age);
@@ -251,7 +251,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.noticed = self.veins.count();
     }
 
-    /// Lets every source take in the nodes since the last time.
+    /// Lets every source take in the nodes added since the last call.
     fn notice(&mut self, unit: f64) {
         let near = self.nearness(unit);
         let fresh = FreshNodes::new(&self.veins.positions, self.noticed);
@@ -265,14 +265,14 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.noticed = self.veins.count();
     }
 
-    /// How far from all veins sources may be lone, if any may: far enough not to be used up in this
-    /// step.
+    /// Distance from all veins from which sources may be lone, if any may: they must not be used up
+    /// in this step.
     fn nearness(&self, unit: f64) -> Option<f64> {
         let may_be = self.lamina.is_flat() && !self.lamina.moves();
         may_be.then_some((self.plan.kill_distance + CLEAR) * unit)
     }
 
-    /// New sources, where darts hit the blade far enough from sources and veins.
+    /// Adds sources where darts hit the blade far enough from sources and veins.
     fn add_sources(&mut self, age: u32, unit: f64) {
         let clear_of_margin = self.clearance(age);
         let near = self.nearness(unit);
@@ -320,7 +320,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.sources.push(id, place, start, near, &surroundings);
     }
 
-    /// Steps for which the lamina has grown at `step`.
+    /// Number of steps for which the lamina has grown at `step`.
     fn age(&self, step: u32) -> u32 {
         if self.is_laying_out {
             0
@@ -329,7 +329,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// How far sources of this step keep from the margin, in segments of the full-grown leaf.
+    /// Least distance of this step's sources from the margin, in segments of the full-grown leaf.
     fn clearance(&self, age: u32) -> f64 {
         match self.plan.margin_clearance {
             Some(rule) if self.clock.size(age) < rule.until => {
@@ -339,7 +339,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Adds up, for each driven node, the unit vectors to its sources (Eq. 1); gives the driven
+    /// Adds up, for each driven node, the unit vectors to its sources (Eq. 1); returns the driven
     /// nodes by number.
     fn gather_pulls(&mut self) -> Vec<u32> {
         let count = self.veins.positions.len();
@@ -364,7 +364,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         driven
     }
 
-    /// Places a child for each driven node, where there is room, and notes what came of each node.
+    /// Places a child for each driven node where possible, and records the outcome.
     fn grow_veins(&mut self, driven: &[u32], unit: f64) {
         self.outcomes
             .resize(self.veins.positions.len(), Outcome::Blocked);
@@ -404,9 +404,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
         Outcome::Child(id)
     }
 
-    /// Whether a vein's tip that would leave the blade turns aside: only as near to where the veins
-    /// come in, for the base of a blade whose halves hang down beside the petiole lies in a notch,
-    /// and a midrib drawn to the mean of both would end there.
+    /// Whether a vein's tip that would leave the blade turns aside. It does so only near an origin:
+    /// the base of a blade whose halves hang down beside the petiole lies in a notch, and a midrib
+    /// drawn towards the mean of both halves would end there.
     fn turns(&self, node: u32, unit: f64) -> bool {
         let from = self.veins.positions[node as usize];
         let origins = &self.veins.positions[..self.origins as usize];
@@ -414,8 +414,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
         self.veins.is_tip(node) && origins.iter().any(near)
     }
 
-    /// Hands tags on to children, and counts the steps in which a source moved nothing; gives the
-    /// number of children.
+    /// Passes tags on to children and counts the steps in which no node of a source could grow;
+    /// returns the number of children.
     fn tell_sources(&mut self, driven: &[u32]) -> usize {
         let outcomes = &self.outcomes;
         let outcome_of = |node: u32| outcomes[node as usize];

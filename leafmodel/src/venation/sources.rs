@@ -1,8 +1,7 @@
-//! The auxin sources that are there, in the order of their birth.
+//! The present auxin sources, in the order of their birth.
 //!
-//! A source is either *known*, with a relation to the veins of its own ([`Influence`]), or lone
-//! ([`super::lone`]). What each step reads of all of them lies side by side in memory, apart from
-//! the rest.
+//! A source is either *known*, with its own [`Influence`], or lone ([`super::lone`]). The data that
+//! each step reads of all sources are stored contiguously, apart from the rest.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -11,23 +10,23 @@ use super::fresh_nodes::FreshNodes;
 use super::influence::{Influence, Surroundings};
 use super::lone::{Lone, LoneSources};
 
-/// In place of a lone source's basin: it is known.
+/// Stored instead of a basin's number: the source is known.
 const KNOWN: u32 = u32::MAX;
 
-/// The same: it is gone.
+/// Stored instead of a basin's number: the source is gone.
 const GONE: u32 = u32::MAX - 1;
 
-/// Known sources from which on several threads pay.
+/// Number of known sources from which several threads are used.
 const MANY: usize = 512;
 
-/// A known source is looked at every so many steps, to see whether it is lone.
+/// Number of steps between two tests whether a known source has become lone.
 const RECONSIDERED: u32 = 16;
 
-/// A source with a relation of its own.
+/// A source with its own influence.
 pub(crate) struct Known<I> {
     /// Its place in the lists.
     pub(crate) slot: u32,
-    /// What it drives.
+    /// Its influence on the veins.
     pub(crate) influence: I,
 }
 
@@ -36,12 +35,12 @@ pub(crate) struct Sources<I> {
     places: Vec<DVec2>,
     /// The basin of a lone source, or [`KNOWN`], or [`GONE`].
     basins: Vec<u32>,
-    /// Steps in a row in which none of its nodes could grow.
+    /// For each source the number of consecutive steps in which none of its nodes could grow.
     blocked_steps: Vec<u32>,
     ids: Vec<u32>,
-    /// Where its tissue started.
+    /// For each source the place where its tissue started.
     starts: Vec<DVec2>,
-    /// The known ones by slot.
+    /// The known sources, by slot.
     pub(crate) known: Vec<Known<I>>,
     lone: LoneSources,
     gone: usize,
@@ -50,7 +49,7 @@ pub(crate) struct Sources<I> {
 }
 
 impl<I: Influence> Sources<I> {
-    /// None.
+    /// An empty set of sources.
     pub(crate) fn new() -> Self {
         Self {
             places: Vec::new(),
@@ -70,8 +69,8 @@ impl<I: Influence> Sources<I> {
         self.gone == self.basins.len()
     }
 
-    /// Adds source number `id`, whose tissue started at `start`. Sources farther than `near` from
-    /// all veins may be lone.
+    /// Adds source number `id`, whose tissue started at `start`. It may be lone if it is farther
+    /// than `near` from all veins.
     pub(crate) fn push(
         &mut self,
         id: u32,
@@ -100,15 +99,14 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Fits the lone sources' cells to sources that are born `spacing` apart.
+    /// Adapts the cells of lone sources to sources that are born `spacing` apart.
     pub(crate) fn fit_cells(&mut self, spacing: f64) {
         let basins = &mut self.basins;
         self.lone
             .fit_cells(spacing, |lone, basin| basins[lone.slot as usize] = basin);
     }
 
-    /// Lets every source take in new nodes; those that are farther than `near` from them may be
-    /// lone.
+    /// Lets every source take in new nodes; sources farther than `near` from them may be lone.
     pub(crate) fn notice(
         &mut self,
         fresh: &FreshNodes,
@@ -145,7 +143,7 @@ impl<I: Influence> Sources<I> {
         self.known.sort_unstable_by_key(|known| known.slot);
     }
 
-    /// Finds those of the known sources that are lone; not all of them in every step.
+    /// Finds known sources that have become lone; each is tested only every few steps.
     pub(crate) fn reconsider(&mut self, step: u32, near: f64, surroundings: &Surroundings) {
         let Self {
             known,
@@ -165,8 +163,8 @@ impl<I: Influence> Sources<I> {
         });
     }
 
-    /// Moves all of them, none of which is lone, to where `now_at` has the tissue that started at a
-    /// place.
+    /// Moves all sources, none of which may be lone, with their tissue; `now_at` maps starting
+    /// places to present ones.
     pub(crate) fn carry(
         &mut self,
         now_at: impl Fn(DVec2) -> DVec2,
@@ -199,8 +197,8 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Counts the steps in which a source moved nothing: `all_blocked` tells it of a known one,
-    /// `is_blocked` of a node.
+    /// Counts the steps in which no node of a source could grow: `all_blocked` says so for a known
+    /// source, `is_blocked` for a node.
     pub(crate) fn count_blocked(
         &mut self,
         mut all_blocked: impl FnMut(&mut I) -> bool,
@@ -231,8 +229,8 @@ impl<I: Influence> Sources<I> {
         self.some_are_blocked = some;
     }
 
-    /// Removes the lone sources that have moved nothing for so many steps; calls `gone` with number
-    /// and place of each.
+    /// Removes the lone sources whose node could not grow for `patience` steps; calls `gone` with
+    /// number and place of each.
     pub(crate) fn give_up_lone(&mut self, patience: u32, mut gone: impl FnMut(u32, DVec2)) {
         if !self.some_are_blocked {
             return;
@@ -251,7 +249,7 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Removes the known sources for which `stays` says no.
+    /// Removes the known sources for which `stays` is false.
     pub(crate) fn retain_known(
         &mut self,
         mut stays: impl FnMut(&mut Known<I>, u32, DVec2, u32) -> bool,
@@ -279,7 +277,7 @@ impl<I: Influence> Sources<I> {
         }
     }
 
-    /// Leaves no room to those that are gone.
+    /// Compacts the lists.
     fn close_ranks(&mut self) {
         let mut next = 0;
         let is_there = |basin: &u32| *basin != GONE;
@@ -304,7 +302,7 @@ impl<I: Influence> Sources<I> {
         self.gone = 0;
     }
 
-    /// Removes all; calls `gone` with number and place of each.
+    /// Removes all sources; calls `gone` with number and place of each.
     pub(crate) fn drain(&mut self, mut gone: impl FnMut(u32, DVec2)) {
         for (slot, _) in self
             .basins
@@ -318,7 +316,7 @@ impl<I: Influence> Sources<I> {
     }
 }
 
-/// Leaves those of a list whose sources are there.
+/// Keeps the entries of a list whose sources are not gone.
 fn keep<T>(list: &mut Vec<T>, basins: &[u32]) {
     let mut slot = 0;
     list.retain(|_| {

@@ -45,7 +45,7 @@ pub(crate) fn rectangle(low: (f64, f64), high: (f64, f64)) -> Outline {
     .expect("a rectangle is a margin")
 }
 
-/// A closed poplar of some thousands of nodes, 40 mm long, and its margin.
+/// A poplar leaf with a closed pattern of some thousands of nodes, 40 mm long, and its margin.
 pub(crate) fn poplar(seed: u64) -> (Outline, VenationNetwork) {
     let outline = Outline::new(
         (0..96)

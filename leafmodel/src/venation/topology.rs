@@ -1,6 +1,6 @@
-//! Who leads to whom in a network of directed edges.
+//! Adjacency in a network of directed edges.
 
-/// Edges out of and into each node, as numbers of edges.
+/// The numbers of the edges that leave and enter each node.
 pub(crate) struct Topology<'a> {
     edges: &'a [[u32; 2]],
     out_starts: Vec<u32>,
@@ -48,11 +48,11 @@ impl<'a> Topology<'a> {
         self.out_starts.len() - 1
     }
 
-    /// All nodes so that each comes after those that lead to it.
+    /// All nodes, each after those that lead to it.
     ///
     /// # Errors
     ///
-    /// The number of a node that cannot be placed, because edges run in a circle.
+    /// The number of a node that cannot be placed because the edges contain a cycle.
     pub(crate) fn base_to_tip(&self) -> Result<Vec<u32>, usize> {
         let mut open: Vec<u32> = (0..self.nodes() as u32)
             .map(|node| self.entering(node).len() as u32)

@@ -1,13 +1,15 @@
-//! Which vein nodes are Urquhart neighbours of a source: the approximation of section 5.2.
+//! The Urquhart neighbours of a source: the approximation of section 5.2.
 //!
-//! Node `v` is one if it is a Delaunay neighbour of the source in the set of all nodes and the
-//! source, and no other Delaunay neighbour `u` has `‖v − s‖ ≥ max(‖u − s‖, ‖v − u‖)`. The relative
-//! neighbours are among them; a node that is no Delaunay neighbour can exclude more (Fig. 8).
+//! Node `v` is an Urquhart neighbour if it is a Delaunay neighbour of the source `s` in the set of
+//! all nodes and the source, and no other Delaunay neighbour `u` has
+//! `‖v − s‖ ≥ max(‖u − s‖, ‖v − u‖)`. All relative neighbours are Urquhart neighbours. Not all
+//! Urquhart neighbours are relative ones, since a node that is not a Delaunay neighbour may exclude
+//! them (Fig. 8).
 //!
 //! The Delaunay neighbours are those whose bisectors bound the source's Voronoi cell. New nodes
 //! only shrink the cell, so each cuts it in turn. The cell starts as a square much larger than the
-//! lamina: neighbours whose bisectors bound the cell only outside of it are far apart on the hull
-//! of the veins, and are not counted.
+//! lamina: neighbours whose bisectors bound the cell only outside that square are far apart on the
+//! hull of the veins and are ignored.
 
 use std::ops::ControlFlow;
 
@@ -16,10 +18,11 @@ use glam::DVec2;
 use super::point_tree::PointTree;
 use super::probe::{Probe, SLACK, distance_squared};
 
-/// Half the side of the square in which cells lie, in sizes of the lamina.
+/// Half the side of that square over the size of the lamina.
 pub(crate) const SURROUNDINGS: f64 = 64.0;
 
-/// A side of the cell: the node behind it, if any, and the corner at its counter-clockwise end.
+/// A side of the cell: the node whose bisector it is, if any, and the corner at its
+/// counter-clockwise end.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     node: Option<(u32, DVec2)>,
@@ -62,7 +65,7 @@ impl UrquhartNeighbourhood {
         found
     }
 
-    /// Takes in one new node; [`Self::choose`] is due after the last.
+    /// Takes in one new node. [`Self::choose`] must be called after the last one.
     fn cut(&mut self, id: u32, position: DVec2) {
         let offset = position - self.source;
         if offset.length_squared() > self.reach_squared() {
@@ -81,8 +84,8 @@ impl UrquhartNeighbourhood {
         for side in &self.sides {
             let at = beyond(side.corner);
             let crossing = || before.0 + (side.corner - before.0) * (before.1 / (before.1 - at));
-            // Going out, the side is cut short; coming in, the new side ends where the old one
-            // begins.
+            // Where the old boundary crosses the bisector outwards, its side is cut short; where it
+            // comes back, the new side ends.
             match (before.1 > 0.0, at > 0.0) {
                 (false, false) => sides.push(*side),
                 (false, true) => sides.push(Side {
@@ -100,7 +103,7 @@ impl UrquhartNeighbourhood {
             }
             before = (side.corner, at);
         }
-        // A node on the source leaves nothing to anyone else.
+        // A node at the place of the source takes the whole cell.
         if half == 0.0 {
             sides = vec![Side {
                 node: Some((id, offset)),
@@ -126,11 +129,11 @@ impl UrquhartNeighbourhood {
             return;
         }
         let mut delaunay: Vec<(u32, DVec2)> = self.sides.iter().filter_map(|s| s.node).collect();
-        // By distance: only nearer ones exclude, and mostly the nearest.
+        // Sorted by distance: only nearer nodes can exclude one, and mostly the nearest does.
         let key = |&(id, offset): &(u32, DVec2)| (offset.length_squared().to_bits(), id);
         delaunay.sort_unstable_by_key(key);
         delaunay.dedup_by_key(|&mut (id, _)| id);
-        // Distances as everywhere: squares of differences of positions.
+        // Distances are computed as in the other modules: squares of differences of positions.
         let excluded = |v: (u32, DVec2)| {
             let squared = v.1.length_squared();
             delaunay
@@ -151,7 +154,7 @@ impl UrquhartNeighbourhood {
     }
 }
 
-/// Meets nodes near enough to cut the cell.
+/// Takes the nodes near enough to cut the cell.
 impl Probe for UrquhartNeighbourhood {
     fn enters(&self, low: DVec2, high: DVec2) -> bool {
         let (low, high) = (low - self.source, high - self.source);
@@ -225,7 +228,7 @@ mod tests {
         let (foot, along) = (offset * 0.5, offset.perp().normalize());
         let far = SURROUNDINGS * size;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        // Keeps where `normal · (foot + t along) ≤ limit`.
+        // Keeps the part where `normal · (foot + t along) ≤ limit`.
         let mut clip = |normal: DVec2, limit: f64| {
             let (slope, rest) = (normal.dot(along), limit - normal.dot(foot));
             if slope > 0.0 {

@@ -1,4 +1,4 @@
-//! The network while it grows: nodes, edges, and the index to find nodes by place.
+//! The growing network: nodes, edges, and an index of nodes by place.
 
 use glam::DVec2;
 
@@ -10,25 +10,25 @@ pub(crate) use crate::shape::cubic::catmull_rom;
 /// Stands for "no node".
 pub(crate) const NO_NODE: u32 = u32::MAX;
 
-/// Children nearer to a node than this, in segments, add nothing.
+/// Children nearer to a node than this, in segments, are not placed.
 pub(crate) const COINCIDENT: f64 = 0.05;
 
 /// Edges longer than this, in segments of the current step, are subdivided.
 const LONGEST_EDGE: f64 = 1.5;
 
-/// Veins farther from a used-up source than this, in segments, end in the open instead of being
-/// welded there: with a large kill distance veins do not meet (Fig. 9a–c).
+/// Veins farther from a used-up source than this, in segments, end freely instead of being joined
+/// there: with a large kill distance veins do not meet (Fig. 9a–c).
 const WELDING_REACH: f64 = 2.0;
 
 /// Nodes and edges of a growing network; edges run from older to younger tissue.
 pub(crate) struct Veins {
-    /// Where each node is.
+    /// Place of each node.
     pub(crate) positions: Vec<DVec2>,
     /// Where the tissue of each node started, if tissue moves.
     starts: Vec<DVec2>,
     /// Step at which each node came into being.
     pub(crate) births: Vec<u32>,
-    /// From, to.
+    /// The nodes at the start and the end of each edge.
     pub(crate) edges: Vec<[u32; 2]>,
     /// All nodes by place.
     pub(crate) tree: PointTree,
@@ -48,7 +48,7 @@ fn length_queue() -> LengthQueue {
 }
 
 impl Veins {
-    /// Whether no vein leads on from a node.
+    /// Whether a node is a tip.
     pub(crate) fn is_tip(&self, node: u32) -> bool {
         self.first_children[node as usize] == NO_NODE
     }
@@ -68,12 +68,12 @@ impl Veins {
         }
     }
 
-    /// How many nodes there are; also the number of the next one.
+    /// Number of nodes, which is also the number of the next one.
     pub(crate) fn count(&self) -> u32 {
         self.positions.len() as u32
     }
 
-    /// Adds a node that nothing leads to.
+    /// Adds a node without an edge to it.
     pub(crate) fn add_node(&mut self, position: DVec2, step: u32, lamina: &Lamina) -> u32 {
         let node = self.count();
         self.positions.push(position);
@@ -100,7 +100,7 @@ impl Veins {
         self.note_length(edge, lamina);
     }
 
-    /// Growth has ended.
+    /// Called when growth has ended: edges stretch no more.
     pub(crate) fn stop_stretching(&mut self) {
         self.stretching = false;
         self.by_length = length_queue();
@@ -131,29 +131,29 @@ impl Veins {
         }
     }
 
-    /// Cuts edges that have grown longer than one and a half segments, the longest first (among
-    /// equals, the oldest).
+    /// Subdivides edges longer than one and a half segments, the longest first and among equals the
+    /// oldest.
     ///
-    /// Growth stretches old segments many times over; left alone, their gaps would let sources and
-    /// second veins appear on top of them. New nodes lie on a Catmull–Rom curve through the ends
-    /// and the nodes before and after, so that bends stay round.
+    /// Growth stretches old segments many times over. Without new nodes, sources and second veins
+    /// would appear on top of them. New nodes lie on a Catmull–Rom curve through the ends of the
+    /// edge and the nodes before and after it, so that bends stay round.
     pub(crate) fn subdivide(&mut self, unit: f64, lamina: &Lamina, step: u32) {
         let longest = LONGEST_EDGE * unit;
         while let Some((edge, squared)) = self.by_length.pop_above(longest * longest) {
-            // At least two: the root may round down to the limit itself.
+            // At least two, since the root may round down to the limit itself.
             let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
             self.cut(edge, pieces, lamina, step);
         }
     }
 
-    /// Cuts one edge into `pieces`. An edge that leaves the blade stays in one.
+    /// Cuts one edge into `pieces`. An edge whose pieces would leave the blade stays whole.
     fn cut(&mut self, edge: u32, pieces: u32, lamina: &Lamina, step: u32) {
         let [from, to] = self.edges[edge as usize];
         let at = |node: u32| self.positions[node as usize];
         let (p1, p2) = (at(from), at(to));
         let before = self.parents[from as usize];
         let after = self.first_children[to as usize];
-        // At an end, the curve goes on as it came.
+        // At the end of a vein, the missing neighbour is the reflection of the edge's other end.
         let neighbour = |node: u32, mirrored: DVec2, of: DVec2| {
             if node == NO_NODE || at(node) == of {
                 mirrored
@@ -163,7 +163,7 @@ impl Veins {
         };
         let p0 = neighbour(before, 2.0 * p1 - p2, p1);
         let p3 = neighbour(after, 2.0 * p2 - p1, p2);
-        // Where the curve would leave the blade, the straight edge does not.
+        // If the curve would leave the blade, the straight edge is used.
         let stays = |places: &[DVec2]| {
             let mut before = p1;
             places.iter().chain([&p2]).all(|&p| {
@@ -203,8 +203,8 @@ impl Veins {
         self.note_length(tail_edge, lamina);
     }
 
-    /// Joins veins that have arrived at a source by a junction node there (anastomosis). Fewer than
-    /// two veins near enough leave the network as it is.
+    /// Joins veins that have arrived at a source by a junction node there (anastomosis). With fewer
+    /// than two veins near enough the network is unchanged.
     pub(crate) fn weld(
         &mut self,
         source: DVec2,
@@ -223,7 +223,7 @@ impl Veins {
         if ends.len() < 2 {
             return;
         }
-        // A vein may end on the source itself; then they meet midway instead.
+        // If a vein ends at the source itself, they meet midway instead.
         let sum: DVec2 = ends.iter().map(|&v| self.positions[v as usize]).sum();
         let middle = sum / ends.len() as f64;
         let free = |p: &DVec2| lamina.contains(*p) && !self.tree.any_within(*p, COINCIDENT * unit);
@@ -259,7 +259,7 @@ mod tests {
         Lamina::new(&AuxinPlan::default(), blade, None)
     }
 
-    /// A chain of nodes two apart, as tissue stretched to twice its size leaves it.
+    /// A chain of nodes two segments apart, as after tissue has doubled in size.
     fn chain(places: &[(f64, f64)]) -> Veins {
         let blade = blade();
         let (low, high) = blade.bounds();

@@ -1,27 +1,27 @@
-//! How wide veins are: Murray's law from the tips to the base (sections 3.5 and 4).
+//! Widths of veins by Murray's law, from the tips to the base (sections 3.5 and 4).
 //!
 //! In units of a veinlet's `rⁿ`, a vein's `rⁿ` is a *flow* that adds up towards the base:
-//! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, what lies
-//! beyond it is divided among them equally ("all child veins entering a vein node contribute
-//! equally to the width of the parent nodes"), so that loops neither create nor swallow flow. No
-//! vein is finer than a veinlet: a share below 1 counts as 1.
+//! `r_parentⁿ = Σ r_childⁿ`. A tip carries 1. Where several veins enter a junction, the flow beyond
+//! it is divided among them equally ("all child veins entering a vein node contribute equally to
+//! the width of the parent nodes"), so that loops neither create nor destroy flow. No vein is finer
+//! than a veinlet: a share below 1 counts as 1.
 //!
 //! The paper walks from the veinlets to the base; with loops that is well defined since edges run
-//! from older to younger tissue: every node is dealt with after all those it leads to.
+//! from older to younger tissue: every node is processed after all nodes to which it leads.
 
 use super::topology::Topology;
 
 /// Flows in units of a veinlet's `rⁿ`, all ≥ 1.
 pub(crate) struct Flows {
-    /// What enters each node.
+    /// Flow into each node.
     pub(crate) nodes: Vec<f64>,
-    /// What each edge brings to the node it leads to.
+    /// Flow that each edge carries to the node at its end.
     pub(crate) edges: Vec<f64>,
 }
 
-/// Adds up flows over the whole network, given its nodes from base to tip; `unseen` is what a node
-/// bears besides ("we additionally increase the width of primary and secondary veins at each node",
-/// section 3.5).
+/// Adds up flows over the whole network, given its nodes from base to tip. `unseen` is the
+/// additional flow of a node ("we additionally increase the width of primary and secondary veins at
+/// each node", section 3.5).
 pub(crate) fn flows(
     topology: &Topology,
     base_to_tip: &[u32],
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_loop_divides_what_lies_beyond_it_equally() {
-        // 0 forks to 1 and 2, which meet in 3; beyond are six tips.
+        // Node 0 forks to 1 and 2, which meet in 3; beyond lie six tips.
         let mut edges = vec![[0, 1], [0, 2], [1, 3], [2, 3]];
         edges.extend((4..10).map(|tip| [3, tip]));
         let flows = flows_of(10, &edges);

@@ -8,7 +8,7 @@ use crate::bsdf::ggx::Ggx;
 /// Reflection and refraction at a boundary; the medium lies on the side −z.
 ///
 /// Rough boundaries follow Walter et al. 2007 with the GGX distribution and their separable Smith
-/// shadowing (what is masked from one side says little about the other side of the surface).
+/// shadowing (masking on one side says little about shadowing on the other side of the surface).
 /// Radiance that enters the medium is compressed by the solid angle, so `f` is not reciprocal:
 /// `f(wo, wi) η_i² = f(wi, wo) η_o²`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Dielectric {
     pub alpha: f32,
 }
 
-/// A drawn direction; the weight is the same for all wavelengths.
+/// A sampled direction; the weight is the same for all wavelengths.
 #[derive(Clone, Copy, Debug)]
 pub struct DielectricSample {
     /// Direction of the light, local.
@@ -50,7 +50,8 @@ impl Dielectric {
         if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
     }
 
-    /// Micronormal on the side of +z that sends `wi` to `wo`, both seen with `wo` above.
+    /// Microfacet normal on the side of +z that sends `wi` to `wo`; both are flipped so that `wo`
+    /// is above.
     fn half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<Vec3> {
         let sum = if wi.z > 0.0 { wo + wi } else { wo + wi * eta };
         let h = sum.try_normalize()?;
@@ -100,7 +101,7 @@ impl Dielectric {
         (1.0 - reflected) * visible * eta * eta * wi.dot(h).abs() / (denominator * denominator)
     }
 
-    /// Draws reflection or refraction by their Fresnel shares.
+    /// Samples reflection or refraction in proportion to their Fresnel shares.
     pub fn sample(self, wo: Vec3, lobe: f32, u: Vec2) -> Option<DielectricSample> {
         if wo.z == 0.0 {
             return None;

@@ -1,4 +1,4 @@
-//! How much a rough coat reflects, by direction: tabulated once a material.
+//! The directional albedo of a rough coat, tabulated once for each material.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -25,7 +25,7 @@ const AZIMUTH_NODES: usize = 17;
 const LATTICE: (u32, u32) = (6765, 4181);
 
 impl DirectionalAlbedo {
-    /// Of a GGX coat with refractive index `eta`.
+    /// The directional albedo of a GGX coat with refractive index `eta`.
     pub fn new(ggx: Ggx, eta: f32) -> Self {
         if eta == 1.0 {
             return Self {
@@ -48,7 +48,7 @@ impl DirectionalAlbedo {
         Self { values, mean }
     }
 
-    /// `E(ω)`; only the direction's line counts, not its side.
+    /// `E(ω)`, the same for ω and −ω.
     pub fn at(&self, w: Vec3) -> f32 {
         let place = w.z.abs().min(1.0).sqrt() * (MU_NODES - 1) as f32;
         let below = (place as usize).min(MU_NODES - 2);
@@ -164,8 +164,9 @@ mod tests {
 
     #[test]
     fn diffuse_light_meets_the_published_external_reflectance() {
-        // Diffuse-incidence reflectance of a smooth boundary, n = 1.5: 0.0918. Even a coat this
-        // smooth shadows itself at grazing angles, where a smooth one would reflect everything.
+        // Diffuse-incidence reflectance of a smooth boundary, n = 1.5: 0.0918. Even a nearly smooth
+        // coat shadows itself at grazing angles, where a perfectly smooth one would reflect
+        // everything.
         let coat = DirectionalAlbedo::new(
             Ggx {
                 alpha_x: 0.02,

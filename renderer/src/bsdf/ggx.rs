@@ -81,7 +81,7 @@ mod tests {
         let (rings, spokes) = (2000, 256);
         let mut sum = 0.0;
         for i in 0..rings {
-            // Nodes crowd around the pole, where a sharp lobe lives.
+            // Nodes are dense around the pole, where a sharp lobe lies.
             let x = (i as f32 + 0.5) / rings as f32;
             let theta = 0.5 * PI * x * x;
             let weight = 0.5 * PI * 2.0 * x / rings as f32 * theta.sin();

@@ -1,6 +1,6 @@
 //! The leaf: two faces with rough coats over a tissue with two reflectances and one transmittance.
 //!
-//! `docs/src/theory/leaf-bsdf.md` has the model; the letters here are its letters.
+//! `docs/src/theory/leaf-bsdf.md` describes the model; the symbols are the same.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -13,7 +13,7 @@ use crate::bsdf::{BsdfSample, Scattered};
 use crate::sampling::warp;
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
-/// The rough dielectric coat of one face, with what is tabulated about it.
+/// The rough dielectric coat of one face, with its tables.
 #[derive(Clone, Debug)]
 pub struct Coat {
     ggx: Ggx,
@@ -51,13 +51,13 @@ impl Coat {
         }
     }
 
-    /// What the coat's lobe reflects, by direction.
+    /// The directional albedo of the coat's lobe.
     pub fn albedo(&self) -> &DirectionalAlbedo {
         &self.albedo
     }
 
-    /// The lobe and the density of drawing it from `wo`, whose Λ is `lambda`; for two directions on
-    /// the side +z.
+    /// The lobe's value and its sampling density from `wo`, whose Λ is `lambda`; for two directions
+    /// on the side +z.
     #[inline]
     fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
         let Some(h) = (wo + wi).try_normalize() else {
@@ -75,7 +75,7 @@ impl Coat {
     }
 }
 
-/// What the tissue does with light that has passed the coats.
+/// Reflectances and transmittances of the tissue for light that has passed the coats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tissue<const N: usize> {
     /// `r` of the adaxial and the abaxial face.
@@ -114,8 +114,8 @@ pub struct LeafBsdf<'a, const N: usize> {
     tissue: Tissue<N>,
 }
 
-/// A leaf at one point, seen from one direction. Holds what does not depend on the direction of the
-/// light.
+/// A leaf at one point, seen from one direction, with everything that does not depend on the
+/// direction of the light.
 #[derive(Clone, Debug)]
 pub struct LeafView<'a, const N: usize> {
     /// Coats of the side of the view, and of the other.
@@ -123,8 +123,8 @@ pub struct LeafView<'a, const N: usize> {
     wo: Vec3,
     /// Λ of the coat for the view.
     lambda: f32,
-    /// `f` of both kinds of diffuse light, but for the share that passes the coat on the side of
-    /// `wi`.
+    /// `f` of reflected and of transmitted diffuse light, without the factor for the coat on the
+    /// side of `wi`.
     reflecting: Lanes<N>,
     through: Lanes<N>,
     /// Probabilities of the coat, of tissue reflection and of transmission.
@@ -136,8 +136,8 @@ fn above(w: Vec3) -> Vec3 {
 }
 
 impl<const N: usize> Tissue<N> {
-    /// From the leaf's reflectance `R` and transmittance `T` at normal incidence on the adaxial
-    /// face, and the abaxial over adaxial reflectance `ratio`.
+    /// The tissue of a leaf, from its reflectance `R` and transmittance `T` at normal incidence on
+    /// the adaxial face and the ratio `ratio` of abaxial to adaxial reflectance.
     pub fn new(
         coats: &[Coat; 2],
         reflectance: Lanes<N>,
@@ -186,7 +186,7 @@ impl<const N: usize> Tissue<N> {
 }
 
 impl Tissue<1> {
-    /// Tabulates what is the same everywhere, at every wavelength of a grid.
+    /// Tabulates a uniform leaf at every wavelength of a grid.
     pub fn table(grid: &WavelengthGrid, at: impl Fn(&Wavelengths<1>) -> Self) -> Table {
         Table::new(grid, |nm| {
             let lanes = at(&Wavelengths::new([nm])).to_lanes();
@@ -196,7 +196,7 @@ impl Tissue<1> {
 }
 
 impl<'a, const N: usize> LeafBsdf<'a, N> {
-    /// Tissue under an adaxial and an abaxial coat, for which it was made.
+    /// Tissue under the adaxial and the abaxial coat for which it was made.
     #[inline]
     pub fn new(coats: &'a [Coat; 2], tissue: Tissue<N>) -> Self {
         Self { coats, tissue }
@@ -219,7 +219,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         let transmitted = passed * transmittance.mean();
         let total = albedo + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
-        // c(A, B) serves both ways.
+        // c(A, B) is the same in both directions.
         let through = self.tissue.transmittance[0] * (1.0 / self.coats[1].passed_mean());
         Some(LeafView {
             coats,
@@ -246,7 +246,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
         self.seen_from(wo).map_or(0.0, |view| view.scatter(wi).pdf)
     }
 
-    /// Draws a direction in proportion to what each lobe scatters.
+    /// Samples a direction; lobes are chosen in proportion to the light that they scatter.
     pub fn sample(&self, wo: Vec3, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         self.seen_from(wo)?.sample(lobe, u)
     }
@@ -262,7 +262,7 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
 }
 
 impl<const N: usize> LeafView<'_, N> {
-    /// What light from `wi` gives, and how likely it is drawn.
+    /// The BSDF's value for light from `wi`, and the density with which `wi` is sampled.
     #[inline]
     pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
         if wi.z == 0.0 {
@@ -291,7 +291,7 @@ impl<const N: usize> LeafView<'_, N> {
         }
     }
 
-    /// Draws a direction in proportion to what each lobe scatters.
+    /// Samples a direction; lobes are chosen in proportion to the light that they scatter.
     #[inline]
     pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let [coat, reflected, transmitted] = self.lobes;

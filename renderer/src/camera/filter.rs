@@ -1,15 +1,15 @@
-//! Where in and around a pixel samples fall: the reconstruction filter, by importance sampling.
+//! The reconstruction filter, by importance sampling of the offset of samples within a pixel.
 
 use glam::Vec2;
 
 use crate::sampling::distribution::Piecewise1d;
 
-/// A separable filter whose samples all weigh the same, so that pixels stay independent of each
+/// A separable filter. All samples have equal weight, so that pixels stay independent of each
 /// other.
 #[derive(Clone, Debug)]
 pub struct PixelFilter {
     radius: f32,
-    /// Absent for the box of one pixel.
+    /// `None` for the box of one pixel.
     gaussian: Option<Piecewise1d>,
 }
 

@@ -1,4 +1,4 @@
-//! Where a scene is seen from.
+//! The view of a scene.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 pub struct View {
     /// Middle of the lens, m.
     pub position: DVec3,
-    /// Point that comes to the middle of the picture, m.
+    /// Point at the centre of the picture, m.
     pub look_at: DVec3,
     /// Upward direction, any length.
     pub up: DVec3,

@@ -1,5 +1,5 @@
-//! `lamina check`: every error of a scene at once, or of a file of leaves; on request, what it
-//! would build.
+//! `lamina check`: reports every error of a scene or of a file of leaves at once and, on request,
+//! the size of the scene once built.
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::{Failure, colour, load_scene, say};
@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reads the files that a scene names and that its reader has only looked up.
+/// Reads the files of a scene whose existence alone was checked so far.
 fn read_files(description: &Description) -> Result<(), Failure> {
     for mesh in &description.meshes {
         let Mesh::File { file, scale } = &mesh.value else {
@@ -75,7 +75,7 @@ fn read_files(description: &Description) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Builds the scene and tells its size.
+/// Builds the scene and prints its size.
 fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
     let world = World::build(description).map_err(Failure::bad)?;
     for note in &world.notes {

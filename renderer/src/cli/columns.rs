@@ -1,4 +1,4 @@
-//! Tables for people.
+//! Tables for human readers.
 
 /// Rows in columns that are two spaces apart.
 pub(super) fn in_columns<const N: usize>(rows: &[[String; N]]) -> String {

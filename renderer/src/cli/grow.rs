@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     let started = Instant::now();
     let outputs = Outputs::planned(arguments)?;
     let chosen = choice::choose(arguments, outputs.show_only_veins(arguments))?;
-    // What the plan cannot give is told before anything is written.
+    // Impossible requests are refused before anything is written.
     if arguments.fields.is_some() {
         fields::check(&chosen.plan)?;
     }
@@ -207,12 +207,12 @@ fn write_plans(
     Ok(())
 }
 
-/// How many leaflets there are, and how long the axes are.
+/// The number of leaflets and the lengths of the axes.
 fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
     let length = |wanted: StalkKind| -> f64 {
         let stalks = leaf.stalks.iter().filter(|stalk| stalk.kind == wanted);
         let pieces = stalks.flat_map(|stalk| stalk.points.windows(2));
-        // From 0: the sum of nothing is -0.
+        // The sum starts from 0, since an empty sum is -0.
         pieces.fold(0.0, |sum, pair| sum + pair[0].distance(pair[1]))
     };
     json!({
@@ -226,7 +226,7 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
 
 /// The parts of a leaf that the outputs need.
 enum Grown {
-    /// Its different laminas, of a simple leaf the one.
+    /// The different laminas; a simple leaf has one.
     Flat {
         laminas: Vec<Lamina>,
         compound: Option<CompoundLeaf>,
@@ -241,7 +241,7 @@ impl Grown {
             plan.form.validate().map_err(Failure::bad)?;
             plan.check_senescence().map_err(Failure::bad)?;
         }
-        // Leaflets in each other's way cost no veins.
+        // Overlapping leaflets are found before any veins are grown.
         let compound = plan.compound.as_ref().map(|form| form.arrange(plan));
         let compound = compound.transpose().map_err(Failure::bad)?;
         let plans = match &plan.compound {
@@ -274,7 +274,7 @@ impl Grown {
         Ok(Self::Whole(Box::new(whole)))
     }
 
-    /// Of a compound leaf the first leaflet.
+    /// The lamina; for a compound leaf that of the first leaflet.
     fn lamina(&self) -> &Lamina {
         match self {
             Self::Flat { laminas, .. } => &laminas[0],
@@ -289,7 +289,7 @@ impl Grown {
         }
     }
 
-    /// The whole leaf in the plane, if it is more than one lamina.
+    /// The whole leaf in the plane, if it consists of more than one lamina.
     fn flat(&self, plan: &LeafPlan) -> Result<Option<FlatLeaf>, Failure> {
         let laminas: Vec<&Lamina> = match self {
             Self::Flat { laminas, .. } => laminas.iter().collect(),
@@ -327,8 +327,7 @@ fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
     Ok(lamina)
 }
 
-/// Margin and veins in a format that shows them; pictures on the page of a blade with the corners
-/// `page`.
+/// Margin and veins in a format that shows them; pictures have the page with the corners `page`.
 fn veins_file(
     kind: Kind,
     page: Page,
@@ -346,7 +345,7 @@ fn veins_file(
     })
 }
 
-/// Writes a file and tells its name, unless somebody has pressed Ctrl-C.
+/// Writes a file and prints its name, unless the run was interrupted.
 fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
         return Err(Failure::Interrupted);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::cli::Failure;
 
-/// A flag that the first Ctrl-C sets; the second one leaves at once.
+/// A flag that is set by the first Ctrl-C. A second Ctrl-C ends the program at once.
 pub(super) fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);

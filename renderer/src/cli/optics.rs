@@ -1,4 +1,4 @@
-//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and the colours that they have.
+//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours.
 
 mod colour;
 mod figures;
@@ -85,7 +85,7 @@ fn is_stdout(file: &Path) -> bool {
     file.as_os_str() == "-"
 }
 
-/// Fails if a file's name promises something else than is written.
+/// Fails if a file's ending does not match what is written.
 fn check_ending(file: &Path, ending: &str, what: &str) -> Result<(), Failure> {
     if file
         .extension()
@@ -105,7 +105,7 @@ fn table(contents: &Contents) -> String {
     for nm in 400..=2500 {
         let at = ProspectD::coefficients_extrapolated(f64::from(nm));
         let optics = at.reflectance_transmittance(contents);
-        // Seventeen digits give back the very number. Writing to a String cannot fail.
+        // Seventeen digits reproduce the number exactly. Writing to a String cannot fail.
         let _ = writeln!(
             table,
             "{nm},{:.17},{:.17}",

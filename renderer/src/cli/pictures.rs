@@ -1,4 +1,4 @@
-//! `lamina compare` and `lamina info`: what EXR files hold.
+//! `lamina compare` and `lamina info`: the contents of EXR files.
 
 use std::path::Path;
 

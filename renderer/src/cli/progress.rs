@@ -1,4 +1,4 @@
-//! How far a render is, for a person or for a log.
+//! The progress of a render, on a terminal or in a log.
 
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -40,12 +40,12 @@ impl Reporter {
     pub(super) fn tell(&self, progress: Progress) {
         if let Some(bar) = &self.bar {
             let share = self.share(progress, self.started.elapsed());
-            // What the render will come to: fewer paths than asked for if the time is over before.
+            // The expected total: fewer paths than asked for if the time is up before.
             bar.set_length((progress.paths as f64 / share) as u64);
             bar.set_position(progress.paths);
             return;
         }
-        // Whoever cannot have the lock at once has nothing new to say.
+        // A thread that cannot lock at once has nothing new to report.
         let Ok(mut last) = self.last_line.try_lock() else {
             return;
         };
@@ -63,7 +63,7 @@ impl Reporter {
         );
     }
 
-    /// How much of the render is done: of its paths or of its time, whichever ends it first.
+    /// Share of the render that is done, of its paths or of its time, whichever ends it first.
     fn share(&self, progress: Progress, elapsed: Duration) -> f64 {
         let of_paths = progress.paths as f64 / progress.total.max(1) as f64;
         let of_time = self.time.map_or(0.0, |time| {

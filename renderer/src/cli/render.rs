@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         seed: arguments.seed.unwrap_or(scene.film.seed),
     };
     let halt = Halt {
-        // 0 on the command line takes back what the scene says.
+        // 0 on the command line switches off the scene's setting.
         noise: arguments
             .noise
             .or(scene.film.noise)
@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         eprintln!("interrupted: the pictures hold what was rendered until then");
         return Err(Failure::Interrupted);
     }
-    // More than one sample in a million lost is no rounding accident.
+    // More than one rejected sample in a million is not due to rounding.
     if rendered.film.rejected() as f64 > 1e-6 * paths as f64 {
         return Err(Failure::system(
             "too many samples were not finite; the picture is not to be trusted",
@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The picture files, once it is known that they can be written and are no input.
+/// The picture files, after checking that they can be written and are not inputs.
 fn outputs(arguments: &RenderArguments, loaded: &Loaded) -> Result<[PathBuf; 2], Failure> {
     let stem = match &arguments.out {
         Some(out) => stem_of(out)?,
@@ -124,7 +124,7 @@ fn outputs(arguments: &RenderArguments, loaded: &Loaded) -> Result<[PathBuf; 2],
     Ok(outputs)
 }
 
-/// Seconds that a render took.
+/// Times of a render, seconds.
 struct Times {
     all: f64,
     build: f64,
@@ -137,7 +137,7 @@ impl Times {
     }
 }
 
-/// What `--stats` writes.
+/// The output of `--stats`.
 fn report(
     scene: &Description,
     world: &World,
@@ -172,7 +172,7 @@ fn report(
     })
 }
 
-/// Says how many samples pixels got where that was not asked for as a number.
+/// Prints the number of samples per pixel if it was not given.
 fn tell_samples(rendered: &Rendered) {
     let [fewest, most] = rendered.film.drawn_range();
     let pixels = f64::from(rendered.film.width()) * f64::from(rendered.film.height());
@@ -188,7 +188,7 @@ fn tell_samples(rendered: &Rendered) {
     }
 }
 
-/// Why a render ended, in one word.
+/// The reason why a render ended, in one word.
 fn ended(ended: Ended) -> &'static str {
     match ended {
         Ended::Samples => "samples",
@@ -204,7 +204,7 @@ fn build_world(scene: &Description, arguments: &RenderArguments) -> Result<World
     World::build_with(scene, cache.as_ref()).map_err(Failure::bad)
 }
 
-/// The stem that `--out` names, which may have the ending of either picture.
+/// The stem given by `--out`, which may have the ending of either picture.
 fn stem_of(out: &Path) -> Result<PathBuf, Failure> {
     let text = out.as_os_str().as_encoded_bytes();
     if out.file_name().is_none() || text.ends_with(b"/") {
@@ -222,7 +222,7 @@ fn stem_of(out: &Path) -> Result<PathBuf, Failure> {
     })
 }
 
-/// `stem` with an ending added, whatever dots it has already.
+/// `stem` with an ending added, even if it already contains dots.
 fn with_ending(stem: &Path, ending: &str) -> PathBuf {
     let mut name = stem.as_os_str().to_owned();
     name.push(".");
@@ -249,13 +249,13 @@ fn write_picture(
     portable_network::write(png, job.width, job.height, &bytes).map_err(Failure::system)
 }
 
-/// Linear sRGB for the PNG: the film's own, or what the bands would look like.
+/// Linear sRGB for the PNG: that of the film, or a preview of the bands.
 fn preview(scene: &Description, rendered: &Rendered) -> Vec<[f32; 3]> {
     let film = &rendered.film;
     let FilmKind::Spectral { bands } = &scene.film.kind else {
         return film.map(|pixel| [0, 1, 2].map(|i| pixel.mean(i) as f32));
     };
-    // Bands within the visible stand for the wavelengths around them; a film without any is shown
+    // Visible bands represent the wavelengths around them; a film without visible bands is shown in
     // grey.
     let nearest = |nm: f64| {
         let distance = |i: &usize| (bands[*i].center_nm - nm).abs();

@@ -1,4 +1,4 @@
-//! `lamina schema`: what a scene file may hold, for editors and for the book.
+//! `lamina schema`: the schema of scene files, for editors and for the book.
 
 use std::fs;
 use std::io::Write as _;

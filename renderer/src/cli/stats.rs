@@ -8,7 +8,8 @@ use serde_json::Value;
 use crate::cli::Failure;
 use crate::image::atomic;
 
-/// Greatest resident memory of this process so far, MiB; absent where the system does not tell.
+/// Greatest resident memory of this process so far, MiB; `None` where the system does not report
+/// it.
 pub(super) fn peak_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -16,7 +17,7 @@ pub(super) fn peak_mib() -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-/// Writes a JSON object, whole or not at all.
+/// Writes a JSON object atomically.
 pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
     let text = format!("{stats:#}\n");
     atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)

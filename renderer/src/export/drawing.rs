@@ -18,32 +18,32 @@ use crate::image::{ImageError, MOST_PIXELS};
 /// Space around the blade, as a share of its longer side.
 const BORDER: f64 = 0.02;
 
-/// Veins finer than this many pixels are drawn as wide, and paler: the rasteriser counts in
-/// quarters of a pixel.
+/// Least drawn width of veins, pixels; finer veins are drawn this wide and paler, since the
+/// rasteriser works in quarters of a pixel.
 const LEAST_WIDTH: f64 = 0.75;
 
-/// Steps in which fine veins get paler.
+/// Number of levels of paleness of fine veins.
 const PALES: usize = 16;
 
-/// Nodes nearer to each other than this many pixels are left out along a vein.
+/// Nodes along a vein that are nearer together than this many pixels are left out.
 const SHORTEST: f64 = 0.75;
 
-/// Gaps at bends that are closed, pixels.
+/// Least gap at a bend that is closed, pixels.
 const LEAST_GAP: f64 = 0.05;
 
-/// Corners of the finest polygon that stands for a disc.
+/// Number of corners of the finest polygon that approximates a disc.
 const CORNERS: usize = 64;
 
 /// The largest side that the rasteriser can draw, pixels.
 const LONGEST_SIDE: u32 = 32_000;
 
-/// How a drawing looks.
+/// The style of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// For white paper: dark veins on a pale leaf.
     OnPaper,
-    /// Each vein order in a colour of its own ([`leafmodel::export::ORDER_COLOURS`]), coarse veins
-    /// on top.
+    /// Each vein order in its own colour ([`leafmodel::export::ORDER_COLOURS`]), coarse veins on
+    /// top.
     Orders,
 }
 
@@ -61,13 +61,14 @@ pub struct Drawing {
 /// Draws a leaf on a sheet whose longer side, with a border of a fiftieth, takes
 /// `pixels_per_long_side`.
 ///
-/// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]:
-/// pictures of a leaf while it grows have one scale on the sheet of the full-grown one. A compound
+/// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]: on
+/// the sheet of the full-grown leaf, pictures of all its stages have the same scale. A compound
 /// leaf has several margins.
 ///
 /// # Errors
 ///
-/// [`ImageError`] unless that is 1 to 32 000, and the picture at most [`MOST_PIXELS`] in all.
+/// [`ImageError`] unless `pixels_per_long_side` is 1 to 32 000 and the picture has at most
+/// [`MOST_PIXELS`].
 pub fn draw_within(
     (low, high): (DVec2, DVec2),
     outlines: &[Outline],
@@ -145,11 +146,11 @@ fn fill(canvas: &mut Pixmap, path: &Path, colour: [u8; 3], strength: f64) {
     );
 }
 
-/// Where millimetres lie on the picture.
+/// The map from millimetres to pixels.
 struct Sheet {
     /// Its upper left corner, mm.
     corner: DVec2,
-    /// Pixels a millimetre.
+    /// Pixels per millimetre.
     scale: f64,
 }
 
@@ -164,14 +165,14 @@ impl Sheet {
         path.finish()
     }
 
-    /// Areas to fill, with colour and strength, from the lowest to the topmost.
+    /// Areas to fill, with colour and strength, from the bottom to the top layer.
     fn veins(&self, network: &VenationNetwork, style: Style) -> Vec<([u8; 3], f64, Path)> {
         let layers = match style {
             Style::OnPaper => 1,
             Style::Orders => usize::from(u8::MAX) + 1,
         };
-        // Everything of one colour and strength is one path, so that where pieces overlap nothing
-        // is drawn twice.
+        // Everything of one colour and strength is one path, so that overlapping pieces are not
+        // drawn twice.
         let mut paths: Vec<Vec<PathBuilder>> = vec![Vec::new(); layers];
         let disc = disc();
         let nodes = network.nodes();
@@ -221,7 +222,7 @@ impl Sheet {
                 Style::Orders => order_colour(layer as u8),
             };
             for (pale, path) in paths.into_iter().enumerate() {
-                // Strengths stand for the middle of their step, but the last is full.
+                // Each strength is the middle of its level, except the last, which is full.
                 let strength = ((pale as f64 + 0.5) / PALES as f64)
                     .max(f64::from(u8::from(pale + 1 == PALES)));
                 areas.extend(path.finish().map(|path| (colour, strength, path)));
@@ -242,8 +243,8 @@ fn add(path: &mut PathBuilder, mut points: impl Iterator<Item = DVec2>) {
     }
 }
 
-/// A piece of vein with straight sides; gives the unit vector across it. Pieces and discs all run
-/// the same way around, so that overlaps add up.
+/// Adds a piece of vein with straight sides; returns the unit vector across it. Pieces and discs
+/// have the same orientation, so that overlaps have the same sign.
 fn piece(path: &mut PathBuilder, [from, to]: [DVec2; 2], [start, end]: [f64; 2]) -> DVec2 {
     let aside = (to - from).perp().normalize_or_zero();
     let sides = [
@@ -256,9 +257,9 @@ fn piece(path: &mut PathBuilder, [from, to]: [DVec2; 2], [start, end]: [f64; 2])
     aside
 }
 
-/// A disc, unless it is too small to be seen.
+/// Adds a disc, unless it is too small to be seen.
 fn round(path: &mut PathBuilder, centre: DVec2, radius: f64, disc: &[DVec2]) {
-    // What the corners leave out of the disc is finer than a tenth of a pixel.
+    // The polygon deviates from the disc by less than a tenth of a pixel.
     let every = match radius {
         ..0.6 => return,
         ..3.0 => 8,

@@ -1,17 +1,17 @@
-//! XML as elements that own what is in them.
+//! XML elements with owned attributes and children.
 //!
 //! - **In**: [`Element`]s with attributes and children; numbers, words and switches as attributes.
 //! - **Out**: the text of a [`Document`].
-//! - **Always true**: every element that begins ends, in the order of nesting; names are fixed in
-//!   the program, values are escaped; numbers read back as the same numbers.
-//! - **Left out**: text between elements, namespaces, anything that is read.
+//! - **Always true**: elements are properly nested and closed; names are constants of the program;
+//!   values are escaped; numbers read back exactly.
+//! - **Left out**: text between elements, namespaces, reading.
 
 use std::fmt::{self, Display, Write as _};
 
-/// Spaces that what stands inside an element is moved to the right by.
+/// Indentation of an element's children, spaces.
 const INDENT: usize = 2;
 
-/// An element with all that is in it.
+/// An element with its attributes and children.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     name: &'static str,
@@ -21,12 +21,12 @@ pub(super) struct Element {
     remark: Option<&'static str>,
 }
 
-/// Where the children of an element are written. Readers of XML do not see it, people do.
+/// The layout of an element's children, which matters to human readers only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// On lines of their own, indented.
+    /// On separate lines, indented.
     Indented,
-    /// On lines of their own, as far left as the element itself.
+    /// On separate lines, with the indentation of the element itself.
     Level,
     /// On the element's own line.
     Inline,
@@ -44,37 +44,37 @@ impl Element {
         }
     }
 
-    /// With an attribute after those it has; of a number as many digits are written as it takes to
-    /// read it back.
+    /// Appends an attribute. A number is written with as many digits as are needed to read it back
+    /// exactly.
     pub(super) fn with(mut self, name: &'static str, value: impl Display) -> Self {
         self.attributes.push((name, value.to_string()));
         self
     }
 
-    /// With a child after those it has.
+    /// Appends a child.
     pub(super) fn holding(mut self, child: Self) -> Self {
         self.children.push(child);
         self
     }
 
-    /// With children after those it has.
+    /// Appends children.
     pub(super) fn holding_all(mut self, children: impl IntoIterator<Item = Self>) -> Self {
         self.children.extend(children);
         self
     }
 
-    /// With its children elsewhere.
+    /// Sets the layout of its children.
     pub(super) fn laid_out(self, layout: Layout) -> Self {
         Self { layout, ..self }
     }
 
-    /// With a remark above it, for people; two dashes one after the other would end it.
+    /// Adds a comment above it, which must not contain two consecutive dashes.
     pub(super) fn remarked(self, remark: &'static str) -> Self {
         let remark = Some(remark);
         Self { remark, ..self }
     }
 
-    /// Writes it behind `indent` spaces, without the end of its last line.
+    /// Writes it, indented by `indent` spaces, without a final newline.
     fn write(&self, text: &mut String, indent: usize) {
         if let Some(remark) = self.remark {
             let _ = write!(text, "<!-- {} -->", remark.replace("--", "- -"));
@@ -105,7 +105,7 @@ impl Element {
         text.push('>');
     }
 
-    /// Its start up to what closes it.
+    /// Writes its start tag up to the closing bracket.
     fn write_start(&self, text: &mut String) {
         text.push('<');
         text.push_str(self.name);
@@ -125,8 +125,8 @@ impl Display for Element {
     }
 }
 
-/// A root element, whose children become text one by one: a scene of many instances is in memory
-/// once.
+/// A root element whose children are converted to text one by one, so that a scene of many
+/// instances is in memory only once.
 #[derive(Debug)]
 pub(super) struct Document {
     root: &'static str,
@@ -134,7 +134,8 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// A document of this root and what it holds; children stand as far left as the root.
+    /// A document with this root and its children so far; children have the indentation of the
+    /// root.
     pub(super) fn new(root: &Element) -> Self {
         let mut text = String::new();
         root.write_start(&mut text);
@@ -166,8 +167,7 @@ fn next_line(text: &mut String, indent: usize) {
     text.extend(std::iter::repeat_n(' ', indent));
 }
 
-/// Writes the value of an attribute so that a reader gets just these characters; those that XML
-/// cannot hold become U+FFFD.
+/// Writes the value of an attribute, escaped. Characters that XML cannot hold become U+FFFD.
 fn push_escaped(text: &mut String, value: &str) {
     for character in value.chars() {
         match character {
@@ -175,7 +175,7 @@ fn push_escaped(text: &mut String, value: &str) {
             '<' => text.push_str("&lt;"),
             '>' => text.push_str("&gt;"),
             '"' => text.push_str("&quot;"),
-            // As they are, these would be read as spaces.
+            // Unescaped, these would be read as spaces.
             '\t' | '\n' | '\r' => {
                 let _ = write!(text, "&#{};", u32::from(character));
             }
@@ -189,7 +189,7 @@ fn push_escaped(text: &mut String, value: &str) {
 mod tests {
     use super::*;
 
-    /// A shape with a material and a lamp, whose children stand in all the ways there are.
+    /// A shape with a material and a lamp, with children in every layout.
     fn shape() -> Element {
         let black = Element::new("bsdf").holding(Element::new("float").with("value", 0.5));
         Element::new("shape")

@@ -1,5 +1,5 @@
-//! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and what the comparison
-//! wants to know.
+//! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and the data for the
+//! comparison.
 //!
 //! Leaves become the plugin `lamina_leaf`, solid tissue `lamina_solid`; `reference/` registers
 //! both. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
@@ -37,7 +37,7 @@ pub enum ExportError {
     /// The folder or a file in it cannot be written.
     #[error("{path}: {source}")]
     Write {
-        /// What was being written.
+        /// The file or folder that was being written.
         path: PathBuf,
         /// What the system says.
         source: std::io::Error,
@@ -45,7 +45,7 @@ pub enum ExportError {
     /// A map cannot be written.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// The folder is there and holds something else than an export.
+    /// The folder exists and holds something other than an export.
     #[error(
         "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
     )]
@@ -55,7 +55,7 @@ pub enum ExportError {
     },
 }
 
-/// Where in the export the table of a palette lies.
+/// Path, within the export, of the table of a palette.
 fn absorption_file(palette: &Palette) -> String {
     match palette.number() {
         0 => "prospect_d.csv".to_owned(),
@@ -63,8 +63,8 @@ fn absorption_file(palette: &Palette) -> String {
     }
 }
 
-/// PROSPECT-D's table with its notice, with the columns of these pigments, and what betalains
-/// absorb in columns of their own.
+/// PROSPECT-D's table with its notice, with the columns of these pigments and additional columns
+/// for the absorption of betalains.
 fn absorption_table(pigments: &Pigments) -> String {
     let mut text: String = ProspectD::notice()
         .map(|line| format!("# {line}\n"))
@@ -86,7 +86,7 @@ fn absorption_table(pigments: &Pigments) -> String {
     text
 }
 
-/// Writes the folder `dir`, whole or not at all; an earlier export there is replaced.
+/// Writes the folder `dir` completely or not at all; an earlier export there is replaced.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Blocks of pixels: what one thread exposes at a time, and what gets the same number of samples.
+//! Blocks of pixels: a block is exposed by one thread at a time, and its pixels get the same number
+//! of samples.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +9,13 @@ use super::moments::Moments;
 /// Pixels along a block's sides; blocks at the right and lower border may have fewer.
 pub const BLOCK_SIDE: u32 = 8;
 
-/// Samples that were not taken as they came. Both are rare, so nothing is kept for pixels without
-/// any.
+/// Counts of rejected samples and clamped values. Both are rare, so nothing is stored for pixels
+/// without any.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Faults {
-    /// Samples that were rejected, by the place of their pixel in the film.
+    /// Number of rejected samples by the place of their pixel in the film.
     pub(super) rejected: BTreeMap<usize, u32>,
-    /// Values that were clamped.
+    /// Number of clamped values.
     pub(super) clamped: u64,
 }
 
@@ -34,7 +35,7 @@ impl Faults {
 /// A block that is being exposed. All its pixels have the same number of samples.
 #[derive(Debug)]
 pub struct Block<'a> {
-    /// Which of the film's blocks it is, row by row from the top.
+    /// Its number in the film, row by row from the top.
     pub(super) number: usize,
     /// Column of its first pixel.
     pub(super) x: u32,
@@ -54,7 +55,7 @@ pub struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// Which of the film's blocks it is, row by row from the top.
+    /// Its number in the film, row by row from the top.
     pub fn number(&self) -> usize {
         self.number
     }
@@ -64,8 +65,8 @@ impl Block<'_> {
         (self.narrow.len() / self.words.narrow) as u32
     }
 
-    /// Adds the next `samples` of every pixel: `expose` is called with column, row and where to put
-    /// them, and has to add as many.
+    /// Adds the next `samples` of every pixel: `expose` is called with column, row and the pixel's
+    /// sums, to which it must add as many samples.
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
         let words = self.words;
         let places = self
@@ -93,7 +94,7 @@ impl Block<'_> {
     }
 }
 
-/// Where a pixel's samples go.
+/// The sums of a pixel, to which samples are added.
 #[derive(Debug)]
 pub struct PixelSums<'a> {
     moments: &'a mut [Moments],
@@ -105,8 +106,8 @@ pub struct PixelSums<'a> {
 }
 
 impl PixelSums<'_> {
-    /// Adds sample number `number`: a value for each channel, and the features of what the camera
-    /// ray met, if anything; numbers beyond the film's features are passed over.
+    /// Adds sample number `number`: a value for each channel, and the features of the camera ray's
+    /// hit, if there is one; numbers beyond the film's features are ignored.
     ///
     /// A sample with a number that is not finite is rejected whole and counted; a channel's value
     /// beyond ±2³⁰ is clamped and counted.
@@ -118,7 +119,7 @@ impl PixelSums<'_> {
         features: Option<&[f32; F]>,
     ) {
         debug_assert_eq!(values.len(), self.moments.len(), "a value a channel");
-        // Features are finite or not without a branch for each.
+        // Whether all features are finite is computed without a branch for each.
         let finite = values.iter().all(|value| value.is_finite())
             && features.is_none_or(|features| {
                 (features.iter()).fold(true, |all, number| all & number.is_finite())

@@ -1,23 +1,23 @@
-//! What a pixel keeps besides radiance: how much of it is covered, and features, numbers of what
-//! its camera rays met.
+//! Data of a pixel besides radiance: coverage, and features, which are numbers that describe what
+//! its camera rays hit.
 //!
-//! - **In**: for each sample that met something, a number per feature.
-//! - **Out**: means over the covered ones of a pixel's first [`FEATURE_SAMPLES`] samples, or what
-//!   sample 0 met.
-//! - **Always true**: all that is kept is integers that add up, so films merge by addition alone.
-//! - **Left out**: what the features mean; the maker of the film says how each is kept.
+//! - **In**: for each sample that hit something, a number per feature.
+//! - **Out**: means over the covered samples among a pixel's first [`FEATURE_SAMPLES`], or the
+//!   number of sample 0.
+//! - **Always true**: only integers are stored, so films merge by addition alone.
+//! - **Left out**: the meaning of the features. The film's creator says how each is kept.
 
 use super::fixed::nearest;
 
-/// Samples of a pixel, by number, that record features. These converge fast, and a bound keeps
-/// their sums small: 256 samples of 54 bits fit into 64 bits, of 23 bits into 32.
+/// Number of samples of a pixel, from the first, that record features. Features converge fast, and
+/// the bound keeps their sums small: 256 samples of 54 bits fit into 64 bits, of 23 bits into 32.
 pub const FEATURE_SAMPLES: u32 = 256;
 
-/// The most of one sample in a wide sum, in its units.
+/// Greatest contribution of one sample to a wide sum, in its units.
 const MOST_WIDE: f64 = (1_i64 << 54) as f64;
-/// The most of one sample in a narrow sum, in its units.
+/// Greatest contribution of one sample to a narrow sum, in its units.
 const MOST_NARROW: f64 = ((1_i64 << 23) - 1) as f64;
-/// The most bits behind the point.
+/// Greatest number of fraction bits.
 const MOST_FRACTION_BITS: i32 = 24;
 
 /// How a feature is kept.
@@ -26,22 +26,22 @@ pub enum Sum {
     /// As a sum of 64 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and
     /// at most ±2⁵⁴ units: with 24 bits up to ±2³⁰.
     Wide {
-        /// Bits behind the point, 0 to 24.
+        /// Number of fraction bits, 0 to 24.
         fraction_bits: i32,
     },
     /// As a sum of 32 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and
     /// less than ±2²³ units: with 22 bits up to ±2, with 20 up to ±8.
     Narrow {
-        /// Bits behind the point, 0 to 24.
+        /// Number of fraction bits, 0 to 24.
         fraction_bits: i32,
     },
-    /// As the number of sample 0, whole and ≥ 0 in 32 bits; 0 if that sample met nothing or is not
+    /// As the number of sample 0, an integer ≥ 0 of 32 bits; 0 if that sample hit nothing or is not
     /// among the samples.
     First,
 }
 
 impl Sum {
-    /// What it takes of a pixel, bytes.
+    /// Memory per pixel, bytes.
     pub const fn bytes(self) -> usize {
         match self {
             Self::Wide { .. } => size_of::<i64>(),
@@ -56,7 +56,7 @@ impl Sum {
         }
     }
 
-    /// Units in 1.
+    /// Number of units in 1.
     fn scale(self) -> f64 {
         f64::from(1 << self.fraction_bits())
     }
@@ -66,11 +66,11 @@ impl Sum {
 /// counts coverage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Words {
-    /// In the order of features.
+    /// Runs of equally kept features, in the order of features.
     runs: Vec<Run>,
-    /// Words of 64 bits.
+    /// Number of words of 64 bits.
     pub(super) wide: usize,
-    /// Words of 32 bits.
+    /// Number of words of 32 bits.
     pub(super) narrow: usize,
 }
 
@@ -79,7 +79,7 @@ pub(super) struct Words {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Run {
     sum: Sum,
-    /// How many.
+    /// Number of features.
     count: usize,
     /// The first one's word among those of its width.
     place: usize,
@@ -145,7 +145,7 @@ impl Words {
         }
     }
 
-    /// A feature of a pixel with these words; none where no sample recorded any.
+    /// A feature of a pixel with these words; `None` if no sample recorded any.
     pub(super) fn feature(&self, number: usize, wide: &[i64], narrow: &[i32]) -> Option<f64> {
         let (run, place) = self.place_of(number);
         let count = Coverage::of(narrow).recorded();
@@ -157,7 +157,7 @@ impl Words {
         })
     }
 
-    /// The run that a feature is in, and its word among those of its width.
+    /// The run of a feature, and its word among those of its width.
     fn place_of(&self, number: usize) -> (&Run, usize) {
         let mut within = number;
         for run in &self.runs {
@@ -176,27 +176,27 @@ impl Words {
 pub(super) struct Coverage(i32);
 
 impl Coverage {
-    /// What it takes of a pixel.
+    /// Memory per pixel, bytes.
     pub(super) const BYTES: usize = size_of::<i32>();
-    /// Enough for 2²¹ − 1 samples; the format allows 2²⁰.
+    /// Number of bits of the lower count: enough for 2²¹ − 1 samples; the scene format allows 2²⁰.
     const BITS: u32 = 21;
 
-    /// What a covered sample adds.
+    /// The increment for a covered sample.
     fn of_sample(records: bool) -> i32 {
         1 + (i32::from(records) << Self::BITS)
     }
 
-    /// That of a pixel with these narrow words.
+    /// The coverage of a pixel with these narrow words.
     pub(super) fn of(narrow: &[i32]) -> Self {
         Self(narrow[0])
     }
 
-    /// Covered samples.
+    /// Number of covered samples.
     pub(super) fn covered(self) -> u32 {
         self.0 as u32 & ((1 << Self::BITS) - 1)
     }
 
-    /// Covered samples that recorded features.
+    /// Number of covered samples that recorded features.
     fn recorded(self) -> u32 {
         self.0 as u32 >> Self::BITS
     }

@@ -1,11 +1,11 @@
 //! Single precision to fixed point.
 //!
 //! - **In**: finite `f32`s, each a whole number of at most 24 bits times a power of two.
-//! - **Out**: integers in units of a power of two; a shift or an exact product gives each, so there
-//!   is no rounding but the one stated.
-//! - **Left out**: numbers that are not finite; the caller has rejected them.
+//! - **Out**: integers in units of a power of two, computed by a shift or an exact product, so that
+//!   only the stated rounding occurs.
+//! - **Left out**: numbers that are not finite, which the caller must reject.
 
-/// Bits behind the point of sums and of sums of squares. (With fewer, the variance of dim pixels
+/// Number of fraction bits of sums and of sums of squares. (With fewer, the variance of dim pixels
 /// would vanish.)
 pub(super) const FRACTION_BITS: i32 = 64;
 /// One in that fixed point.
@@ -13,7 +13,7 @@ pub(super) const ONE: f64 = 18_446_744_073_709_551_616.0;
 /// Greatest value that is taken: 2³³ samples of it still fit into 128 bits.
 pub(super) const MOST: f32 = 1_073_741_824.0;
 
-/// A finite number as sign, whole part and power of two: `±mantissa · 2^exponent`.
+/// A finite number as sign, integer and power of two: `±mantissa · 2^exponent`.
 #[inline]
 fn parts(value: f32) -> (bool, u32, i32) {
     let bits = value.to_bits();
@@ -24,7 +24,7 @@ fn parts(value: f32) -> (bool, u32, i32) {
     (bits >> 31 != 0, mantissa, biased.max(1) - 150)
 }
 
-/// A value and its square in units of 2⁻⁶⁴, both cut off towards zero; |`value`| ≤ [`MOST`].
+/// A value and its square in units of 2⁻⁶⁴, both truncated towards zero; |`value`| ≤ [`MOST`].
 #[inline]
 pub(super) fn value_and_square(value: f32) -> (i128, u128) {
     debug_assert!(value.abs() <= MOST, "clamped beforehand");
@@ -37,11 +37,11 @@ pub(super) fn value_and_square(value: f32) -> (i128, u128) {
     )
 }
 
-/// `whole · 2^shift`, cut off.
+/// `whole · 2^shift`, truncated.
 #[inline]
 fn shifted(whole: u64, shift: i32) -> u128 {
     if shift >= 0 {
-        // At most 48 bits of a square, shifted by 2 · 7 + 64 = 78.
+        // A square has at most 48 bits and is shifted by at most 2 · 7 + 64 = 78.
         u128::from(whole) << shift
     } else {
         u128::from(whole >> shift.unsigned_abs().min(63))

@@ -9,13 +9,12 @@ use super::fixed::{MOST, ONE, value_and_square};
 pub struct Moments {
     /// Sum of the samples.
     sum: i128,
-    /// Sum of their squares; stays at the greatest number where a value beyond 2²⁷ comes a thousand
-    /// times.
+    /// Sum of their squares; saturates if, for example, values beyond 2²⁷ occur a thousand times.
     squares: u128,
 }
 
 impl Moments {
-    /// Adds a finite value; whether it had to be clamped to ±2³⁰.
+    /// Adds a finite value; returns whether it had to be clamped to ±2³⁰.
     #[inline]
     pub fn add(&mut self, value: f32) -> bool {
         let taken = value.clamp(-MOST, MOST);
@@ -25,7 +24,7 @@ impl Moments {
         taken != value
     }
 
-    /// Adds another one's samples.
+    /// Adds the samples of another.
     pub fn merge(&mut self, other: &Self) {
         self.sum += other.sum;
         self.squares = self.squares.saturating_add(other.squares);
@@ -36,7 +35,7 @@ impl Moments {
         self.sum as f64 / ONE
     }
 
-    /// Mean over `samples`; 0 without any.
+    /// Mean over `samples` samples; 0 without any.
     pub fn mean(&self, samples: u32) -> f64 {
         if samples == 0 {
             0.0
@@ -47,7 +46,7 @@ impl Moments {
 
     /// Unbiased sample variance over `samples`, the number of samples; 0 below two.
     ///
-    /// Low-discrepancy samples spread better than independent ones, so this is an upper estimate of
+    /// Low-discrepancy samples are spread more evenly than independent ones, so this overestimates
     /// the error.
     pub fn variance_of_mean(&self, samples: u32) -> f64 {
         if samples < 2 {

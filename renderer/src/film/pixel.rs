@@ -1,4 +1,4 @@
-//! A pixel's sums, read.
+//! Reading access to a pixel's sums.
 
 use super::features::{Coverage, Words};
 use super::moments::Moments;
@@ -14,7 +14,7 @@ pub struct Pixel<'a> {
 }
 
 impl Pixel<'_> {
-    /// Samples that count: without those that were rejected.
+    /// Number of samples without rejected ones.
     pub fn samples(&self) -> u32 {
         self.samples
     }
@@ -24,7 +24,7 @@ impl Pixel<'_> {
         self.moments.len()
     }
 
-    /// What is kept of a channel's samples.
+    /// The moments of a channel.
     pub fn moments(&self, channel: usize) -> &Moments {
         &self.moments[channel]
     }
@@ -34,14 +34,14 @@ impl Pixel<'_> {
         self.moments[channel].mean(self.samples)
     }
 
-    /// Share of all samples that met something.
+    /// Share of samples that hit something.
     pub fn alpha(&self) -> f64 {
         f64::from(Coverage::of(self.narrow).covered()) / f64::from(self.samples.max(1))
     }
 
     /// A feature by its number: the mean over the covered ones of the first
-    /// [`super::FEATURE_SAMPLES`] samples, or what sample 0 met; none where none of these samples
-    /// is covered.
+    /// [`super::FEATURE_SAMPLES`] samples, or the number of sample 0; `None` if none of these
+    /// samples is covered.
     pub fn feature(&self, number: usize) -> Option<f64> {
         self.words.feature(number, self.wide, self.narrow)
     }

@@ -1,4 +1,4 @@
-//! Meshes, placed by instances: what rays are traced against.
+//! Instanced meshes, against which rays are traced.
 
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
@@ -19,13 +19,13 @@ use search::{AnyHit, NearestHit, Search};
 
 mod search;
 
-/// Placed meshes with their trees. Immutable, shared by every thread.
+/// Instanced meshes with their trees. Immutable and shared by all threads.
 #[derive(Clone, Debug)]
 pub struct Geometry {
     meshes: Vec<TracedMesh>,
     placements: Vec<Placement>,
     tree: WideTree,
-    /// Of each leaf of `tree` its instance.
+    /// The instance of each leaf of `tree`.
     carriers: Vec<Carrier>,
     level: Level,
 }
@@ -33,16 +33,16 @@ pub struct Geometry {
 /// Why meshes and instances were refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GeometryError {
-    /// An instance names a mesh that is not there.
+    /// An instance refers to a mesh that does not exist.
     #[error(
         "instance {instance} names mesh {mesh}, but there are {meshes} meshes (counted from 0)"
     )]
     NoSuchMesh {
         /// Number of the instance.
         instance: usize,
-        /// The mesh it names.
+        /// The missing mesh.
         mesh: u32,
-        /// Meshes there are.
+        /// Number of meshes.
         meshes: usize,
     },
     /// A transform is not finite, flattens the mesh, or takes it beyond what `f32` can hold.
@@ -53,7 +53,7 @@ pub enum GeometryError {
         /// What is wrong with it.
         what: &'static str,
     },
-    /// More instances than can be numbered.
+    /// There are more instances than can be numbered.
     #[error("there are {given} instances; the most is {MOST_INSTANCES}")]
     TooManyInstances {
         /// How many there are.
@@ -61,23 +61,23 @@ pub enum GeometryError {
     },
 }
 
-/// Boxes that stand for a mesh when the box of an instance is made. Of 10,000 turned leaves the
-/// boxes have 0.81 of the area with 8 and 0.63 with 64, and fewer of them are entered in vain; with
-/// 256 rays are no more than 3 % faster than with 64.
+/// Number of boxes that represent a mesh when the box of an instance is computed. For 10,000
+/// rotated leaves, 8 boxes give 0.81 of the area and 64 give 0.63, so fewer boxes are entered in
+/// vain. With 256 boxes rays are at most 3 % faster than with 64.
 const HULL_BOXES: usize = 128;
 
 /// Instances and tree nodes share 32 bits.
 const MOST_INSTANCES: usize = 1 << 29;
 
-/// A mesh with its tree, in the mesh's frame moved so that the middle of its bounds is the origin:
-/// a leaf far away in its own file keeps its detail.
+/// A mesh with its tree, in the mesh's frame, moved so that the centre of its bounds is the origin.
+/// So a mesh far from the origin of its file keeps its detail.
 #[derive(Clone, Debug)]
 struct TracedMesh {
     mesh: TriangleMesh,
     center: Vec3,
     tree: WideTree,
     blocks: Vec<TriangleBlock>,
-    /// Boxes that hold the mesh closer than the tree's own box does once they are turned.
+    /// Boxes that enclose the rotated mesh more tightly than the tree's own box.
     hull: Vec<Bounds>,
 }
 
@@ -101,7 +101,8 @@ impl Placement {
             return Err(refuse("is not finite"));
         }
         let size = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
-        // Relative to its axes: below this, rounding in f32 decides where the mesh is.
+        // The determinant is relative to the lengths of the axes. Below this, rounding in f32 would
+        // decide where the mesh is.
         if linear.determinant().abs() <= size * 1e-6 || size == 0.0 {
             return Err(refuse(
                 "flattens the mesh: it has no inverse that 32-bit numbers can hold",
@@ -128,8 +129,8 @@ impl Placement {
         })
     }
 
-    /// Sum of the magnitudes that are added up when a world point is carried into the local frame,
-    /// by coordinate.
+    /// For each coordinate, the sum of the magnitudes of the terms that carry a world point into
+    /// the local frame.
     pub(super) fn to_local_size(&self, world: DVec3) -> DVec3 {
         let columns = self.carrier.linear;
         columns.x_axis.abs().as_dvec3() * world.x.abs()
@@ -155,8 +156,8 @@ impl TracedMesh {
         let (min, max) = mesh.bounds();
         let center = Bounds { min, max }.center();
         let corners = |triangle: u32| {
-            // In f64: the difference of two f32 numbers may need more digits before it is rounded
-            // once.
+            // In f64, since the difference of two f32 numbers may need more digits before it is
+            // rounded once.
             mesh.corners(triangle)
                 .map(|corner| (corner.as_dvec3() - center.as_dvec3()).as_vec3())
         };
@@ -182,12 +183,12 @@ impl TracedMesh {
 }
 
 impl Geometry {
-    /// Builds the trees. No instances at all is a geometry that nothing hits.
+    /// Builds the trees. Without instances nothing is ever hit.
     ///
     /// # Errors
     ///
-    /// [`GeometryError`]: an instance of a mesh that is not there, or with a transform that cannot
-    /// be inverted.
+    /// [`GeometryError`]: for an instance of a mesh that does not exist, or with a transform that
+    /// cannot be inverted.
     pub fn build(
         meshes: Vec<TriangleMesh>,
         instances: Vec<Instance>,
@@ -241,7 +242,7 @@ impl Geometry {
         })
     }
 
-    /// Traces with other instructions than the fastest; hits have the same bits.
+    /// Selects the vector instructions for tracing; hits have the same bits at every level.
     #[must_use]
     pub fn at_level(mut self, level: Level) -> Self {
         self.level = level;
@@ -256,12 +257,13 @@ impl Geometry {
         self.level.run(Search::<NearestHit>::new(self, ray))
     }
 
-    /// Whether anything is hit with `t_min ≤ t ≤ t_max`: [`Geometry::intersect`] gives something.
+    /// Whether anything is hit with `t_min ≤ t ≤ t_max`, that is, whether [`Geometry::intersect`]
+    /// finds a hit.
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.level.run(Search::<AnyHit>::new(self, ray))
     }
 
-    /// The surface at a hit. The ray is the one that found it.
+    /// The surface at a hit; `_ray` is the ray that found it.
     pub fn surface(&self, _ray: &Ray, hit: &Hit) -> SurfacePoint {
         let placement = &self.placements[hit.instance as usize];
         let mesh = &self.meshes[placement.instance.mesh as usize];
@@ -270,7 +272,7 @@ impl Geometry {
         SurfacePoint::at(hit, corners, &mesh.mesh, placement)
     }
 
-    /// Smallest and largest coordinates of all instances' boxes, m; twice the origin if there are
+    /// Smallest and largest coordinates of all instances' boxes, m; both the origin if there are
     /// none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let bounds = self.tree.bounds();
@@ -280,7 +282,7 @@ impl Geometry {
         (bounds.min, bounds.max)
     }
 
-    /// Memory of meshes and trees.
+    /// Memory of meshes and trees, bytes.
     pub fn memory_bytes(&self) -> usize {
         let meshes: usize = self
             .meshes

@@ -10,7 +10,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Contains nothing; the neutral element of [`Bounds::union`].
+    /// The empty box, the neutral element of [`Bounds::union`].
     pub(super) const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -62,8 +62,7 @@ impl Bounds {
             min = min.min(center - reach);
             max = max.max(center + reach);
         }
-        // The ray is carried into the mesh's frame in f32: what it meets there may lie this far
-        // outside here.
+        // Rays are carried into the mesh's frame in f32, so hits may lie this far outside the box.
         let pad = (max.abs().max(min.abs())) * 2.0_f64.powi(-21);
         Self {
             min: (min - pad).as_vec3(),

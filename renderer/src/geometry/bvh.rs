@@ -1,4 +1,4 @@
-//! Binary trees by obvhs, and what has to be kept away from it.
+//! Binary trees built by the crate obvhs, with a workaround for equal boxes.
 
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
@@ -12,10 +12,10 @@ use super::scramble::scramble;
 /// Share of the nodes that are reinserted at another place after clustering.
 const REINSERTION: f32 = 0.02;
 
-/// Boxes that the builder sees are wider than ours by up to this share of their longest side.
+/// Greatest widening of the boxes given to the builder, as a share of their longest side.
 const JITTER: f32 = 1.0 / 64.0;
 
-/// A box as the builder sees it.
+/// A box as given to the builder.
 #[derive(Clone, Copy)]
 struct Jittered(Aabb);
 
@@ -29,9 +29,10 @@ impl Boundable for Jittered {
 /// reinsertion.
 ///
 /// Clustering merges neighbours that choose each other. Among equal boxes, as on an evenly spaced
-/// blade or a fan about one point, all choose the same side, one pair is merged in a pass, and the
-/// time is quadratic. So the builder gets boxes widened by a little that differs from box to box;
-/// it only decides who is neighbour to whom, the bounds of the tree come from the true boxes.
+/// blade or a fan around one point, all choose the same side. Then only one pair is merged per
+/// pass, and the time is quadratic. So the builder gets boxes widened by small amounts that differ
+/// from box to box. This affects only the structure of the tree; its bounds come from the true
+/// boxes.
 pub(super) fn binary_tree(boxes: &[Bounds]) -> Vec<BinaryNode> {
     let jittered: Vec<_> = boxes
         .iter()

@@ -14,7 +14,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Around a unit normal, with the tangent made orthogonal to it.
+    /// The frame of a unit normal, with the tangent made orthogonal to it.
     pub fn new(normal: Vec3, along: Vec3) -> Self {
         let along = (along - normal * normal.dot(along))
             .try_normalize()
@@ -26,7 +26,7 @@ impl Frame {
         }
     }
 
-    /// Around a unit normal, turned in some way that depends on it alone.
+    /// A frame of a unit normal whose tangent is a function of the normal.
     pub fn from_normal(normal: Vec3) -> Self {
         Self::new(normal, normal.any_orthonormal_vector())
     }

@@ -1,4 +1,4 @@
-//! An order in which neighbours in space are near each other.
+//! The order of boxes along Hilbert's curve, in which neighbours in space are close together.
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ const BITS: u32 = 20;
 /// Numbers of the boxes along Hilbert's curve through their centres, ties by number.
 pub(super) fn order(boxes: &[Bounds]) -> Vec<u32> {
     let around = Bounds::around(boxes.iter().map(|bounds| bounds.center()));
-    // Halves, so that the size of what spans all numbers is still a number.
+    // Halves, so that the size of a box over the whole range of f32 does not overflow.
     let half_size = (around.max * 0.5 - around.min * 0.5).max_element();
     let cells = ((1_u32 << BITS) - 1) as f32;
     let mut keys: Vec<_> = boxes
@@ -18,7 +18,7 @@ pub(super) fn order(boxes: &[Bounds]) -> Vec<u32> {
         .zip(0_u32..boxes.len() as u32)
         .map(|(bounds, number)| {
             let share = (bounds.center() * 0.5 - around.min * 0.5) / half_size;
-            // Of a size of 0 the share is no number, which becomes 0.
+            // If the size is 0 the share is NaN, which is converted to 0.
             (
                 place_on_curve((share * cells).as_uvec3().to_array()),
                 number,
@@ -29,7 +29,7 @@ pub(super) fn order(boxes: &[Bounds]) -> Vec<u32> {
     keys.into_iter().map(|(_, number)| number).collect()
 }
 
-/// How far along the curve a cell lies.
+/// The position of a cell along the curve.
 ///
 /// # Source
 ///

@@ -1,9 +1,9 @@
-//! Where a ray meets the geometry.
+//! Hits.
 
-/// Where a ray meets the geometry first.
+/// The nearest intersection of a ray with the geometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance in lengths of the ray's direction.
+    /// Distance along the ray, in lengths of its direction.
     pub t: f32,
     /// Number of the instance.
     pub instance: u32,
@@ -13,7 +13,7 @@ pub struct Hit {
     pub b1: f32,
     /// Weight of the triangle's third vertex.
     pub b2: f32,
-    /// Block and lane in which the mesh's tree holds the triangle: its corners are still in the
-    /// cache there.
+    /// Block and lane of the triangle in the mesh's tree, where its corners are likely still in the
+    /// cache.
     pub(super) place: u32,
 }

@@ -1,8 +1,8 @@
 //! Meshes from files: PLY and OBJ.
 //!
-//! The bytes are not trusted: counts that a header claims allocate nothing before the bytes for
-//! them are there, and every error says where it is. Faces with more than three corners are cut
-//! into a fan.
+//! The bytes are not trusted: nothing is allocated for counts claimed by a header before the bytes
+//! for them are there, and every error names its place. Faces with more than three corners are
+//! split into a fan of triangles.
 
 mod obj;
 mod ply;
@@ -13,7 +13,7 @@ use thiserror::Error;
 
 use super::mesh::{MeshError, TriangleMesh};
 
-/// Corners that one face may have.
+/// Greatest number of corners of a face.
 const MOST_CORNERS: usize = 1 << 16;
 
 /// Why a file is not a mesh.
@@ -46,13 +46,13 @@ pub enum ImportError {
     Mesh(#[from] MeshError),
 }
 
-/// A piece of the file as messages show it: in quotes, safe to print, no longer than a line.
+/// A piece of the file for messages: quoted, safe to print, at most one line long.
 fn shown(text: &str) -> String {
     const MOST: usize = 60;
     format!("\"{}\"", escaped(text, MOST))
 }
 
-/// What a file holds, before it is cleaned.
+/// The contents of a file, before they are cleaned.
 #[derive(Debug, Default)]
 struct RawMesh {
     positions: Vec<Vec3>,
@@ -62,7 +62,7 @@ struct RawMesh {
 }
 
 impl RawMesh {
-    /// Adds a face, cut into a fan about its first corner.
+    /// Adds a face as a fan of triangles around its first corner.
     fn push_fan(&mut self, corners: &[u32]) {
         for pair in corners[1..].windows(2) {
             self.triangles.push([corners[0], pair[0], pair[1]]);
@@ -70,13 +70,13 @@ impl RawMesh {
     }
 }
 
-/// Reads a mesh whose name ended in `extension` (`ply` or `obj`, in any case), `scale` metres to
-/// the file's unit.
+/// Reads a mesh from a file with the given `extension` (`ply` or `obj`, in any case); `scale` is
+/// metres per unit of the file.
 ///
-/// PLY: ASCII or binary; `vertex` with x y z, perhaps nx ny nz, perhaps u v (or s t, `texture_u`
-/// `texture_v`), `face` with `vertex_indices` (or `vertex_index`); everything else is passed over.
-/// OBJ: v, vt, vn, f with negative indices; uvs are kept if every corner has one; materials and
-/// groups are passed over.
+/// PLY: ASCII or binary; `vertex` with x y z, optionally nx ny nz, optionally u v (or s t, or
+/// `texture_u` `texture_v`); `face` with `vertex_indices` (or `vertex_index`); everything else is
+/// ignored. OBJ: v, vt, vn, f with negative indices; uvs are kept if every corner has one;
+/// materials and groups are ignored.
 ///
 /// # Errors
 ///

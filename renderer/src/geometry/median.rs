@@ -1,11 +1,11 @@
-//! Binary trees by halving: slower to trace than clustered ones, but their depth is known
-//! beforehand.
+//! Binary trees by halving. They are slower to trace than clustered ones, but their depth is
+//! bounded.
 
 use super::binary_tree::BinaryNode;
 use super::bounds::Bounds;
 
-/// A binary tree over finite boxes, at least one, of depth ⌈log₂ n⌉: halves at the median centre
-/// along the longest side of the centres, ties by number.
+/// A binary tree over finite boxes, at least one, of depth ⌈log₂ n⌉: sets are split at the median
+/// centre along the longest side of the box around the centres, ties by number.
 pub(super) fn binary_tree(boxes: &[Bounds]) -> Vec<BinaryNode> {
     let centers: Vec<_> = boxes.iter().map(|bounds| bounds.center()).collect();
     let mut items: Vec<u32> = (0..boxes.len() as u32).collect();

@@ -1,11 +1,11 @@
-//! Memory for large arrays that are read here and there.
+//! Memory for large arrays with random access.
 #![cfg_attr(
     target_os = "linux",
     allow(unsafe_code, reason = "a hint to the kernel about memory of our own")
 )]
 
-/// An empty vector with this capacity, in pages of 2 MiB if the system has them. With small pages,
-/// each access to a large tree also costs a search for the page's address.
+/// An empty vector with this capacity, in pages of 2 MiB if the system has them. With small pages
+/// most accesses to a large tree also cost a page-table walk.
 pub(super) fn room_for<T>(count: usize) -> Vec<T> {
     let room = Vec::with_capacity(count);
     ask_for_huge_pages(&room);
@@ -21,8 +21,8 @@ fn ask_for_huge_pages<T>(room: &Vec<T>) {
     let start = (room.as_ptr() as usize).next_multiple_of(HUGE_PAGE);
     let end = room.as_ptr() as usize + room.capacity() * size_of::<T>();
     if let Some(bytes) = end.checked_sub(start).filter(|&bytes| bytes >= HUGE_PAGE) {
-        // SAFETY: the range lies within the vector's memory, and the advice changes neither what is
-        // in it nor whose it is. A refusal is of no consequence.
+        // SAFETY: the range lies within the vector's memory, and the advice changes neither its
+        // contents nor its ownership. A refusal does no harm.
         unsafe {
             libc::madvise(start as *mut libc::c_void, bytes, libc::MADV_HUGEPAGE);
         }

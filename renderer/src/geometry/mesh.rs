@@ -1,4 +1,4 @@
-//! A triangle mesh that is fit to be traced.
+//! Triangle meshes, checked and cleaned for tracing.
 
 use std::fmt;
 
@@ -8,18 +8,18 @@ use thiserror::Error;
 use super::bounds::Bounds;
 use super::scramble::scramble;
 
-/// Beyond this coordinate (m) `f32` resolves no detail worth rendering, and squares come near
+/// Greatest coordinate, m. Beyond it `f32` resolves no useful detail, and squares approach
 /// overflow.
 const FARTHEST: f32 = 1e9;
 
 /// Face numbers and tree nodes share 32 bits.
 const MOST_FACES: usize = 1 << 29;
 
-/// Faces that a mesh may lose before it is refused, as a share.
+/// Greatest share of dropped faces, per cent; a mesh that loses more is refused.
 const MOST_DROPPED_PERCENT: usize = 1;
 
-/// Triangles over shared vertices, all finite, none without area, no two with the same three
-/// positions.
+/// Triangles over shared vertices. All are finite and have an area above 0, and no two have the
+/// same three positions.
 #[derive(Clone, Debug)]
 pub struct TriangleMesh {
     positions: Vec<Vec3>,
@@ -33,7 +33,7 @@ pub struct TriangleMesh {
 /// Why a face was left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DropCause {
-    /// A position or uv of it is NaN or infinite.
+    /// One of its positions or uvs is NaN or infinite.
     NotFinite,
     /// Its three positions lie on a line.
     Degenerate,
@@ -68,7 +68,7 @@ impl fmt::Display for DroppedFaces {
 }
 
 impl DroppedFaces {
-    /// All of them.
+    /// Number of dropped faces.
     pub fn total(&self) -> usize {
         self.not_finite + self.degenerate + self.duplicate
     }
@@ -88,15 +88,15 @@ impl DroppedFaces {
 /// Why a mesh was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MeshError {
-    /// No faces, or none left.
+    /// There are no faces, or none are left.
     #[error(
         "the mesh has no face that can be rendered ({} given: {} not finite, {} without area, {} duplicate)",
         .given, .dropped.not_finite, .dropped.degenerate, .dropped.duplicate
     )]
     Empty {
-        /// Faces that came in.
+        /// Number of faces given.
         given: usize,
-        /// What became of them.
+        /// The dropped faces.
         dropped: DroppedFaces,
     },
     /// More than 1 % of the faces cannot be rendered.
@@ -107,29 +107,29 @@ pub enum MeshError {
         .dropped.first.map_or(0, |(face, _)| face)
     )]
     TooManyDropped {
-        /// Faces that came in.
+        /// Number of faces given.
         given: usize,
-        /// What became of them.
+        /// The dropped faces.
         dropped: DroppedFaces,
     },
-    /// A face names a vertex that is not there.
+    /// A face refers to a vertex that does not exist.
     #[error("face {face} names vertex {index}, but there are {vertices} vertices (counted from 0)")]
     IndexOutOfRange {
         /// Number of the face.
         face: usize,
-        /// The vertex it names.
+        /// The missing vertex.
         index: u32,
-        /// Vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// Normals or uvs are not one a vertex.
+    /// The number of normals or uvs differs from that of vertices.
     #[error("the mesh has {count} {attribute} for {vertices} vertices")]
     AttributeCount {
         /// "normals" or "uvs".
         attribute: &'static str,
         /// How many there are.
         count: usize,
-        /// Vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
     /// A face reaches beyond 10⁹ m.
@@ -142,10 +142,10 @@ pub enum MeshError {
         /// Largest coordinate in it.
         reach: f32,
     },
-    /// More faces than can be numbered.
+    /// There are more faces than can be numbered.
     #[error("the mesh has {given} faces; the most is {MOST_FACES}")]
     TooLarge {
-        /// Faces that came in.
+        /// Number of faces given.
         given: usize,
     },
 }
@@ -153,14 +153,14 @@ pub enum MeshError {
 impl TriangleMesh {
     /// Checks and cleans a mesh. Faces are counter-clockwise seen from their + side.
     ///
-    /// Positions are in metres. Normals and uvs are one a vertex; normals need not be unit, and one
-    /// that is zero or not finite means "that of the face". Faces that are not finite, have no area
-    /// or repeat an earlier face's three positions are left out and counted in
-    /// [`TriangleMesh::dropped`].
+    /// Positions are in metres. There is one normal and one uv per vertex, if given. Normals may
+    /// have any length; one that is zero or not finite is replaced by that of the face. Faces that
+    /// are not finite, have no area or repeat an earlier face's three positions are left out and
+    /// counted in [`TriangleMesh::dropped`].
     ///
     /// # Errors
     ///
-    /// [`MeshError`]: an index out of range, attributes that do not match, more than 1 % of the
+    /// [`MeshError`]: for an index out of range, attributes that do not match, more than 1 % of the
     /// faces left out, no face left, coordinates beyond 10⁹ m, too many faces.
     pub fn new(
         positions: Vec<Vec3>,
@@ -258,12 +258,13 @@ impl TriangleMesh {
         &self.positions
     }
 
-    /// Normals as given, one a vertex, of any length; zero or not finite means "that of the face".
+    /// Normals as given, one per vertex, of any length; one that is zero or not finite is replaced
+    /// by that of the face.
     pub fn normals(&self) -> Option<&[Vec3]> {
         self.normals.as_deref()
     }
 
-    /// Surface coordinates, one a vertex.
+    /// Texture coordinates, one per vertex.
     pub fn uvs(&self) -> Option<&[Vec2]> {
         self.uvs.as_deref()
     }
@@ -303,13 +304,14 @@ impl TriangleMesh {
 }
 
 /// Twice the area of a triangle. Differences of `f32` numbers and their products are exact in `f64`
-/// unless the numbers are very unlike, so this is 0 for points on a line and for them only.
+/// unless their magnitudes differ widely, so this is 0 for collinear points and only for them.
 fn double_area(corners: [Vec3; 3]) -> f64 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     DVec3::cross(b - a, c - a).length()
 }
 
-/// Those of `faces` (rising) whose three positions an earlier one has too, rising.
+/// The faces among `faces` (in rising order) whose three positions an earlier face has too, in
+/// rising order.
 fn duplicates(faces: &[u32], triangles: &[[u32; 3]], positions: &[Vec3]) -> Vec<u32> {
     // Adding 0 makes −0 and 0 the same bits.
     let key = |face: u32| {

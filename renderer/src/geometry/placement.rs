@@ -1,15 +1,15 @@
-//! Instances as they are traced.
+//! Instances prepared for tracing.
 
 use glam::{DMat3, DVec3, Mat3, Vec3, Vec3A};
 
 use super::instance::Instance;
 use super::ray::Ray;
 
-/// What a ray needs to know of an instance, in one line of the cache.
+/// The data of an instance that a ray needs, in one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(super) struct Carrier {
-    /// World to local, as rays are carried.
+    /// World to local, for rays.
     pub(super) linear: Mat3,
     pub(super) offset: Vec3,
     pub(super) mesh: u32,
@@ -17,7 +17,7 @@ pub(super) struct Carrier {
 }
 
 impl Carrier {
-    /// The ray in the local frame, with the same `t`.
+    /// Origin and direction of the ray in the local frame, with the same `t`.
     #[inline(always)]
     pub(super) fn carry(&self, ray: &Ray) -> (Vec3A, Vec3A) {
         let [x, y, z] = [
@@ -36,16 +36,16 @@ impl Carrier {
     }
 }
 
-/// An instance with what is computed from it. "Local" is the frame in which its mesh is traced.
+/// An instance with derived data. "Local" is the frame in which its mesh is traced.
 #[derive(Clone, Debug)]
 pub(super) struct Placement {
     pub(super) instance: Instance,
     /// Local to world.
     pub(super) linear: DMat3,
     pub(super) offset: DVec3,
-    /// Takes normals to the world.
+    /// Transforms normals to the world.
     pub(super) normals: DMat3,
-    /// The same in single precision, for directions that are made unit.
+    /// Local to world in single precision, for directions that are normalised afterwards.
     pub(super) linear_f32: Mat3,
     pub(super) normals_f32: Mat3,
     pub(super) carrier: Carrier,

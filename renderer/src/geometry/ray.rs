@@ -7,11 +7,12 @@ use glam::Vec3;
 pub struct Ray {
     /// Where `t` is 0, m.
     pub origin: Vec3,
-    /// Any length but 0; `t` counts in its units. Never normalised here.
+    /// Direction of any length above 0; `t` is in units of this length. It is never normalised
+    /// here.
     pub direction: Vec3,
-    /// Smallest `t` that counts, ≥ 0.
+    /// Smallest `t` of a hit, ≥ 0.
     pub t_min: f32,
-    /// Largest `t` that counts; may be infinite.
+    /// Largest `t` of a hit; may be infinite.
     pub t_max: f32,
 }
 

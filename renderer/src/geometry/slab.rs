@@ -1,5 +1,5 @@
-//! Does a ray meet a box? Conservative: a box is never missed whose triangles the triangle test
-//! would accept.
+//! The test of a ray against boxes. It is conservative: a box is never missed if the triangle test
+//! would accept one of its triangles.
 
 use glam::Vec3A;
 
@@ -27,7 +27,7 @@ const PLANES: [[Plane; 2]; 3] = [
     [Plane::MinZ, Plane::MaxZ],
 ];
 
-/// Planes that a ray meets first, indexed by the axes (a bit each) along which its direction is
+/// The planes that a ray meets first, indexed by a bit for each axis along which its direction is
 /// negative.
 const NEAR_PLANES: [[Plane; 3]; 8] = {
     let mut planes = [[Plane::MinX; 3]; 8];
@@ -43,8 +43,8 @@ const NEAR_PLANES: [[Plane; 3]; 8] = {
     planes
 };
 
-/// The axis along which a direction reaches farthest, which the triangle test shears along. Without
-/// a branch, since rays go everywhere.
+/// The axis along which a direction is longest, along which the triangle test shears. It is
+/// computed without a branch, which could not be predicted.
 #[inline(always)]
 pub(super) fn longest(direction: Vec3A) -> usize {
     let [x, y, z] = direction.abs().to_array();
@@ -52,16 +52,16 @@ pub(super) fn longest(direction: Vec3A) -> usize {
     not_x * (1 + usize::from(y <= z))
 }
 
-/// How far the sheared triangle test may see a vertex from where it is, relative to its distances
+/// Bound of the error of a vertex' position in the sheared triangle test, relative to its distances
 /// from the origin across (x) and along (z) the ray: `(x − oₓ) − s (z − o_z)` with |s| ≤ 1 has an
 /// error below (2 |x| + 4 |z|) · 2⁻²⁴ to first order. 8 (|x| + |z|) leaves room for the rounding of
 /// the shifted origin and of `b − o` below.
 const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
 
-/// Covers the three roundings in each of the two distances that are compared, (b − o) · 1/d.
+/// Allows for the three roundings in each of the two compared distances, (b − o) · 1/d.
 const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
 
-/// A ray made ready for box tests in one tree.
+/// A ray prepared for box tests in one tree.
 ///
 /// # Source
 ///
@@ -79,13 +79,13 @@ pub(super) struct SlabRay {
     t_min: f32,
 }
 
-/// `a` if it is greater; `b` also when `a` is not a number, as the machine's `max` has it.
+/// The greater number; `b` if `a` is NaN, like the machine's `max`.
 #[inline]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// `a` if it is less; `b` also when `a` is not a number.
+/// The lesser number; `b` if `a` is NaN.
 #[inline]
 pub(super) fn less(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
@@ -117,8 +117,7 @@ impl SlabRay {
     /// than `limit`.
     ///
     /// Every operation is monotonic in the box, so a box inside another never enters earlier nor
-    /// leaves later. A plane that the ray runs in (0 · ∞) does not count, which errs to the safe
-    /// side.
+    /// leaves later. A plane in which the ray lies (0 · ∞) is ignored, which is conservative.
     #[inline(always)]
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);

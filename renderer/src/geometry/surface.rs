@@ -1,4 +1,4 @@
-//! The point of a surface that a ray hit, and rays that leave it.
+//! The surface point of a hit, and rays that leave it.
 
 use glam::{Mat3, Vec2, Vec3};
 
@@ -10,20 +10,19 @@ use super::ray::Ray;
 /// Half the distance between 1 and the next `f32`: the relative error of one rounding.
 const ROUNDING: f64 = 1.0 / 16_777_216.0;
 
-/// Share of the way to its target that a ray of [`SurfacePoint::spawn_to`] leaves out at the far
-/// end.
+/// Share of the distance that a ray of [`SurfacePoint::spawn_to`] leaves out at its target.
 const SHADOW_GAP: f32 = 1e-4;
 
 /// A point of a surface, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// From the barycentrics, so on the triangle up to one rounding; m.
+    /// Position, m, computed from the barycentrics and so on the triangle up to one rounding.
     pub position: Vec3,
-    /// A point this far from `position` along the geometric normal is on that side of the triangle
-    /// for every ray test; m, > 0.
+    /// Offset, m, > 0: a point this far from `position` along the geometric normal lies on that
+    /// side of the triangle for every ray test.
     pub position_error: f32,
-    /// Unit. Counter-clockwise faces are seen from its side in the mesh's own frame; it then moves
-    /// with the instance as a normal does, so a mirrored closed mesh still has it outside.
+    /// Unit. In the mesh's own frame faces are counter-clockwise seen from its side. Instances
+    /// transform it as a normal, so in a mirrored closed mesh it still points outwards.
     pub geometric_normal: Vec3,
     /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that
     /// normal itself where the mesh has none.
@@ -41,7 +40,7 @@ pub struct SurfacePoint {
 
 impl SurfacePoint {
     /// The ray that leaves this point in `direction` (any length), `t` from 0 to infinity. It
-    /// starts beside the surface, on the side that it goes to, and never meets its own triangle.
+    /// starts beside the surface, on the side to which it goes, and never hits its own triangle.
     pub fn spawn(&self, direction: Vec3) -> Ray {
         Ray::new(self.beside(direction), direction)
     }
@@ -56,7 +55,7 @@ impl SurfacePoint {
         }
     }
 
-    /// Where a ray in `direction` starts.
+    /// The origin of a ray in `direction`.
     fn beside(&self, direction: Vec3) -> Vec3 {
         let side = if direction.dot(self.geometric_normal) < 0.0 {
             -1.0
@@ -104,7 +103,7 @@ impl SurfacePoint {
             rounding + (normal_local.abs().dot(carried) + tested) / stretch
         };
 
-        // Directions and texture coordinates need no more digits than they are given with.
+        // For directions and texture coordinates single precision is enough.
         let weights = weights.map(|weight| weight as f32);
         let geometric = geometric.as_vec3();
         let mut normal = geometric;
@@ -113,8 +112,7 @@ impl SurfacePoint {
             let [na, nb, nc] = vertices().map(|vertex| normals[vertex]);
             let interpolated = na * weights[0] + nb * weights[1] + nc * weights[2];
             if let Some(unit) = (placement.normals_f32 * interpolated).try_normalize() {
-                // The winding says which side is which; normals given for the other side mean the
-                // same surface.
+                // The winding defines the sides; normals given for the other side are flipped.
                 normal = if unit.dot(geometric) < 0.0 {
                     -unit
                 } else {
@@ -159,7 +157,7 @@ fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Opt
     let direction = (*linear * derivative).try_normalize()?;
     let flat = direction - normal * normal.dot(direction);
     let length2 = flat.length_squared();
-    // Nearly along the normal: what is left is rounding.
+    // If it is nearly parallel to the normal, only rounding is left.
     (length2 > 1e-12).then(|| flat / length2.sqrt())
 }
 

@@ -5,7 +5,7 @@ use glam::{Affine3A, EulerRot, Mat3, Quat, Vec2, Vec3};
 use super::scramble::scramble;
 use super::{Geometry, Instance, Ray, TriangleMesh};
 
-/// Numbers without pattern, the same on every run.
+/// Pseudo-random numbers, the same on every run.
 pub(super) struct Numbers(u64);
 
 impl Numbers {
@@ -54,7 +54,7 @@ impl Numbers {
     }
 }
 
-/// Triangles strewn over a cube of half-width `scale` around `center`.
+/// Random triangles in a cube of half-width `scale` around `center`.
 pub(super) fn soup(seed: u64, count: u32, scale: f32, center: Vec3) -> TriangleMesh {
     let mut numbers = Numbers::new(seed);
     let mut positions = Vec::new();
@@ -118,6 +118,6 @@ pub(super) fn ray_through(numbers: &mut Numbers, geometry: &Geometry) -> Ray {
     } else {
         middle + numbers.cube() * half
     };
-    // The length of a direction is nobody's business.
+    // Directions may have any length.
     Ray::new(origin, (target - origin) * (0.1 + 10.0 * numbers.unit()))
 }

@@ -1,11 +1,11 @@
-//! Does a ray meet a triangle? Watertight, eight triangles at a time.
+//! The watertight test of a ray against eight triangles at a time.
 
 use glam::{Vec3, Vec3A};
 
 use super::slab::{SlabRay, longest};
 use crate::simd::{Eight, LANES, Row};
 
-/// Eight triangles by vertex, axis and lane; lanes that are not used hold NaN, which no ray meets.
+/// Eight triangles by vertex, axis and lane; unused lanes hold NaN, which no ray hits.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct TriangleBlock {
@@ -21,7 +21,7 @@ enum Axis {
     Z,
 }
 
-/// A ray made ready for triangle tests: axes permuted so that the ray runs along the third, and
+/// A ray prepared for triangle tests: axes permuted so that the ray runs along the third, and
 /// sheared onto it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearRay {
@@ -59,9 +59,9 @@ const AXES: [[[Axis; 3]; 2]; 3] = [
     [[Axis::X, Axis::Y, Axis::Z], [Axis::Y, Axis::X, Axis::Z]],
 ];
 
-/// What the projection of eight corners needs in every lane. No closures here or below: they are
-/// compiled as functions of their own, without the instructions of the level, before they are
-/// inlined.
+/// The constants for the projection of eight corners, in every lane. There are no closures here or
+/// below: before being inlined, they would be compiled as separate functions without the level's
+/// instructions.
 struct ShearLanes<E: Eight> {
     x: E::F,
     y: E::F,
@@ -94,7 +94,7 @@ impl<E: Eight> ShearLanes<E> {
     }
 }
 
-/// Where a ray meets a triangle: the distance, and the weights of the second and third vertex.
+/// A hit of a triangle: the distance, and the weights of the second and third vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TriangleHit {
     pub(super) t: f32,
@@ -141,10 +141,10 @@ impl TriangleBlock {
     /// A bit for each lane in which [`TriangleBlock::hit`] may find something no farther than
     /// `limit`.
     ///
-    /// The edge functions of \[woop2013\] on eight lanes. A product that rounds keeps its order, so
-    /// the sign of a difference of two products is right or the difference is 0; zeros pass here
-    /// and are settled by `hit`. In the other lanes `t` has the bits that it has there, so what
-    /// lies outside the ray's interval is left out.
+    /// The edge functions of \[woop2013\] on eight lanes. Rounding is monotonic, so the sign of a
+    /// difference of two products is right or the difference is 0; zeros pass here and are decided
+    /// by `hit`. In the other lanes `t` has the same bits as in `hit`, so hits outside the ray's
+    /// interval are left out.
     #[inline(always)]
     pub(super) fn candidates<E: Eight>(&self, e: E, ray: &ShearRay, limit: f32) -> u32 {
         let [a, b, c] = &self.vertices;
@@ -177,9 +177,9 @@ impl TriangleBlock {
     /// The hit in one lane, or `None`.
     ///
     /// `t` is never less than the distance at which the ray enters the triangle's own box, and a
-    /// ray that misses that box misses the triangle. Both are facts about triangle and ray alone,
-    /// and boxes of the tree contain that box: so culling by them changes nothing, even where
-    /// rounding moves `t` (a triangle seen edge-on).
+    /// ray that misses that box misses the triangle. Both depend on triangle and ray alone, and the
+    /// boxes of the tree contain that box. So culling never changes a result, even where rounding
+    /// moves `t` (a triangle seen edge-on).
     #[inline(always)]
     pub(super) fn hit(&self, lane: usize, ray: &ShearRay, slab: &SlabRay) -> Option<TriangleHit> {
         let [a, b, c] = [0, 1, 2].map(|vertex| self.corner(vertex, lane));
@@ -214,7 +214,7 @@ impl TriangleBlock {
             return None;
         }
         let t = (u * az + v * bz + w * cz) / determinant;
-        // Written so that a NaN is a miss.
+        // Written so that NaN is a miss.
         if !(t >= ray.t_min && t < f32::INFINITY) {
             return None;
         }

@@ -1,4 +1,4 @@
-//! A tree of boxes with eight children a node, and the walk of a ray through it.
+//! A tree of boxes with eight children per node, and its traversal by a ray.
 
 use glam::Vec3;
 
@@ -10,7 +10,7 @@ mod build;
 mod cut;
 mod pack;
 
-/// Levels of nodes that a tree may have; deeper ones are built anew by halving.
+/// Greatest number of levels of nodes; deeper trees are rebuilt by halving.
 const MAX_DEPTH: usize = 18;
 
 /// A node leaves at most seven children on the stack while the walk goes into the eighth.
@@ -19,8 +19,8 @@ const STACK: usize = MAX_DEPTH * (LANES - 1) + 1;
 /// Marks a child that is a leaf; the rest of the number says which.
 const LEAF: u32 = 1 << 31;
 
-/// Eight children: their boxes, and what they are. Places without a child have an empty box, which
-/// no ray meets.
+/// Eight children: their boxes and codes. Places without a child have an empty box, which no ray
+/// hits.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct WideNode {
@@ -45,7 +45,7 @@ impl WideNode {
         self.children[lane] = child;
     }
 
-    /// Boxes and codes of the children that are there.
+    /// Boxes and codes of the existing children.
     fn present(&self) -> impl Iterator<Item = (Bounds, u32)> + '_ {
         let boxes = (0..LANES).map(|lane| {
             let corner = |first: usize| {
@@ -62,12 +62,13 @@ impl WideNode {
     }
 }
 
-/// What is done at the leaves of a tree.
+/// The operation at the leaves of a tree.
 pub(super) trait Visitor {
     /// Prefetches the memory of a leaf that is likely to be visited soon.
     fn fetch(&self, leaf: u32);
 
-    /// Visits a leaf whose box the ray enters at `enter`; gives the new limit, −∞ to end the walk.
+    /// Visits a leaf whose box the ray enters at `enter`; returns the new limit, −∞ to end the
+    /// traversal.
     fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32;
 }
 
@@ -99,7 +100,7 @@ impl WideTree {
     }
 
     /// At most `most` (≥ 1) boxes that together enclose everything: those of the lowest nodes of
-    /// the tree of which so few suffice.
+    /// the tree that are few enough.
     pub(super) fn hull(&self, most: usize) -> Vec<Bounds> {
         // (box, code of the node or leaf)
         let mut hull = vec![(self.bounds, if self.nodes.is_empty() { LEAF } else { 0 })];
@@ -127,9 +128,9 @@ impl WideTree {
 
     /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`.
     ///
-    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Which
-    /// leaves are visited beyond those within the final limit depends on that order, so nothing but
-    /// the limit may depend on it.
+    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Leaves
+    /// beyond the final limit may be visited or not, depending on that order, so results must not
+    /// depend on them.
     #[inline(always)]
     pub(super) fn walk<const NEAREST_FIRST: bool, E: Eight>(
         &self,
@@ -155,7 +156,7 @@ impl WideTree {
                     if met != 0 {
                         self.ask_for(e, child, visitor);
                     }
-                    // One child goes on at once, the others wait on the stack.
+                    // One child is visited at once, the others wait on the stack.
                     while met != 0 {
                         let lane = take_lane(&mut met);
                         let mut other = (enters.0[lane], node.children[lane]);
@@ -198,7 +199,7 @@ impl WideTree {
     }
 }
 
-/// The lowest lane of a mask that is not empty, which is taken out of it.
+/// Removes the lowest lane from a mask that is not empty, and returns it.
 #[inline(always)]
 fn take_lane(mask: &mut u32) -> usize {
     let lane = mask.trailing_zeros() as usize % LANES;

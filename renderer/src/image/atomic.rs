@@ -1,4 +1,4 @@
-//! Files that are replaced whole or not at all.
+//! Atomic replacement of files.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -6,11 +6,11 @@ use std::path::Path;
 
 use super::ImageError;
 
-/// Replaces the file at `path` by what `write` writes.
+/// Replaces the file at `path` by the output of `write`.
 ///
-/// It goes to a temporary file in the same folder, which is flushed, synced and then renamed; last
-/// the folder is synced. Whatever fails, the file that was there stays as it was, and the temporary
-/// one is removed. A new file has the mode that the umask leaves of 0666.
+/// The output goes to a temporary file in the same folder, which is flushed, synced and renamed;
+/// then the folder is synced. If anything fails, the old file stays as it was and the temporary one
+/// is removed. A new file has the mode that the umask leaves of 0666.
 ///
 /// # Errors
 ///
@@ -47,8 +47,7 @@ fn replace_or_fail(
     drop(writer);
     temporary.as_file().sync_all()?;
     temporary.persist(path).map_err(|error| error.error)?;
-    // The new name is in the folder; until that is on the disk a power cut may bring back the old
-    // file.
+    // Until the folder's entry is on the disk, a power cut may bring back the old file.
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;
     Ok(())

@@ -1,21 +1,21 @@
-//! How two pictures differ.
+//! Comparison of two pictures.
 
 use super::{Layer, Picture};
 
-/// How two pictures differ.
+/// Comparison of two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Width and height of both.
     pub sizes: [(u32, u32); 2],
-    /// Channels that both have, in the first one's order; none if the sizes differ.
+    /// Channels that both have, in the first one's order; empty if the sizes differ.
     pub channels: Vec<ChannelComparison>,
     /// Names of channels that only the first or only the second has.
     pub missing: [Vec<String>; 2],
-    /// Same size, same channels, and every value the same bit for bit. Attributes do not count.
+    /// Same size, same channels, and every value the same bit for bit. Attributes are ignored.
     pub identical: bool,
 }
 
-/// How one channel differs, over the pixels that are finite in both.
+/// Comparison of one channel over the pixels that are finite in both pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelComparison {
     /// Name of the channel.

@@ -18,7 +18,7 @@ use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{Attribute, ImageError, Layer, MOST_BYTES, Picture, atomic, check_size};
 
-/// Attributes that say how the file is built; they are not ours to set, and not reported.
+/// Attributes that describe the structure of the file. They cannot be set and are not reported.
 const STRUCTURAL: [&str; 15] = [
     "channels",
     "chunkCount",
@@ -76,7 +76,7 @@ pub fn write(picture: &Picture, path: &Path) -> Result<(), ImageError> {
 ///
 /// # Errors
 ///
-/// As [`write()`], but for the file.
+/// As [`write()`], except for errors of the file.
 pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     check(picture)?;
     let size = Vec2(picture.width as usize, picture.height as usize);
@@ -118,8 +118,8 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
         .with_shared_attributes(shared);
     let chunks = deflate::blocks(&layers, size.0, size.1);
     let mut bytes = Cursor::new(Vec::new());
-    // Our own check stands in for the crate's, which refuses standard attributes that it has fields
-    // for.
+    // Our own check replaces the crate's, which refuses standard attributes for which it has
+    // fields.
     let written = guard(|| {
         let headers = std::iter::once(header).collect();
         write_chunks_with(&mut bytes, headers, false, |_, writer| {
@@ -135,7 +135,7 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     Ok(bytes)
 }
 
-/// Refuses pictures that would not read back as they were written.
+/// Refuses pictures that would not read back unchanged.
 fn check(picture: &Picture) -> Result<(), ImageError> {
     let refuse = |what: String| Err(ImageError::Inconsistent { what });
     let channels = picture.layers.len() as u64;
@@ -186,8 +186,8 @@ fn text(words: &str) -> Text {
 }
 
 /// Puts the attributes of a single-part file into the order of their names: the crate writes them
-/// in the order of a hash map, which differs from run to run. Nothing else moves, so every offset
-/// in the file stays right.
+/// in the order of a hash map, which differs from run to run. Nothing else moves, so all offsets in
+/// the file stay valid.
 fn sort_attributes(file: &mut [u8]) {
     // Magic number and version come first; then name 0, type 0, size, value for each, and 0 at the
     // end.
@@ -227,13 +227,12 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 }
 
 /// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32`
-/// (16-bit floats exactly, whole numbers rounded), and the attributes of kinds that [`Attribute`]
-/// has.
+/// (16-bit floats exactly, integers rounded), and the attributes of the types in [`Attribute`].
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`] for everything else,
-/// also for what makes the decoder panic.
+/// including input on which the decoder panics.
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
     let meta =
@@ -242,7 +241,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     for header in &meta.headers {
         let size = header.layer_size;
         let channels = header.channels.list.len() as u64;
-        // What the file holds, and what we make of it.
+        // Memory of the file's values plus that of ours.
         let bytes_a_pixel =
             (header.channels.bytes_per_pixel as u64).max(channels.saturating_mul(4));
         check_size(size.0 as u64, size.1 as u64, channels, bytes_a_pixel)?;
@@ -263,7 +262,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
             .all_channels()
             .first_valid_layer()
             .all_attributes()
-            // A panic in a thread of the decoder's own would be out of our reach.
+            // A panic in a thread of the decoder could not be caught.
             .non_parallel()
             .from_buffered(Cursor::new(bytes))
     })
@@ -292,7 +291,7 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// The attributes that are ours to report, by name.
+/// The attributes that are reported, by name.
 fn attributes(header: &Header) -> Vec<(String, Attribute)> {
     let mut found: Vec<_> = header
         .all_named_attributes()
@@ -328,7 +327,7 @@ fn attribute(value: AttributeValue) -> Option<Attribute> {
     })
 }
 
-/// Runs the crate; an error or a panic becomes words.
+/// Runs the crate's code; turns an error or a panic into a message.
 fn guard<T>(run: impl FnOnce() -> exr::error::Result<T>) -> Result<T, String> {
     let words = |panic: Box<dyn Any + Send>| {
         let text = panic.downcast_ref::<String>().cloned();

@@ -1,4 +1,4 @@
-//! PNG: pictures to look at, and low-range textures.
+//! PNG: pictures for viewing, and low-range textures.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -69,8 +69,9 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, taking the values for
-/// sRGB whatever colour chunks the file has. Grey becomes three equal layers; alpha is left out.
+/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, interpreting the
+/// values as sRGB whatever colour chunks the file has. Grey becomes three equal layers; alpha is
+/// left out.
 ///
 /// # Errors
 ///
@@ -120,7 +121,7 @@ pub fn read_weights(path: &Path, alpha: bool) -> Result<Picture, ImageError> {
     })
 }
 
-/// Pixels as they are stored, of at most so many channels.
+/// Pixels as stored, with at most `channels` channels.
 fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError> {
     let malformed = |error: image::ImageError| ImageError::Malformed {
         what: error.to_string(),

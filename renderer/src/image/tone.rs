@@ -1,9 +1,9 @@
-//! From linear light to what a screen shows.
+//! From linear light to 8-bit display values.
 
 /// Curve before the sRGB encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// None: colours can be measured in the PNG.
+    /// No curve, so that colours can be measured in the PNG.
     Linear,
     /// Highlights roll off as on film.
     Filmic,
@@ -11,7 +11,7 @@ pub enum Tone {
 
 /// Encodes linear sRGB as 8-bit values: exposure 2^EV, the curve, the sRGB encoding, rounding.
 ///
-/// Values may be interleaved in any way, since each is on its own. NaN becomes 0.
+/// Values may be interleaved in any way, since each is encoded separately. NaN becomes 0.
 pub fn to_bytes(linear: &[f32], exposure_ev: f64, tone: Tone) -> Vec<u8> {
     let encoded = encoded(linear, exposure_ev, tone);
     encoded
@@ -35,8 +35,8 @@ fn encoded(linear: &[f32], exposure_ev: f64, tone: Tone) -> impl Iterator<Item =
     })
 }
 
-/// A curve with the toe and shoulder of film: darks a little darker, lights roll off towards 1
-/// instead of clipping.
+/// A curve with the toe and shoulder of film: darks become a little darker, lights roll off towards
+/// 1 instead of clipping.
 ///
 /// `y = x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14)` for x ≥ 0, with x = 0.6 times the light.
 /// Rises strictly up to where it reaches 1 (light about 12); 0.18 becomes 0.14. Works on each
@@ -128,7 +128,7 @@ mod tests {
             assert!(now > last && now <= 1.0, "{i}");
             last = now;
         }
-        // Twice the light that clips without it still has a tone of its own.
+        // Light at twice the clipping level is still distinguished.
         assert!(filmic(2.0) < 0.96 && filmic(4.0) > filmic(2.0) + 0.02);
     }
 }

@@ -9,8 +9,8 @@ use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Camera as CameraBlock, Description, FilmKind};
 use crate::scene::world::World;
 
-/// The picture with all its [layers](crate::integrator::layers::LAYERS) and what is to be known
-/// about it, worked out on the current thread pool.
+/// The picture with all its [layers](crate::integrator::layers::LAYERS) and attributes, computed on
+/// the current thread pool.
 ///
 /// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
 pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendered) -> Picture {
@@ -30,7 +30,7 @@ pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendere
     }
 }
 
-/// Every pixel of one channel of a layer.
+/// The values of one channel of a layer.
 fn developed(
     layer: &FilmLayer,
     channel: usize,
@@ -94,7 +94,7 @@ fn attributes(
         text("lamina:seed", job.seed.to_string()),
         (
             "lamina:spp".to_owned(),
-            // What pixels really have: fewer than asked for if time or noise ended the render.
+            // The actual number, which is less than asked for if time or noise ended the render.
             Attribute::Int(rendered.film.drawn_range()[1] as i32),
         ),
         text(
@@ -134,7 +134,7 @@ fn attributes(
 }
 
 /// World to camera (`x` right, y up, looking along −z) and world to normalised device coordinates
-/// (−1 to 1 over the picture), both for row vectors as `OpenEXR` has them, row by row.
+/// (−1 to 1 over the picture), both for row vectors as in `OpenEXR`, row by row.
 fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
     let axes = crate::camera::Camera::axes(camera);
     let (right, up, back) = (axes.x_axis, axes.y_axis, -axes.z_axis);
@@ -182,7 +182,7 @@ fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
     (flat(to_camera), flat(projection * to_camera))
 }
 
-/// The 64-bit FNV-1a hash: tells scenes apart, guards nothing.
+/// The 64-bit FNV-1a hash. It distinguishes scenes; it is not a cryptographic hash.
 fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)

@@ -1,12 +1,12 @@
-//! What a path does at its first vertex and after it.
+//! The amount of work of a path at its first vertex and after it.
 
-/// What a path does at its first vertex and after it.
+/// The amount of work of a path at its first vertex and after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Throughput below which roulette is played; 0 switches it off.
+    /// Throughput below which Russian roulette is applied; 0 switches it off.
     pub roulette_below: f32,
-    /// Paths that go on from the first vertex where no sampled light reached it, ≥ 1.
+    /// Number of paths that continue from the first vertex if no sampled light reaches it, ≥ 1.
     pub branches: u32,
-    /// Light samples at the first vertex, apart from those of suns, ≥ 1.
+    /// Number of light samples at the first vertex, besides those of suns, ≥ 1.
     pub light_samples: u32,
 }

@@ -1,24 +1,24 @@
-//! What a sample adds to a picture besides radiance: layers for compositing and denoising.
+//! Features: data of a sample besides radiance, for compositing and denoising.
 
 use crate::integrator::path::FirstHit;
 use crate::spectrum::cie;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthSampler, Wavelengths};
 
-/// What can be known of a place that a camera ray met first: up to three numbers.
+/// A quantity of the first hit of a camera ray: up to three numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Point, world, m.
     Position,
     /// Unit shading normal on the side of the camera, world.
     Normal,
-    /// Linear sRGB of the surface in white light.
+    /// Linear sRGB of the surface under white light.
     Albedo,
     /// Number + 1 of the object.
     Object,
 }
 
 impl Quantity {
-    /// Its numbers; where it has fewer than three, the others are 0.
+    /// Its numbers; if there are fewer than three, the others are 0.
     #[inline]
     pub fn of<const N: usize>(self, sight: &Sight<'_, N>) -> [f32; 3] {
         let hit = sight.hit;
@@ -31,24 +31,24 @@ impl Quantity {
     }
 }
 
-/// What a sample's camera ray met first, and what it takes to show it.
+/// The first hit of a sample's camera ray, with the data needed to convert it to features.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a, const N: usize> {
     /// The place.
     pub hit: &'a FirstHit<N>,
     /// The path's wavelengths.
     pub wavelengths: &'a Wavelengths<N>,
-    /// Makes colours of them.
+    /// Converts them to colours.
     pub sampler: &'a WavelengthSampler,
-    /// Light under which surfaces are shown, see [`white`].
+    /// Light for the albedo's colour, see [`white`].
     pub white: &'a Spectrum,
-    /// Whether the film records features of this sample; if not, numbers only have to be finite
-    /// where these are.
+    /// Whether the film records features of this sample. If not, numbers only need to be finite
+    /// where the true ones are.
     pub recorded: bool,
 }
 
 impl<const N: usize> Sight<'_, N> {
-    /// Linear sRGB of a surface that leaves a share of each wavelength, worked out only where it is
+    /// Linear sRGB of a surface that scatters a share of each wavelength, computed only if it is
     /// recorded.
     fn colour(&self, share: Lanes<N>) -> [f32; 3] {
         let mut colour = [0.0; 3];

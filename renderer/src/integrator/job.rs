@@ -1,6 +1,6 @@
-//! Which samples of which picture.
+//! The size, samples and seed of a picture.
 
-/// Which samples of which picture.
+/// The size, samples and seed of a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
     /// Pixels across.

@@ -1,12 +1,12 @@
-//! The layers of a picture, declared once: what each is called, kept as, made of.
+//! The layers of a picture, declared once: name, storage and source of each.
 //!
 //! - **In**: the kind of film.
-//! - **Out**: [`LAYERS`], and of a film's [`Layout`] what its pixels keep and where each layer's
-//!   numbers are.
+//! - **Out**: [`LAYERS`]; and a film's [`Layout`], which says what its pixels store and where each
+//!   layer's numbers are.
 //! - **Always true**: code that adds samples, merges films, develops pictures or says how many
 //!   bytes a pixel takes reads this table. A test compares the book with it. A new layer is an
-//!   entry here, and where it shows something new of what a ray met, a [`Quantity`].
-//! - **Left out**: how numbers are added up, see [`crate::film`].
+//!   entry here and, if it shows a new property of a hit, a [`Quantity`].
+//! - **Left out**: the summation, which is in [`crate::film`].
 
 use glam::DVec3;
 
@@ -16,18 +16,18 @@ use crate::integrator::features::{Quantity, Sight};
 use crate::scene::description::{Camera, FilmKind};
 use crate::spectrum::WavelengthSampler;
 
-/// One layer: the channels of a picture that say one thing.
+/// One layer: channels of a picture that belong together.
 #[derive(Clone, Copy, Debug)]
 pub struct FilmLayer {
-    /// Stands before the channels' own names with a dot between them; empty for the picture itself.
+    /// Prefix of the channels' names, followed by a dot; empty for the picture itself.
     pub name: &'static str,
     /// Its channels.
     pub channels: Channels,
     /// Films that have it.
     pub films: Films,
-    /// What it is made of.
+    /// Its source.
     pub source: Source,
-    /// What it is, for the book.
+    /// Its description, for the book.
     pub about: &'static str,
 }
 
@@ -49,28 +49,28 @@ pub enum Films {
     Colour,
 }
 
-/// What a layer is made of: what its pixels keep, and how they are developed.
+/// The source of a layer: what pixels store for it, and how it is developed.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// The film's own channels, of which every pixel keeps two moments, and the number of samples.
+    /// The film's own channels, computed from their two moments and the number of samples.
     Radiance(fn(&Moments, u32) -> f64),
-    /// Counts that every pixel keeps in any case.
+    /// Counts that every pixel stores anyway.
     Count(fn(&Pixel<'_>) -> f64),
-    /// Features of its own, one a channel; 0 where nothing is covered.
+    /// Its own features, one per channel; 0 where nothing is covered.
     Feature {
-        /// What a sample adds; the layer has as many of its numbers as channels.
+        /// The quantity; the layer uses as many of its numbers as it has channels.
         quantity: Quantity,
         /// How a pixel keeps it.
         sum: Sum,
-        /// The least and the most that the picture shows.
+        /// Least and greatest value in the picture.
         within: [f64; 2],
     },
-    /// A number that the camera gives to the mean of another layer of three features; 0 where
-    /// nothing is covered.
+    /// A function of the camera and the mean of another layer of three features; 0 where nothing is
+    /// covered.
     OfPoint {
         /// Name of the other layer, whose films have this one.
         layer: &'static str,
-        /// From its three means.
+        /// The function of its three means.
         by: fn(DVec3, &Camera) -> f64,
     },
 }
@@ -140,8 +140,8 @@ pub const LAYERS: &[FilmLayer] = &[
         films: Films::All,
         source: Source::OfPoint {
             layer: "P",
-            // Points that a pixel sees lie along one line but for its width and the blur of the
-            // lens, so this is the mean distance nearly.
+            // The points that a pixel sees lie along one line except for its width and the blur of
+            // the lens, so this is nearly the mean distance.
             by: |point, camera| (point - camera.position).length(),
         },
         about: "distance of the mean position from the middle of the lens, m",
@@ -170,10 +170,10 @@ fn alpha(pixel: &Pixel<'_>) -> f64 {
     pixel.alpha()
 }
 
-/// Most channels of a film: 32 bands.
+/// Greatest number of channels of a film: 32 bands.
 pub const MOST_CHANNELS: usize = 32;
 
-/// Most features of a sample.
+/// Greatest number of features of a sample.
 pub const MOST_FEATURES: usize = {
     let mut count = 0;
     let mut row = 0;
@@ -185,7 +185,7 @@ pub const MOST_FEATURES: usize = {
 };
 
 impl FilmLayer {
-    /// Number of features that a pixel keeps for it.
+    /// Number of features that a pixel stores for it.
     const fn features(&self) -> usize {
         match (&self.source, self.channels) {
             (Source::Feature { .. }, Channels::Named(names)) => {
@@ -199,7 +199,7 @@ impl FilmLayer {
         }
     }
 
-    /// Whole names of its channels on a film of this kind.
+    /// Full names of its channels on a film of this kind.
     pub fn channel_names(&self, kind: &FilmKind) -> Vec<String> {
         let own: Vec<String> = match (self.channels, kind) {
             (Channels::Named(names), _) => names.iter().map(ToString::to_string).collect(),
@@ -217,17 +217,17 @@ impl FilmLayer {
     }
 }
 
-/// What a film of some kind records.
+/// The layout of a film's records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// Channels: R, G, B or the bands.
+    /// Number of channels: R, G, B or the bands.
     pub beauty: usize,
     /// Whether they are R, G, B.
     pub colour: bool,
 }
 
 impl Layout {
-    /// For a film of this kind.
+    /// The layout of a film with these wavelengths.
     pub fn new(wavelengths: &WavelengthSampler) -> Self {
         Self {
             beauty: wavelengths.channels(),
@@ -258,7 +258,8 @@ impl Layout {
         Film::bytes_a_pixel(self.beauty, &self.sums())
     }
 
-    /// Number of a layer's first feature; none if it has no features, or the film no such layer.
+    /// Number of a layer's first feature; `None` if it has no features or the film has no such
+    /// layer.
     pub fn first_feature(self, name: &str) -> Option<usize> {
         let mut first = 0;
         for layer in self.layers() {
@@ -270,14 +271,15 @@ impl Layout {
         None
     }
 
-    /// What a sample that met something adds to the film's features.
+    /// The features of a sample that hit something.
     #[inline]
     pub fn features<const N: usize>(self, sight: &Sight<'_, N>) -> Features {
         let mut features = [0.0; MOST_FEATURES + 2];
         let mut first = 0;
         for layer in self.layers() {
             if let Source::Feature { quantity, .. } = layer.source {
-                // What a quantity has beyond the layer's channels, the next one writes over.
+                // Numbers of a quantity beyond the layer's channels are overwritten by the next
+                // one.
                 features[first..first + 3].copy_from_slice(&quantity.of(sight));
                 first += layer.features();
             }
@@ -286,7 +288,7 @@ impl Layout {
     }
 }
 
-/// Features of a sample, with room for what the last quantity has beyond its channels.
+/// Features of a sample, with room for numbers of the last quantity beyond its layer's channels.
 pub type Features = [f32; MOST_FEATURES + 2];
 
 #[cfg(test)]

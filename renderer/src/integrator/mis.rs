@@ -1,9 +1,9 @@
-//! Weights for light that two techniques can find.
+//! Multiple importance sampling: weights for light that two techniques can find.
 
 /// The power heuristic (exponent 2): weight of a technique with density `own` where another one has
 /// `other`.
 ///
-/// Both densities are over the same measure. An infinite density (a mirror) takes all.
+/// Both densities are over the same measure. An infinite density (a mirror) gets weight 1.
 pub fn power(own: f32, other: f32) -> f32 {
     if own.is_infinite() {
         return 1.0;

@@ -1,16 +1,16 @@
-//! When a block of pixels has enough samples.
+//! Adaptive sampling: decides when a block of pixels has enough samples.
 //!
-//! At 16, 32, 64, … samples the luminance of every pixel is compared with what it was at half as
-//! many. Half the difference of two independent halves has the variance of their mean.
-//! Low-discrepancy halves complement one another, so their mean is better than that, and the
-//! estimate errs to the safe side.
+//! At 16, 32, 64, … samples the luminance of every pixel is compared with its value at half as many
+//! samples. Half the difference of two independent halves has the variance of their mean.
+//! Low-discrepancy halves complement each other, so their mean is better than that and the estimate
+//! is conservative.
 //!
-//! - **In**: the film's sums at these borders, and the relative error that is aimed at.
+//! - **In**: the film's sums at these borders, and the target relative error.
 //! - **Out**: for each block the number of samples at which it stops.
 //! - **Always true**: a decision depends on the sums of all samples up to a border and on nothing
 //!   else, so it does not depend on threads or time. A block is judged by 64 independent
-//!   differences, one a pixel, so it does not stop by luck.
-//! - **Left out**: light that none of the first samples of a block met.
+//!   differences, one per pixel, so it rarely stops by chance.
+//! - **Left out**: light that none of the first samples of a block found.
 
 use rayon::prelude::*;
 
@@ -20,20 +20,20 @@ use crate::film::{BLOCK_SIDE, Film, Pixel};
 const FIRST_BORDER: u32 = 16;
 /// Blocks stop at multiples of this many samples only, where passes end.
 pub const STEP: u32 = 16;
-/// Error is relative to the block's luminance and this share of the picture's mean: what is nearly
-/// black need not be known as closely as what is bright.
+/// Errors are relative to the block's luminance plus this share of the picture's mean, so that
+/// nearly black parts need not be as precise as bright ones.
 const FLOOR: f64 = 0.1;
 
 /// Luminance of linear Rec. 709 colour.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// What is known of every block's noise, and when each stops.
+/// The noise of every block and the number of samples at which it stops.
 #[derive(Clone, Debug)]
 pub struct NoiseWatch {
     aim: f64,
     most: u32,
     colour: bool,
-    /// Luminance of each pixel at the last border, in the order of blocks as the film has them.
+    /// Luminance of each pixel at the last border, in the film's order of blocks.
     luminance: Vec<f32>,
     blocks: Vec<BlockNoise>,
 }
@@ -42,14 +42,14 @@ pub struct NoiseWatch {
 struct BlockNoise {
     /// Samples at which the block stops.
     goal: u32,
-    /// Relative error as one sample would have it: that of `n` samples is this over √n. Negative
-    /// before it is known.
+    /// Relative error of a single sample: that of `n` samples is this over √n. Negative while it is
+    /// unknown.
     of_one_sample: f32,
 }
 
 impl NoiseWatch {
-    /// Nothing known yet: every block goes on to `most` samples. `colour` says that channels are R,
-    /// G, B; else luminance is the mean of all channels.
+    /// The initial state, in which every block goes on to `most` samples. If `colour`, channels are
+    /// R, G, B; else luminance is the mean of all channels.
     pub fn new(film: &Film, aim: f64, most: u32, colour: bool) -> Self {
         let pixels = film.width() as usize * film.height() as usize;
         let block = BlockNoise {
@@ -70,18 +70,18 @@ impl NoiseWatch {
         samples >= FIRST_BORDER && samples.is_power_of_two()
     }
 
-    /// Samples at which a block stops, as far as is known.
+    /// Number of samples at which a block stops, by present knowledge.
     pub fn goal(&self, block: usize) -> u32 {
         self.blocks[block].goal
     }
 
-    /// The most samples at which a block stops, as far as is known.
+    /// Greatest number of samples at which a block stops, by present knowledge.
     pub fn last_goal(&self) -> u32 {
         let goals = self.blocks.iter().map(|block| block.goal);
         goals.max().unwrap_or(0)
     }
 
-    /// Paths in all, as far as is known.
+    /// Total number of paths, by present knowledge.
     pub fn expected_paths(&self, film: &Film) -> u64 {
         let blocks = self.blocks.iter().enumerate();
         blocks
@@ -89,7 +89,7 @@ impl NoiseWatch {
             .sum()
     }
 
-    /// Looks at the film at a border, when every block that goes on has `samples` samples.
+    /// Judges the film at a border, when every unfinished block has `samples` samples.
     pub fn look(&mut self, film: &Film, samples: u32) {
         let found = self.compare(film);
         let pixels = |number: usize| f64::from(film.pixels_of(number));
@@ -99,7 +99,7 @@ impl NoiseWatch {
             .sum();
         let mean = sum / self.luminance.len() as f64;
         for (block, found) in self.blocks.iter_mut().zip(&found) {
-            // At the first border there is nothing yet to compare with.
+            // At the first border there is nothing to compare with.
             if block.goal < samples || samples == FIRST_BORDER {
                 continue;
             }
@@ -108,7 +108,7 @@ impl NoiseWatch {
             block.goal = if error <= self.aim {
                 samples
             } else {
-                // Beyond twice as many the next border decides.
+                // If more than twice as many are needed, the next border decides.
                 let needed = f64::from(samples) * (error / self.aim) * (error / self.aim);
                 let steps = (needed / f64::from(STEP)).ceil() as u32;
                 steps.saturating_mul(STEP).min(self.most)
@@ -116,7 +116,7 @@ impl NoiseWatch {
         }
     }
 
-    /// Relative error that was reached: root mean square over the picture's pixels; none before two
+    /// The relative error reached: root mean square over the picture's pixels; `None` before two
     /// borders.
     pub fn reached(&self, film: &Film) -> Option<f64> {
         let mut sum = 0.0;
@@ -131,7 +131,7 @@ impl NoiseWatch {
         Some((sum / self.luminance.len() as f64).sqrt())
     }
 
-    /// Compares every block with the last border, and remembers this one.
+    /// Compares every block with the last border, and stores this one.
     fn compare(&mut self, film: &Film) -> Vec<Compared> {
         let colour = self.colour;
         let (width, height) = (film.width(), film.height());
@@ -165,7 +165,7 @@ impl NoiseWatch {
     }
 }
 
-/// A block's luminance, and how far its pixels moved since they had half as many samples.
+/// A block's luminance, and the change of its pixels since they had half as many samples.
 #[derive(Clone, Copy, Debug)]
 struct Compared {
     /// Mean over the pixels.
@@ -176,7 +176,7 @@ struct Compared {
 }
 
 impl Compared {
-    /// Error of a pixel over luminance, in a picture with this mean luminance.
+    /// Relative error of a pixel, in a picture with this mean luminance.
     fn relative_error(&self, picture_mean: f64) -> f64 {
         if self.square <= 0.0 {
             return 0.0;
@@ -241,7 +241,8 @@ mod tests {
 
     #[test]
     fn a_block_gets_as_many_samples_as_its_variance_asks_for() {
-        // Still, of relative deviation 1, of deviation 0.5, and dark with relative deviation 1.
+        // Blocks without noise, with relative deviation 1, with deviation 0.5, and dark with
+        // relative deviation 1.
         let value = |x, y, number| match x / BLOCK_SIDE {
             0 => 1.0,
             1 => 2.0 * coin(x, y, number),

@@ -14,25 +14,25 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
-/// Sets of four random numbers before the first vertex: place on the film with that on the lens,
-/// and wavelength; without a lens the first set holds both.
+/// Number of sets of four random numbers before the first vertex: one for the places on film and
+/// lens, one for the wavelengths. Without a lens the first set holds both.
 pub const CAMERA_SETS: u32 = 2;
-/// Sets of four random numbers that a vertex owns, used or not: the bounce, and light that is
-/// chosen.
+/// Number of sets of four random numbers that a vertex owns, used or not: one for the bounce, one
+/// for the chosen light.
 const VERTEX_SETS: u32 = 2;
 
-/// What one path found.
+/// The result of one path.
 #[derive(Clone, Copy, Debug)]
 pub struct PathResult<const N: usize> {
     /// Radiance along the camera ray, W m⁻² sr⁻¹ nm⁻¹.
     pub radiance: Lanes<N>,
-    /// What the camera ray met first.
+    /// The first hit of the camera ray.
     pub first: Option<FirstHit<N>>,
-    /// Rays traced, shadow rays included.
+    /// Number of rays traced, shadow rays included.
     pub rays: u32,
 }
 
-/// What the camera ray met first.
+/// The first hit of the camera ray.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstHit<const N: usize> {
     /// Point, world, m.
@@ -45,7 +45,8 @@ pub struct FirstHit<const N: usize> {
     pub object: u32,
 }
 
-/// A path through a place in a pixel that the stream draws, and its wavelengths.
+/// A path through a random place in a pixel, and its wavelengths; `stream` gives the random
+/// numbers.
 pub fn of_pixel<const N: usize>(
     world: &World,
     effort: Effort,
@@ -71,11 +72,12 @@ pub fn of_pixel<const N: usize>(
 
 /// Radiance that arrives along `ray`, whose direction is a unit vector.
 ///
-/// At every vertex each sun and one other light, at the first as many as the effort says, are
-/// sampled and weighed against the bounce by the power heuristic. Roulette is played below the
-/// effort's threshold only and leaves the mean as it is; its survival probability is the throughput
-/// over that threshold. Where none of the lights that are sampled reaches the first vertex, what
-/// light there is comes by the bounce: there several paths go on, as many as the effort says.
+/// At every vertex each sun and one other light are sampled and weighted against the bounce by the
+/// power heuristic; at the first vertex the number of other lights is set by the effort. Russian
+/// roulette is applied only below the effort's threshold and leaves the mean unchanged; the
+/// survival probability is the throughput over that threshold. If none of the sampled lights
+/// reaches the first vertex, its light comes by the bounce; then several paths continue from there,
+/// as many as the effort sets.
 pub fn trace<const N: usize>(
     world: &World,
     effort: Effort,
@@ -109,15 +111,15 @@ pub fn trace<const N: usize>(
     result
 }
 
-/// A ray of a path and how it came to be.
+/// A ray of a path and its origin.
 struct Leg<const N: usize> {
     ray: Ray,
-    /// What radiance along the ray is multiplied by on its way to the camera.
+    /// Factor on radiance along the ray, up to the camera.
     throughput: Lanes<N>,
     bounce: Bounce,
 }
 
-/// What all legs of a path share.
+/// Data that all legs of a path share.
 struct Paths<'a, const N: usize> {
     world: &'a World,
     effort: Effort,
@@ -125,7 +127,8 @@ struct Paths<'a, const N: usize> {
 }
 
 impl<const N: usize> Paths<'_, N> {
-    /// Adds what a path finds from a leg on, whose ray was scattered `from` times before.
+    /// Adds the radiance that a path finds from a leg on. Its ray was scattered `from` times
+    /// before.
     fn follow(&self, mut leg: Leg<N>, from: u32, stream: &mut Stream, result: &mut PathResult<N>) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from.. {
@@ -215,34 +218,34 @@ impl<const N: usize> Paths<'_, N> {
     }
 }
 
-/// How a ray came to be.
+/// The bounce from which a ray originates.
 struct Bounce {
-    /// Density of its direction; infinite if no light sample could have found the same way.
+    /// Density of its direction; infinite if no light sample could have chosen the same direction.
     pdf: f32,
-    /// Where it left; matters only if the density is finite.
+    /// The point where it started; used only if the density is finite.
     from: Receiver,
-    /// How many of the lights were chosen there.
+    /// Number of lights chosen there.
     light_samples: u32,
 }
 
-/// A surface point being lit.
+/// An illuminated surface point.
 struct Vertex<'a, const N: usize> {
     paths: &'a Paths<'a, N>,
     surface: &'a SurfacePoint,
     frame: &'a Frame,
     view: &'a View<'a, N>,
     receiver: Receiver,
-    /// How many of the lights are chosen and sampled.
+    /// Number of lights that are chosen and sampled.
     light_samples: u32,
-    /// What radiance from here is multiplied by on its way to the camera.
+    /// Factor on radiance from here, up to the camera.
     throughput: Lanes<N>,
-    /// Radiance that the path found before.
+    /// Radiance that the path has found so far.
     gathered: Lanes<N>,
 }
 
 impl<const N: usize> Vertex<'_, N> {
-    /// The leg that leaves by a random bounce with a share of the throughput, unless roulette below
-    /// a threshold ends the path.
+    /// The leg that leaves by a random bounce with a share of the throughput; `None` if Russian
+    /// roulette, below a threshold, ends the path.
     fn bounce(&self, numbers: [f32; 4], share: f32, roulette_below: f32) -> Option<Leg<N>> {
         let [lobe, x, y, roulette] = numbers;
         let sample = self.view.sample(lobe, Vec2::new(x, y))?;
@@ -278,8 +281,8 @@ impl<const N: usize> Vertex<'_, N> {
     }
 }
 
-/// What the lights that are sampled at a vertex send on to the camera; also the number of rays it
-/// took.
+/// The radiance that the sampled lights contribute at a vertex, and the number of rays traced for
+/// it.
 fn sampled_light<const N: usize>(
     world: &World,
     vertex: &Vertex<'_, N>,
@@ -290,8 +293,8 @@ fn sampled_light<const N: usize>(
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
     for &number in &world.selection.always {
         let choice = Choice::certain(number);
-        // A sun shares the numbers of the bounce: what both find is added up, so that only their
-        // covariance matters, and a disc of half a degree looks the same wherever it is lit from.
+        // A sun shares the random numbers of the bounce. Both contributions are added, so only
+        // their covariance matters, and that is small for a disc of half a degree.
         let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], None);
         sum += light;
         rays += traced;
@@ -314,7 +317,7 @@ fn sampled_light<const N: usize>(
     (sum, rays)
 }
 
-/// Light from infinity that a bounce (or the camera) found by itself.
+/// Light from infinity that a bounce or the camera ray found.
 fn from_infinity<const N: usize>(
     world: &World,
     direction: Vec3,
@@ -335,7 +338,7 @@ fn from_infinity<const N: usize>(
     sum
 }
 
-/// Light of a shining surface that a bounce (or the camera) ran into.
+/// Light of an emitting surface that a bounce or the camera ray hit.
 fn emission<const N: usize>(
     world: &World,
     number: usize,
@@ -364,15 +367,15 @@ fn emission<const N: usize>(
     radiance * mis::power(bounce.pdf, light_pdf)
 }
 
-/// A light sample that would add less than this share of what the path has gathered, in every lane,
-/// plays roulette for its shadow ray.
+/// Light samples that would add less than this share of the path's radiance so far, in every lane,
+/// undergo Russian roulette before the shadow ray.
 const FAINT: f32 = 0.2;
 
-/// What a light that was chosen sends to a vertex and on to the camera; also the number of rays it
-/// took.
+/// The contribution of a chosen light at a vertex, up to the camera, and the number of rays traced
+/// for it.
 ///
-/// `place` picks a place on the light, `coin` is for the roulette of faint samples; without it none
-/// is played.
+/// `place` selects a place on the light; `coin` is the random number for the roulette of faint
+/// samples, which is skipped without it.
 fn direct<const N: usize>(
     world: &World,
     choice: &Choice,
@@ -396,7 +399,7 @@ fn direct<const N: usize>(
     let by_bounce = if sample.is_point { 0.0 } else { pdf };
     let weight = mis::power(light_pdf, by_bounce) / light_pdf;
     let mut added = vertex.throughput * scattered * sample.radiance * weight;
-    // Unbiased: what was gathered before does not depend on this sample.
+    // This is unbiased, since the radiance found before does not depend on this sample.
     if let Some(coin) = coin {
         let survival = survival(added, vertex.gathered * FAINT);
         if coin >= survival {
@@ -416,12 +419,12 @@ fn direct<const N: usize>(
     (added, 1)
 }
 
-/// Greatest share, over the lanes, that `added` is of `enough`; a lane with enough of nothing makes
-/// it infinite if anything is added.
+/// The greatest ratio, over the lanes, of `added` to `enough`; infinite if `enough` is 0 in a lane
+/// to which anything is added.
 fn survival<const N: usize>(added: Lanes<N>, enough: Lanes<N>) -> f32 {
     let mut greatest = 0.0_f32;
     for (added, enough) in added.0.into_iter().zip(enough.0) {
-        // 0 / 0 is no number, and no lane of weight.
+        // 0 / 0 is NaN, which `max` ignores.
         greatest = greatest.max(added / enough);
     }
     greatest

@@ -15,10 +15,10 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::Spectrum;
 
-/// What ends a render before every pixel has all the samples of its [`Job`].
+/// Conditions that end a render before every pixel has all the samples of its [`Job`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Halt {
-    /// Relative error at which a block of pixels has enough samples; none if all get the same
+    /// Relative error at which a block of pixels has enough samples; `None` if all get the same
     /// number. See [`crate::integrator::noise`].
     pub noise: Option<f64>,
     /// Time after which no further pass begins.
@@ -30,55 +30,54 @@ pub struct Halt {
 pub enum Ended {
     /// Every pixel has the job's samples.
     Samples,
-    /// Every block has the samples it needs for the error that was aimed at, or the job's.
+    /// Every block has the samples that it needs for the target error, or the job's.
     Noise,
-    /// The time was over.
+    /// The time was up.
     Time,
-    /// It was broken off.
+    /// It was interrupted.
     Interrupted,
 }
 
-/// What was rendered.
+/// The result of a render.
 #[derive(Debug)]
 pub struct Rendered {
     /// The sums.
     pub film: Film,
-    /// What its channels are.
+    /// The meaning of its channels.
     pub layout: Layout,
-    /// How much work paths took on.
+    /// The effort of paths.
     pub effort: Effort,
     /// Rays traced, shadow rays included, without those of the trial that chose the effort.
     pub rays: u64,
     /// Why the render ended.
     pub ended: Ended,
-    /// The noise that was found, if a noise was aimed at.
+    /// The noise reached, if there was a target.
     pub noise: Option<Noise>,
 }
 
 /// Relative errors: root mean square over the picture's pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// What each block aimed at.
+    /// The target of each block.
     pub aim: f64,
-    /// What the picture reached, as estimated; none if there were too few samples to tell.
+    /// The picture's estimated error; `None` if there were too few samples for an estimate.
     pub reached: Option<f64>,
 }
 
-/// How far a render is.
+/// The progress of a render.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// Paths done.
+    /// Number of paths done.
     pub paths: u64,
-    /// Paths in all, as far as is known: with a noise to aim at this changes on the way.
+    /// Total number of paths, by present knowledge; it changes if there is a target noise.
     pub total: u64,
 }
 
-/// Samples a pixel of the longest pass: short enough to stop soon, long enough to keep threads
-/// busy.
+/// Samples per pixel of the longest pass: few enough to stop soon, enough to keep threads busy.
 const LONGEST_PASS: u32 = noise::STEP;
 
-/// Renders on the current thread pool, as [`render_until`] without anything that ends it early but
-/// `stop`.
+/// Renders on the current thread pool, as [`render_until`] with no condition that ends it early
+/// except `stop`.
 ///
 /// # Errors
 ///
@@ -92,13 +91,13 @@ pub fn render(
     render_until(world, job, &Halt::default(), stop, progress)
 }
 
-/// Renders on the current thread pool, pass by pass, until every pixel has enough samples or `halt`
-/// says so.
+/// Renders on the current thread pool, pass by pass, until every pixel has enough samples or a
+/// condition of `halt` holds.
 ///
-/// After each block of pixels `progress` is told; once `stop` is set, blocks that were not yet
-/// begun in this pass are left as they are, and what was rendered is returned. A render that ends
-/// by time has the bits of one whose job has as many samples as the pixels with most, and whose
-/// scene names the effort that was chosen here.
+/// `progress` is called after each block of pixels. Once `stop` is set, blocks not yet begun in
+/// this pass are skipped, and the film so far is returned. A render that ends by time has the same
+/// bits as one whose job has as many samples as the pixels with most, and whose scene sets the
+/// effort that was chosen here.
 ///
 /// # Errors
 ///
@@ -178,11 +177,11 @@ pub fn render_until(
     })
 }
 
-/// Samples that the next pass may have, after `done` samples that took `elapsed`; none once the
-/// time is over, but for the first.
+/// Greatest number of samples of the next pass, after `done` samples that took `elapsed`; `None`
+/// once the time is up, except for the first pass.
 ///
-/// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is looked at. Towards
-/// the end of the time they get shorter, so that the last ends soon after it.
+/// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is judged. Towards
+/// the end of the time they get shorter, so that the last one ends soon after it.
 fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<u32> {
     let longest = done.clamp(1, LONGEST_PASS - done % LONGEST_PASS);
     let Some(time) = time.filter(|_| done > 0) else {
@@ -194,7 +193,7 @@ fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<
     Some(longest.min(fit).max(1))
 }
 
-/// What all passes share.
+/// Data that all passes share.
 struct PassOfPaths<'a> {
     world: &'a World,
     job: &'a Job,
@@ -210,7 +209,7 @@ struct PassOfPaths<'a> {
 
 impl PassOfPaths<'_> {
     /// Adds samples number `first` to `end − 1` of every block that has not yet reached its goal;
-    /// whether nothing broke in.
+    /// returns whether it was not interrupted.
     fn run(
         &self,
         film: &mut Film,
@@ -268,7 +267,7 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// Adds samples number `first` to `end − 1`; gives the number of rays.
+    /// Adds samples number `first` to `end − 1`; returns the number of rays.
     fn add<const N: usize>(&self, first: u32, end: u32, pixel: &mut PixelSums<'_>) -> u64 {
         let mut rays = 0;
         let mut values = [0.0; MOST_CHANNELS];
@@ -310,7 +309,7 @@ mod tests {
             ends.push(done + longest_pass(done, SECOND, None).expect("no time is set"));
         }
         assert_eq!(ends, [0, 1, 2, 4, 8, 16, 32, 48, 64]);
-        // Wherever a pass shortened by time may have ended.
+        // Every place where a pass shortened by time may have ended.
         for done in 1..200 {
             let pass = longest_pass(done, SECOND, None).expect("no time is set");
             assert_eq!((done + pass - 1) / LONGEST_PASS, done / LONGEST_PASS);
@@ -326,7 +325,7 @@ mod tests {
         assert_eq!(of_32(64, 65), Some(1));
         assert_eq!(of_32(32, 32), None);
         assert_eq!(of_32(40, 32), None);
-        // There is always a first.
+        // There is always a first pass.
         assert_eq!(longest_pass(0, SECOND, Some(Duration::ZERO)), Some(1));
     }
 }

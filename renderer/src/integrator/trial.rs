@@ -1,10 +1,11 @@
-//! How much work goes into a path's first vertex and what comes after it, chosen by measurement.
+//! Choice of the effort of paths by a trial.
 //!
-//! What pays differs from scene to scene: on a leaf close up in the sun the light between leaves is
-//! most of the noise, under a lamp among ten thousand leaves it is next to none of it, and most of
-//! the time; there the shadows are most of the noise. So a few candidates are tried on a sample of
-//! the pixels, before the picture and apart from it, and the one with the least error × work is
-//! taken: first of the numbers of light samples, then, with that number, of the rest.
+//! The best effort differs from scene to scene. On a close-up of a leaf in the sun, light between
+//! leaves causes most of the noise. Under a lamp among ten thousand leaves it causes almost none
+//! but takes most of the time; there shadows cause most of the noise. So a few candidates are tried
+//! on a sample of the pixels, before and apart from the picture, and the one with the least error ×
+//! work is chosen: first among the numbers of light samples, then, with that number, among the
+//! other settings.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,36 +18,36 @@ use crate::integrator::path;
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 
-/// Numbers of light samples that are tried, with the pair of `WITHOUT_TRIAL`.
+/// Numbers of light samples that are tried, each with the pair of `WITHOUT_TRIAL`.
 const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
 
-/// Thresholds of roulette with numbers of branches that are tried, from the most work to the least.
+/// Pairs of roulette threshold and number of branches that are tried, from most to least work.
 const PAIRS: [(f32, u32); 6] = [(0.03, 4), (0.06, 3), (0.1, 2), (0.2, 1), (0.4, 1), (1.0, 1)];
 
-/// For pictures too small to try anything.
+/// The effort for pictures too small for a trial.
 const WITHOUT_TRIAL: Effort = Effort {
     roulette_below: 0.1,
     branches: 2,
     light_samples: 2,
 };
 
-/// Samples that a trial takes of a pixel: enough for their even spread to show.
+/// Samples per pixel of a trial: enough for their stratification to have an effect.
 const SAMPLES: u32 = 16;
 
-/// Independent estimates of a pixel, whose difference is the error.
+/// Number of independent estimates of a pixel, whose difference gives the error.
 const ESTIMATES: u64 = 2;
 
-/// Trials take one path for so many of the picture.
+/// A trial takes one path for this many paths of the picture.
 const SHARE: u64 = 16;
 
-/// Pixels of a trial; fewer cannot tell the candidates apart, more are not needed.
+/// Number of pixels of a trial; fewer cannot distinguish the candidates, more are not needed.
 const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
 
-/// Work of a path beside its rays (camera, film), in rays: an estimate, not measured.
+/// Work of a path besides its rays (camera, film), in rays; estimated, not measured.
 const WORK_OF_A_PATH: f64 = 1.0;
 
-/// The effort for a picture: what the scene says, else what a trial finds best. The same for any
-/// number of threads.
+/// The effort for a picture: as set by the scene, else the best in a trial. The same for any number
+/// of threads.
 pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool) -> Effort {
     let given = |candidate: Effort| {
         let integrator = &world.integrator;
@@ -95,14 +96,14 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
         pixels: pixels as u32,
         stop,
     };
-    // Broken off: what is chosen does not matter any more.
+    // If the trial was interrupted, the choice does not matter.
     trial
         .best(&by_light_samples)
         .and_then(|best| trial.best(&by_pair(best)))
         .unwrap_or(without_trial)
 }
 
-/// What one candidate did in one pixel.
+/// The result of one candidate in one pixel.
 struct Outcome {
     /// Means of the channels, by estimate.
     means: [Vec<f64>; ESTIMATES as usize],
@@ -118,8 +119,8 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// The candidate with the least error × work, of at least one; `None` if the trial was broken
-    /// off.
+    /// The candidate with the least error × work, among at least one; `None` if the trial was
+    /// interrupted.
     fn best(&self, candidates: &[Effort]) -> Option<Effort> {
         if let [only] = candidates {
             return Some(*only);
@@ -133,8 +134,8 @@ impl Trial<'_> {
         Some(candidates[least(&costs(&tried?, candidates.len()))])
     }
 
-    /// What each candidate does in the pixel of a number. All of them draw the same random numbers,
-    /// so that what they have in common is not between them.
+    /// The results of all candidates in one pixel, given by its number. All use the same random
+    /// numbers, so that common noise cancels in the comparison.
     fn pixel(&self, number: u32, candidates: &[Effort]) -> Vec<Outcome> {
         let [x, y, ..] = Stream::new(self.job.seed, u32::MAX, u32::MAX, number).next4();
         let pixel = [
@@ -155,7 +156,7 @@ impl Trial<'_> {
         let mut values = [0.0; MOST_CHANNELS];
         let mut rays = 0;
         let means = std::array::from_fn(|estimate| {
-            // Far from the seeds that people choose, so that the picture's own numbers are others.
+            // Far from usual seeds, so that the picture itself uses other numbers.
             let seed = self.job.seed ^ (0x5eed_0000_0000_0000 + estimate as u64);
             let mut sums = vec![0.0_f64; channels];
             for sample in 0..SAMPLES {
@@ -183,7 +184,8 @@ impl Trial<'_> {
 /// relative to the square of the pixel's mean and of a tenth of the picture's.
 fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
     let channels = tried[0][0].means[0].len();
-    // Of all candidates together: what each is measured by must not be its own luck.
+    // The mean over all candidates, so that the reference does not depend on a candidate's own
+    // error.
     let mean = |pixel: &[Outcome], channel: usize| {
         let means = pixel.iter().flat_map(|outcome| &outcome.means);
         means.map(|means| means[channel]).sum::<f64>() / (candidates * ESTIMATES as usize) as f64
@@ -213,7 +215,7 @@ fn costs(tried: &[Vec<Outcome>], candidates: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The place of the least number; of equal ones the first, which is the more thorough one.
+/// The index of the least number; of equal ones the first, which has more work.
 fn least(numbers: &[f64]) -> usize {
     let mut best = 0;
     for (place, number) in numbers.iter().enumerate() {

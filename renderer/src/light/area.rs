@@ -1,4 +1,4 @@
-//! A surface that shines to the side of its normal.
+//! Surfaces that emit on the side of their normal.
 
 use glam::{Vec2, Vec3};
 
@@ -7,7 +7,8 @@ use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver};
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
-/// Patches in world space with one radiance. A patch is a triangle, or a rectangle of two.
+/// Patches in world space with a common radiance. A patch is a triangle, or a rectangle of two
+/// triangles.
 #[derive(Clone, Debug)]
 pub struct AreaLight {
     radiance: Spectrum,
@@ -17,7 +18,7 @@ pub struct AreaLight {
 }
 
 impl AreaLight {
-    /// From world-space triangles, counter-clockwise seen from the bright side.
+    /// A light from world-space triangles, counter-clockwise seen from the bright side.
     pub fn new(triangles: &[[Vec3; 3]], radiance: Curve) -> Self {
         let (patches, patch_of) = patch::patches(triangles);
         Self {
@@ -32,12 +33,12 @@ impl AreaLight {
         self.radiance.curve()
     }
 
-    /// Works its radiance out at every wavelength of a grid.
+    /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.radiance.tabulate(grid);
     }
 
-    /// What shines, piece by piece.
+    /// The emitting patches.
     pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
@@ -47,7 +48,7 @@ impl AreaLight {
         self.patch_of[triangle as usize].map(|patch| patch as usize)
     }
 
-    /// Each patch as the choice between lights sees it; `mean_radiance` is that of the film's
+    /// Each patch as an emitter for the light tree; `mean_radiance` is that of the film's
     /// wavelengths, W m⁻² sr⁻¹ nm⁻¹.
     pub fn emitters(&self, mean_radiance: f32) -> impl Iterator<Item = Emitter> + '_ {
         self.patches
@@ -55,7 +56,7 @@ impl AreaLight {
             .map(move |patch| patch.emitter(mean_radiance))
     }
 
-    /// A point of one patch, seen from `receiver`.
+    /// Samples a point of one patch, seen from `receiver`.
     pub fn sample<const N: usize>(
         &self,
         patch: usize,

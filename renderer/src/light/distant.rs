@@ -20,12 +20,13 @@ pub struct DistantLight {
 }
 
 impl DistantLight {
-    /// Towards a unit vector, with the given angular diameter (rad) and irradiance on a surface
-    /// facing it, W m⁻² nm⁻¹; radiance is irradiance over `π sin²` of half the diameter.
+    /// A light in the direction of a unit vector, with the given angular diameter (rad) and
+    /// irradiance on a surface facing it, W m⁻² nm⁻¹. Radiance is irradiance over `π sin²` of half
+    /// the diameter.
     pub fn new(towards: Vec3, angular_diameter: f64, irradiance: Curve) -> Self {
         let half = 0.5 * angular_diameter;
         let sin = libm::sin(half);
-        // 2 sin²(x/2) = 1 − cos x keeps its digits at small angles.
+        // 2 sin²(x/2) = 1 − cos x is accurate at small angles.
         let one_minus_cos = 2.0 * libm::sin(0.5 * half) * libm::sin(0.5 * half);
         let projected = std::f64::consts::PI * sin * sin;
         Self {
@@ -36,7 +37,7 @@ impl DistantLight {
         }
     }
 
-    /// Works its radiance out at every wavelength of a grid.
+    /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.radiance.tabulate(grid);
     }
@@ -55,7 +56,7 @@ impl DistantLight {
         }
     }
 
-    /// Radiance and density along `wi`, if that meets the disc.
+    /// Radiance and density along `wi`, if that hits the disc.
     pub fn towards<const N: usize>(
         &self,
         wi: Vec3,

@@ -17,21 +17,21 @@ pub struct EnvironmentLight {
     height: usize,
     /// Linear sRGB, row by row from the zenith.
     texels: Box<[[f32; 3]]>,
-    /// What RGB 1 1 1 stands for.
+    /// Spectrum of RGB 1 1 1.
     white: Curve,
-    /// The spectra that red, green and blue of 1 stand for.
+    /// Spectra of red, green and blue of 1.
     primaries: Option<Table>,
-    /// Turn about +z, rad.
+    /// Rotation about +z, rad.
     rotation: f32,
     distribution: Piecewise2d,
 }
 
 impl EnvironmentLight {
-    /// From linear sRGB texels, each ≥ 0 and finite, `width` a row.
+    /// A light from linear sRGB texels, each ≥ 0 and finite, `width` per row.
     pub fn new(texels: Vec<[f32; 3]>, width: usize, white: Curve, rotation: f32) -> Self {
         let height = texels.len() / width;
         let brightness = |x: usize, y: usize| texels[y * width + x].iter().sum::<f32>();
-        // Lookup is bilinear, so a texel's light reaches half a texel into its neighbours.
+        // Look-up is bilinear, so a texel's light reaches half a texel into its neighbours.
         let mut weights = Vec::with_capacity(texels.len());
         for y in 0..height {
             let sin = libm::sinf(PI * (y as f32 + 0.5) / height as f32);
@@ -59,8 +59,8 @@ impl EnvironmentLight {
         }
     }
 
-    /// Mean of the texels' red, green and blue over the sphere, times `white` where it matters: a
-    /// rough size.
+    /// Mean of the texels' red, green and blue over the sphere, a rough measure, to be multiplied
+    /// by `white`.
     pub fn mean_brightness(&self) -> f32 {
         let mut sum = 0.0;
         let mut weight = 0.0;
@@ -72,12 +72,12 @@ impl EnvironmentLight {
         sum / weight
     }
 
-    /// Spectrum that RGB 1 1 1 stands for.
+    /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
         &self.white
     }
 
-    /// Works its primaries out at every wavelength of a grid.
+    /// Evaluates its primaries at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.primaries = Some(Table::new(grid, |nm| self.primaries_at(nm)));
     }
@@ -119,12 +119,12 @@ impl EnvironmentLight {
 
     fn uv_of(&self, wi: Vec3) -> [f32; 2] {
         let azimuth = (libm::atan2f(wi.y, wi.x) - self.rotation) / (2.0 * PI);
-        // acos loses digits near the poles; atan2 does not.
+        // acos is inaccurate near the poles; atan2 is not.
         let polar = libm::atan2f((wi.x * wi.x + wi.y * wi.y).sqrt(), wi.z) / PI;
         [azimuth - azimuth.floor(), polar.min(1.0 - f32::EPSILON)]
     }
 
-    /// A direction, drawn with a density about in proportion to its brightness.
+    /// Samples a direction with a density roughly proportional to its brightness.
     pub fn sample<const N: usize>(
         &self,
         wavelengths: &Wavelengths<N>,
@@ -159,11 +159,12 @@ impl EnvironmentLight {
     }
 }
 
-/// How much the mean square of light over density may grow by cells that are larger than texels.
+/// Greatest relative increase of the mean square of light over density by cells that are larger
+/// than texels.
 const COARSENING: f64 = 0.01;
 
-/// Weights of cells of 1, 2, 4, … texels square, as large as cost next to no noise, and how many
-/// there are across: what is drawn from a small table stays in the caches.
+/// Weights of square cells of 1, 2, 4, … texels per side, as large as possible with almost no
+/// additional noise, and the number of cells across. A small table stays in the caches.
 fn coarsened(weights: &[f32], width: usize) -> (Vec<f32>, usize) {
     let total: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
     let (mut coarsest, mut across) = (weights.to_vec(), width);
@@ -200,7 +201,7 @@ fn coarsened(weights: &[f32], width: usize) -> (Vec<f32>, usize) {
 mod tests {
     use super::*;
 
-    /// Brighter towards one side and the zenith, without edges.
+    /// A sky that is brighter towards one side and the zenith, without edges.
     fn smooth_sky() -> EnvironmentLight {
         let (width, height) = (64, 32);
         let texels = (0..width * height)
@@ -226,7 +227,7 @@ mod tests {
         let mut with_a_sun = weights;
         with_a_sun[999] = 1e5;
         assert_eq!(coarsened(&with_a_sun, 64), (with_a_sun, 64));
-        // Nothing to halve, nothing to draw.
+        // Sizes that cannot be halved, and weights of 0.
         assert_eq!(coarsened(&[1.0; 15], 5), (vec![1.0; 15], 5));
         assert_eq!(coarsened(&[0.0; 16], 4).1, 1);
     }

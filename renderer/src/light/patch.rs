@@ -1,11 +1,10 @@
-//! Flat pieces of shining surfaces, and points on them as seen from a point that is lit.
+//! Flat patches of emitting surfaces, and sampling of points on them from an illuminated point.
 //!
 //! - **In**: triangles, counter-clockwise seen from the bright side.
-//! - **Out**: [`Patch`]es, which draw points of themselves; the density over solid angle of any
-//!   point.
-//! - **Always true**: [`Patch::pdf`] is the density of [`Patch::sample`]: both decide by the
-//!   receiver alone whether points are uniform over solid angle or over area.
-//! - **Left out**: what is in between.
+//! - **Out**: [`Patch`]es, with sampled points and the density over solid angle of any point.
+//! - **Always true**: [`Patch::pdf`] is the density of [`Patch::sample`]: in both, the receiver
+//!   alone decides whether points are uniform over solid angle or over area.
+//! - **Left out**: occlusion.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -17,16 +16,15 @@ use crate::light::tree::Emitter;
 use rectangle::Rectangle;
 use triangle::Triangle;
 
-/// A patch is sampled by area if `size² < FAR · distance²`: from there on solid angle is near
-/// enough to proportional to area, and area costs less. Measured: below this no difference in the
-/// error shows.
+/// A patch is sampled by area if `size² < FAR · distance²`: then solid angle is nearly proportional
+/// to area, which is cheaper. Below this value no difference in the error could be measured.
 const FAR: f32 = 0.3;
 
-/// A receiver closer to the plane of a patch than the root of this share of its size is sampled by
-/// area: the solid angle is lost in rounding.
+/// A patch is sampled by area if the receiver is closer to its plane than the root of this share of
+/// its size, since the solid angle would be lost in rounding.
 const GRAZING: f32 = 1e-6;
 
-/// A flat piece of a shining surface, bright on the side of its normal.
+/// A flat piece of an emitting surface, which emits on the side of its normal.
 #[derive(Clone, Debug)]
 pub enum Patch {
     /// Four right angles.
@@ -57,7 +55,7 @@ enum Measure {
 }
 
 impl Patch {
-    /// A point of the patch that shines on the receiver; `None` if none does.
+    /// Samples a point of the patch that illuminates the receiver; `None` if none does.
     pub fn sample(&self, receiver: &Receiver, u: Vec2) -> Option<PatchSample> {
         let (point, pdf) = match self.measure(receiver.position) {
             Measure::Dark => return None,
@@ -91,7 +89,7 @@ impl Patch {
         }
     }
 
-    /// Solid angle that the patch fills, seen from `position` on its bright side, sr.
+    /// Solid angle that the patch subtends at `position` on its bright side, sr.
     pub fn solid_angle(&self, position: Vec3) -> f64 {
         match self {
             Self::Rectangle(rectangle) => rectangle.solid_angle(position),
@@ -115,7 +113,8 @@ impl Patch {
         }
     }
 
-    /// The patch as the choice between lights sees it: it shines around its normal with the cosine.
+    /// The patch as an emitter for the light tree: its intensity falls with the cosine from the
+    /// normal.
     pub fn emitter(&self, mean_radiance: f32) -> Emitter {
         let (center, radius) = match self {
             Self::Rectangle(rectangle) => (rectangle.center(), rectangle.radius()),
@@ -160,10 +159,10 @@ impl Patch {
     }
 }
 
-/// Patches of triangles, and of each triangle the patch that it belongs to; those without area
-/// belong to none.
+/// Combines triangles into patches; also returns the patch of each triangle, `None` for triangles
+/// without area.
 ///
-/// Two triangles that follow one another and make a rectangle are one patch.
+/// Two consecutive triangles that form a rectangle become one patch.
 pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {
     let mut patches = Vec::new();
     let mut patch_of = Vec::with_capacity(triangles.len());
@@ -187,7 +186,7 @@ pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {
     (patches, patch_of)
 }
 
-/// The point `a` seen from `from`, without the rounding of a difference in single precision.
+/// The point `a` relative to `from`, without the rounding of a difference in single precision.
 fn offset(a: Vec3, from: Vec3) -> DVec3 {
     a.as_dvec3() - from.as_dvec3()
 }

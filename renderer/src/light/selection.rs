@@ -1,4 +1,4 @@
-//! Which lights are sampled at a point.
+//! Selection of the lights that are sampled at a point.
 
 use crate::light::tree::LightTree;
 use crate::light::{Light, Receiver, Sampled};
@@ -6,14 +6,14 @@ use crate::sampling::distribution::Piecewise1d;
 
 /// Lights sorted by how they are sampled.
 ///
-/// Suns are small and strong, so each is sampled at every vertex; of all other lights with an
-/// extent that can be drawn, one is chosen by what it may send there; a constant sky is left to the
-/// bounces, which find it best.
+/// Suns are small and strong, so each is sampled at every vertex. Of the other lights, except
+/// constant skies, one is chosen by the light that it may send to the vertex. A constant sky is
+/// left to the bounces, which find it best.
 #[derive(Clone, Debug)]
 pub struct LightSelection {
     /// Lights sampled at every vertex.
     pub always: Box<[usize]>,
-    /// Lights that a ray finds that meets nothing.
+    /// Lights that are found by rays that hit nothing.
     pub at_infinity: Box<[usize]>,
     pictures: Option<Pictures>,
     patches: Option<Patches>,
@@ -29,7 +29,7 @@ struct Pictures {
     irradiance: f32,
 }
 
-/// Patches of shining surfaces, of which the tree chooses one.
+/// Patches of area lights, and spotlights, of which the tree chooses one.
 #[derive(Clone, Debug)]
 struct Patches {
     /// Light and part of each leaf of the tree.
@@ -44,15 +44,15 @@ struct Patches {
 pub struct Choice {
     /// Number of the light.
     pub light: usize,
-    /// Which part of it: a patch of an area, 0 of the others.
+    /// Its part: a patch of an area light, 0 for other lights.
     pub part: usize,
-    /// How many samples this part may expect: the probability of the choice times the number of
+    /// Expected number of samples of this part: the probability of the choice times the number of
     /// choices.
     pub expected: f32,
 }
 
 impl Choice {
-    /// A light of one part that is sampled always.
+    /// The choice of a light with one part that is always sampled.
     pub fn certain(light: usize) -> Self {
         Self {
             light,
@@ -63,7 +63,7 @@ impl Choice {
 }
 
 impl LightSelection {
-    /// For a scene's lights and a film of the given range of wavelengths.
+    /// The selection for a scene's lights and a film with the given range of wavelengths.
     pub fn new(lights: &[Light], range_nm: [f64; 2]) -> Self {
         let (mut always, mut at_infinity) = (Vec::new(), Vec::new());
         let (mut pictures, mut irradiances) = (Vec::new(), Vec::new());
@@ -103,13 +103,13 @@ impl LightSelection {
         }
     }
 
-    /// Whether there is no light to choose at any point.
+    /// Whether there is no light to choose from.
     pub fn is_empty(&self) -> bool {
         self.pictures.is_none() && self.patches.is_none()
     }
 
     /// Chooses one of the lights that share a sample by `u` in [0, 1); `None` if none of them
-    /// shines there.
+    /// illuminates the receiver.
     pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<Choice> {
         let share = self.share_of_pictures(receiver);
         if u < share {
@@ -136,8 +136,8 @@ impl LightSelection {
         })
     }
 
-    /// How many samples a light at infinity may expect at `receiver`, if so many lights are chosen
-    /// there; 0 if it is left to the bounces.
+    /// Expected number of samples of a light at infinity at `receiver` if `chosen` lights are
+    /// chosen there; 0 if it is left to the bounces.
     pub fn samples_of_infinite(&self, light: usize, receiver: &Receiver, chosen: f32) -> f32 {
         if self.always.contains(&light) {
             return 1.0;
@@ -151,7 +151,7 @@ impl LightSelection {
         })
     }
 
-    /// Probability that a part of an area is what is chosen at `receiver`.
+    /// Probability of choosing a part of a light at `receiver`.
     pub fn probability_of_part(&self, light: usize, part: usize, receiver: &Receiver) -> f32 {
         let Some(patches) = &self.patches else {
             return 0.0;
@@ -176,7 +176,7 @@ impl LightSelection {
                     return 1.0;
                 }
                 let share = pictures.irradiance / (pictures.irradiance + near);
-                // Neither estimate knows of shadows.
+                // Neither estimate accounts for shadows.
                 share.clamp(0.1, 0.9)
             }
         }

@@ -1,4 +1,4 @@
-//! A point that shines into a cone, like a spotlight.
+//! Spotlights: points that emit into a cone.
 
 use std::f64::consts::PI;
 
@@ -8,22 +8,22 @@ use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver, angle};
 use crate::spectrum::{Curve, Spectrum, WavelengthGrid, Wavelengths};
 
-/// Radiant intensity that is the same inside a cone and falls to nothing at the edge of a wider
-/// one, linear in the angle.
+/// A point light whose radiant intensity is constant inside an inner cone and falls linearly in the
+/// angle to 0 at the edge of the outer one.
 #[derive(Clone, Debug)]
 pub struct SpotLight {
     position: Vec3,
     axis: Vec3,
-    /// Half angle up to which the intensity is that on the axis, rad.
+    /// Half angle of the inner cone, in which the intensity equals that on the axis, rad.
     beam: f32,
-    /// Half angle from which on there is no light, rad.
+    /// Half angle of the outer cone, outside which there is no light, rad.
     cone: f32,
     intensity: Spectrum,
 }
 
 impl SpotLight {
-    /// At a point, around the unit vector `axis`, with the half angle of the cone and the width of
-    /// the smooth edge inside it (rad, at most the half angle), and the radiant intensity on the
+    /// A light at a point, around the unit vector `axis`, with the half angle of the cone, the
+    /// width of the edge inside it (rad, at most the half angle), and the radiant intensity on the
     /// axis, W sr⁻¹ nm⁻¹.
     pub fn new(position: Vec3, axis: Vec3, cone: f64, penumbra: f64, intensity: Curve) -> Self {
         let cone = cone.min(PI);
@@ -41,12 +41,12 @@ impl SpotLight {
         self.intensity.curve()
     }
 
-    /// Works its intensity out at every wavelength of a grid.
+    /// Evaluates its intensity at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.intensity.tabulate(grid);
     }
 
-    /// The light as the choice between lights sees it; `mean_intensity` is that of the film's
+    /// The light as an emitter for the light tree; `mean_intensity` is that of the film's
     /// wavelengths, W sr⁻¹ nm⁻¹.
     pub fn emitter(&self, mean_intensity: f32) -> Emitter {
         Emitter {
@@ -59,7 +59,7 @@ impl SpotLight {
         }
     }
 
-    /// What arrives at `receiver`; `None` outside the cone.
+    /// The light that arrives at `receiver`; `None` outside the cone.
     pub fn sample<const N: usize>(
         &self,
         receiver: &Receiver,
@@ -78,7 +78,7 @@ impl SpotLight {
         })
     }
 
-    /// Share of the intensity on the axis that leaves in a direction, a unit vector.
+    /// Intensity in a direction (a unit vector) over that on the axis.
     fn share(&self, direction: Vec3) -> f32 {
         let angle = angle(self.axis, direction);
         if angle <= self.beam {

@@ -1,17 +1,18 @@
-//! A tree over lights that chooses one by what it may send to a point.
+//! A light tree: chooses one light by the light that it may send to a point.
 //!
-//! - **In**: [`Emitter`]s, which bound where each light is, where it shines and how brightly; a
+//! - **In**: [`Emitter`]s, which bound the place, directions and intensity of each light; a
 //!   [`Receiver`]; a random number.
-//! - **Out**: the number of one light, and the probability of any from any receiver.
+//! - **Out**: the number of one light, and the probability of any light from any receiver.
 //! - **Always true**: a light that can send light to the receiver, from either side, has a
-//!   probability above zero; [`LightTree::probability`] is that with which [`LightTree::choose`]
-//!   chooses. The probabilities from one receiver sum to 1, or less: a node may seem to hold a
-//!   light that shines there and turn out to hold none, and then nothing is chosen.
-//! - **Left out**: shadows, and what the surface does with light beside its cosine.
+//!   probability above zero; [`LightTree::probability`] is the probability with which
+//!   [`LightTree::choose`] chooses. The probabilities from one receiver sum to 1 or less: the
+//!   bounds of a node may suggest light where none of its lights shines, and then nothing is
+//!   chosen.
+//! - **Left out**: shadows, and the receiving surface's BSDF apart from the cosine.
 //!
 //! # Source
 //!
-//! \[conty2018\], with eight children a node, whose importances are worked out together, and
+//! \[conty2018\], with eight children per node, whose importances are computed together, and
 //! without splitting: one light per choice.
 
 use glam::Vec3;
@@ -20,35 +21,34 @@ mod build;
 
 use crate::light::Receiver;
 
-/// Children of a node.
+/// Number of children of a node.
 const WIDTH: usize = 8;
 
-/// Bits that name a child.
+/// Number of bits of a child's index.
 const CHILD_BITS: u32 = 3;
 
 /// Marks the number of a child as that of a light.
 const IS_LIGHT: u32 = 1 << 31;
 
-/// A light is taken as dark only if the cosine that decides lies this far on the dark side:
-/// rounding takes less.
+/// Tolerance, above rounding, of the cosines that decide whether a light is dark.
 const TOLERANCE: f32 = 1e-3;
 
-/// Least cosine in an importance, lest rounding to zero hide a light.
+/// Least cosine in an importance, so that rounding to zero cannot hide a light.
 const LEAST_COSINE: f32 = 1e-4;
 
-/// Bounds of a light: a sphere that holds it, and a cone around an axis that holds its directions.
+/// Bounds of a light: a sphere that encloses it, and a cone around an axis that contains its
+/// normals.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitter {
-    /// Centre of a sphere around all points that shine, world, m.
+    /// Centre of a sphere around all emitting points, world, m.
     pub center: Vec3,
     /// Its radius, m; 0 for a point.
     pub radius: f32,
-    /// Unit vector: middle of the normals that shine.
+    /// Unit vector: axis of the cone of normals.
     pub axis: Vec3,
     /// Greatest angle between a normal and the axis, rad, 0 to π.
     pub spread: f32,
-    /// Greatest angle between a normal and the directions into which that point shines, rad, 0 to
-    /// π.
+    /// Greatest angle between a normal and the directions of emission from that point, rad, 0 to π.
     pub reach: f32,
     /// Radiant intensity along the axis, W sr⁻¹ nm⁻¹, ≥ 0 and finite: for a surface its radiance
     /// times its area.
@@ -58,14 +58,14 @@ pub struct Emitter {
 /// A tree over lights that are numbered from 0.
 #[derive(Clone, Debug)]
 pub struct LightTree {
-    /// The root is the first.
+    /// The nodes; the root is the first.
     nodes: Box<[Node]>,
-    /// For each light which child leads to it, from the root on, three bits a level from the lowest
-    /// on.
+    /// For each light the path from the root to it: the index of a child per level, three bits
+    /// each, from the lowest bits on.
     trails: Box<[u64]>,
 }
 
-/// Bounds of up to eight children, and where they are; a child that is not there has intensity 0.
+/// Bounds and numbers of up to eight children; a missing child has intensity 0.
 #[derive(Clone, Debug)]
 struct Node {
     center: [[f32; WIDTH]; 3],
@@ -73,10 +73,10 @@ struct Node {
     axis: [[f32; WIDTH]; 3],
     cos_spread: [f32; WIDTH],
     sin_spread: [f32; WIDTH],
-    /// The child is dark where the greatest possible cosine towards the receiver is less.
+    /// The child is dark if the greatest possible cosine towards the receiver is less.
     least_cos: [f32; WIDTH],
-    /// The child is dark where the cosine at its centre towards the receiver is less: −2 but for
-    /// what is flat.
+    /// The child is dark if the cosine at its centre towards the receiver is less; −2, which
+    /// disables the test, unless it is flat.
     least_cos_of_center: [f32; WIDTH],
     intensity: [f32; WIDTH],
     /// Number of a node, or of a light with [`IS_LIGHT`].
@@ -84,29 +84,29 @@ struct Node {
 }
 
 impl LightTree {
-    /// For at least one light, fewer than 2³¹.
+    /// The tree of at least one light and fewer than 2³¹.
     pub fn new(lights: &[Emitter]) -> Self {
         build::build(lights)
     }
 
-    /// How many lights there are.
+    /// Number of lights.
     pub fn len(&self) -> usize {
         self.trails.len()
     }
 
-    /// Whether there are none; there always are.
+    /// Whether there are no lights, which is never the case.
     pub fn is_empty(&self) -> bool {
         self.trails.is_empty()
     }
 
-    /// What all lights together may send to a receiver, a rough irradiance in W m⁻² nm⁻¹; zero only
-    /// if it is dark there.
+    /// Rough irradiance that all lights together may cause at a receiver, W m⁻² nm⁻¹; zero only if
+    /// it is dark there.
     pub fn importance(&self, receiver: &Receiver) -> f32 {
         self.nodes[0].importances(receiver).iter().sum()
     }
 
-    /// Chooses a light by `u` in [0, 1), and gives its probability; `None` if no light shines
-    /// there.
+    /// Chooses a light by `u` in [0, 1), and returns its number and probability; `None` if no light
+    /// shines there.
     pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<(usize, f32)> {
         // Each level uses up some of the digits of `u`.
         let mut u = f64::from(u);
@@ -122,7 +122,7 @@ impl LightTree {
             let (mut chosen, mut below) = (0, 0.0);
             let mut up_to = 0.0;
             for (child, &importance) in importances.iter().enumerate() {
-                // The last one that has any takes what rounding leaves over.
+                // The last child with any importance takes what rounding leaves over.
                 if importance > 0.0 && up_to <= target {
                     (chosen, below) = (child, up_to);
                 }
@@ -184,7 +184,8 @@ impl Node {
         (self.cos_spread[k], self.sin_spread[k]) =
             if everywhere { (-1.0, 0.0) } else { (cos, sin) };
         self.least_cos[k] = libm::cosf(bounds.reach) - TOLERANCE;
-        // A single normal: what is flat, or a point, and dark behind the plane through its centre.
+        // A light with a single normal, which is flat or a point, is dark behind the plane through
+        // its centre.
         let flat = child & IS_LIGHT != 0
             && bounds.spread == 0.0
             && bounds.reach <= std::f32::consts::FRAC_PI_2;
@@ -193,8 +194,8 @@ impl Node {
         self.child[k] = child;
     }
 
-    /// An estimate of what each child may send to a receiver. It would be a bound, but the distance
-    /// is that to the child's centre, and at least its radius.
+    /// An estimate of the light that each child may send to a receiver. It is not a bound, since it
+    /// uses the distance to the child's centre (at least its radius).
     ///
     /// The importance of \[conty2018\], with cosines instead of angles.
     fn importances(&self, receiver: &Receiver) -> [f32; WIDTH] {
@@ -206,7 +207,7 @@ impl Node {
             let z = self.center[2][k] - p.z;
             let distance2 = (x * x + y * y + z * z).max(f32::MIN_POSITIVE);
             let per_distance = 1.0 / distance2.sqrt();
-            // Half the angle that the sphere fills; a right one from inside.
+            // Half the angle that the sphere subtends; a right angle from inside.
             let sin2_size = (self.radius2[k] / distance2).min(1.0);
             let (sin_size, cos_size) = (sin2_size.sqrt(), (1.0 - sin2_size).sqrt());
 
@@ -222,7 +223,7 @@ impl Node {
             let cos_sum = self.cos_spread[k] * cos_size - self.sin_spread[k] * sin_size;
             let sin_sum = self.sin_spread[k] * cos_size + self.cos_spread[k] * sin_size;
             let nearer = cos * cos_sum + sin * sin_sum;
-            // One choice after the other, so that the compiler needs no branches.
+            // Separate selections, so that the compiler needs no branches.
             let sent = if cos >= cos_sum { 1.0 } else { nearer };
             let sent = if sin_sum < 0.0 { 1.0 } else { sent };
             let inside = distance2 <= self.radius2[k];
@@ -230,7 +231,7 @@ impl Node {
 
             let least_distance2 = distance2.max(self.radius2[k]);
             let cosines = received.max(LEAST_COSINE) * sent.max(LEAST_COSINE);
-            // A point light may be all but at the receiver.
+            // A point light may be almost at the receiver.
             let importance = (self.intensity[k] * cosines / least_distance2).min(1e30);
             let dark = sent < self.least_cos[k];
             let importance = if dark { 0.0 } else { importance };

@@ -1,4 +1,4 @@
-//! What a leaf holds at each point of it, as a float picture over uv.
+//! Maps of a leaf's contents: float pictures over uv.
 
 use glam::Vec2;
 use leafmodel::optics::{Contents, PerConstituent, Texel};
@@ -12,11 +12,11 @@ pub struct ContentsTexture {
 }
 
 impl ContentsTexture {
-    /// From `width × height` texels, row by row.
+    /// A map from `width × height` texels, row by row.
     ///
     /// # Panics
     ///
-    /// If the number of texels is another, or zero.
+    /// If the number of texels is not `width × height`, or is zero.
     pub fn new(width: usize, height: usize, texels: Vec<Texel>) -> Self {
         assert!(
             !texels.is_empty() && texels.len() == width * height,
@@ -29,7 +29,7 @@ impl ContentsTexture {
         }
     }
 
-    /// Texels across and up.
+    /// Number of texels along u and v.
     pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }

@@ -1,16 +1,16 @@
-//! What tissue holds, everywhere the same or by place.
+//! Contents of tissue, uniform or from a map.
 
 use glam::Vec2;
 use leafmodel::optics::{Contents, Texel};
 
 use super::contents_texture::ContentsTexture;
 
-/// What tissue holds per area of its surface.
+/// Contents of tissue per area of its surface.
 #[derive(Clone, Debug)]
 pub enum Held {
-    /// The same everywhere.
+    /// Uniform contents.
     Uniform(Contents),
-    /// What a map gives.
+    /// Contents from a map.
     Map(ContentsTexture),
 }
 
@@ -32,7 +32,7 @@ impl Held {
         }
     }
 
-    /// Whether it is the same everywhere.
+    /// Whether the contents are uniform.
     pub fn is_uniform(&self) -> bool {
         matches!(self, Self::Uniform(_))
     }

@@ -1,4 +1,4 @@
-//! A leaf's material: what decides its R and T, and its coats.
+//! A leaf's material: its tissue, which determines R and T, and its coats.
 
 use glam::Vec2;
 use leafmodel::optics::{ProspectD, Texel};
@@ -12,19 +12,19 @@ use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths
 /// A leaf's material.
 #[derive(Clone, Debug)]
 pub struct LeafMaterial {
-    /// What decides R and T.
+    /// The tissue, which determines R and T.
     pub tissue: LeafTissue,
-    /// What its pigments are; measured spectra have no use for it.
+    /// The palette of its pigments; not used for measured spectra.
     pub palette: Palette,
     /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
     abaxial_ratio: Option<Spectrum>,
     /// Adaxial and abaxial coat.
     coats: [Coat; 2],
-    /// What the tissue does, tabulated, if the leaf is the same everywhere.
+    /// The tissue's optics, tabulated, if the leaf is uniform.
     uniform: Option<Table>,
 }
 
-/// What decides a leaf's reflectance and transmittance.
+/// The tissue of a leaf, which determines its reflectance and transmittance.
 #[derive(Clone, Debug)]
 pub enum LeafTissue {
     /// PROSPECT-D of contents.
@@ -57,7 +57,7 @@ impl LeafMaterial {
         }
     }
 
-    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         if let Some(ratio) = &mut self.abaxial_ratio {
             ratio.tabulate(grid);
@@ -71,8 +71,8 @@ impl LeafMaterial {
     }
 
     /// A wavelength of the range, on a coarse grid, at which the adaxial coat at normal incidence
-    /// reflects more than R, so that the leaf cannot give R back; with a map its mean contents
-    /// stand for all.
+    /// reflects more than R, so that the leaf cannot reproduce R. With a map its mean contents are
+    /// used.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
         let exceeds = |reflectance: f64| reflectance < coat - 1e-4;

@@ -1,7 +1,7 @@
-//! PROSPECT-D's constants for each palette of pigments that a scene has.
+//! PROSPECT-D's constants for each palette of pigments of a scene.
 //!
-//! Scenes rarely have more than one or two, so tables are made when the scene is built, once for
-//! each distinct palette, and paths know a palette by its number.
+//! Scenes rarely have more than one or two palettes. Tables are made when the scene is built, once
+//! for each distinct palette, and palettes are numbered.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,15 +13,14 @@ use crate::spectrum::{Table, WavelengthGrid, Wavelengths};
 /// First and last whole nanometre of PROSPECT's table.
 const TABLE_NM: [usize; 2] = [400, 2500];
 
-/// What the pigment columns consist of, with the constants that follow from it. Copies share one
-/// table.
+/// The composition of the pigment columns, with the resulting constants. Copies share one table.
 #[derive(Clone, Debug)]
 pub struct Palette {
     number: usize,
     pigments: Pigments,
-    /// By whole nanometre.
+    /// Constants for each whole nanometre.
     table: Arc<[Coefficients]>,
-    /// At the wavelengths of the picture's paths.
+    /// Constants at the wavelengths of the picture's paths.
     tabulated: Option<Arc<Table>>,
 }
 
@@ -47,7 +46,7 @@ impl Palette {
         }
     }
 
-    /// The palette with its constants worked out at every wavelength of a grid.
+    /// The palette with its constants evaluated at every wavelength of a grid.
     fn on(mut self, grid: &WavelengthGrid) -> Self {
         let constants = |nm| fast::constants(&self.coefficients(f64::from(nm)));
         self.tabulated = Some(Arc::new(Table::new(grid, constants)));
@@ -71,7 +70,7 @@ impl Palette {
         self.number
     }
 
-    /// What its columns consist of.
+    /// The composition of its columns.
     pub fn pigments(&self) -> &Pigments {
         &self.pigments
     }
@@ -79,9 +78,9 @@ impl Palette {
     /// The constants at a wavelength in nm, linear between whole nanometres; outside 400–2500 nm
     /// the end values hold.
     ///
-    /// The mean transmissivities of the faces are interpolated too instead of being worked out from
-    /// the interpolated index: over one nanometre the difference is below 1e-7, and it is what a
-    /// path would otherwise spend most of its time on.
+    /// The mean transmissivities of the faces are interpolated too, not computed from the
+    /// interpolated index. Over one nanometre the difference is below 1e-7, and the computation
+    /// would dominate the time of a path.
     pub fn coefficients(&self, nm: f64) -> Coefficients {
         let table = &self.table;
         let place = (nm - TABLE_NM[0] as f64).clamp(0.0, (table.len() - 1) as f64);
@@ -120,7 +119,8 @@ impl Default for Palettes {
 }
 
 impl Palettes {
-    /// For a picture with these wavelengths, at which the constants are worked out beforehand.
+    /// An empty set for a picture with these wavelengths, at which constants are evaluated in
+    /// advance.
     pub fn on(grid: &WavelengthGrid) -> Self {
         Self {
             palettes: vec![Palette::default().on(grid)],
@@ -128,7 +128,7 @@ impl Palettes {
         }
     }
 
-    /// The palette of these pigments, made when it is first asked for.
+    /// The palette of these pigments, made on first use.
     pub fn of(&mut self, pigments: &Pigments) -> Palette {
         let known = self
             .palettes
@@ -145,7 +145,7 @@ impl Palettes {
         palette
     }
 
-    /// All of them.
+    /// All palettes, by number.
     pub fn iter(&self) -> impl Iterator<Item = &Palette> {
         self.palettes.iter()
     }

@@ -1,6 +1,7 @@
-//! Solid tissue: what decides its reflectance, and its coat.
+//! The material of solid tissue: its contents, which determine its reflectance, and its coat.
 //!
-//! It reflects as a leaf that transmits nothing: `docs/src/theory/solid-tissue.md` has the model.
+//! It reflects like a leaf that transmits nothing; `docs/src/theory/solid-tissue.md` describes the
+//! model.
 
 use std::sync::Arc;
 
@@ -21,9 +22,10 @@ pub struct SolidMaterial {
     palette: Palette,
     optics: Solid,
     table: Arc<ReflectanceTable>,
-    /// A body is seen from outside; a sheet of it looks alike from both sides.
+    /// Both coats are the same: a body is seen from outside only, and a sheet looks the same from
+    /// both sides.
     coats: [Coat; 2],
-    /// What the tissue does, tabulated, if the body is the same everywhere.
+    /// The tissue's optics, tabulated, if the body is uniform.
     uniform: Option<Table>,
 }
 
@@ -32,7 +34,7 @@ pub struct SolidMaterial {
 pub struct ReflectanceTables(Vec<(f64, Arc<ReflectanceTable>)>);
 
 impl ReflectanceTables {
-    /// The table for a refractive index of 1 to 2, made when it is first asked for.
+    /// The table for a refractive index of 1 to 2, made on first use.
     pub fn of(&mut self, eta: f64) -> Arc<ReflectanceTable> {
         let known = self.0.iter().find(|(other, _)| *other == eta);
         if let Some((_, table)) = known {
@@ -45,8 +47,8 @@ impl ReflectanceTables {
 }
 
 impl SolidMaterial {
-    /// Tissue of these optics, in range, below a coat, whose pigments are those of `palette`;
-    /// `table` is that of the optics' refractive index, without a skin.
+    /// Tissue with these optics, which must be in range, and the pigments of `palette`, below a
+    /// coat. `table` is that of the optics' refractive index, without a skin.
     pub fn new(
         held: Held,
         palette: Palette,
@@ -64,23 +66,23 @@ impl SolidMaterial {
         }
     }
 
-    /// What it holds.
+    /// Its contents.
     pub fn held(&self) -> &Held {
         &self.held
     }
 
-    /// What its pigments are.
+    /// The palette of its pigments.
     pub fn palette(&self) -> &Palette {
         &self.palette
     }
 
-    /// Reflectance at normal incidence of tissue that absorbs `absorption` in all, `Σ C K`.
+    /// Reflectance at normal incidence of tissue with the total absorption `absorption`, `Σ C K`.
     fn reflectance(&self, absorption: f64) -> f64 {
         self.table.at(self.optics.albedo_of(absorption))
     }
 
     /// A wavelength of the range, on a coarse grid, at which the coat at normal incidence reflects
-    /// more than the tissue should; with a map its mean contents stand for all.
+    /// more than the tissue should. With a map its mean contents are used.
     pub fn coat_exceeds_reflectance(&self, range_nm: [f64; 2]) -> Option<f64> {
         let coat = f64::from(self.coats[0].albedo().normal());
         let mean = self.held.mean();
@@ -90,7 +92,7 @@ impl SolidMaterial {
         })
     }
 
-    /// Works out what depends on wavelength alone, at every wavelength of a grid.
+    /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         let table = || Tissue::table(grid, |wavelengths| self.tissue_at(Vec2::ZERO, wavelengths));
         self.uniform = self.held.is_uniform().then(table);

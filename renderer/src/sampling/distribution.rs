@@ -1,16 +1,17 @@
 //! Piecewise constant distributions in one and two dimensions.
 
-/// Where to look for a number among rising borders: the range of borders for each of as many equal
-/// parts of [0, 1] (the cutpoint method, \[chen1974\]), so that a search takes the same few steps
-/// however many borders there are.
+/// An index for searches among rising borders (the cutpoint method, \[chen1974\]): it divides [0,
+/// 1] into as many equal parts as there are borders and stores the range of borders for each. So a
+/// search takes a few steps for any number of borders.
 #[derive(Clone, Debug)]
 pub struct Guide {
-    /// How many borders lie in parts before each one, and all of them at the end.
+    /// For each part the number of borders in the parts before it; at the end the number of all
+    /// borders.
     before: Box<[u32]>,
 }
 
 impl Guide {
-    /// For borders that rise within [0, 1], at least one and fewer than 2³².
+    /// The index of rising borders within [0, 1], at least one and fewer than 2³².
     pub fn new<T: Copy + Into<f64>>(borders: &[T]) -> Self {
         let mut before = vec![0; borders.len() + 2];
         for &border in borders {
@@ -26,10 +27,11 @@ impl Guide {
         }
     }
 
-    /// How many of the borders that this guide was made for are at most `u`, in [0, 1].
+    /// The number of borders ≤ `u`, which is in [0, 1]; `borders` must be those of which the guide
+    /// was made.
     pub fn count_up_to<T: Copy + PartialOrd + Into<f64>>(&self, borders: &[T], u: T) -> usize {
-        // Rising numbers come into rising parts, so that all before are smaller and all behind
-        // greater, to the bit.
+        // The part is a monotonic function of the number, so all borders in earlier parts are
+        // smaller and all in later ones greater, exactly.
         let part = Self::part(borders.len(), u.into());
         let [first, last] = [self.before[part], self.before[part + 1]].map(|count| count as usize);
         first + borders[first..last].partition_point(|&border| border <= u)
@@ -40,17 +42,17 @@ impl Guide {
     }
 }
 
-/// Steps of equal width over [0, 1) with given weights.
+/// A piecewise constant distribution: steps of equal width over [0, 1) with given weights.
 #[derive(Clone, Debug)]
 pub struct Piecewise1d {
-    /// From 0 to 1, one more than there are steps.
+    /// Cumulative probabilities from 0 to 1, one more than there are steps.
     cumulative: Box<[f32]>,
     guide: Guide,
     mean: f64,
 }
 
 impl Piecewise1d {
-    /// From weights, each finite and ≥ 0; all zero means even.
+    /// The distribution with these weights, each finite and ≥ 0. If all are zero it is uniform.
     pub fn new(weights: &[f32]) -> Self {
         let total: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
         let mut sum = 0.0;
@@ -81,7 +83,7 @@ impl Piecewise1d {
         self.cumulative[i + 1] - self.cumulative[i]
     }
 
-    /// The step that `u` in [0, 1) falls into, and where in it, in [0, 1).
+    /// The step into which `u` in [0, 1) falls, and the place within it, in [0, 1).
     pub fn sample(&self, u: f32) -> (usize, f32) {
         let steps = self.cumulative.len() - 1;
         let below = self.guide.count_up_to(&self.cumulative, u);
@@ -95,7 +97,7 @@ impl Piecewise1d {
     }
 }
 
-/// Cells of equal size over the unit square with given weights.
+/// A piecewise constant distribution: cells of equal size over the unit square with given weights.
 #[derive(Clone, Debug)]
 pub struct Piecewise2d {
     rows: Piecewise1d,
@@ -103,7 +105,7 @@ pub struct Piecewise2d {
 }
 
 impl Piecewise2d {
-    /// From weights row by row, each finite and ≥ 0.
+    /// The distribution with these weights, row by row, each finite and ≥ 0.
     pub fn new(weights: &[f32], width: usize) -> Self {
         let columns: Box<[_]> = weights.chunks(width).map(Piecewise1d::new).collect();
         let sums: Vec<f32> = columns.iter().map(|row| row.mean() as f32).collect();
@@ -113,7 +115,7 @@ impl Piecewise2d {
         }
     }
 
-    /// A point of the unit square and its density.
+    /// Samples a point of the unit square; returns it with its density.
     pub fn sample(&self, u: [f32; 2]) -> ([f32; 2], f32) {
         let (row, within_row) = self.rows.sample(u[1]);
         let (column, within_column) = self.columns[row].sample(u[0]);

@@ -8,9 +8,9 @@ use sobol_burley::parts::{
 
 /// The random numbers of one sample of one pixel.
 ///
-/// Each call takes the next four dimensions: a Sobol set of its own scramble, well spread over the
-/// samples of the pixel, independent of the other sets (padding; Burley, JCGT 9(4), 2020). After 65
-/// 536 samples the scramble changes.
+/// Each call takes the next four dimensions: a Sobol set with its own scramble, evenly spread over
+/// the samples of the pixel and independent of the other sets (padding; Burley, JCGT 9(4), 2020).
+/// After 65 536 samples the scramble changes.
 #[derive(Clone, Debug)]
 pub struct Stream {
     pixel: u32,
@@ -18,7 +18,8 @@ pub struct Stream {
     set: u32,
 }
 
-/// Samples after which the underlying sequence is exhausted and reseeded.
+/// Base-2 logarithm of the number of samples after which the underlying sequence is exhausted and
+/// reseeded.
 const PERIOD_BITS: u32 = 16;
 /// The last index of that sequence.
 const LAST_INDEX: u32 = (1 << PERIOD_BITS) - 1;
@@ -46,8 +47,8 @@ impl Stream {
         four(self.index, seed)
     }
 
-    /// Stream number `number` of `of` that take the place of this one: those of all samples of a
-    /// pixel together are as well spread as those of `of` times as many samples.
+    /// Stream number `number` of `of` streams that replace this one. The streams of all samples of
+    /// a pixel together are as evenly spread as those of `of` times as many samples.
     #[must_use]
     pub fn part(&self, number: u32, of: u32) -> Self {
         let index = self.index * of + number;
@@ -64,15 +65,15 @@ impl Stream {
         }
     }
 
-    /// Goes to set number `set`, so that numbers which one event leaves unused do not shift those
-    /// of the next event.
+    /// Jumps to set number `set`, so that numbers left unused by one event do not shift those of
+    /// the next.
     pub fn seek(&mut self, set: u32) {
         self.set = set;
     }
 }
 
-/// Sobol's first four dimensions, bits reversed, of indices that have bits in their first or in
-/// their second byte alone.
+/// Sobol's first four dimensions, bits reversed, for indices with bits in their first byte only and
+/// in their second byte only.
 static SOBOL: LazyLock<[[[u32; 4]; 256]; 2]> = LazyLock::new(|| {
     let of = |byte: u32, shift: u32| sobol_int4_rev(byte << shift, 0).into();
     [24, 16].map(|shift| std::array::from_fn(|byte| of(byte as u32, shift)))

@@ -40,7 +40,8 @@ pub fn cosine_hemisphere(u: Vec2) -> Vec3 {
 
 /// A direction within the cone of half angle `acos(cos_max)` around +z, uniform over solid angle.
 ///
-/// Takes `1 − cos_max` because cos of a small angle, such as the sun's, loses its digits in `f32`.
+/// Takes `1 − cos_max`, because the cosine of a small angle, such as the sun's, is inaccurate in
+/// `f32`.
 pub fn cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
     let one_minus_cos = u.x * one_minus_cos_max;
     let sin = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();

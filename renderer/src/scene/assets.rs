@@ -1,4 +1,4 @@
-//! Files that a scene names: read once, checked before they are decoded.
+//! Files of a scene: read once, checked before they are decoded.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use crate::material::contents_texture::ContentsTexture;
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
 
-/// Why a file is of no use.
+/// Why a file cannot be used.
 #[derive(Debug, Error)]
 pub enum AssetError {
     /// It cannot be read.
@@ -34,10 +34,10 @@ pub enum AssetError {
         /// Its size.
         bytes: u64,
     },
-    /// It is no picture.
+    /// It is not a valid picture.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// A channel is not there.
+    /// A channel is missing.
     #[error("{file} has no channel \"{channel}\"")]
     NoChannel {
         /// The file.
@@ -132,7 +132,7 @@ fn channel(
 ///
 /// # Errors
 ///
-/// [`AssetError`] if a channel is missing or holds what no leaf holds.
+/// [`AssetError`] if a channel is missing or holds a value out of range.
 pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     let picture = openexr::read(file)?;
     let (width, height) = (picture.width as usize, picture.height as usize);
@@ -153,16 +153,15 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
     Ok(ContentsTexture::new(width, height, texels))
 }
 
-/// The weights of a mask: pixels across and values row by row from v = 0, and what is wrong
-/// otherwise.
+/// The weights of a mask: number of pixels across, and values row by row from v = 0.
 ///
-/// An EXR's first row is v = 0, as of maps; a PNG's last, so that it looks as the leaf lies with
-/// its apex up. Of an EXR the named channel is taken, or the only one; of a PNG the grey, or `"A"`,
-/// its alpha, both as they are written, 0 to 1.
+/// In an EXR the first row is v = 0, as in maps; in a PNG the last, so that it shows the leaf with
+/// its apex up. From an EXR the named channel is used, or the only one; from a PNG the grey value
+/// or, for `"A"`, alpha, both as stored, 0 to 1.
 ///
 /// # Errors
 ///
-/// What is wrong with the file, without its name.
+/// A message about the file without its name.
 pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), String> {
     let is_png = file
         .extension()
@@ -218,7 +217,7 @@ pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), Str
     Ok((picture.width as usize, layer.data.clone()))
 }
 
-/// An error without the path in front, which a report names as it was written.
+/// The message of an error without the leading path, since a report gives the path as written.
 fn said(file: &Path, error: &dyn std::fmt::Display) -> String {
     let text = error.to_string();
     let path = file.display().to_string();
@@ -227,17 +226,17 @@ fn said(file: &Path, error: &dyn std::fmt::Display) -> String {
 }
 
 impl AssetError {
-    /// What is wrong, without the file's path in front.
+    /// The message without the leading path of the file.
     pub fn without_path(&self, file: &Path) -> String {
         said(file, self)
     }
 }
 
-/// An environment picture: EXR with R, G, B or PNG (its sRGB values made linear).
+/// An environment picture: EXR with R, G, B, or PNG (its sRGB values are converted to linear ones).
 ///
 /// # Errors
 ///
-/// [`AssetError`] if it is no such picture or holds negative or non-finite values.
+/// [`AssetError`] if it is not such a picture or holds negative or non-finite values.
 pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
     let is_png = file
         .extension()
@@ -262,7 +261,7 @@ pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
     })
 }
 
-/// Decodes what leaves and bodies name.
+/// Decodes the files that leaves and bodies name.
 #[derive(Debug)]
 pub struct Decoder;
 

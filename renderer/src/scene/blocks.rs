@@ -1,9 +1,9 @@
 //! The blocks of a scene file, each declared once: see [`leafmodel::document`].
 //!
-//! - **In**: the tree of a file, overrides already put in.
+//! - **In**: the tree of a file, with overrides applied.
 //! - **Out**: a [`Description`] with names resolved and units in SI, or every error of the file;
 //!   the same declarations as a schema.
-//! - **Always true**: a description is given only if there is no error; numbers in it are finite
+//! - **Always true**: a description is returned only if there is no error; its numbers are finite
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
@@ -55,7 +55,8 @@ const SECTIONS: [&str; 13] = [
     "objects",
 ];
 
-/// Reads a whole file. Errors are left in the context; without one there is a description.
+/// Reads a whole file. Errors are left in the context; if there is none, the description is
+/// returned.
 pub(crate) fn read(
     cx: &Context,
     tree: &Table,
@@ -79,7 +80,7 @@ pub(crate) fn read(
 
 /// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
 pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>> {
-    // What else a scene has is left to whoever renders it.
+    // The other sections of a scene are not checked here.
     let others: Vec<&'static str> = SECTIONS
         .into_iter()
         .filter(|section| !["format", "extrapolate", "leaves"].contains(section))
@@ -116,7 +117,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     if let Some(root) = keys.reader() {
         root.cx.extrapolate.set(extrapolate);
     }
-    // The film comes first: it says which wavelengths spectra must cover.
+    // The film comes first, since it sets the wavelengths that spectra must cover.
     let about = "What is recorded, and how well.";
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
         film::film(&mut scene.film, keys);
@@ -139,7 +140,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     }
 }
 
-/// The blocks with names.
+/// The named blocks.
 fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
     let about = "What surfaces are made of.";
     let new = || Material::Diffuse {
@@ -211,12 +212,12 @@ fn section<T>(
     });
 }
 
-/// Reports an error at a key of the block that is read, or at the block where the key is left out.
+/// Reports an error at a key of the present block, or at the block if the key is missing.
 fn report(keys: &Keys<'_>, key: &str, error: DocumentError) {
     keys.report(&[key], error);
 }
 
-/// A key with the path of a file that must be there.
+/// A key with the path of a file that must exist.
 fn file(
     keys: &mut Keys<'_>,
     key: &'static str,

@@ -1,6 +1,7 @@
-//! A scene with names resolved to indices and units to SI: plain data, nothing built yet.
+//! A scene with names resolved to indices and units to SI: plain data, before anything is built.
 //!
-//! Both the tracer ([`super::world`]) and the exporters read this, so both programs get one input.
+//! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
+//! same input.
 
 use std::path::PathBuf;
 
@@ -26,7 +27,7 @@ pub struct Description {
     pub film: Film,
     /// How the PNG is made from it.
     pub picture: Picture,
-    /// Where it is seen from.
+    /// The view.
     pub camera: Camera,
     /// How light is followed.
     pub integrator: Integrator,
@@ -40,7 +41,7 @@ pub struct Description {
     pub solids: Vec<Named<Solid>>,
     /// Lights, in the file's order.
     pub lights: Vec<Named<Light>>,
-    /// What stands in the scene.
+    /// The objects.
     pub objects: Vec<Named<Object>>,
 }
 
@@ -97,10 +98,10 @@ pub struct Film {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples a pixel, the most if noise is aimed at.
+    /// Samples per pixel, or their greatest number if there is a target noise.
     pub spp: u32,
-    /// Relative error at which a part of the picture has enough samples; none if all of it gets the
-    /// same number.
+    /// Relative error at which a part of the picture has enough samples; `None` if all parts get
+    /// the same number.
     pub noise: Option<f64>,
     /// Seed of every random number.
     pub seed: u64,
@@ -113,7 +114,7 @@ pub struct Film {
 /// How the PNG is made from the film.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture {
-    /// Factor 2^EV on radiance.
+    /// Exposure: a factor of 2^EV on radiance.
     pub exposure_ev: f64,
     /// Curve before the sRGB encoding.
     pub tone: Tone,
@@ -122,19 +123,19 @@ pub struct Picture {
 /// How light is followed.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Integrator {
-    /// Most scattering events of a path; `None` is no limit.
+    /// Greatest number of scattering events of a path; `None` is no limit.
     pub max_depth: Option<u32>,
-    /// Russian roulette starts below this throughput; 0 switches it off, `None` leaves it to a
+    /// Throughput below which Russian roulette is applied; 0 switches it off, `None` leaves it to a
     /// trial.
     pub roulette_below: Option<f64>,
-    /// Paths that go on from the first vertex where no sampled light reaches it; `None` leaves it
-    /// to a trial.
+    /// Number of paths that continue from the first vertex if no sampled light reaches it; `None`
+    /// leaves it to a trial.
     pub branches: Option<u32>,
-    /// Light samples at the first vertex; `None` leaves it to a trial.
+    /// Number of light samples at the first vertex; `None` leaves it to a trial.
     pub light_samples: Option<u32>,
 }
 
-/// What a surface is made of.
+/// A material.
 #[derive(Clone, Debug)]
 pub enum Material {
     /// Lambertian.
@@ -151,25 +152,25 @@ pub enum Material {
     },
     /// A leaf of uniform contents or measured spectra (grown leaves bring their own maps).
     Leaf {
-        /// What decides R and T.
+        /// Its tissue, which determines R and T.
         tissue: LeafTissue,
-        /// What the pigments of its contents are.
+        /// The kinds of pigments of its contents.
         pigments: Box<Pigments>,
-        /// What its faces are like.
+        /// The properties of its faces.
         faces: LeafFaces,
     },
     /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
     Solid {
-        /// What it holds.
+        /// Its contents.
         held: Held,
-        /// What the pigments of its contents are.
+        /// The kinds of pigments of its contents.
         pigments: Box<Pigments>,
-        /// What becomes of light in it.
+        /// The optics of the tissue.
         optics: SolidOptics,
     },
 }
 
-/// What the two faces of a leaf are like, of a grown leaf as of a material.
+/// The two faces of a leaf, grown or of a material.
 #[derive(Clone, Debug)]
 pub struct LeafFaces {
     /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
@@ -178,10 +179,10 @@ pub struct LeafFaces {
     pub coats: [Coat; 2],
 }
 
-/// What tissue holds per area of its surface.
+/// Contents of tissue per area of its surface.
 #[derive(Clone, Debug)]
 pub enum Held {
-    /// The same everywhere.
+    /// Uniform contents.
     Contents {
         /// The contents.
         contents: leafmodel::optics::Contents,
@@ -198,7 +199,7 @@ pub enum Held {
     },
 }
 
-/// What becomes of light in solid tissue.
+/// The optics of solid tissue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidOptics {
     /// Depth, scattering and refractive index, in range.
@@ -207,7 +208,7 @@ pub struct SolidOptics {
     pub coat: Coat,
 }
 
-/// What decides a leaf's R and T.
+/// The tissue of a leaf, which determines R and T.
 #[derive(Clone, Debug)]
 pub enum LeafTissue {
     /// PROSPECT-D of contents.
@@ -261,9 +262,9 @@ pub enum Mesh {
 /// A grown leaf: mesh, content maps and coats.
 #[derive(Clone, Debug)]
 pub struct Leaf {
-    /// What leafmodel grows.
+    /// The plan from which it is grown.
     pub plan: LeafPlan,
-    /// What its faces are like.
+    /// The properties of its faces.
     pub faces: LeafFaces,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
@@ -272,9 +273,9 @@ pub struct Leaf {
 /// A grown body of solid tissue: mesh and map of contents.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// What leafmodel grows.
+    /// The plan from which it is grown.
     pub plan: SolidPlan,
-    /// What becomes of light in it.
+    /// The optics of the tissue.
     pub optics: SolidOptics,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
@@ -287,14 +288,14 @@ pub enum Light {
     Distant {
         /// Unit vector towards the light.
         towards: DVec3,
-        /// Angle that the disc fills, rad, > 0.
+        /// Angular diameter of the disc, rad, > 0.
         angular_diameter: f64,
         /// Irradiance on a surface facing it, W m⁻² nm⁻¹.
         irradiance: Spectrum,
     },
     /// The same radiance from everywhere.
     Constant {
-        /// W m⁻² sr⁻¹ nm⁻¹.
+        /// Its radiance, W m⁻² sr⁻¹ nm⁻¹.
         radiance: Spectrum,
     },
     /// A latitude–longitude picture at infinity, up is +z.
@@ -303,25 +304,25 @@ pub enum Light {
         file: PathBuf,
         /// Factor on the picture.
         scale: f64,
-        /// Turn about +z, rad.
+        /// Rotation about +z, rad.
         rotation: f64,
-        /// Spectrum that RGB 1 1 1 stands for, W m⁻² sr⁻¹ nm⁻¹.
+        /// Spectrum of RGB 1 1 1, W m⁻² sr⁻¹ nm⁻¹.
         white: Spectrum,
     },
-    /// An object whose surface shines to the side of its normal.
+    /// An object whose surface emits on the side of its normal.
     Area {
         /// The object.
         object: usize,
-        /// W m⁻² sr⁻¹ nm⁻¹.
+        /// Its radiance, W m⁻² sr⁻¹ nm⁻¹.
         radiance: Spectrum,
     },
-    /// A point that shines into a cone.
+    /// A point that emits into a cone (a spotlight).
     Spot {
         /// The point, m.
         position: DVec3,
         /// Point on the cone's axis, m; not the light's own.
         look_at: DVec3,
-        /// Half angle from which on there is no light, rad, > 0.
+        /// Half angle of the cone, outside which there is no light, rad, > 0.
         cone_angle: f64,
         /// Width of the edge inside the cone, over which intensity falls to 0 linearly in the
         /// angle, rad, at most `cone_angle`.
@@ -331,21 +332,22 @@ pub enum Light {
     },
 }
 
-/// Meshes, leaves or bodies put into the scene: one in one place, or any number as instances.
+/// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
+/// instances.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// What it is; at least one. Without instances it is the first, and there are no others.
+    /// Its shapes, at least one. Without instances there is exactly one.
     pub shapes: Vec<ObjectShape>,
-    /// Local to world, metres, affine and invertible. Of instances, the frame that their places are
-    /// given in.
+    /// Local to world, metres, affine and invertible. For instances, the frame in which their
+    /// places are given.
     pub to_world: DMat4,
-    /// Where instances stand; `None` is one place, that of `to_world`.
+    /// The places of instances; `None` means the single place `to_world`.
     pub instances: Option<Vec<InstancePlace>>,
 }
 
-/// Where one instance of an object stands, and which of the object's shapes it is.
+/// The place and shape of one instance of an object.
 ///
-/// 52 bytes, since a scene may have millions.
+/// It takes 52 bytes, since a scene may have millions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InstancePlace {
     /// Index into [`Object::shapes`].
@@ -355,7 +357,7 @@ pub struct InstancePlace {
     pub to_world: [f32; 12],
 }
 
-/// What an object is.
+/// The shape of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ObjectShape {
     /// A mesh with a material.

@@ -1,4 +1,4 @@
-//! From a scene file, or its text, to a [`Description`] or a report of everything that is wrong.
+//! From a scene file, or its text, to a [`Description`] or a report of all errors.
 
 #[cfg(test)]
 mod tests;
@@ -23,31 +23,31 @@ use super::description::{Description, Leaf, Named, Solid};
 pub struct Loaded {
     /// The scene.
     pub description: Description,
-    /// Warnings: what is allowed but probably not meant.
+    /// Warnings about input that is allowed but probably not intended.
     pub warnings: Vec<Warning>,
-    /// The files that it names, as resolved paths. No output may overwrite them.
+    /// Resolved paths of the files that it names, which no output may overwrite.
     pub inputs: Vec<PathBuf>,
 }
 
 /// Reads the scene file at `path`, with overrides `key=value` written as in the file.
 ///
-/// Files that the scene names are looked for in the file's folder and checked, not read; tables
-/// of spectra are read.
+/// Files that the scene names are searched in the file's folder and checked for existence; only
+/// tables of spectra are read.
 ///
 /// # Errors
 ///
-/// [`DocumentErrors`] with everything that is wrong with the scene and its overrides.
+/// [`DocumentErrors`] with all errors of the scene and its overrides.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, DocumentErrors> {
     into_scene(Opened::file(path, overrides, schema)?, &default_name(path))
 }
 
 /// Reads a scene from its text.
 ///
-/// `file_name` is what reports call it; paths start at `folder`.
+/// `file_name` is its name in reports; paths are relative to `folder`.
 ///
 /// # Errors
 ///
-/// [`DocumentErrors`] with everything that is wrong with the scene and its overrides.
+/// [`DocumentErrors`] with all errors of the scene and its overrides.
 pub fn parse(
     text: &str,
     file_name: &str,
@@ -66,17 +66,17 @@ pub fn parse(
 ///
 /// # Errors
 ///
-/// [`DocumentErrors`] with everything that is wrong with the leaves and the overrides; what else
-/// the file holds is not looked at.
+/// [`DocumentErrors`] with all errors of the leaves and the overrides; the rest of the file is
+/// ignored.
 pub fn load_leaves(path: &Path, overrides: &[String]) -> Result<Vec<Named<Leaf>>, DocumentErrors> {
     into_leaves(Opened::file(path, overrides, schema)?)
 }
 
-/// Leaves with what is allowed and hardly meant, or everything that is wrong.
+/// Leaves with warnings, or all errors.
 pub type LeavesRead = Result<(Vec<Named<Leaf>>, Vec<Warning>), DocumentErrors>;
 
-/// Reads the leaves of the file at `path` if leaves are all it is about: it has some, and nothing
-/// that only a picture needs.
+/// Reads the leaves of the file at `path` if it is a file of leaves only: it has leaves, and none
+/// of the sections that only a picture needs.
 pub fn load_if_only_leaves(path: &Path, overrides: &[String]) -> Option<LeavesRead> {
     let mut opened = Opened::file(path, overrides, schema).ok()?;
     let has = |section: &&str| opened.tree.get(section).is_some();
@@ -104,15 +104,15 @@ pub fn parse_leaves(
     into_leaves(Opened::text(text, &shown, folder, overrides, schema)?)
 }
 
-/// A block `[solids.NAME]` after `format = 1`, which reads back to the same body where the mesh and
-/// the pictures that it names are. Keys are left out where they have their default, and always come
-/// in the same order.
+/// A block `[solids.NAME]` after `format = 1`, which reads back as the same body in a folder with
+/// the mesh and the pictures that it names. Keys with default values are left out; the order of
+/// keys is fixed.
 pub fn solid_to_toml(name: &str, solid: &Solid) -> String {
     let (mut own, mut usual) = (solid.clone(), Solid::usual());
     plan_file::solid_to_toml(name, &mut own, &mut usual, blocks::solid)
 }
 
-/// What a scene file may hold.
+/// The schema of a scene file.
 pub fn schema() -> BlockSchema {
     blocks::schema()
 }

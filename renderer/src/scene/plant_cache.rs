@@ -1,15 +1,16 @@
-//! Grown leaves kept in a folder, for scenes that are rendered again and again: turntables, other
-//! light, other cameras.
+//! A cache of grown leaves in a folder, for scenes that are rendered repeatedly with other light or
+//! other cameras.
 //!
-//! A file holds one leaf, and is named by a digest of its plan. It begins with the whole plan and
-//! the program that wrote it, and ends with a check sum. So a file is never taken for another leaf.
+//! A file holds one leaf and is named by a digest of its plan. It begins with the whole plan and
+//! the identity of the program that wrote it, and ends with a checksum, so it is never used for
+//! another leaf.
 //!
 //! - **In**: a plan, and how to grow it.
-//! - **Out**: the leaf's numbers, from the file or grown.
-//! - **Always true**: what comes from a file has the same bits as what would be grown. A file of
-//!   another plan or program, or a damaged one, is not used; its place is taken by a whole new
-//!   file. So programs that run at once read whole files, old or new.
-//! - **Left out**: bodies of solid tissue; limits on how much a folder holds. Its files may be
+//! - **Out**: the leaf's data, from the file or grown.
+//! - **Always true**: a leaf from a file has the same bits as a grown one. A file of another plan
+//!   or program, or a damaged one, is not used but replaced atomically, so programs that run at the
+//!   same time always read complete files.
+//! - **Left out**: bodies of solid tissue; a limit on the size of the folder. Its files may be
 //!   deleted at any time.
 
 mod bytes;
@@ -33,7 +34,7 @@ use crate::image::atomic;
 /// The first bytes of a file.
 const MAGIC: [u8; 16] = *b"lamina leaf  1\n\n";
 
-/// Why there is no cache.
+/// Why a cache cannot be used.
 #[derive(Debug, Error)]
 #[error("--cache {}: the folder cannot be used: {source}; name one that can be written into", folder.display())]
 pub struct CacheError {
@@ -41,10 +42,10 @@ pub struct CacheError {
     source: io::Error,
 }
 
-/// Why the leaf in a file is not used.
+/// Why a file is not used.
 #[derive(Debug, Error)]
 enum Refused {
-    /// There is no such file, which is no fault.
+    /// There is no such file, which is not an error.
     #[error("it is not there")]
     Missing,
     #[error("it cannot be read: {0}")]
@@ -59,13 +60,13 @@ enum Refused {
 #[derive(Debug)]
 pub struct PlantCache {
     folder: PathBuf,
-    /// The program, down to its build.
+    /// Identity of the program, including its build.
     program: String,
     notes: Mutex<Vec<String>>,
 }
 
 impl PlantCache {
-    /// The cache in a folder, which is made if it is not there.
+    /// The cache in a folder, which is made if it does not exist.
     ///
     /// # Errors
     ///
@@ -83,8 +84,7 @@ impl PlantCache {
         })
     }
 
-    /// What the person who renders should know since the last call: files that were not used, or
-    /// could not be written.
+    /// Notes for the user since the last call: files that were not used or could not be written.
     pub fn take_notes(&self) -> Vec<String> {
         let mut notes = self.lock_notes();
         // Leaves grow on several threads.
@@ -93,14 +93,14 @@ impl PlantCache {
     }
 
     fn lock_notes(&self) -> std::sync::MutexGuard<'_, Vec<String>> {
-        // A list of texts is whole whatever happened to the thread that held it.
+        // A list of texts is valid even if a thread panicked while it held the lock.
         self.notes
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// The leaf of a plan: from its file if that is there and whole, else from `grow`, and then put
-    /// there.
+    /// The leaf of a plan: from its file if that exists and is valid, else from `grow`, after which
+    /// it is stored.
     ///
     /// # Errors
     ///
@@ -110,7 +110,7 @@ impl PlantCache {
         plan: &LeafPlan,
         grow: impl FnOnce() -> Result<LeafParts, PlantError>,
     ) -> Result<LeafParts, PlantError> {
-        // What decides a leaf, all of it, each number with all its digits.
+        // The complete plan, each number with all its digits.
         let key = format!("{}\n{plan:?}\n", self.program).into_bytes();
         let path = self.path(plan);
         match read(&path, &key) {
@@ -129,7 +129,7 @@ impl PlantCache {
         Ok(parts)
     }
 
-    /// Where the leaf of a plan is kept.
+    /// The file for the leaf of a plan.
     fn path(&self, plan: &LeafPlan) -> PathBuf {
         let mut digest = DefaultHasher::new();
         format!("{plan:?}").hash(&mut digest);
@@ -157,7 +157,7 @@ fn write(file: &mut impl Write, key: &[u8], parts: &LeafParts) -> io::Result<()>
     file.write_all(&leaf)
 }
 
-/// What a failure to read means.
+/// The reason of refusal for an error of reading.
 fn refused(error: io::Error) -> Refused {
     if error.kind() == io::ErrorKind::NotFound {
         Refused::Missing
@@ -169,14 +169,14 @@ fn refused(error: io::Error) -> Refused {
 }
 
 fn read(path: &Path, key: &[u8]) -> Result<LeafParts, Refused> {
-    // Not opened before that is known: to open a pipe is to wait for whoever writes into it.
+    // The file's type is checked before opening it, since opening a pipe would wait for a writer.
     let found = std::fs::metadata(path).map_err(refused)?;
     if !found.is_file() {
         return Err(Refused::Foreign);
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    // All before the leaf is known beforehand, so nothing of a foreign file decides how much is
-    // read.
+    // Everything before the leaf is known in advance, so a foreign file cannot determine how much
+    // is read.
     let mut expected = MAGIC.to_vec();
     expected.extend((key.len() as u64).to_le_bytes());
     expected.extend(key);

@@ -1,5 +1,5 @@
-//! The seam to leafmodel: grown leaves and bodies become meshes and materials, millimetres become
-//! metres.
+//! The interface to leafmodel: converts grown leaves and bodies to meshes and materials, and
+//! millimetres to metres.
 
 pub(super) mod parts;
 
@@ -25,7 +25,7 @@ use crate::scene::description;
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::tissue;
 
-/// A grown leaf, ready to be placed: petiole, rachis and leaflets, or one blade alone.
+/// A grown leaf, ready to be placed: petiole, rachis and leaflets, or a single blade.
 #[derive(Debug)]
 pub struct GrownLeaf {
     /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial
@@ -49,8 +49,8 @@ pub enum SolidError {
     Mesh(#[from] MeshError),
 }
 
-/// Grows a body of solid tissue, in the frame of its shape, whose pigments are those of `palette`;
-/// `table` is that of its refractive index.
+/// Grows a body of solid tissue with the pigments of `palette`, in the frame of its shape; `table`
+/// is that of its refractive index.
 ///
 /// # Errors
 ///
@@ -76,7 +76,7 @@ pub fn grow_solid(
     Ok((mesh, tissue::solid(held, palette, &solid.optics, table)))
 }
 
-/// Grows a leaf whose pigments are those of `palette`, or takes it from `cache` if it is there.
+/// Grows a leaf with the pigments of `palette`, or takes it from `cache` if it is there.
 ///
 /// # Errors
 ///
@@ -150,7 +150,7 @@ impl LeafParts {
             });
             meshes.push(stalk(axes));
         }
-        // The tube's wall is a leaf of that.
+        // The wall of a stalk is rendered as leaf tissue with the stalk's contents.
         let has_stalks = pieces.iter().any(|piece| piece.material == stalk_material);
         Ok(Self {
             meshes,

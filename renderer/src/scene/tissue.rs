@@ -1,4 +1,4 @@
-//! Tissue as a scene describes it, made ready: of materials of the scene as of what was grown.
+//! Conversion of tissue from the description, for materials and for grown leaves and bodies.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The finished scene: immutable, shared by every thread.
+//! The finished scene, immutable and shared by all threads.
 
 mod lights;
 mod materials;
@@ -36,58 +36,58 @@ use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
 
-/// Everything that paths meet.
+/// Everything that paths need.
 #[derive(Debug)]
 pub struct World {
-    /// Surfaces, placed.
+    /// The placed surfaces.
     pub geometry: Geometry,
-    /// What each instance of the geometry is made of and whether it shines.
+    /// The object, material and light of each instance of the geometry.
     pub objects: WorldObjects,
-    /// What leaves and bodies consist of.
+    /// The parts of leaves and bodies.
     pub pieces: Pieces,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
-    /// What each material belongs to.
+    /// The owner of each material.
     pub owners: Vec<MaterialOwner>,
-    /// What pigments leaves have, each choice once.
+    /// The distinct palettes of pigments.
     pub palettes: Palettes,
     /// Lights, in the scene's order.
     pub lights: Vec<Light>,
-    /// How lights are sampled.
+    /// The selection of lights for sampling.
     pub selection: LightSelection,
-    /// Where the scene is seen from.
+    /// The camera.
     pub camera: Camera,
-    /// Where in a pixel samples fall.
+    /// The pixel filter.
     pub filter: PixelFilter,
-    /// How long paths get.
+    /// Settings of the integrator.
     pub integrator: description::Integrator,
-    /// Wavelengths that paths carry.
+    /// The wavelengths of paths.
     pub wavelengths: WavelengthSampler,
-    /// Notes for the person who renders: dropped faces, clamped reflectance.
+    /// Notes for the user, such as dropped faces or clamped reflectance.
     pub notes: Vec<String>,
 }
 
-/// What a material belongs to.
+/// The owner of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialOwner {
-    /// That of the scene with this number.
+    /// The scene's material with this number.
     Scene(usize),
     /// A material of the leaf with the number `leaf`. Its different blades come first, its stalks
     /// last.
     Leaf {
         /// Index into [`Description::leaves`].
         leaf: usize,
-        /// Which of its materials.
+        /// Index of the material within the leaf.
         part: usize,
     },
-    /// That of the body of solid tissue with this number.
+    /// The body of solid tissue with this number.
     Solid(usize),
 }
 
 /// Why a described scene cannot be built.
 #[derive(Debug, Error)]
 pub enum WorldError {
-    /// A mesh of the scene is no mesh.
+    /// A mesh of the scene is not valid.
     #[error("meshes.{name}: {source}")]
     Mesh {
         /// Name in the scene.
@@ -105,7 +105,7 @@ pub enum WorldError {
         /// What is wrong with it.
         source: ImportError,
     },
-    /// A file cannot be read or holds something else.
+    /// A file cannot be read or has other contents.
     #[error("{place}: {source}")]
     Asset {
         /// Block of the scene that names it.
@@ -144,8 +144,8 @@ impl World {
         Self::build_with(scene, None)
     }
 
-    /// As [`World::build`], but reads leaves from `cache` if they are there, and writes there those
-    /// that are not.
+    /// As [`World::build`], but reads leaves from `cache` if they are there, and stores those that
+    /// are not.
     ///
     /// # Errors
     ///
@@ -178,7 +178,7 @@ impl World {
             || grow_solids(scene, for_solids),
         );
         notes.extend(cache.map(PlantCache::take_notes).unwrap_or_default());
-        // Of each leaf its pieces, with the numbers that meshes and materials have in the scene.
+        // The pieces of each leaf, with the scene's numbers of meshes and materials.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, grown) in grown_leaves?.into_iter().enumerate() {
             let pieces = grown.pieces.into_iter().map(|piece| Piece {
@@ -251,7 +251,7 @@ impl World {
     }
 }
 
-/// Grows the scene's leaves, each with its palette of pigments.
+/// Grows the scene's leaves; each is returned with its palette of pigments.
 fn grow_leaves(
     scene: &Description,
     palettes: Vec<Palette>,
@@ -264,7 +264,7 @@ fn grow_leaves(
             source: Box::new(source),
         })
     });
-    // Of several errors the first in the scene's order, whichever thread was first.
+    // Of several errors the first in the scene's order is returned, whichever occurred first.
     let grown: Vec<Result<_, _>> = grown.collect();
     grown.into_iter().collect()
 }
@@ -282,7 +282,7 @@ fn grow_solids(
             source: Box::new(source),
         })
     });
-    // Of several errors the first in the scene's order, whichever thread was first.
+    // Of several errors the first in the scene's order is returned, whichever occurred first.
     let grown: Vec<Result<_, _>> = grown.collect();
     grown.into_iter().collect()
 }

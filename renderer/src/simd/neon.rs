@@ -73,7 +73,7 @@ impl Eight for Neon {
         halves(a, b, |a, b| unsafe { vdivq_f32(a, b) })
     }
 
-    // FMIN and FMAX treat what is not a number in another way than the trait: compared and selected
+    // FMIN and FMAX treat NaN differently from the trait, so values are compared and selected
     // instead.
     #[inline(always)]
     fn less(self, a: Halves, b: Halves) -> Halves {
@@ -95,7 +95,7 @@ impl Eight for Neon {
         bits([0, 1].map(|half| unsafe { vcltq_f32(a[half], b[half]) }))
     }
 
-    // Stable Rust has no prefetch here.
+    // Stable Rust has no prefetch on this architecture.
     #[inline(always)]
     fn prefetch<T>(self, _slice: &[T], _place: usize) {}
 }

@@ -1,4 +1,4 @@
-//! Without vector instructions: the reference for the other levels.
+//! The level without vector instructions, the reference for the others.
 
 use super::{Eight, LANES, Row};
 

@@ -1,4 +1,4 @@
-//! A stack of fixed size whose memory is not cleared: a ray would spend more time on that than on a
+//! A stack of fixed size whose memory is not cleared: clearing would cost a ray more time than a
 //! node.
 
 use std::mem::MaybeUninit;
@@ -11,7 +11,7 @@ pub(crate) struct Stack<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> Stack<T, N> {
-    /// Without values.
+    /// An empty stack.
     #[inline(always)]
     pub(crate) fn new() -> Self {
         Self {
@@ -20,24 +20,24 @@ impl<T: Copy, const N: usize> Stack<T, N> {
         }
     }
 
-    /// How many values there are.
+    /// Number of values.
     #[inline(always)]
     pub(crate) fn height(&self) -> usize {
         self.height
     }
 
-    /// Puts a value on top.
+    /// Pushes a value.
     ///
     /// # Panics
     ///
-    /// If there is no room.
+    /// If the stack is full.
     #[inline(always)]
     pub(crate) fn push(&mut self, value: T) {
         self.values[self.height].write(value);
         self.height += 1;
     }
 
-    /// Takes the topmost value.
+    /// Removes and returns the topmost value.
     #[inline(always)]
     pub(crate) fn pop(&mut self) -> Option<T> {
         self.height = self.height.checked_sub(1)?;
@@ -47,12 +47,12 @@ impl<T: Copy, const N: usize> Stack<T, N> {
 }
 
 impl<T: Copy, const N: usize> Stack<(f32, T), N> {
-    /// Puts a value below those of the topmost with a smaller number, but not below the first
+    /// Inserts a value below all topmost values with a smaller number, but not below the first
     /// `base` values.
     ///
     /// # Panics
     ///
-    /// If there is no room.
+    /// If the stack is full.
     #[inline(always)]
     pub(crate) fn push_in_order(&mut self, base: usize, value: (f32, T)) {
         let mut place = self.height;

@@ -10,7 +10,7 @@ use std::arch::x86_64::{
 
 use super::{Eight, LANES, Row, Task};
 
-/// Bytes that the processor fetches at once.
+/// Size of a cache line, bytes.
 const CACHE_LINE: usize = 64;
 
 /// The instructions of AVX2; made by [`with_avx2`] alone.
@@ -35,8 +35,7 @@ fn prefetch<T>(slice: &[T], place: usize) {
     let start = slice.as_ptr().wrapping_add(place).cast::<i8>();
     let mut at = 0;
     while at < size_of::<T>() {
-        // SAFETY: SSE is part of x86-64, and a prefetch of any address at all has no effect but on
-        // time.
+        // SAFETY: SSE is part of x86-64, and a prefetch of any address affects timing only.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(at)) };
         at += CACHE_LINE;
     }
@@ -84,7 +83,7 @@ impl Eight for Avx2 {
         unsafe { _mm256_div_ps(a, b) }
     }
 
-    // MINPS and MAXPS give the second operand where either is not a number, as the trait has it.
+    // MINPS and MAXPS return the second operand if either is NaN, as the trait requires.
     #[inline(always)]
     fn less(self, a: __m256, b: __m256) -> __m256 {
         unsafe { _mm256_min_ps(a, b) }

@@ -73,7 +73,7 @@ pub fn luminance_integral() -> f64 {
     })
 }
 
-/// Linear sRGB of an XYZ triple.
+/// Linear sRGB of XYZ.
 pub fn srgb_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|row| {
         (0..3)
@@ -96,9 +96,9 @@ pub fn xyz_of(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     xyz
 }
 
-/// XYZ under D65 of a surface that reflects, or lets through, this share of the light at each
-/// wavelength in nm; a share of 1 everywhere gives Y = 1. Sums over 360–830 nm by 1 nm, D65 linear
-/// between the 5 nm of its table.
+/// XYZ under D65 of a surface that reflects or transmits this share of the light at each wavelength
+/// in nm; a share of 1 everywhere gives Y = 1. Sums over 360–830 nm by 1 nm, D65 linear between the
+/// 5 nm of its table.
 pub fn xyz_under_d65(share: impl Fn(f64) -> f64) -> [f64; 3] {
     static WHITE: OnceLock<f64> = OnceLock::new();
     let white = *WHITE.get_or_init(|| xyz_of(d65)[1]);

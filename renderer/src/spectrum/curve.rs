@@ -1,4 +1,4 @@
-//! A spectrum ready for evaluation along paths.
+//! Spectra as functions that paths evaluate.
 
 use super::written;
 use crate::spectrum::cie;
@@ -8,7 +8,7 @@ use crate::spectrum::planck;
 
 /// A function of wavelength: constant, or linear between points and constant outside them.
 ///
-/// Whether the film's range is covered is checked when a scene is read; here the end values hold.
+/// Whether a table covers the film's range is checked when a scene is read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
     /// The same at every wavelength.
@@ -32,7 +32,7 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// The spectrum that a scene describes.
+    /// The curve of a spectrum as written in a scene.
     pub fn from_description(spectrum: &written::Spectrum) -> Self {
         match spectrum {
             written::Spectrum::Constant(value) => Self::Constant(*value as f32),
@@ -49,7 +49,7 @@ impl Curve {
         }
     }
 
-    /// Linear between `(nm, value)` points, which rise strictly in wavelength.
+    /// A curve that is linear between `(nm, value)` points, which must rise strictly in wavelength.
     pub fn from_points(points: &[(f64, f64)]) -> Self {
         match points {
             [] => Self::Constant(0.0),
@@ -61,7 +61,7 @@ impl Curve {
         }
     }
 
-    /// `f` at `first_nm`, `first_nm + step_nm`, … with `intervals` intervals.
+    /// A curve through `f` at `first_nm`, `first_nm + step_nm`, … with `intervals` intervals.
     pub fn uniform(first_nm: f64, step_nm: f64, intervals: usize, f: impl Fn(f64) -> f64) -> Self {
         Self::Uniform {
             first_nm: first_nm as f32,
@@ -122,7 +122,7 @@ impl Curve {
         self
     }
 
-    /// Mean over equal steps of a range in nm: a rough size, for choosing between lights.
+    /// Mean over equal steps of a range in nm: a rough measure, for the choice of lights.
     pub fn mean_over(&self, range_nm: [f64; 2]) -> f32 {
         const STEPS: usize = 32;
         let at =

@@ -1,6 +1,6 @@
-//! The wavelengths of paths, and the sets of them that a picture draws from.
+//! The wavelengths of paths, and the sets of them from which a picture draws.
 
-/// Sets of wavelengths that paths choose from.
+/// Number of sets of wavelengths from which paths choose.
 pub const ROWS: usize = 256;
 
 /// Marks wavelengths that are in no row of the picture's grid.
@@ -15,12 +15,12 @@ pub struct Wavelengths<const N: usize> {
 }
 
 impl<const N: usize> Wavelengths<N> {
-    /// Any wavelengths, nm: every spectrum is worked out for them anew.
+    /// Arbitrary wavelengths, nm, at which spectra are evaluated directly, not looked up.
     pub fn new(nm: [f32; N]) -> Self {
         Self { nm, row: NO_ROW }
     }
 
-    /// Number of the row of the picture's grid that they are; beyond all rows if they are none.
+    /// Their row in the picture's grid; a number beyond all rows if they are not of the grid.
     #[inline]
     pub(super) fn row(&self) -> usize {
         self.row as usize
@@ -31,7 +31,7 @@ impl<const N: usize> Wavelengths<N> {
 #[derive(Clone, Debug)]
 pub struct WavelengthGrid {
     pub(super) lanes: usize,
-    /// By row and lane, nm.
+    /// Wavelengths by row and lane, nm.
     pub(super) nm: Box<[f32]>,
 }
 
@@ -44,7 +44,7 @@ impl WavelengthGrid {
         }
     }
 
-    /// Wavelengths in a set.
+    /// Number of wavelengths in a set.
     pub fn lanes(&self) -> usize {
         self.lanes
     }

@@ -3,7 +3,7 @@
 use std::array;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
 
-/// `N` values, one a wavelength; arithmetic goes lane by lane.
+/// `N` values, one per wavelength; arithmetic is lane by lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(32))]
 pub struct Lanes<const N: usize>(pub [f32; N]);
@@ -24,7 +24,7 @@ impl<const N: usize> Lanes<N> {
         Self(array::from_fn(f))
     }
 
-    /// Sum over the lanes, in halves, so that it takes three steps for eight of them.
+    /// Sum over the lanes, by halves, which takes three steps for eight lanes.
     #[inline]
     pub fn sum(self) -> f32 {
         let mut values = self.0;
@@ -38,7 +38,7 @@ impl<const N: usize> Lanes<N> {
         values[..count].iter().sum()
     }
 
-    /// Mean over the lanes: what decisions along a path rest on.
+    /// Mean over the lanes.
     pub fn mean(self) -> f32 {
         self.sum() / N as f32
     }

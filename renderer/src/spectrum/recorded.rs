@@ -1,4 +1,4 @@
-//! Which wavelengths a film records.
+//! What a film records: colour or bands.
 
 /// Colour or bands.
 #[derive(Clone, Debug)]

@@ -1,10 +1,9 @@
-//! Spectra for RGB pictures that are read in: the one way from colour to spectrum.
+//! Spectra for RGB pictures. This is the only conversion from colour to spectrum.
 //!
 //! Linear sRGB `(r, g, b)` becomes `r bᵣ(λ) + g b_g(λ) + b b_b(λ)` with three smooth basis spectra
 //! that sum to one and whose colours under D65 are the sRGB primaries (after Mallett and Yuksel
-//! 2019, computed for this project by `reference/make_tables.py`). The way is linear, so filtering
-//! a picture and making spectra of it may be done in either order, and reflectances in [0, 1] stay
-//! there.
+//! 2019, computed for this project by `reference/make_tables.py`). The conversion is linear, so it
+//! commutes with filtering, and reflectances in [0, 1] stay there.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! Columns of numbers over wavelength that ship with the program.
+//! Tables over wavelength that ship with the program.
 
 /// Reads comma-separated rows of a shipped table; `#` lines and the header line are skipped.
 ///
@@ -6,7 +6,7 @@
 ///
 /// # Panics
 ///
-/// If the shipped table is damaged: it is compiled in, so that is a broken build.
+/// If the shipped table is damaged, which means that the build is broken.
 pub fn parse_shipped<const C: usize>(text: &str) -> Vec<(f64, [f64; C])> {
     text.lines()
         .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))

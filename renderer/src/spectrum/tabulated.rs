@@ -1,5 +1,4 @@
-//! Functions of wavelength, worked out beforehand at all wavelengths that a picture's paths may
-//! carry.
+//! Functions of wavelength, evaluated in advance at all wavelengths of a picture's paths.
 
 use std::fmt;
 
@@ -7,7 +6,7 @@ use crate::spectrum::curve::Curve;
 use crate::spectrum::grid::{WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
 
-/// Some values at each wavelength of a grid: by row of the grid, value and lane.
+/// Several values at each wavelength of a grid, by row of the grid, value and lane.
 #[derive(Clone, PartialEq)]
 pub struct Table(Box<[f32]>);
 
@@ -18,13 +17,13 @@ impl fmt::Debug for Table {
 }
 
 impl Table {
-    /// The values that `f` gives for each wavelength in nm.
+    /// The table of the values of `f` at each wavelength in nm.
     pub fn new<const C: usize>(grid: &WavelengthGrid, mut f: impl FnMut(f32) -> [f32; C]) -> Self {
         let lanes = grid.lanes();
         Self::by_place(grid, |row, lane| f(grid.nm()[row * lanes + lane]))
     }
 
-    /// The values that `f` gives for each row and lane.
+    /// The table of the values of `f` for each row and lane.
     pub fn by_place<const C: usize>(
         grid: &WavelengthGrid,
         mut f: impl FnMut(usize, usize) -> [f32; C],
@@ -41,7 +40,7 @@ impl Table {
         Self(values.into())
     }
 
-    /// The `C` values at a path's wavelengths; `None` if they are not of the grid.
+    /// The `C` values at a path's wavelengths; `None` if these are not of the grid.
     #[inline]
     pub fn row<const N: usize, const C: usize>(
         &self,
@@ -57,8 +56,7 @@ impl Table {
     }
 }
 
-/// A spectrum along paths: a curve, with its values at the wavelengths of a picture once they are
-/// tabulated.
+/// A spectrum for paths: a curve and, once tabulated, its values at the wavelengths of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     curve: Curve,
@@ -77,7 +75,7 @@ impl Spectrum {
         &self.curve
     }
 
-    /// Works it out at every wavelength of a grid.
+    /// Evaluates it at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.table = match &self.curve {
             Curve::Constant(_) => None,

@@ -1,8 +1,8 @@
-//! Which wavelengths a path carries, and what its radiance adds to the film.
+//! The wavelengths that a path carries, and the conversion of its radiance to film values.
 //!
-//! A picture's paths carry one of [`ROWS`] sets of wavelengths: the middles of `ROWS × lanes` equal
-//! shares of the distribution, so some 0.2 nm apart in a colour picture. What depends on wavelength
-//! alone is tabulated for each of them ([`Table`]) and never worked out along a path.
+//! A picture's paths carry one of [`ROWS`] sets of wavelengths: the centres of `ROWS × lanes` equal
+//! shares of the distribution, so some 0.2 nm apart in a colour picture. Everything that depends on
+//! wavelength alone is tabulated for them ([`Table`]) and never computed along a path.
 
 use super::recorded::{Band, FilmKind};
 use crate::spectrum::cie;
@@ -22,21 +22,21 @@ enum Kind {
     /// Colour: wavelengths drawn from all that the observer sees.
     Rgb {
         range_nm: [f64; 2],
-        /// Linear sRGB that radiance 1 at each wavelength stands for, times the number of rows.
+        /// Linear sRGB that radiance 1 at each wavelength contributes, times the number of rows.
         weights: Table,
-        /// Shares of x̄, ȳ and z̄ that each wavelength stands for, times the number of rows: all
-        /// ones make one, on average.
+        /// Shares of x̄, ȳ and z̄ that each wavelength represents, times the number of rows, so
+        /// that a throughput of 1 gives 1 on average.
         seen: Table,
     },
-    /// Bands: one lane a band.
+    /// Bands: one lane per band.
     Bands(Vec<Band>),
 }
 
-/// Density over a range of wavelengths in proportion to sech²(a (λ − λ₀)), drawn by inversion.
+/// The density proportional to sech²(a (λ − λ₀)) over a range of wavelengths, sampled by inversion.
 ///
-/// \[radziszewski2009\] gave it this form. Its numbers are those at which eight wavelengths see the
-/// colours of leaves with the least scatter: R, T, R T and T² of nineteen presets under four
-/// lights. Following the observer instead (x̄ + ȳ + z̄) gives thirty times the variance.
+/// The form is from \[radziszewski2009\]. Its constants minimise the variance of the colours of
+/// leaves with eight wavelengths: R, T, R T and T² of nineteen presets under four lights. A density
+/// that follows the observer (x̄ + ȳ + z̄) gives thirty times the variance.
 #[derive(Clone, Debug)]
 struct WideDistribution {
     /// tanh(a (λ − λ₀)) at both ends of the range.
@@ -54,7 +54,7 @@ impl WideDistribution {
     /// λ₀, nm.
     const CENTRE: f64 = 520.0;
 
-    /// Over a range in nm, rising.
+    /// The distribution over a range in nm, rising.
     fn new(range_nm: [f64; 2]) -> Self {
         Self {
             ends: range_nm.map(|nm| libm::tanh(Self::SLOPE * (nm - Self::CENTRE))),
@@ -68,7 +68,7 @@ impl WideDistribution {
     }
 }
 
-/// Lanes that a film with this many bands takes.
+/// Number of lanes for this many bands.
 fn lanes_of(bands: usize) -> usize {
     match bands {
         0..=4 => 4,
@@ -79,7 +79,7 @@ fn lanes_of(bands: usize) -> usize {
 }
 
 impl WavelengthSampler {
-    /// For what a film records.
+    /// The sampler for a kind of film.
     pub fn new(film: &FilmKind) -> Self {
         match film {
             FilmKind::Rgb { range_nm } => Self::rgb(*range_nm),
@@ -88,19 +88,20 @@ impl WavelengthSampler {
     }
 
     fn rgb(range_nm: [f64; 2]) -> Self {
-        /// Places within a share at which the observer is evaluated.
+        /// Number of places within a share at which the observer is evaluated.
         const STEPS: usize = 8;
-        // 4 lanes are noisier, 16 bring nothing more.
+        // 4 lanes are noisier; 16 give no improvement.
         let lanes = 8;
         let distribution = WideDistribution::new(range_nm);
-        // Lanes share the distribution between them, and rows a lane's share: so samples of a pixel
-        // are stratified over the rows, and the eight wavelengths of each over the whole range.
+        // The distribution is divided among the lanes, and each lane's share among the rows. So
+        // samples of a pixel are stratified over the rows, and the eight wavelengths of each sample
+        // over the whole range.
         let drawn = |row: f64, lane: usize| {
             distribution.draw((lane as f64 + row / ROWS as f64) / lanes as f64)
         };
         let grid = WavelengthGrid::new(lanes, |row, lane| drawn(row as f64 + 0.5, lane) as f32);
-        // A wavelength stands for all of its share: what the observer sees there is integrated, and
-        // counts as often as there are rows, one of which is drawn.
+        // A wavelength represents its whole share: the observer is integrated over it. The factor
+        // of the number of rows allows for only one row being drawn.
         let integrated = |row: usize, lane: usize, seen_at: fn(f64) -> [f64; 3]| {
             let first = drawn(row as f64, lane);
             let width = (drawn(row as f64 + 1.0, lane) - first) / STEPS as f64;
@@ -125,7 +126,7 @@ impl WavelengthSampler {
         }
         let seen = Table::by_place(&grid, |row, lane| {
             let seen = integrated(row, lane, cie::observer);
-            // Nothing is seen of a range that is all infrared.
+            // The observer sees nothing of a purely infrared range.
             std::array::from_fn::<_, 3, _>(|c| (seen[c] / totals[c].max(1e-30)) as f32)
         });
         Self {
@@ -189,7 +190,7 @@ impl WavelengthSampler {
         }
     }
 
-    /// What radiance at drawn wavelengths is to the film: linear sRGB, or radiance per band.
+    /// The film values of radiance at drawn wavelengths: linear sRGB, or radiance per band.
     ///
     /// `values` has [`WavelengthSampler::channels`] entries.
     #[inline]
@@ -216,9 +217,9 @@ impl WavelengthSampler {
         }
     }
 
-    /// How much the film sees of light that a share `throughput` at drawn wavelengths is left of:
-    /// about 1 of all ones. Of a colour film that is the greatest of the three shares of x̄, ȳ and
-    /// z̄, of bands the greatest lane.
+    /// The share of light that reaches the film with this throughput at drawn wavelengths; about 1
+    /// if all lanes are 1. For a colour film it is the greatest of the shares of x̄, ȳ and z̄, for
+    /// bands the greatest lane.
     #[inline]
     pub fn brightness<const N: usize>(
         &self,
@@ -321,7 +322,7 @@ mod tests {
             let middle = mean(&|rgb| rgb[channel]);
             let variance = mean(&|rgb| (rgb[channel] - middle).powi(2));
             let relative = variance.sqrt() / middle;
-            // Drawn like x̄ + ȳ + z̄ it would be 0.39 for red.
+            // With a density like x̄ + ȳ + z̄ it would be 0.39 for red.
             assert!(relative < 0.2, "channel {channel}: {relative}");
         }
     }
@@ -368,7 +369,7 @@ mod tests {
         ];
         let sampler = WavelengthSampler::bands(bands);
         let wavelengths = sampler.draw::<4>(0.25);
-        // The middle of the 65th of 256 shares of the band.
+        // The centre of the 65th of 256 shares of the band.
         assert_eq!(wavelengths.nm, [447.519_53, 900.0, 900.0, 900.0]);
         let mut values = [0.0; 2];
         sampler.film_values(

@@ -1,12 +1,11 @@
-//! Spectra as a scene writes them; what is made of them is a [`Curve`](super::Curve).
+//! Spectra as written in a scene; paths use a [`Curve`](super::Curve) made from them.
 
-/// A spectrum as written. What it means (reflectance, radiance …) is said where it is used.
+/// A spectrum as written. Its quantity (reflectance, radiance …) depends on its use.
 #[derive(Clone, Debug)]
 pub enum Spectrum {
     /// The same value at every wavelength.
     Constant(f64),
-    /// Linear between wavelengths in nm, which rise strictly; `extrapolate` keeps the end values
-    /// outside.
+    /// Linear between wavelengths in nm, which rise strictly.
     Table {
         /// (nm, value) pairs.
         points: Vec<(f64, f64)>,

@@ -1,5 +1,5 @@
-//! Ageing made ready for the millions of points of a map: each distance is looked up once, and
-//! terms of a delay are added only until the outcome is clear.
+//! Ageing, prepared for the millions of points of a map: each distance is looked up once, and terms
+//! of a delay are added only until the result is decided.
 
 use glam::DVec2;
 
@@ -14,8 +14,8 @@ use crate::venation::chance::{self, Use};
 #[derive(Clone, Debug)]
 struct Surroundings {
     margin: Option<Distances>,
-    /// To veins up to the order that each of the two names; nothing for the second if it is that of
-    /// the first.
+    /// Distances to veins up to the order that each delay names; `None` for the second if its order
+    /// is that of the first.
     veins: [Option<Distances>; 2],
 }
 
@@ -36,7 +36,7 @@ impl Surroundings {
     }
 }
 
-/// The distances of one point, each looked up when it is asked for first.
+/// The distances of one point, each looked up when first needed.
 struct Near<'a> {
     of: &'a Surroundings,
     p: DVec2,
@@ -64,7 +64,7 @@ impl Near<'_> {
     }
 }
 
-/// A [`Delay`] made ready for many points of one leaf.
+/// A [`Delay`] prepared for many points of one leaf.
 #[derive(Clone, Debug)]
 struct DelayField {
     delay: Delay,
@@ -202,7 +202,8 @@ impl AgeingLeaf {
         if share <= 0.0 {
             return aged;
         }
-        // Death brings back no pigment and takes no brown.
+        // Dead tissue holds no more chlorophyll and carotenoids than it had alive, and no less
+        // brown.
         let mut dead = self.dead;
         for pigment in [Constituent::Chlorophyll, Constituent::Carotenoids] {
             dead[pigment] = dead[pigment].min(aged[pigment]);

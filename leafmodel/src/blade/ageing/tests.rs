@@ -1,4 +1,4 @@
-//! What ageing by days claims, on every course.
+//! Properties of ageing by days, tested on every course.
 
 use super::super::ageing_courses::{COURSES, LITTER, RED};
 use super::*;
@@ -80,7 +80,7 @@ fn chlorophyll_never_rises_brown_never_falls_and_carotenoids_outlast_chlorophyll
                 assert!(now[Brown] >= before[Brown] - slack, "{name} {p}");
                 assert!(now[Water] <= before[Water] + slack, "{name} {p}");
                 if leaf.dead_share(p) == 0.0 {
-                    // What ages is what is above the rest that stays.
+                    // Only the chlorophyll above the remaining rest decays.
                     let rest = course.chlorophyll_rest;
                     let left = (now[Chlorophyll] - rest) / (GREEN[Chlorophyll] - rest);
                     let share = now[Carotenoids] / GREEN[Carotenoids];
@@ -161,7 +161,8 @@ fn tissue_near_veins_stays_green_longest_or_goes_first() {
 
 #[test]
 fn contents_are_smooth_in_time() {
-    // No step: over a hundredth of a day nothing changes by more than its steepest slope allows.
+    // There is no jump: over a hundredth of a day nothing changes by more than its steepest slope
+    // allows.
     let p = DVec2::new(9.0, 22.0);
     let mut before = GREEN;
     for i in 1..8000 {

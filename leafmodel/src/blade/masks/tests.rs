@@ -62,7 +62,7 @@ fn veins_of_the_orders_asked_for_count_and_no_others() {
             assert_eq!(weight(&veins(orders, true), x, 20.0), 1.0 - inside);
         }
     }
-    // No such veins: nothing is near them.
+    // There are no such veins, so no point is near them.
     assert_eq!(weight(&veins([7, 9], false), 0.0, 20.0), 0.0);
 }
 

@@ -1,4 +1,4 @@
-//! The way that a petiole follows into the blade.
+//! The path along which a petiole continues into the blade.
 
 use glam::DVec2;
 
@@ -15,7 +15,7 @@ pub(super) struct Midrib {
 }
 
 impl Midrib {
-    /// As far as `reach`, mm.
+    /// The midrib up to a length of `reach`, mm.
     pub(super) fn new(outline: &Outline, network: &VenationNetwork, reach: f64) -> Self {
         let base = outline.base();
         let leaf = outline.length();
@@ -33,7 +33,7 @@ impl Midrib {
         let mut nodes = Vec::new();
         let mut next = start.and_then(|node| thickest[node as usize]);
         let mut way = 0.0;
-        // Only as far as it is asked for, and only while it goes on towards the apex.
+        // The vein is followed only up to `reach` and only while it leads towards the apex.
         while let Some(edge) = next.map(|edge| &edges[edge]) {
             let (from, to) = (place(edge.from), place(edge.to));
             if way > reach || (to - from).y <= 0.0 {
@@ -54,9 +54,11 @@ impl Midrib {
         }
     }
 
-    /// Place and radius at a distance from the base; straight on behind the last node.
+    /// Place and radius at a distance from the base; beyond the last node the path continues
+    /// straight.
     ///
-    /// Veins zigzag from node to node: across, a place is the mean over those near it.
+    /// Veins zigzag from node to node, so the coordinate across the leaf is a mean over nearby
+    /// places.
     pub(super) fn at(&self, way: f64) -> (DVec2, f64) {
         let straight = (self.base + DVec2::Y * way, self.radius);
         let Some(&(last, end, thin)) = self.nodes.last() else {

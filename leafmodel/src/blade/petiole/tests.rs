@@ -157,7 +157,7 @@ fn spindle(width: f64, length: f64) -> Outline {
     Outline::new(right.chain(left).collect(), DVec2::ZERO, apex).expect("a spindle is simple")
 }
 
-/// A midrib that zigzags and goes off to the side by `aside` mm.
+/// A midrib that zigzags and deviates to the side by `aside` mm.
 fn crooked(aside: f64) -> VenationNetwork {
     let node = |i: u32| {
         let share = f64::from(i) / 120.0;
@@ -219,8 +219,8 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
             Bending::new(&form, &outline, network.map()),
             60.0,
         );
-        // What one sees 5 mm over and under the blade, beside the midrib by a share of the tube's
-        // radius: how far the tube is before the blade.
+        // How far the tube stands out from the blade, seen from 5 mm above or below it, at a
+        // distance from the midrib given as a share of the tube's radius.
         let ahead = |t: f64, beside: f64, side: f64| {
             let p = way.at(joint.length * t).0;
             let p = p + DVec2::X * (beside * joint.at(&way, t).1);
@@ -260,7 +260,7 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
             assert!(above > -0.02, "{t}: a gap of {above}");
         }
         assert!(sunk > 0.3, "{sunk}");
-        // No step at its end.
+        // There is no step at its end.
         assert!(ahead(1.0, 0.0, -1.0) < 0.06, "{}", ahead(1.0, 0.0, -1.0));
     }
 }

@@ -1,4 +1,4 @@
-//! Faces that look the same way, drawn as seen from there.
+//! Charts: faces of similar orientation, projected onto a plane.
 
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 
 use crate::mosaic::surface::Surface;
 
-/// Directions in a right angle that are tried for the smallest box around a chart.
+/// Number of directions within a right angle that are tried for the smallest box around a chart.
 const TURNS: u32 = 16;
-/// Least weight of a middle that lies inside a face and not on its edge.
+/// Least weight of a centre that counts as inside a face, not on its edge.
 const INSIDE: f64 = 1e-6;
 
 /// A connected part of a surface seen along one direction, mm.
@@ -17,17 +17,18 @@ const INSIDE: f64 = 1e-6;
 pub(super) struct Chart {
     /// Its faces.
     pub(super) faces: Vec<u32>,
-    /// Where their corners are drawn.
+    /// Projected corners of the faces.
     pub(super) corners: Vec<[DVec2; 3]>,
-    /// Corners of the box around it; no taller than wide.
+    /// Lower corner of the box around it, which is no taller than wide.
     pub(super) low: DVec2,
     pub(super) high: DVec2,
 }
 
-/// Cuts a surface into charts whose faces look at most acos(`agree`) away from the first one.
+/// Cuts a surface into charts. The normals of a chart's faces differ from that of the first by at
+/// most acos(`agree`).
 ///
-/// Faces that a chart would draw over others of its own (a ramp that winds back over itself), at
-/// `texels_per_mm`, are left for charts of their own.
+/// Faces whose projection, at `texels_per_mm`, would overlap others of the chart (a ramp that winds
+/// back over itself) are left for other charts.
 pub(super) fn charts(surface: &Surface, agree: f64, texels_per_mm: f64) -> Vec<Chart> {
     let count = surface.faces().len() as u32;
     let normals: Vec<DVec3> = (0..count).map(|face| surface.normal(face)).collect();
@@ -71,7 +72,7 @@ pub(super) fn charts(surface: &Surface, agree: f64, texels_per_mm: f64) -> Vec<C
         let keep = |i: &usize| kept[*i];
         let corners = (0..faces.len()).filter(keep).map(|i| drawn[i]).collect();
         let faces = (0..faces.len()).filter(keep).map(|i| faces[i]).collect();
-        // Faces given back have higher numbers than the seed, so that the loop comes to them.
+        // Rejected faces have higher numbers than the seed, so the loop reaches them later.
         charts.push(turned(faces, corners));
     }
     charts
@@ -113,7 +114,8 @@ fn turned(faces: Vec<u32>, corners: Vec<[DVec2; 3]>) -> Chart {
     }
 }
 
-/// Which faces stay if none may cover a texel's middle that an earlier one covers.
+/// For each face whether it stays, if no face may cover a texel's centre that an earlier one
+/// covers.
 fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
     let mut low = DVec2::INFINITY;
     let mut high = DVec2::NEG_INFINITY;
@@ -143,11 +145,11 @@ fn without_overlaps(drawn: &[[DVec2; 3]], texels_per_mm: f64) -> Vec<bool> {
         .collect()
 }
 
-/// Calls `visit(column, row, weights of the second and third corner)` for each texel whose middle
+/// Calls `visit(column, row, weights of the second and third corner)` for each texel whose centre
 /// lies in a triangle.
 ///
-/// `margin` is the least weight that counts as inside: a little above 0 leaves shared edges to
-/// neither face, below 0 gives them to both. Coordinates are texels.
+/// `margin` is the least weight that counts as inside: slightly above 0, points on shared edges
+/// belong to neither face; below 0, to both. Coordinates are texels.
 pub(super) fn each_texel(
     corners: &[DVec2; 3],
     margin: f64,

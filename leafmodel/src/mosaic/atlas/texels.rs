@@ -1,4 +1,4 @@
-//! Which place of the surface each texel shows.
+//! The place on the surface that each texel shows.
 
 use glam::DVec2;
 
@@ -6,13 +6,13 @@ use super::Texel;
 use super::chart::{Chart, each_texel};
 use crate::mosaic::surface::{Surface, SurfacePoint};
 
-/// Least weight that counts as inside: middles on an edge must not fall between two faces.
+/// Least weight that counts as inside, so that centres on an edge do not fall between two faces.
 const ON_EDGE: f64 = -1e-9;
-/// Most faces that a walk beyond a border crosses.
+/// Greatest number of faces that a walk beyond a border crosses.
 const MOST_STEPS: u32 = 256;
 
-/// Texels inside the faces, and those within the gutter, which show where a straight way on beyond
-/// the border leads.
+/// The places of texels inside faces, and of those within the gutter, which show where a straight
+/// line beyond the border leads.
 pub(super) fn shown(
     surface: &Surface,
     charts: &[Chart],
@@ -64,7 +64,8 @@ pub(super) fn shown(
     shown
 }
 
-/// Calls `visit(index, middle, distance)` for texels whose middle is within the gutter of a line.
+/// Calls `visit(index, middle, distance)` for texels whose centre is within the gutter's width of a
+/// line.
 fn each_texel_near(
     [from, to]: [DVec2; 2],
     gutter: u32,
@@ -93,8 +94,8 @@ fn nearest_on(from: DVec2, to: DVec2, p: DVec2) -> DVec2 {
     from + along * share.clamp(0.0, 1.0)
 }
 
-/// Where a place beyond an edge of a chart lies on the surface: straight on from the nearest point
-/// of the edge.
+/// The place on the surface for a point beyond an edge of a chart: straight on from the nearest
+/// point of the edge.
 fn beyond_border(
     surface: &Surface,
     face: u32,
@@ -125,8 +126,8 @@ fn beyond_border(
     }
 }
 
-/// Where a straight way in a face's frame ends that goes on over unfolded neighbours; at a margin
-/// it stops.
+/// The end of a straight walk in a face's frame that continues over unfolded neighbours; it stops
+/// at a margin.
 fn walk(
     surface: &Surface,
     mut face: u32,
@@ -143,7 +144,7 @@ fn walk(
                 let start = corners[edge];
                 let along = corners[(edge + 1) % 3] - start;
                 let outwards = way.perp_dot(along);
-                // Positive where the way leads out, as corners go round anticlockwise.
+                // Positive where the walk leads out, since corners are anticlockwise.
                 (outwards > 0.0).then(|| (edge, (start - from).perp_dot(along) / outwards))
             })
             .min_by(|a, b| a.1.total_cmp(&b.1));

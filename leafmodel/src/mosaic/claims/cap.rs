@@ -7,7 +7,7 @@ use crate::mosaic::shapes::lathe;
 use crate::mosaic::statistics::neighbourhood;
 use crate::mosaic::{ControlImage, CylinderControl, Mosaic, MosaicPlan, Steered};
 
-/// With days between divisions of the warts' cells of 6, 8 and 20.
+/// The warts' cells divide every 6, 8 and 20 days.
 const CAP: Row = Row {
     cells: 6000,
     days: 20.0,
@@ -18,9 +18,9 @@ const CAP: Row = Row {
     switching: 0.0,
 };
 
-/// Up to this height the lip of the rim is masked, mm.
+/// Height up to which the lip of the rim is masked, mm.
 const LIP: f64 = -1.5;
-/// Within this distance of the axis, and up to this height, the underside is, mm.
+/// Greatest distance from the axis and greatest height of the underside, mm.
 const UNDERSIDE: [f64; 2] = [54.0, 3.0];
 
 #[test]
@@ -63,8 +63,7 @@ fn a_cap_has_warts_on_its_upper_side_only_and_more_of_them_the_oftener_they_divi
         let seen = Seen::of(&mosaic);
         shares.push(seen.share());
         if days > CAP.division[1] {
-            // Warts whose cells hardly divide are single cells: they have no neighbours of their
-            // own.
+            // Warts whose cells hardly divide are single cells without neighbours of their own.
             continue;
         }
         let alike = neighbourhood(&seen.voronoi, &seen.kinds, 5, 1);

@@ -43,9 +43,8 @@ fn lamina(max_edge: f64) -> Surface {
     surface(sheet(&outline.expect("a good outline"), max_edge).expect("a good length"))
 }
 
-/// Of the places that show the background first and the foreground later: how far the foreground
-/// was from them at first, over how far it was from all places of the background. 1 if distance
-/// does not matter.
+/// Mean distance from the first foreground of places that turn from background to foreground, over
+/// that of all background places. 1 if distance does not matter.
 fn nearness_of_the_turned(places: &[DVec3], first: &[u32], later: &[u32]) -> f64 {
     let of = |label: u32| {
         let with = places.iter().zip(first).zip(later);
@@ -93,7 +92,8 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
             .map(|(&share, scale_mm)| noise_labels(scale_mm, share, &places, seed))
             .collect();
         for (two, share) in noise.windows(2).zip(&shares[1..]) {
-            // Noise keeps what chance keeps: the newer share.
+            // With noise, the older foreground is kept only by chance, so the share kept is that of
+            // the newer pattern.
             let kept = contained(&two[0], &two[1], FOREGROUND);
             assert!((kept - share).abs() < 0.1, "{kept} against {share}");
             let near = nearness_of_the_turned(&places, &two[0], &two[1]);
@@ -150,7 +150,8 @@ fn three_crotons_differ_with_equal_statistics_and_are_unstructured() {
             "{blotches:?}"
         );
     }
-    // Across the leaf at five heights: the number of blotches is no trait of the plant.
+    // Blotches are counted across the leaf at five heights: their number differs between
+    // individuals.
     let mut counts = Vec::new();
     for (mosaic, seen) in mosaics.iter().zip(&leaves) {
         let field = SheetField::new(&leaf, TypeField::of_mosaic(mosaic, 2, 0.0), false);

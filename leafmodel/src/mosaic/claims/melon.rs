@@ -1,4 +1,4 @@
-//! Figs. 10 to 12: watermelons, whose stripes a striped image round the fruit starts.
+//! Figs. 10 to 12: watermelons, whose stripes start from a striped image around the fruit.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ const MELON: Row = Row {
     switching: 0.0,
 };
 
-/// Stripes of the image, and what share of it they are.
+/// Number of stripes of the image, and their share of it.
 const STRIPES: u32 = 11;
 const SHARE: f64 = 0.2;
 
@@ -51,8 +51,7 @@ fn striped(radius_weight: f64) -> MosaicPlan {
     }
 }
 
-/// Foreground round the body at each height: how many stripes, and what share of the way round they
-/// take.
+/// Foreground around the body at each height: the number of stripes and their share of the girth.
 fn around(body: &Surface, seen: &Seen) -> (Vec<u32>, Vec<f64>) {
     let at = HEIGHTS.map(|height| seen.at(body, &ring(body, height, 1440)));
     let counts = at.iter().map(|round| element_count(round, FOREGROUND, 12));
@@ -89,15 +88,15 @@ fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
         let (counts, shares) = around(&ball, melon);
         let class = PatternClass::of_counts(&counts);
         assert_eq!(class, PatternClass::Structured { count: STRIPES });
-        // How broad a stripe is across, on average over the heights.
+        // Width of a stripe, on average over the heights.
         let across = shares.iter().zip(HEIGHTS).map(|(share, height)| {
             let round = TAU * (RADIUS * RADIUS - height * height).sqrt();
             share * round / f64::from(STRIPES)
         });
         let breadth = across.sum::<f64>() / HEIGHTS.len() as f64;
         breadths.push(breadth);
-        // Area over half of the border is less by as much as frayed edges are longer than straight
-        // ones.
+        // Area over half of the border is smaller than the width by the factor by which frayed
+        // edges are longer than straight ones.
         frays.push(breadth / mean_width_mm(&melon.voronoi, &melon.kinds, FOREGROUND));
         cells.push(
             melon
@@ -107,9 +106,9 @@ fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
                 .count(),
         );
     }
-    // The clock makes as many cells at any radius, and the number of stripes is the image's: a
-    // stripe broadens because its cells take more room from the others, and the share of the
-    // foreground rises by as much.
+    // The number of cells does not depend on the radius, and the image sets the number of stripes.
+    // So a stripe broadens because its cells take more room from the others, and the share of the
+    // foreground rises in proportion.
     assert!(cells[0] == cells[1] && cells[1] == cells[2], "{cells:?}");
     let rises = |list: &[f64]| list.windows(2).all(|two| two[0] < two[1]);
     let shares: Vec<f64> = melons.iter().map(Seen::share).collect();
@@ -118,7 +117,7 @@ fn a_greater_radius_gives_broader_stripes_of_as_many_cells() {
         "{breadths:?} mm"
     );
     assert!(rises(&shares), "{shares:?}");
-    // And edges grow smoother.
+    // Edges become smoother too.
     frays.reverse();
     assert!(rises(&frays), "{frays:?}");
 }

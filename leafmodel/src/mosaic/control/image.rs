@@ -1,18 +1,18 @@
-//! The images that controls wrap round their axis: given, or made by rule.
+//! The images that controls wrap around their axis: pictures, or patterns made by rule.
 
 use std::f64::consts::TAU;
 
 use super::{ControlError, check};
 use crate::venation::chance::{Use, uniform};
 
-/// A grey image on a cylinder, values 0 to 1, joined at its left and right edge.
+/// A grey image on a cylinder, values 0 to 1, whose left and right edges are joined.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ControlImage {
     /// One value everywhere, 0 to 1.
     Constant(f64),
-    /// Pixels; between their middles values are blended.
+    /// Pixels; values are interpolated between their centres.
     Picture {
-        /// What the scene calls its file; empty if there is none.
+        /// Name of its file in the scene; empty if there is none.
         file: String,
         /// Pixels round the axis.
         width: usize,
@@ -24,35 +24,35 @@ pub enum ControlImage {
     },
     /// White stripes along the axis on black.
     Stripes {
-        /// How many round the axis, 1 to 10000.
+        /// Number of stripes around the axis, 1 to 10000.
         count: u32,
-        /// Width of a stripe over the distance of one to the next, 0 to 1.
+        /// Width of a stripe over the distance between stripes, 0 to 1.
         share: f64,
-        /// How far stripes wander to either side, over the distance of one to the next, 0 to (1 −
-        /// share)/2.
+        /// Greatest deviation of a stripe to either side, over the distance between stripes, 0 to
+        /// (1 − share)/2.
         waviness: f64,
-        /// How many bends they make from end to end, 0 to 1000.
+        /// Number of bends from end to end, 0 to 1000.
         bends: f64,
-        /// Decides how they wander.
+        /// Seed of the bends.
         seed: u64,
     },
-    /// White rings about the axis on black.
+    /// White rings around the axis on black.
     Rings {
-        /// How many along the axis, 1 to 10000.
+        /// Number of rings along the axis, 1 to 10000.
         count: u32,
-        /// Width of a ring over the distance of one to the next, 0 to 1.
+        /// Width of a ring over the distance between rings, 0 to 1.
         share: f64,
     },
     /// Smooth noise.
     Noise {
-        /// Features round the axis (and over the same height as their width, if the cylinder is as
-        /// high as its girth), 1 to 10000.
+        /// Number of features around the axis, 1 to 10000. Features are as high as wide if the
+        /// cylinder is as high as its girth.
         around: u32,
         /// Layers of noise, each twice as fine and half as strong as the one before, 1 to 10.
         octaves: u32,
-        /// Where to cut: values above are white, those below black; none leaves them grey.
+        /// Threshold: values above are white, those below black; `None` leaves them grey.
         threshold: Option<f64>,
-        /// Decides the noise.
+        /// Seed of the noise.
         seed: u64,
     },
 }
@@ -91,7 +91,7 @@ impl ControlImage {
             } => {
                 count("number of stripes", *stripes, 10_000, "1 to 10000")?;
                 unit("share", *share)?;
-                // A little more for rounding.
+                // With a little tolerance for rounding.
                 let room = (1.0 - share) / 2.0 + 1e-12;
                 check(
                     "waviness",
@@ -145,7 +145,7 @@ impl ControlImage {
             } => {
                 let place = turn * f64::from(*count);
                 let stripe = place.floor().min(f64::from(*count) - 1.0);
-                // Each stripe wanders by its own numbers.
+                // Each stripe has its own random numbers.
                 let wander = 2.0 * smooth(*seed, stripe as u64, bends * height) - 1.0;
                 white((place - stripe - 0.5 - waviness * wander).abs() < share / 2.0)
             }
@@ -198,9 +198,10 @@ fn smooth(seed: u64, line: u64, at: f64) -> f64 {
     number(whole) * (1.0 - share) + number(whole + 1.0) * share
 }
 
-/// Random numbers at the corners of a grid, smoothly joined; `cells` squares round the axis.
+/// Value noise: random numbers at the corners of a grid, smoothly interpolated; `cells` squares
+/// around the axis.
 fn lattice(seed: u64, cells: f64, turn: f64, height: f64) -> f64 {
-    // A cylinder is as high as its girth here, so that both directions count alike.
+    // The cylinder is taken to be as high as its girth, so that both directions have the same unit.
     let (x, y) = (turn * cells, height * cells);
     let (left, bottom) = (x.floor(), y.floor());
     let (s, t) = (eased(x - left), eased(y - bottom));
@@ -213,7 +214,7 @@ fn lattice(seed: u64, cells: f64, turn: f64, height: f64) -> f64 {
     below * (1.0 - t) + above * t
 }
 
-/// A half wave from 0 to 1 over [0, 1].
+/// Half a cosine wave from 0 to 1 over [0, 1].
 fn eased(share: f64) -> f64 {
     0.5 - 0.5 * libm::cos(TAU / 2.0 * share)
 }

@@ -1,4 +1,4 @@
-//! Tissue over a flat lamina, by places of the plane.
+//! Tissue of a flat lamina, looked up by places in the plane.
 
 use glam::DVec2;
 
@@ -9,11 +9,11 @@ use crate::optics::Contents;
 
 /// Most squares along a side of the grid in which faces are looked up.
 const MOST_SQUARES: f64 = 160.0;
-/// Width of the grid beyond the sheet, as a share of its extent: further out the nearest margin is
-/// approximate.
+/// Width of the grid beyond the sheet, as a share of its extent. Farther out the nearest point of
+/// the margin is approximate.
 const BEYOND: f64 = 0.1;
 
-/// A mosaic on one or both faces of a flat sheet in the plane z = 0, looked up by places of that
+/// A mosaic on one or both faces of a flat sheet in the plane z = 0, looked up by places in that
 /// plane.
 #[derive(Clone, Debug)]
 pub struct SheetField {
@@ -29,7 +29,7 @@ pub struct SheetField {
 }
 
 impl SheetField {
-    /// Looks up `field`, which lies on `surface`.
+    /// Prepares the look-up of `field`, which lies on `surface`.
     ///
     /// `surface` is a flat sheet in the plane z = 0 or, if `both` is set, [`Surface::both_faces`]
     /// of one.
@@ -111,8 +111,8 @@ impl SheetField {
         &self.field
     }
 
-    /// The point of the sheet's adaxial face at a place of the plane (mm), outside the sheet the
-    /// nearest.
+    /// The point of the sheet's adaxial face at a place of the plane (mm), for places outside the
+    /// sheet its nearest point.
     pub fn locate(&self, p: DVec2) -> SurfacePoint {
         let at = ((p - self.low) / self.square).max(DVec2::ZERO);
         let column = (at.x as usize).min(self.columns - 1);
@@ -144,11 +144,11 @@ impl SheetField {
         }
     }
 
-    /// What the tissue of the blade holds at a place of the plane (mm); outside the sheet as at its
+    /// Contents of the blade's tissue at a place in the plane (mm); outside the sheet those at its
     /// nearest point.
     ///
-    /// With both faces the contents per area are the mean of those of the two faces: each face's
-    /// tissue is half of the blade's thickness, and both lie in the way of light.
+    /// With both faces the contents per area are the mean of the two faces' contents: each face's
+    /// tissue is half of the blade's thickness, and light passes both.
     ///
     /// # Panics
     ///

@@ -47,7 +47,7 @@ fn distance(surface: &Surface, a: DVec3, b: DVec3) -> f64 {
 #[test]
 fn unfolding_across_the_edges_of_a_cube_gives_the_exact_distance() {
     for surface in [cube(), cube().subdivided(0.3).expect("good").0] {
-        // Over one edge: the two sides laid flat.
+        // Over one edge: the two faces of the cube laid flat.
         let (a, b) = (DVec3::new(0.7, 0.25, 1.0), DVec3::new(1.0, 0.45, 0.6));
         assert!((distance(&surface, a, b) - DVec2::new(0.3 + 0.4, 0.2).length()).abs() < 1e-12);
         assert!((distance(&surface, b, a) - DVec2::new(0.3 + 0.4, 0.2).length()).abs() < 1e-12);

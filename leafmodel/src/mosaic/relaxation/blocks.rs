@@ -1,9 +1,9 @@
 //! The surface cut into blocks of faces that share one patch.
 //!
-//! Where faces are small against the radius, the patches of neighbouring faces would hold nearly
-//! the same hundreds of faces. So neighbouring faces that lie nearly in a plane form a block, up to
-//! a size that is a share of the radius. The patch of the middle face serves the whole block. On
-//! surfaces that bend without stretching nothing is lost by that.
+//! If faces are small compared with the radius, the patches of neighbouring faces hold nearly the
+//! same hundreds of faces. So neighbouring faces that lie nearly in a plane form a block, up to a
+//! size that is a share of the radius, and the patch of its middle face serves the whole block. On
+//! developable surfaces this is exact.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -11,25 +11,25 @@ use rayon::prelude::*;
 use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::{Surface, Unfold};
 
-/// How far a block reaches from the middle of its base, as a share of the radius; larger blocks are
-/// fewer, and each has more cells to look through.
+/// Greatest distance of a block's faces from the middle of its base, as a share of the radius. With
+/// larger blocks there are fewer of them, but each has more cells to search.
 const HUB: f64 = 0.75;
 
-/// The same where faces are many, and fewer blocks take less memory. It was set when the other was
-/// 0.4; they are two still because pushes are summed block by block in single precision: another
-/// share gives the cells of a seed other places.
+/// The same where faces are many, to save memory. It was chosen when the other value was 0.4. The
+/// two are not merged, because pushes are summed block by block in single precision, so another
+/// value would change the places of cells for a given seed.
 const HUB_OF_MANY: f64 = 0.8;
 
-/// Faces in a square whose side is the radius that count as many.
+/// Number of faces in a square whose side is the radius from which on faces count as many.
 const MANY: f64 = 50.0;
 
-/// Faces of a block are turned against its base by no more than an angle of this cosine (20°).
+/// Cosine of the greatest angle between a block's faces and its base (20°).
 const LEAST_COSINE: f64 = 0.94;
 
-/// Faces whose cells look for neighbours together.
+/// Faces whose cells search their neighbours together.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
-    /// Its own faces, and how each lies in the frame of the base.
+    /// Its own faces, with the motion of each into the frame of the base.
     pub own: Vec<(u32, Unfold)>,
     /// All faces within the radius of the own ones, in the frame of the base.
     pub near: Vec<(u32, Unfold)>,
@@ -47,7 +47,7 @@ pub(super) fn blocks(surface: &Surface, radius: f64) -> Vec<Block> {
     let block = |finder: &mut PatchFinder<'_>, own: &Vec<u32>| {
         let base = own[0];
         let centre = surface.flat(&surface.centre(base));
-        // The faces were put together with the hub as their bound, a lone base may be larger.
+        // The hub bounds the faces added to a block, but a lone base may be larger.
         let corners = surface.corners(base);
         let base_reach = corners.iter().map(|corner| corner.distance(centre));
         let own_hub = base_reach.fold(if own.len() > 1 { hub } else { 0.0 }, f64::max);

@@ -1,18 +1,18 @@
-//! The repulsion that a cell feels from many others: the innermost loop.
+//! The repulsion of a cell by many others: the innermost loop.
 //!
-//! Single precision, places relative to the block and in units of the radius: seven digits are
-//! enough for a force whose direction is partly random, and twice as many numbers fit into a
-//! register. Only sums, products, a root and a quotient, each rounded as IEEE 754 wants it, in an
-//! order that the code fixes: the same bits everywhere.
+//! It uses single precision, with places relative to the block and in units of the radius. Seven
+//! digits are enough for a force whose direction is partly random, and twice as many numbers fit
+//! into a register. Only sums, products, a root and a quotient occur, each rounded by IEEE 754 and
+//! in a fixed order, so the bits are the same on every machine.
 
-/// Cells that are handled side by side.
+/// Number of cells processed in parallel.
 const LANES: usize = 8;
 
 /// A distance greater than that of any cell.
 const FAR: f32 = 1e9;
 
-/// Two cells nearer than this (squared, in radii) push one another in no direction; it also stands
-/// for a cell itself.
+/// Squared distance, in radii, below which two cells do not push each other, which also excludes
+/// the cell itself.
 const NEAREST: f32 = 1e-20;
 
 /// Places of cells, padded to whole lanes.
@@ -49,7 +49,7 @@ impl Places {
             for lane in 0..LANES {
                 let (dx, dy) = (x - xs[lane], y - ys[lane]);
                 let squared = (dx * dx + dy * dy).max(NEAREST);
-                // (1 − d)/d, and nothing beyond 1.
+                // (1 − d)/d, and 0 beyond 1.
                 let push = (1.0 / squared.sqrt() - 1.0).max(0.0);
                 fx[lane] += dx * push;
                 fy[lane] += dy * push;
@@ -71,7 +71,7 @@ impl Places {
     }
 }
 
-/// In halves, as vector units do it.
+/// The sum by halves, as vector units compute it.
 fn sum(lanes: [f32; LANES]) -> f32 {
     let [a, b, c, d, e, f, g, h] = lanes;
     ((a + e) + (c + g)) + ((b + f) + (d + h))

@@ -1,4 +1,4 @@
-//! A profile turned about the z axis.
+//! Solids of revolution about the z axis.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,10 +6,10 @@ use glam::{DVec2, DVec3};
 
 use super::{Shape, ShapeError, affordable, positive};
 
-/// Distance between points of a ring over the longest edge allowed; with rings √3/2 of that apart,
-/// no diagonal is longer.
+/// Distance between points of a ring over the longest edge allowed. With rings √3/2 of that
+/// distance apart, no diagonal is too long.
 const RING_STEP: f64 = 0.72;
-/// Pieces that each span of the spline is cut into to measure its length.
+/// Number of pieces of each span of the spline for the measurement of its length.
 const PIECES: u32 = 64;
 /// Radius below which, as a share of the greatest, an end lies on the axis.
 const ON_AXIS: f64 = 1e-9;
@@ -26,8 +26,8 @@ struct CurvePoint {
 ///
 /// The curve is a centripetal Catmull-Rom spline (\[yuksel2011\]): it has no loops between its
 /// points. An end with radius 0 is closed there without a tip (the profile goes on as its mirror
-/// image), so that dimples are smooth; an end off the axis is left open. Rings have as many points
-/// as their own length asks for.
+/// image), so that dimples are smooth; an end off the axis is left open. The number of points of a
+/// ring depends on its length.
 ///
 /// # Errors
 ///
@@ -92,12 +92,12 @@ pub fn lathe(profile: &[DVec2], max_edge_mm: f64) -> Result<Shape, ShapeError> {
 struct Ring {
     first: u32,
     points: u32,
-    /// Share of a step by which the first point is turned from the x axis.
+    /// Angle of the first point from the x axis, as a share of a step.
     turned: f64,
 }
 
 impl Ring {
-    /// Angle of a point; numbers go on beyond the last.
+    /// Angle of a point; numbers may exceed that of the last point.
     fn angle(&self, i: u32) -> f64 {
         TAU * (f64::from(i) + self.turned) / f64::from(self.points)
     }

@@ -1,12 +1,11 @@
-//! On a growing surface the room decides how many cells divide in each region.
+//! Divisions on a growing surface: the room decides how many cells divide in each region.
 
 use crate::mosaic::live::Live;
 use crate::mosaic::patch::PatchFinder;
 use crate::mosaic::surface::Surface;
 use crate::venation::chance::{Use, bits, uniform};
 
-/// How far a region reaches from its middle face, in repulsion radii: a region has a few dozen
-/// cells.
+/// Radius of a region around its middle face, in repulsion radii; a region has a few dozen cells.
 const REACH: f64 = 3.0;
 
 /// The surface cut into regions, each with the divisions that it has room for.
@@ -16,7 +15,7 @@ pub(super) struct Regions {
     region_of: Vec<u32>,
     /// Divisions that growth up to now has made room for and that are still to come.
     room: Vec<f64>,
-    /// What is added to the room at each relaxation event.
+    /// Increase of the room at each relaxation event.
     gain: Vec<f64>,
 }
 
@@ -49,7 +48,7 @@ impl Regions {
         }
     }
 
-    /// The surface grows from `old` to `new` within so many relaxation events.
+    /// Lets the surface grow from `old` to `new` within `events` relaxation events.
     pub(super) fn grow(&mut self, old: &Surface, new: &Surface, cell_area: f64, events: u32) {
         self.gain.fill(0.0);
         for (face, &region) in self.region_of.iter().enumerate() {
@@ -58,8 +57,8 @@ impl Regions {
         }
     }
 
-    /// The cells that divide at an event: in each region as many as there is room for, by chance
-    /// and the rates of the cells.
+    /// The cells that divide at an event: in each region as many as have room, drawn with the
+    /// cells' rates as weights.
     pub(super) fn due(
         &mut self,
         cells: &[Live],
@@ -85,7 +84,7 @@ impl Regions {
                 if sum <= 0.0 {
                     break;
                 }
-                // The room left tells draws of one event apart.
+                // The remaining room distinguishes the draws of one event.
                 let counter = (event << 24) | self.room[region] as u64;
                 let key = bits(self.seed, Use::MosaicDivision, region as u64);
                 let wanted = uniform(key, Use::MosaicDivision, counter) * sum;
@@ -96,7 +95,7 @@ impl Regions {
                     wanted < up_to
                 });
                 let chosen = chosen.unwrap_or(last);
-                // A cell divides once at an event.
+                // A cell divides at most once per event.
                 rates[chosen] = 0.0;
                 due.push(members[chosen]);
                 self.room[region] -= 1.0;

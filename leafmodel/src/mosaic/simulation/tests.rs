@@ -229,7 +229,7 @@ fn any_number_of_types_grow_side_by_side() {
     let count = |kind| mosaic.cells.iter().filter(|cell| cell.kind == kind).count();
     let counts: Vec<usize> = (0..types as u16).map(count).collect();
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
-    // Those that divide fastest are the most.
+    // The cells that divide fastest are the most numerous.
     assert!(counts[0] > counts[4], "{counts:?}");
     let switched = mosaic.cells.iter().filter(|cell| {
         cell.parent
@@ -279,7 +279,7 @@ fn on_a_growing_surface_cells_keep_their_spacing() {
     let days = [0.0, 10.0, 20.0];
     let stages = Mosaic::grow_until(&surface, &plan, 6, &days, &|| false).expect("good");
     for stage in &stages {
-        // The area of a cell stays as divisions fill what growth has made.
+        // The area per cell stays constant, since divisions fill the room made by growth.
         let cell_area = stage.surface.total_area() / stage.cells.len() as f64;
         assert!(
             (cell_area / (50.0 / 200.0) - 1.0).abs() < 0.08,
@@ -364,7 +364,7 @@ fn what_a_plan_has_wrong_is_named() {
         "cells of type \"foreground\" divide every 0.1 days: after 1000 days there would be more than 4000000; make the days fewer \
          or the divisions rarer"
     );
-    // Where a control decides how often cells divide, it shows on the way only.
+    // If a control sets division rates, too many cells are found only during growth.
     let explosive = MosaicPlan {
         controls: vec![CylinderControl {
             from: DVec3::ZERO,

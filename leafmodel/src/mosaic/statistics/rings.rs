@@ -1,4 +1,4 @@
-//! Stripes counted along circles round an upright body.
+//! Counts of stripes along circles around an upright body.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ const STRUCTURED_SHARE: f64 = 0.75;
 /// unstructured ones vary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatternClass {
-    /// Most circles, at all heights and in all individuals, meet this many elements.
+    /// Most circles, at all heights and in all individuals, cross this many elements.
     Structured {
         /// How many.
         count: u32,
@@ -25,7 +25,8 @@ pub enum PatternClass {
 }
 
 impl PatternClass {
-    /// From the numbers of elements along circles at several heights of several individuals.
+    /// Classifies a pattern by the numbers of elements along circles at several heights of several
+    /// individuals.
     ///
     /// Structured if three quarters of the circles have the same count, and that is above 0. Ties
     /// go to the smaller count.
@@ -50,8 +51,8 @@ impl PatternClass {
 /// Points of a surface around the z axis at a height (mm), at `count` equal angles from the x axis
 /// on.
 ///
-/// Where the ray from the axis meets the surface several times the outermost counts; angles at
-/// which it meets none are left out.
+/// If a ray from the axis meets the surface several times, the outermost point is used; angles at
+/// which it does not meet the surface are left out.
 pub fn ring(surface: &Surface, height_mm: f64, count: u32) -> Vec<SurfacePoint> {
     // Where the plane at that height cuts faces, with the weights of both ends.
     let mut cuts: Vec<(u32, [[f64; 3]; 2], [DVec2; 2])> = Vec::new();
@@ -95,12 +96,12 @@ pub fn ring(surface: &Surface, height_mm: f64, count: u32) -> Vec<SurfacePoint> 
         .collect()
 }
 
-/// How many runs of `label` there are along a closed ring of labels, after runs (of it or of
-/// others) shorter than `shortest` points have been taken as part of what surrounds them.
+/// Number of runs of `label` along a closed ring of labels, after runs shorter than `shortest`
+/// points, of any label, have been merged into their surroundings.
 pub fn element_count(labels: &[u32], label: u32, shortest: usize) -> u32 {
     let mut marked: Vec<bool> = labels.iter().map(|&l| l == label).collect();
-    // Gaps are closed before specks are dropped, each from short to long, so that frayed edges stay
-    // with their stripe.
+    // Gaps are closed before specks are dropped, each from short to long, so that frayed edges
+    // remain part of their stripe.
     for length in 1..shortest {
         for value in [false, true] {
             let runs = runs(&marked);

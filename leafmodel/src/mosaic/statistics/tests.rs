@@ -91,7 +91,7 @@ fn patches_that_a_noise_of_greater_scale_shows_do_not_hold_the_old_ones() {
         .collect();
     let marked = |scale_mm, share| noise_labels(scale_mm, share, &places, 3);
     let (young, old) = (marked(4.0, 0.3), marked(8.0, 0.6));
-    // By chance 0.6 of the old area would be kept.
+    // Independent patterns would keep 0.6 of the old area.
     assert!(
         contained(&young, &old, 1) < 0.75,
         "{}",

@@ -1,10 +1,10 @@
-//! Which faces touch: vertices at one place become one, and edges are paired.
+//! Adjacency of faces: vertices at the same place are merged, and edges are paired.
 
 use glam::DVec3;
 
 use super::{NONE, SurfaceError};
 
-/// More than this would not leave room for the numbers of edges.
+/// Greatest number of vertices or faces; beyond it, edge numbers would overflow.
 const MOST: usize = 1 << 30;
 
 pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
@@ -17,8 +17,8 @@ pub(super) fn check_finite(positions: &[DVec3]) -> Result<(), SurfaceError> {
     }
 }
 
-/// The mesh with equal positions merged, each to the first vertex that has it. Vertices that no
-/// face names are kept.
+/// The mesh with equal positions merged, each to the first vertex that has it. Unused vertices are
+/// kept.
 pub(super) fn welded(
     positions: Vec<DVec3>,
     mut faces: Vec<[u32; 3]>,
@@ -57,7 +57,7 @@ pub(super) fn welded(
     Ok((positions, faces))
 }
 
-/// A key for each edge that only faces at the same edge share: its two vertices.
+/// A key for each edge that only faces at that edge share: its two vertices.
 pub(super) fn keys_of_vertices(faces: &[[u32; 3]]) -> Vec<[u64; 3]> {
     let key = |a: u32, b: u32| (u64::from(a.min(b)) << 32) | u64::from(a.max(b));
     faces
@@ -66,7 +66,7 @@ pub(super) fn keys_of_vertices(faces: &[[u32; 3]]) -> Vec<[u64; 3]> {
         .collect()
 }
 
-/// For each edge of each face the neighbour and which of its edges is the shared one.
+/// For each edge of each face the neighbour and the number of the shared edge in it.
 pub(super) type Pairs = (Vec<[u32; 3]>, Vec<[u8; 3]>);
 
 /// Pairs edges of equal key.
@@ -97,8 +97,8 @@ pub(super) fn pair(
         let Some(&(_, other, theirs)) = group.get(1) else {
             continue;
         };
-        // A face folded onto itself has an edge twice, and no area: that is found when the faces
-        // are flattened.
+        // A degenerate face may have an edge twice; it has no area, which is detected when the
+        // faces are flattened.
         if face != other && ends(faces, other, theirs).0 == start {
             return Err(SurfaceError::OppositeOrientation {
                 from: positions[start as usize],

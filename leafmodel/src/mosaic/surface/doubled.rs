@@ -1,4 +1,4 @@
-//! A thin blade has two faces.
+//! The two faces of a thin blade as one surface.
 
 use super::{NONE, Surface, SurfaceError};
 
@@ -6,9 +6,9 @@ impl Surface {
     /// A sheet doubled: its own faces, then as many turned over, the two joined along the margin.
     ///
     /// Face `f` of a sheet of `n` faces keeps its number; `n + f` lies behind it, with the second
-    /// and third corner exchanged. Both sides are at the same place in space, but on the surface a
-    /// point and the one behind it are as far apart as the way round the margin. With it the
-    /// adaxial and the abaxial face of a leaf have cells of their own.
+    /// and third corner exchanged. Both sides are at the same place in space. But on the surface
+    /// the distance between a point and the one behind it is the way around the margin, so the
+    /// adaxial and the abaxial face of a leaf have separate cells.
     ///
     /// # Errors
     ///

@@ -1,13 +1,13 @@
-//! Smaller faces for cells that are small against the mesh.
+//! Subdivision of surfaces, for cells that are small compared with the faces.
 
 use glam::DVec3;
 
 use super::{NONE, Surface, SurfaceError, SurfacePoint, adjacency};
 
-/// More faces than this are refused.
+/// Greatest number of faces.
 const MOST_FACES: usize = 1 << 28;
 
-/// Where the faces of a subdivided surface lie in the surface that they were cut from.
+/// The places of the faces of a subdivided surface in the original one.
 #[derive(Clone, Debug)]
 pub struct Ancestry {
     /// For each new face the old face, and the weights of its corners for each of the new corners.
@@ -45,8 +45,8 @@ impl Ancestry {
 }
 
 impl Surface {
-    /// The surface with every edge longer than `max_edge_mm` halved until none is, and where its
-    /// faces lie on this one.
+    /// The surface with edges halved until none is longer than `max_edge_mm`, and the places of its
+    /// faces on this one.
     ///
     /// # Errors
     ///
@@ -107,7 +107,7 @@ impl Surface {
             for k in 0..3 {
                 let (a, b) = (self.corners[face][k], self.corners[face][(k + 1) % 3]);
                 let middle = &mut middles[(edges[face][k] >> 1) as usize];
-                // Both faces of an edge have to agree on its length: the first decides.
+                // Both faces of an edge must agree on its length, so the first one decides.
                 let first = edges[face][k] & 1 == 0;
                 if first && a.distance(b) > max_edge {
                     *middle = cut.positions.len() as u32;
@@ -116,7 +116,7 @@ impl Surface {
                 marked[k] = *middle;
             }
             cut.face(ids, edges[face], marked, old, weights);
-            // Long edges of slender faces take more of them than their area says.
+            // Slender faces with long edges need more faces than their area suggests.
             if cut.faces.len() > most_faces {
                 return Err(SurfaceError::TooManyFaces {
                     most: most_faces,
@@ -140,7 +140,7 @@ impl Surface {
 
     /// For each edge of each face twice its number, and one more in the second of its faces.
     ///
-    /// Vertices do not name edges: in a doubled sheet two edges may have the same ends.
+    /// Vertices do not identify edges: in a doubled sheet two edges may have the same ends.
     fn edge_numbers(&self) -> Vec<[u64; 3]> {
         let mut numbers = vec![[0; 3]; self.faces.len()];
         let mut next = 0;
@@ -161,7 +161,7 @@ impl Surface {
     }
 }
 
-/// The faces of the finer surface as they are cut.
+/// The faces of the subdivided surface under construction.
 struct Cut {
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
@@ -197,7 +197,7 @@ impl Cut {
             let (a, b) = (weights[at(k)], weights[at(k + 1)]);
             (marked[at(k)], [0, 1, 2].map(|i| 0.5 * (a[i] + b[i])))
         };
-        // The halves of an edge: at its start and at its end as this face runs.
+        // The halves of an edge, at its start and at its end in the direction of this face.
         let whole = |k: usize| edges[at(k)] & !1;
         let start = |k: usize| (1 << 62) | edges[at(k)];
         let end = |k: usize| (1 << 62) | (edges[at(k)] ^ 1);

@@ -15,8 +15,7 @@ pub(in crate::mosaic) fn scattered(surface: &Surface, cells: u64, seed: u64) -> 
         .collect()
 }
 
-/// Random cells spread by moving each into the middle of its polygon once would be evener; these
-/// are the harder case.
+/// Checks that pieces fill the faces. Random cells are a harder case than evenly spread ones.
 fn check_fills(surface: &Surface, cells: u64) {
     let sites = scattered(surface, cells, 7);
     let voronoi = Voronoi::new(surface, &sites);
@@ -111,7 +110,7 @@ fn the_two_faces_of_a_blade_do_not_share_cells() {
         ],
     };
     let voronoi = Voronoi::new(&both, &[middle, behind]);
-    // Each has its own side: the way round the margin is as long from either.
+    // Each cell gets its own side, since the way around the margin is equally long from both.
     for area in voronoi.areas() {
         assert!((area - 100.0).abs() < 5.0, "{area}");
     }

@@ -8,21 +8,22 @@ use super::{Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, Seco
 use crate::shape::outer_boundary::union_boundary;
 use crate::shape::outline::Outline;
 
-/// Axes that a leaf may have in all, twins of pairs counted.
+/// Greatest number of axes of a leaf, the twins of pairs included.
 const MOST_AXES: usize = 200;
 
-/// By which share of their size lobes are moved that lie on each other, from lobe to lobe: 0.1 nm
-/// on a leaf of 100 mm, then more.
+/// Shifts tried for lobes whose margins coincide, from one lobe to the next, as shares of the
+/// leaf's length: 0.1 nm on a leaf of 100 mm, then more.
 const SHIFTS: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
 
-/// An axis in its place: similarity from the axis' own frame, in units of the midrib.
+/// The place of an axis: a similarity from the axis' own frame to that of the leaf, in units of the
+/// midrib.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     base: DVec2,
     /// From base to tip.
     axis: DVec2,
     mirrored: bool,
-    /// Numbers that lead to it.
+    /// Numbers that lead to the axis, as in `FormPart::axes`.
     path: Vec<usize>,
 }
 
@@ -59,7 +60,7 @@ impl Place {
 
     /// Where an axis on this one lies.
     fn of_secondary(&self, axis: &SecondaryAxis, number: usize, twin: bool) -> Self {
-        // Lengths are those of the leaf, whatever the parent's.
+        // Lengths are in midribs, not in lengths of the parent.
         let own_length = axis.length / self.axis.length();
         let side = if twin { -1.0 } else { 1.0 };
         let direction = DVec2::new(side * libm::sin(axis.angle), libm::cos(axis.angle));
@@ -97,7 +98,7 @@ impl GrowthForm {
     }
 }
 
-/// Adds the lobes of a checked axis, which is in all these places, and of the axes on it.
+/// Adds the lobes of a checked axis at each of these places, and those of the axes on it.
 fn add_lobes(
     axis: &Axis,
     growth: AxisGrowth,
@@ -159,8 +160,8 @@ pub(super) fn union(
     length_mm: f64,
 ) -> Result<Outline, GrowthFormError> {
     let mut outcome = unite(lobes, length_mm, 0.0);
-    // Margins that run along each other have no clear crossings: moved apart by less than anyone
-    // sees, they do.
+    // Margins that run along each other have no well-defined crossings. They have after a shift far
+    // too small to be seen.
     for shift in SHIFTS {
         if outcome.is_ok() {
             break;
@@ -188,7 +189,7 @@ fn unite(
     let rings: Vec<&[DVec2]> = polygons.iter().map(Vec::as_slice).collect();
     let apex = DVec2::new(0.0, length_mm);
     let outline = Outline::new(union_boundary(&rings), DVec2::ZERO, apex)?;
-    // Half-way along, since a lobe that was moved may end short of its axis.
+    // The middle of the axis is tested, since a shifted lobe may end short of its axis' ends.
     let middle = DVec2::new(0.0, 0.5);
     let apart =
         |(place, _): &&(Place, Vec<DVec2>)| !outline.covers(place.apply(middle) * length_mm);

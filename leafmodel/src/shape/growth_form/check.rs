@@ -1,4 +1,4 @@
-//! What a growth form's numbers may be.
+//! Ranges of a growth form's numbers.
 
 use std::ops::{Bound, RangeBounds};
 
@@ -7,7 +7,7 @@ use super::{
     Axis, FormPart, GrowthForm, GrowthFormError, GrowthFormProblem, HalfForm, LateralGrowth, Side,
 };
 
-/// How often axes may bear axes.
+/// Greatest depth of axes on axes.
 const DEEPEST: usize = 8;
 
 /// Above 0, up to `most`.
@@ -15,13 +15,13 @@ fn above_0(most: f64) -> impl RangeBounds<f64> {
     (Bound::Excluded(0.0), Bound::Included(most))
 }
 
-/// Refuses lengths that no leaf has.
+/// Refuses lengths outside 0.001 to 100 000 mm.
 pub(super) fn length(length_mm: f64) -> Result<(), GrowthFormError> {
     let words = "0.001 to 100000 (millimetres)";
     Ok(in_range("length_mm", length_mm, 1e-3..=1e5, words)?)
 }
 
-/// `value` must lie in `range`, which NaN never does.
+/// Refuses a `value` outside `range`; NaN is outside every range.
 pub(super) fn in_range(
     key: &'static str,
     value: f64,
@@ -44,12 +44,12 @@ impl GrowthForm {
     ///
     /// # Errors
     ///
-    /// [`GrowthFormError`] of the first that is out of range, or of veins that cross.
+    /// [`GrowthFormError`] for the first parameter that is out of range, or for veins that cross.
     pub fn validate(&self) -> Result<(), GrowthFormError> {
         self.checked().map(|_| ())
     }
 
-    /// Checks every parameter; gives the growth of the midrib.
+    /// Checks every parameter and returns the growth of the midrib.
     pub(super) fn checked(&self) -> Result<AxisGrowth, GrowthFormError> {
         in_range("axial_rate", self.axial_rate, 1e-3..=1.0, "0.001 to 1")?;
         let growth = AxisGrowth::of_midrib(self.axial_rate);

@@ -16,11 +16,11 @@ pub enum Side {
     Left,
 }
 
-/// A part of a growth form: one half of one axis. It is written as the keys that lead to it,
-/// `axes[0].left.`, numbers from 0, and not at all for the right half of the midrib.
+/// A part of a growth form: one half of one axis. It is displayed as the keys that lead to it, such
+/// as `axes[0].left.`, with numbers from 0. The right half of the midrib displays as nothing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormPart {
-    /// Which axis: the number of one on the midrib, then of one on that, and so on. None is the
+    /// Which axis: the number of one on the midrib, then of one on that, and so on. Empty for the
     /// midrib.
     pub axes: Vec<usize>,
     /// Which half of it.
@@ -63,7 +63,7 @@ pub enum GrowthFormProblem {
         /// What it may be.
         range: &'static str,
     },
-    /// Veins that are not in order from base to tip, or share a row.
+    /// Veins are not in order from base to tip, or share a row.
     #[error(
         "veins[{index}] lies in row {row} of {rows}, where it must lie above row {before} of the vein before it"
     )]
@@ -77,17 +77,17 @@ pub enum GrowthFormProblem {
         /// How many rows there are.
         rows: usize,
     },
-    /// Veins that cross each other before they end.
+    /// Veins cross each other before they end.
     #[error("veins[{lower}] and veins[{upper}] cross; {allowed}")]
     VeinsCross {
         /// The vein nearer to the base, from 0.
         lower: usize,
         /// The vein nearer to the tip, from 0.
         upper: usize,
-        /// What would keep them apart.
+        /// The slopes that would keep them apart.
         allowed: SlopeRange,
     },
-    /// A row grows out of all proportion.
+    /// A row grows to more than 1000 lengths of its axis.
     #[error(
         "rows: row {row} grows to {lengths:.0} times the length of its axis, above 1000; lower its lateral growth rate"
     )]
@@ -97,20 +97,20 @@ pub enum GrowthFormProblem {
         /// Length of the row in lengths of its axis.
         lengths: f64,
     },
-    /// A secondary axis that lies apart from the rest of the blade.
+    /// A secondary axis lies apart from the rest of the blade.
     #[error(
         "position: this axis does not overlap the rest of the blade; widen its base or place it nearer"
     )]
     Apart,
-    /// The rows sweep over something that is no blade.
+    /// The area that the rows sweep over has no valid margin.
     #[error("these growth rates and slopes bring forth no margin")]
     NoMargin(#[source] OutlineError),
 }
 
-/// The slopes that one of two veins may have so that they do not cross, all else being as it is.
+/// The slopes of one of two veins at which they do not cross, all else unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SlopeRange {
-    /// Of one of the veins.
+    /// A range of slopes for one of the veins.
     Of {
         /// Which vein, from 0.
         vein: usize,

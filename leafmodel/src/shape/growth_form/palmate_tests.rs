@@ -45,7 +45,7 @@ fn an_axis_as_long_as_the_midrib_grows_as_it_does() {
     }]);
     let twice = twice.grow(50.0).expect("good");
     assert!((alone.area() - twice.area()).abs() < 1e-5 * alone.area());
-    // After T steps it is as many times longer as its length says: (1 + gy)^T.
+    // After T steps the axis is 0.4 · 1000 times as long as its primordium.
     let rate = axis(0.0, 0.4).axial_rate(0.1);
     let steps = libm::log(1000.0) / libm::log(1.1);
     assert!((libm::pow(1.0 + rate, steps) - 400.0).abs() < 1e-9);
@@ -63,7 +63,7 @@ fn axes_get_as_long_as_their_own_growth_makes_them() {
         );
     }
     let outline = palm.grow(60.0).expect("good");
-    // Lobes overlap, so that they cover less than they do one by one, and all of each.
+    // Lobes overlap: the union covers every lobe but less than the sum of their areas.
     let lobes = palm.lobes().expect("good");
     let mut sum = 0.0;
     for (_, points) in &lobes {
@@ -132,7 +132,7 @@ fn what_no_leaf_has_is_refused_by_name() {
 
 #[test]
 fn a_lobe_apart_from_the_rest_is_refused_by_its_path() {
-    // Axes start on the blade, so that only rounding can part them; here one is carried away.
+    // Axes start on the blade, so only rounding can part them from it. The test moves one away.
     let mut lobes = palm(vec![axis(50.0, 0.5)]).lobes().expect("good");
     for p in &mut lobes[2].1 {
         *p += DVec2::new(-3.0, 3.0);

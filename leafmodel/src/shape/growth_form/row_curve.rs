@@ -18,8 +18,8 @@ impl RowCurve {
     pub(super) fn length(self, x: f64) -> f64 {
         let (from, to) = (self.slope, self.slope + self.bend * x);
         if (to - from).abs() < 0.1 {
-            // Five-point Gauss quadrature: exact to rounding over so little bend, where the closed
-            // form cancels.
+            // Five-point Gauss quadrature: accurate to rounding where the row bends little and the
+            // closed form cancels.
             const HALF: [(f64, f64); 2] = [
                 (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
                 (0.906_179_845_938_664, 0.236_926_885_056_189_08),

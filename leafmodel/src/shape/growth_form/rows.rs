@@ -10,10 +10,10 @@ use super::{
 };
 use crate::shape::outer_boundary::outer_boundary;
 
-/// Rows longer than this many axes belong to no leaf.
+/// Longest row, in lengths of its axis; longer ones are refused.
 const LONGEST: f64 = 1000.0;
 
-/// Points of a vein's line.
+/// Number of points of a vein's line.
 #[cfg(test)]
 const LINE: usize = 24;
 
@@ -50,22 +50,22 @@ impl AxisGrowth {
     }
 }
 
-/// The row, from 0, at a place along an axis. The paper's `j / N` would give the two ends of the
-/// midrib unlike treatment; `j = 1 + round(y (N − 1))` makes `yd` and `1 − yd` exact mirror images.
+/// The row, from 0, at a place along an axis. The paper's `j / N` would treat the two ends of the
+/// midrib differently; `j = 1 + round(y (N − 1))` makes `yd` and `1 − yd` exact mirror images.
 pub(super) fn row_at(rows: usize, position: f64) -> usize {
-    // Halves go to the even row, so that y and 1 − y round alike for an odd number of gaps too.
+    // Halves are rounded to the even row, so that y and 1 − y stay mirror images with an odd number
+    // of gaps too.
     (position * (rows - 1) as f64).round_ties_even() as usize
 }
 
-/// Rows on one side of an axis, checked, as they grow. Lengths are in units of the axis at
-/// maturity.
+/// The checked rows on one side of an axis. Lengths are in units of the axis at maturity.
 #[derive(Debug)]
 pub(super) struct Rows<'a> {
     count: usize,
     half: &'a HalfForm,
     growth: AxisGrowth,
     part: FormPart,
-    /// Row from 0 and vein.
+    /// Each vein with the number of its row, from 0.
     veins: Vec<(usize, VeinRow)>,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Base, margin and tip, on the side of positive x.
+    /// The margin from base to tip, both included, on the side of positive x.
     pub(super) fn margin(&self) -> Result<Vec<DVec2>, GrowthFormError> {
         let mut points = Vec::with_capacity(self.count + 2);
         points.push(DVec2::ZERO);
@@ -131,7 +131,7 @@ impl<'a> Rows<'a> {
         (0..self.count).map(row).collect()
     }
 
-    /// An error in these rows.
+    /// An error that names these rows' part of the form.
     pub(super) fn error(&self, problem: GrowthFormProblem) -> GrowthFormError {
         GrowthFormError {
             part: self.part.clone(),
@@ -139,7 +139,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Row and curve of each vein.
+    /// Each vein with the number of its row.
     pub(super) fn veins(&self) -> &[(usize, VeinRow)] {
         &self.veins
     }
@@ -157,7 +157,8 @@ impl<'a> Rows<'a> {
     /// The curve of row `j` and how far from the axis it ends.
     fn row(&self, j: usize) -> Result<(RowCurve, f64), GrowthFormError> {
         let curve = curve(&self.veins, j);
-        // Rows start with their ends one axis' length away from it (Eq. 2, in closed form).
+        // In the primordium every row ends at a distance of one axis' length from the axis (Eq. 2,
+        // in closed form).
         let length = curve.length(1.0) * self.allometry(j);
         if length > LONGEST * libm::hypot(1.0, curve.slope) {
             return Err(self.error(GrowthFormProblem::TooWide {
@@ -178,7 +179,7 @@ impl<'a> Rows<'a> {
                 widest_at,
                 falloff,
             } => {
-                // Growth is 0 in the first and the last row, so the fastest is one between them.
+                // Growth is 0 in the first and the last row, so the fastest row lies between them.
                 let peak = row_at(self.count, *widest_at).clamp(1, last - 1);
                 let away = if j <= peak {
                     (peak - j) as f64 / peak as f64
@@ -230,8 +231,7 @@ mod tests {
 
     #[test]
     fn steps_one_by_one_end_where_the_closed_form_does() {
-        // Eqs. 1 and 2 carried out step by step, as the paper has them; the last step is a part of
-        // one.
+        // Eqs. 1 and 2 step by step, as in the paper; the last step is a fraction of one.
         let half = HalfForm {
             lobe_decay: 0.0003,
             veins: [14, 44, 74, 104, 134]

@@ -1,4 +1,4 @@
-//! The model and its extensions, against closed forms and against what each is for.
+//! The model and its extensions, tested against closed forms and intended effects.
 
 use proptest::prelude::*;
 
@@ -101,7 +101,7 @@ fn a_curve_through_the_papers_rates_gives_the_papers_leaf() {
 
 #[test]
 fn a_growth_law_with_two_maxima_makes_a_leaf_with_a_waist() {
-    // A fiddle-shaped (panduriform) leaf, which Eq. 3 cannot bring forth.
+    // A fiddle-shaped (panduriform) leaf, which Eq. 3 cannot produce.
     let fiddle = form(with_curve(vec![
         [0.0, 0.0],
         [0.2, 0.08],
@@ -201,8 +201,8 @@ fn veins_that_cross_are_refused_with_the_slopes_that_keep_them_apart() {
     else {
         panic!("{error:?}");
     };
-    // Where both end, the upper one is still above: s₂ > s₁ − Δy / x, x the half width of the
-    // shorter one.
+    // At the end of the shorter vein the upper one must still be above: s₂ > s₁ − Δy / x, x the
+    // half width of the shorter one.
     let rows = form(half(veins(1.5)))
         .row_growth(Side::Right)
         .expect("they do not cross");
@@ -213,7 +213,7 @@ fn veins_that_cross_are_refused_with_the_slopes_that_keep_them_apart() {
         "veins[1] and veins[2] cross; they do not if the slope of veins[2] is within {from} to 20"
     );
     assert_eq!(said, expected);
-    // What bends away at the far end is kept apart by the other vein's slope.
+    // These veins bend towards each other.
     let bent = vec![vein(0.4, 0.0, 90.0), vein(0.43, 0.0, -100.0)];
     let error = unlike(half(Vec::new()), half(bent)).grow(80.0);
     let error = error.expect_err("they cross");
@@ -345,7 +345,7 @@ proptest! {
             let (below, above) = (half_of(&mut form, side).veins[lower], half_of(&mut form, side).veins[upper]);
             prop_assert!(vein == lower || vein == upper);
             prop_assert!(!(from..=to).contains(&half_of(&mut form, side).veins[vein].slope));
-            // Any slope of the range will do for these two.
+            // Every slope of the range keeps these two apart.
             for share in [0.0, 0.1, 0.3, 0.7, 1.0] {
                 let mut pair = form.clone();
                 let veins = &mut half_of(&mut pair, side).veins;

@@ -4,7 +4,7 @@ use super::row_curve::RowCurve;
 use super::rows::Rows;
 use super::{GrowthFormError, GrowthFormProblem, SlopeRange};
 
-/// Slopes that a vein may have.
+/// Greatest slope of a vein, up or down.
 const STEEPEST: f64 = 20.0;
 
 /// A vein from the axis to its end.
@@ -39,8 +39,8 @@ impl VeinLine {
 
     /// Whether the line meets one that starts nearer to the tip.
     fn meets(&self, upper: &Self) -> bool {
-        // How far the upper one lies above the lower, x away from the axis: gap + slope x + bend
-        // x²/2.
+        // At distance x from the axis the upper vein lies above the lower one by gap + slope x +
+        // bend x²/2.
         let gap = upper.start - self.start;
         let slope = upper.curve.slope - self.curve.slope;
         let bend = upper.curve.bend - self.curve.bend;
@@ -52,8 +52,8 @@ impl VeinLine {
 }
 
 impl Rows<'_> {
-    /// Refuses veins of which two cross. Rows between them may: what they sweep over together is
-    /// the blade.
+    /// Refuses a form in which two veins cross. The rows between them may cross: the blade is all
+    /// that they sweep over together.
     pub(super) fn refuse_crossing_veins(&self) -> Result<(), GrowthFormError> {
         let veins = self.veins();
         let alike = veins
@@ -87,8 +87,8 @@ impl Rows<'_> {
     }
 }
 
-/// The slopes of the upper vein that keep it from the lower one; if there are none, those of the
-/// lower one.
+/// The slopes of the upper vein at which it does not meet the lower one; if there are none, those
+/// of the lower vein.
 fn slopes_apart(lower: &VeinLine, upper: &VeinLine, [below, above]: [usize; 2]) -> SlopeRange {
     let upper_meets = |slope| lower.meets(&upper.with_slope(slope));
     if !upper_meets(STEEPEST) {
@@ -109,8 +109,8 @@ fn slopes_apart(lower: &VeinLine, upper: &VeinLine, [below, above]: [usize; 2]) 
     SlopeRange::Nothing
 }
 
-/// From a slope at which veins meet towards one at which they do not: the first at which they do
-/// not, to three decimals if there are so many.
+/// The first slope, on the way from `meeting` to `apart`, at which the veins do not meet; rounded
+/// to three decimals if a rounded slope keeps them apart too.
 fn first_apart(meeting: f64, apart: f64, meets: impl Fn(f64) -> bool) -> f64 {
     let (mut meeting, mut apart) = (meeting, apart);
     for _ in 0..60 {

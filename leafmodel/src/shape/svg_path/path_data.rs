@@ -5,11 +5,11 @@ use svgtypes::{PathParser, PathSegment};
 
 use crate::shape::cubic::Cubic;
 
-/// The drawn parts of a path, each a chain of cubics; an open part is closed by nobody yet.
+/// The drawn parts of a path, each a chain of cubics; open parts are left open.
 ///
 /// # Errors
 ///
-/// What the parser says of broken data.
+/// The parser's message, if the data are malformed.
 pub(super) fn parts(data: &str) -> Result<Vec<Vec<Cubic>>, String> {
     let mut pen = Pen::default();
     for segment in PathParser::from(data) {
@@ -157,7 +157,7 @@ impl Pen {
             for piece in arc.pieces(from, to) {
                 self.draw(piece);
             }
-            // Rounding must not part this piece from the next.
+            // The exact end point is kept, so that rounding leaves no gap before the next piece.
             self.at = to;
             if let Some(last) = self.parts.last_mut().and_then(|part| part.last_mut()) {
                 last.0[3] = to;
@@ -167,7 +167,7 @@ impl Pen {
     }
 }
 
-/// An elliptical arc but for its ends.
+/// The parameters of an elliptical arc, its ends left out.
 struct Arc {
     radii: DVec2,
     /// Angle from the x-axis to the first radius, radians.

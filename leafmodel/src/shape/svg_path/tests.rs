@@ -21,14 +21,14 @@ fn the_lowest_point_seen_is_the_base_and_the_highest_the_apex() {
         (DVec2::ZERO, DVec2::new(0.0, 20.0))
     );
     assert!((outline.area() - 100.0).abs() < 1e-12);
-    // Right stays right: the corner at x = 6 comes out at +5 mm.
+    // The right side stays right: the corner at x = 6 comes out at +5 mm.
     assert!(outline.points().contains(&DVec2::new(5.0, 10.0)));
 }
 
 #[test]
 fn base_and_apex_that_are_given_turn_the_leaf_upright() {
     let mut contour = parsed(&format!("<path d=\"{KITE}\"/>")).expect("a kite");
-    // From the right corner to the left one: the kite lies down, half as long as it is wide.
+    // From the right corner to the left one: the kite lies on its side, half as long as it is wide.
     (contour.base, contour.apex) = ([6.0, 7.0], [4.0, 7.0]);
     let outline = contour.grow(20.0).expect("a kite");
     let (low, high) = outline.bounds();

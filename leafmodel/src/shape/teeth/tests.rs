@@ -73,7 +73,7 @@ fn waves_add_up() {
 #[test]
 fn teeth_on_a_straight_side_are_triangles_of_known_area() {
     let plain = strip();
-    // A side is 2 √(1 + 1/4) + 9 long; so many teeth that those at its corners hardly count.
+    // A side is 2 √(1 + 1/4) + 9 long; with so many teeth, those at its corners hardly count.
     let side = 2.0 * 1.25_f64.sqrt() + 9.0;
     let height = 0.01;
     let toothed = toothed(&plain, &[even(200, height)]).expect("small teeth");
@@ -110,7 +110,7 @@ fn saw_teeth_have_upright_sides_towards_the_apex() {
     let level = right
         .windows(2)
         .filter(|edge| (edge[1].y - edge[0].y).abs() < 1e-9);
-    // Each upright side is level, 0.2 mm long, and leads inward as one goes up.
+    // Each upright side is level, 0.2 mm long, and leads inward going up.
     assert!(level.clone().count() >= 20);
     for edge in level {
         assert!((edge[0].x - edge[1].x - 0.2).abs() < 1e-9, "{edge:?}");

@@ -1,4 +1,4 @@
-//! What the presets beyond the paper show.
+//! Tests of the presets that go beyond the paper.
 
 use super::*;
 use crate::venation::network::VeinEdge;
@@ -11,7 +11,7 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         .auxin()
         .margin_clearance
         .expect("it is what the preset shows");
-    // The first stage with as many loops as there ever are before darts fall.
+    // The first stage at which all loops are there that form before darts are thrown.
     let steps: Vec<u32> = (0..200).collect();
     let stages = leaf.stages(&steps);
     let size = |stage: &Stage| stage.outline.length();
@@ -20,14 +20,14 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         .filter(|s| size(s) == size(&stages[0]))
         .collect();
     let laid_out = young[young.len() - 2];
-    // At either end of the leaf one or two have no room.
+    // At each end of the leaf one or two arches have no room.
     let loops = laid_out.network.loops();
     let most = 2 * (rule.arches as usize - 1);
     assert!(
         (most - 6..=most).contains(&loops),
         "{loops} arches of at most {most}"
     );
-    // All of it keeps clear of the margin.
+    // All of the network keeps clear of the margin.
     for node in laid_out.network.nodes().iter().skip(1) {
         let away = laid_out.outline.distance_to_margin(node.position) / laid_out.outline.length();
         let from_base = node.position.length() / laid_out.outline.length();
@@ -55,7 +55,7 @@ fn secondaries_join_in_arches_before_the_leaf_grows() {
         arch > 0.45 * secondary,
         "{arch} in arches, {secondary} in secondaries"
     );
-    // Left to chance, a leaf as large as this one is when its veins have met has fewer loops.
+    // Without the arches, a leaf of the same size has fewer loops.
     let chance = leaf.with_veins(AuxinPlan {
         margin_clearance: Some(MarginClearance { arches: 0, ..rule }),
         ..leaf.auxin().clone()
@@ -72,7 +72,7 @@ fn veinlets_end_freely_inside_areoles() {
         free_endings: None,
         ..with.auxin().clone()
     });
-    // The last round adds to the net and changes nothing of it.
+    // The last round adds to the net and leaves the rest unchanged.
     let old = without.network.nodes();
     assert_eq!(&with.network.nodes()[..old.len()], old);
     assert_eq!(with.network.loops(), without.network.loops());
@@ -110,7 +110,7 @@ fn a_cupped_leaf_has_the_same_veins_everywhere_on_the_blade_but_not_in_its_map()
     }
     assert!(lengths.len() > 10, "{}", lengths.len());
     for (on_blade, in_map) in lengths {
-        // Junctions lie nearer than a segment.
+        // Junctions lie nearer together than a segment.
         assert!(
             on_blade < 1.6,
             "{on_blade} segments on the blade, {in_map} in the map"

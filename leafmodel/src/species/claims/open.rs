@@ -1,9 +1,9 @@
-//! Claims on open patterns.
+//! Claims about open patterns.
 
 use super::*;
 use crate::venation::plan::Growth;
 
-/// Where veins end in a network.
+/// The free ends of the veins of a network.
 fn tips(network: &VenationNetwork) -> Vec<DVec2> {
     let mut leads_on = vec![false; network.nodes().len()];
     for edge in network.edges() {
@@ -17,8 +17,8 @@ fn tips(network: &VenationNetwork) -> Vec<DVec2> {
 
 #[test]
 fn fig_9i_growing_tips_follow_the_margin_of_a_slow_leaf() {
-    // Median distance of the nodes of the last steps from the margin of their time, over the leaf's
-    // length then.
+    // Median distance of the newest nodes from the margin at that time, over the leaf's length at
+    // that time.
     let lag = |leaf: &Grown| -> Vec<f64> {
         let Growth::Marginal { length_step, .. } = leaf.auxin().growth else {
             panic!("the margin grows");
@@ -54,7 +54,7 @@ fn fig_10_ginkgo_veins_fork_in_two_so_that_the_gap_between_tips_stays() {
     let leaf = Grown::preset("ginkgo");
     let network = &leaf.network;
     assert_eq!(network.loops(), 0);
-    // How many veins cross circles about the base.
+    // Number of veins that cross circles around the base.
     let crossing = |share: f64| {
         let radius = share * leaf.length();
         let crosses = |s: &VeinSegment| (s.from.length() < radius) != (s.to.length() < radius);
@@ -112,7 +112,7 @@ fn fig_10_ginkgo_veins_fork_in_two_so_that_the_gap_between_tips_stays() {
         "{apart} of {}",
         deflections.len()
     );
-    // Veins reach the distal margin all along.
+    // Veins reach the whole distal margin.
     let near = tips(network)
         .iter()
         .filter(|p| p.length() > 0.93 * leaf.length())

@@ -1,4 +1,4 @@
-//! Leaves that turn: what tissue holds that has turned, and what it holds dead.
+//! Leaves that turn in autumn: the contents of turned and of dead tissue.
 
 use super::super::leaf_traits::coloured::{
     RED_MAPLE as RED_MAPLE_TRAITS, SUGAR_MAPLE as SUGAR_MAPLE_TRAITS,
@@ -13,10 +13,10 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::leaf::LeafPlan;
 use crate::optics::Constituent::{Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter};
 
-/// Days from living to dead.
+/// Days over which living contents blend into dead ones.
 const BLEND_DAYS: f64 = 5.0;
 
-/// Here and there from the margin.
+/// A delay that lets the leaf turn in patches from the margin.
 const EDGE: Delay = Delay {
     margin_days: 26.0,
     margin_reach_mm: 6.0,
@@ -44,7 +44,7 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
         .brown(browned(0.06))],
     age: Some(age(27.0, 8.0, 16.0)),
     plan: |leaf| {
-        // Evenly, from the upper margin; parallel veins leave no trace.
+        // The leaf turns evenly from the upper margin; its parallel veins leave no trace.
         let course = Course {
             onset: Delay {
                 margin_days: 5.0,
@@ -278,7 +278,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
     },
 };
 
-/// The green leaf as it has aged.
+/// The green leaf after ageing.
 fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
     let (turned, summer) = (leaf.of("turned"), green.tissue.lamina);
     let kept = turned[Carotenoids] / summer[Carotenoids];

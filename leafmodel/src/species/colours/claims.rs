@@ -1,5 +1,4 @@
-//! What is told of coloured leaves, against the contents that they grow and the light that these
-//! reflect.
+//! What the documentation says of coloured leaves, tested on their contents and reflectances.
 
 use glam::DVec2;
 
@@ -16,18 +15,19 @@ use crate::species::{PRESETS, find};
 use crate::venation::network::VeinSegment;
 use crate::venation::plan::{AuxinPlan, Growth};
 
-/// A point of a grown leaf, and what is there.
+/// A point of a grown leaf and its contents.
 struct Point {
     contents: Contents,
     /// Distance from the margin, mm.
     margin: f64,
-    /// Distance from the edge of the nearest vein of the first two orders, mm; negative in it.
+    /// Distance from the edge of the nearest vein of the first two orders, mm; negative inside the
+    /// vein.
     vein: f64,
     /// 0 at the base, 1 at the apex.
     along: f64,
 }
 
-/// The leaf of a preset with a coarser net than it has, so that it grows at once.
+/// The leaf of a preset with a coarser net, so that it grows fast.
 fn points(plan: &LeafPlan) -> Vec<Point> {
     const COARSER: f64 = 2.5;
     let mut plan = LeafPlan {
@@ -89,7 +89,7 @@ fn points(plan: &LeafPlan) -> Vec<Point> {
     found
 }
 
-/// How far a point is from a vein's edge.
+/// Distance of a point from a vein's edge, mm.
 fn beyond(vein: &VeinSegment, p: DVec2) -> f64 {
     let axis = vein.to - vein.from;
     let t = ((p - vein.from).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
@@ -213,7 +213,7 @@ fn a_course_leads_from_the_green_leaf_to_what_is_told_of_turned_tissue() {
             near(late[Chlorophyll], turned[Chlorophyll], 0.0),
             "{late:?}"
         );
-        // Even those that last fade a little.
+        // Even long-lived pigments fade a little.
         assert!(
             near(late[Carotenoids], turned[Carotenoids], 0.25),
             "{late:?}"
@@ -261,7 +261,7 @@ fn yellow_leaves_are_bright_in_green_and_red_light_and_not_in_blue() {
             "{preset}"
         );
         assert!(mean(&points, blade, anthocyanins) < 1.0, "{preset}");
-        // No lemon: something is brown.
+        // Some brown keeps the leaf from looking like a lemon.
         assert!(mean(&points, blade, brown) > 0.05, "{preset}");
         assert!(
             of(550.0) > 1.5 * reflectance(550.0)(&green),

@@ -1,4 +1,5 @@
-//! Outlines of coloured leaves that no green preset has, drawn by eye; none is measured.
+//! Outlines of the coloured leaves whose species has no green preset. They are drawn by eye, not
+//! measured.
 
 use super::super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;

@@ -1,5 +1,5 @@
-//! Leaves whose colour is not one of age: purple, variegated, chlorotic, patterned, red with
-//! betalains.
+//! Leaves whose colour does not come from ageing: purple, variegated, chlorotic, patterned, red
+//! with betalains.
 
 use super::super::leaf_traits::coloured::{
     AMARANTH as AMARANTH_TRAITS, BOX_ELDER, RED_MAPLE, SMOKE_TREE,
@@ -91,7 +91,7 @@ pub(super) const ACER_VARIEGATED: ColouredLeaf = ColouredLeaf {
         plan
     },
 };
-/// Of the white sector.
+/// Source of the white sector's contents.
 const WHITE: &str = "a white sector of this cultivar (ANGERS); range ours, 20 % about it";
 
 pub(super) const IVY: ColouredLeaf = ColouredLeaf {
@@ -115,7 +115,7 @@ pub(super) const IVY: ColouredLeaf = ColouredLeaf {
         ..trees::ivy()
     },
 };
-/// Of the cream sector.
+/// Source of the cream sector's contents.
 const CREAM: &str = "a cream sector of a variegated ivy (ANGERS); range ours, 20 % about it";
 
 pub(super) const IRON_CHLOROSIS: ColouredLeaf = ColouredLeaf {
@@ -139,7 +139,7 @@ pub(super) const IRON_CHLOROSIS: ColouredLeaf = ColouredLeaf {
     plan: |leaf| {
         let mut plan = red_maple(leaf);
         plan.tissue.lamina = leaf.of("between veins");
-        // What is near them stays green, and so do they.
+        // Veins and the tissue near them stay green.
         plan.tissue.vein_factors[Chlorophyll] = 0.55;
         plan.tissue.vein_factors[Carotenoids] = 0.6;
         let near = |orders, width_mm, softness_mm| Mask::Veins {
@@ -201,7 +201,7 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
     plan: |leaf| {
         let outline = contours::amaranth();
         let mut plan = trees::leaf(leaf.green, 2, outline, trees::net(90.0, 520.0, 4.0));
-        // From base to tip red, yellow, green; red runs on along the veins.
+        // From base to tip red, yellow, green; red extends farther along the veins.
         let up_to = |to, from| Mask::BaseToTip { from, to };
         let [yellow, red] = ["yellow", "red"].map(|tissue| leaf.of(tissue));
         let patches = Mask::Noise {
@@ -233,8 +233,8 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
     },
 };
 
-/// A sector without green on the margin, over one that has less of it; their widths in half widths
-/// of the leaf.
+/// A marginal sector without chlorophyll above a sector with less of it. Their widths are in half
+/// widths of the leaf.
 fn sectors(leaf: &ColouredLeaf, pale: &str, [outer, inner]: [f64; 2], scale: f64) -> Vec<Layer> {
     let rim = |width, softness_mm| Mask::Margin {
         width: RimWidth::HalfWidths(width),
@@ -248,12 +248,12 @@ fn sectors(leaf: &ColouredLeaf, pale: &str, [outer, inner]: [f64; 2], scale: f64
     ]
 }
 
-/// A layer that takes the place of all contents.
+/// A layer that replaces all contents.
 fn whole(name: &str, mask: Mask, contents: Contents) -> Layer {
     replacing(name, mask, contents, |_| true)
 }
 
-/// A layer that takes the place of pigments.
+/// A layer that replaces pigments.
 fn pigments(name: &str, mask: Mask, contents: Contents) -> Layer {
     replacing(name, mask, contents, |content| !content.is_bulk())
 }

@@ -1,18 +1,18 @@
-//! Where the numbers of coloured leaves are from.
+//! The sources of the numbers of coloured leaves.
 
 use super::super::leaf_traits::sources::{ANGERS_LEAVES, by_eye, estimate};
 use super::super::leaf_traits::{Provenance, Quantity, Source};
 
-/// Spectra of one leaf of a relative, to which contents were fitted.
+/// Contents fitted to the spectra of one leaf of a related species.
 const FITTED: Source = Source {
     key: "noda2014",
     says: "to reflectance and transmittance of one yellow leaf of a relative in Japan; range ours, 30 % about the fit",
 };
 
-/// Of pigments by eye.
+/// Reason given for pigments chosen by eye.
 const LOOKS: &str = "so much that it looks like the plant; nothing per area was found";
 
-/// What is left of green in a leaf that has turned, within the lowest of ANGERS.
+/// The remaining chlorophyll of a leaf that has turned, among the lowest values of ANGERS.
 pub(super) const fn last_chlorophyll(value: f64) -> Quantity {
     estimate(value, [0.8, 10.0], ANGERS_LEAVES)
 }
@@ -32,7 +32,7 @@ pub(super) const fn betaxanthin(value: f64) -> Quantity {
     by_eye(value, [1.0, 20.0], LOOKS)
 }
 
-/// Brown pigments of living tissue; without any a yellow leaf looks like a lemon.
+/// Brown pigments of living tissue; without them a yellow leaf looks lemon yellow.
 pub(super) const fn browned(value: f64) -> Quantity {
     by_eye(
         value,
@@ -79,12 +79,12 @@ pub(super) const fn betacyanin(value: f64) -> Quantity {
     )
 }
 
-/// Of litter.
+/// Contents of litter.
 pub(super) const fn litter(value: f64, range: [f64; 2]) -> Quantity {
     by_eye(value, range, "a dry leaf; no figure for the species")
 }
 
-/// By eye, of ageing.
+/// Days of ageing, by eye.
 pub(super) const fn days(value: f64, range: [f64; 2]) -> Quantity {
     by_eye(value, range, "so that the leaf looks like the plant")
 }

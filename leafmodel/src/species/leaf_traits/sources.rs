@@ -1,9 +1,9 @@
-//! What is published, as far as the table uses it. Each was read at the place that is named; what
-//! was read of a paper is often its abstract.
+//! The publications that the table uses. Each was read at the place named; of a paper that is often
+//! its abstract.
 
 use super::{Provenance, Quantity, Source, Span};
 
-/// 276 leaves of 47 taxa; the extremes of its table of contents.
+/// A data set of 276 leaves of 47 taxa; ranges are the extremes of its table of contents.
 const ANGERS: &str = "angers2003";
 
 pub(in crate::species) const ANGERS_LEAVES: Source = Source {

@@ -1,4 +1,4 @@
-//! What is told of the species, against the plans and the outlines that they grow into.
+//! The traits of species, tested against their plans and grown outlines.
 
 use super::*;
 use crate::measure::shape;
@@ -7,7 +7,7 @@ use crate::optics::Constituent::{
 };
 use crate::species::{PRESETS, find};
 
-/// The presets that issue lists and books ask for by a plant's name.
+/// The species that must have a preset.
 const ASKED_FOR: [&str; 17] = [
     "poplar",
     "cottonwood",
@@ -70,7 +70,7 @@ fn a_preset_is_grown_from_the_traits_that_are_told() {
         ];
         let told = traits.quantities().map(|(_, _, quantity)| quantity.value);
         assert_eq!(grown, told, "{}", traits.preset);
-        // Nothing else is in it.
+        // There is no other constituent.
         assert_eq!(held[Brown], 0.0);
     }
 }

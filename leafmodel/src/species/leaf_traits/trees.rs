@@ -8,7 +8,7 @@ use super::sources::{
 use super::{BRIGHT_VEINS, BURIED_VEINS, LeafTraits, Lie, Quantity, VeinLook};
 
 const POPLAR_CHLOROPHYLL: Quantity = chlorophyll(42.0);
-/// Eastern cottonwood, for a poplar.
+/// Eastern cottonwood, the species of the poplar preset.
 pub(in crate::species) static POPLAR: LeafTraits = cottonwood("poplar");
 /// The same for the preset with a poplar's own veins and teeth.
 pub(in crate::species) static COTTONWOOD: LeafTraits = cottonwood("cottonwood");

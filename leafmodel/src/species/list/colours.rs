@@ -5,7 +5,7 @@ use super::super::{PlanOf, Preset};
 
 const SOURCE: &str = "contents each with its own source (--about); outline, veins, form and where the colours lie by eye";
 
-/// What they look like, in their order.
+/// Descriptions, in the order of [`COLOURED`].
 const ABOUT: [&str; COLOURED.len()] = [
     "Ginkgo in autumn: clear yellow, browning at the upper margin",
     "Silver birch in autumn: brownish yellow, green along the veins",
@@ -22,7 +22,7 @@ const ABOUT: [&str; COLOURED.len()] = [
     "Joseph's coat: red, yellow and green with betalains",
 ];
 
-/// All of them.
+/// The presets of coloured leaves.
 pub(super) static COLOURS: [Preset; COLOURED.len()] = {
     let mut presets = [preset(0); COLOURED.len()];
     let mut i = 1;

@@ -1,4 +1,4 @@
-//! What goes beyond Young 2010, then compound leaves.
+//! Extensions of Young 2010, then compound leaves.
 
 use super::super::{PlanOf, Preset, compound_leaves, extended, maple};
 

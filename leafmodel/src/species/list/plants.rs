@@ -1,4 +1,4 @@
-//! What goes beyond Runions et al. 2005, then trees and shrubs.
+//! Extensions of Runions et al. 2005, then trees and shrubs.
 
 use super::super::{PlanOf, Preset, beyond, trees};
 

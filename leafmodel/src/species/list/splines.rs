@@ -1,4 +1,4 @@
-//! Veins that are splines.
+//! Leaves whose veins are splines.
 
 use super::super::{PlanOf, Preset, arcuate};
 

@@ -1,4 +1,4 @@
-//! Examples of Xia 2007, and the maple with such veins.
+//! The examples of Xia 2007, and a maple with transport veins.
 
 use super::super::{PlanOf, Preset, xia};
 

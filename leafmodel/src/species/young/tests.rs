@@ -1,4 +1,4 @@
-//! What the paper claims of each figure, on numbers.
+//! The paper's claims about each figure, tested on measures of the outlines.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ fn number(measures: &Measures, key: &str) -> f64 {
     number.unwrap_or_else(|| panic!("{key} is missing"))
 }
 
-/// One measure of the four panels of a figure.
+/// One measure for each of the four panels of a figure.
 fn row(figure: u8, key: &str) -> [f64; 4] {
     ["a", "b", "c", "d"].map(|panel| number(&shape(&outline(&format!("{figure}{panel}"))), key))
 }
@@ -62,7 +62,7 @@ fn from_broadly_ovate_to_lanceolate_leaves_narrow_as_the_closed_form_says() {
 
 #[test]
 fn from_deltoid_to_obdeltoid_the_widest_place_follows_the_fastest_growth() {
-    // To half a row.
+    // Tolerance: half a row.
     near(
         row(4, "widest_at"),
         [0.1, 0.4, 0.7, 0.9],
@@ -147,8 +147,8 @@ fn both_rows_of_oaks_begin_with_the_same_entire_leaf() {
 
 #[test]
 fn lobes_of_white_oaks_are_rounded_and_those_of_red_oaks_pointed() {
-    // Where the rows get finer by ten, a rounded lobe's turn from edge to edge does too, a pointed
-    // one's remains.
+    // With ten times as many rows, the turn from edge to edge falls to a tenth at the tip of a
+    // rounded lobe and stays at that of a pointed one.
     let turn_at_a_tip = |panel: &str, finer: usize| {
         let mut shape = form(panel).shape();
         let half = &mut shape.midrib.right;
@@ -196,8 +196,8 @@ fn the_maple_fills_in_between_its_lobes_until_it_is_entire() {
 
 #[test]
 fn botanical_names_are_what_region_of_width_and_proportions_say() {
-    // A name is where the leaf is widest (below, about or above the middle) and how long it is for
-    // its width.
+    // A name says where the leaf is widest (below, about or above the middle) and how long it is
+    // relative to its width.
     let of = |panel: &str| {
         let measures = shape(&outline(panel));
         let lengths = 1.0 / number(&measures, "width_over_length");
@@ -254,7 +254,7 @@ fn exponential_growth_amplifies_the_growth_rate_in_the_outline() {
         ..
     } = fastest.expect("150 rows");
     assert!((at - 0.3).abs() < 0.5 / 149.0 && (greatest - 0.1 / 1.2).abs() < 1e-15);
-    // What has grown beyond the primordium.
+    // The growth beyond the primordium's half width.
     let grown = |row: &RowGrowth| row.half_width - 0.001;
     let widest = rows.iter().map(grown).fold(0.0, f64::max);
     for (row, x) in rows.iter().zip(half_widths("3b")) {

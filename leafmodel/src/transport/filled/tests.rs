@@ -1,4 +1,4 @@
-//! Filled blades are transport systems between walls.
+//! Filled blades are valid transport systems inside their outline.
 
 use proptest::prelude::*;
 
@@ -9,7 +9,8 @@ use crate::species;
 use crate::testing::fixed;
 use crate::transport::cells::NONE;
 
-/// Outlines by other kinds of growth, drawn by hand, and with sinuses narrower than a cell.
+/// Outlines that other models grew, that were drawn by hand, and that have sinuses narrower than a
+/// cell.
 const NAMES: [&str; 13] = [
     "young-3a", "young-4a", "young-5d", "young-6b", "young-8d", "young-9d", "maple", "red-oak",
     "ivy", "willow", "ginkgo", "sweetgum", "xia-3",
@@ -25,7 +26,7 @@ fn star(rays: u32, notch: f64, turn: f64) -> Outline {
     let point = |i: u32| {
         let angle = std::f64::consts::PI * (f64::from(i) / f64::from(rays) - 0.5);
         let radius = if i.is_multiple_of(2) { notch } else { 30.0 };
-        // Uneven rays make the two sides unlike.
+        // Uneven rays make the two sides differ.
         let radius = radius * (1.0 + turn * libm::sin(angle + 0.7));
         DVec2::new(radius * libm::cos(angle), radius * libm::sin(angle))
     };
@@ -42,7 +43,7 @@ fn plan(cells_along: u32) -> FilledPlan {
     }
 }
 
-/// Holds a filled blade against the definitions.
+/// Checks a filled blade against the definitions.
 fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
     let blade = plan.fill(outline).expect("a good plan");
     let leaf = blade.leaf();
@@ -50,8 +51,8 @@ fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
     let is_crossed = |a, b| outline.is_crossed_by(frame.to_mm(a), frame.to_mm(b));
     let walls = Walls::around(&all, is_crossed);
 
-    // Every cell whose centre lies on the blade and that hangs together with the root is supplied,
-    // once, or known not to be.
+    // Every cell whose centre lies on the blade and that is connected to the root is supplied once
+    // or listed as unsupplied.
     let mut known: Vec<Cell> = leaf
         .cells()
         .iter()
@@ -78,7 +79,7 @@ fn check_blade(plan: &FilledPlan, outline: &Outline) -> FilledBlade {
         }
     }
 
-    // A balanced tree whose edges stay on the blade, and whose cost is that of the definition.
+    // The tree balances, its edges stay on the blade, and its cost equals that of the definition.
     let parents: Vec<u32> = (0..leaf.cells().len())
         .map(|v| leaf.parent(v).map_or(NONE, |p| p as u32))
         .collect();
@@ -194,7 +195,8 @@ proptest! {
             let old = leaf.cells()[parents[v] as usize];
             for u in 0..count {
                 let to = leaf.cells()[u];
-                // What the paper's Q_v admits, between walls and on one side.
+                // The candidates of the paper's Q_v, restricted to edges on the blade and on one
+                // side.
                 let near = |other: Cell| (to - other).squared() < 4;
                 let keeps_sides = !leaf.is_mirrored()
                     || (to.m * at.m >= 0 && (at.m != 0 || to.m == 0));

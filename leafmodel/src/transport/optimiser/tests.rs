@@ -11,8 +11,8 @@ fn grown(plan: &TransportPlan, epsilon: f64) -> Tree {
     growth.tree
 }
 
-/// `F` by definition of cells with these parents, in cells; infinite if the parents run in a
-/// circle.
+/// `F`, by definition and in cells, of cells with these parents; infinite if the parents form a
+/// cycle.
 fn cost(plan: &TransportPlan, cells: &[Cell], parents: &[u32]) -> f64 {
     for start in 0..cells.len() {
         let (mut v, mut steps) = (start, 0);
@@ -117,7 +117,7 @@ fn every_change_of_parent_saves_what_the_definition_says() {
             ..TransportPlan::default()
         };
         let mut tree = grown(&plan, 3.0);
-        // Spoil it: some cells get the parent of their parent, as far as water can turn so.
+        // Make it worse: give some cells their parent's parent where the turn allows it.
         let mut scratch = Vec::new();
         for v in (1..tree.count()).step_by(2) {
             let parent = tree.nodes[v as usize].parent;
@@ -157,7 +157,7 @@ fn every_change_of_parent_saves_what_the_definition_says() {
 
 #[test]
 fn small_leaves_cost_little_more_than_the_cheapest_of_all_systems() {
-    // Six cells and the root: all choices of parents, 6⁶ with the circles.
+    // Six cells and the root: all choices of parents, 6⁶ including cycles.
     let plan = TransportPlan {
         mirrored: false,
         ..TransportPlan::default()

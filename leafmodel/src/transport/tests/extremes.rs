@@ -31,7 +31,7 @@ fn whatever_the_parameters_leaves_hang_together_pay_and_have_margins() {
     assert!(grown > 50, "{grown}");
 }
 
-/// Always true; a leaf that is not sound is a failure of the test.
+/// Always true; the assertions inside fail for an invalid leaf.
 fn is_sound(leaf: &TransportLeaf) -> bool {
     let plan = leaf.plan();
     let count = leaf.cells().len();

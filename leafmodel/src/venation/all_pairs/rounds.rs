@@ -1,4 +1,4 @@
-//! What the oracle is given: darts thrown beforehand, and sources that lay out arches.
+//! The oracle's darts thrown beforehand and its sources for arches.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use crate::venation::plan::{FreeEndings, Growth, Pattern};
 use crate::venation::simulation::PATIENCE;
 
 impl Oracle<'_> {
-    /// Secondaries that meet in arches, before the lamina grows.
+    /// Lays out secondaries that meet in arches, before the lamina grows.
     pub(super) fn lay_out_arches(&mut self, clock: &LaminaClock) {
         let Some(rule) = self.plan.margin_clearance else {
             return;

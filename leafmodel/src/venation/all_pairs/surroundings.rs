@@ -1,4 +1,4 @@
-//! What the oracle finds around sources and edges: neighbours, the margin, what to cut.
+//! The oracle's queries around sources and edges: neighbours, the margin, edges to subdivide.
 
 use glam::DVec2;
 
@@ -44,8 +44,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// Whether part of the bisector of node `v` and a source is nearer to them than to any other
-    /// node.
+    /// Whether some part of the bisector of node `v` and a source is nearer to these two than to
+    /// any other node.
     fn is_delaunay(&self, v: usize, source: DVec2) -> bool {
         let offset = self.nodes[v] - source;
         let (foot, along) = (offset * 0.5, offset.perp());
@@ -73,7 +73,7 @@ impl Oracle<'_> {
         low < high
     }
 
-    /// Whether the straight way is on the blade, but for its very beginning.
+    /// Whether the straight line, except its very beginning, stays on the blade.
     pub(super) fn stays(&self, from: DVec2, to: DVec2) -> bool {
         let (from, to) = (self.lamina.full_grown(from), self.lamina.full_grown(to));
         let from = from + (to - from) * 1e-6;
@@ -99,7 +99,7 @@ impl Oracle<'_> {
         loop {
             let edge = (0..self.edges.len())
                 .filter(|&e| !self.uncut[e] && squared(self, e) > longest * longest)
-                // Keeps the last of equals: reversed, the oldest.
+                // `max_by` keeps the last of equals; in reverse order that is the oldest.
                 .rev()
                 .max_by(|&a, &b| squared(self, a).total_cmp(&squared(self, b)));
             let Some(edge) = edge else { return };

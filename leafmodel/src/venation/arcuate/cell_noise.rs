@@ -1,8 +1,8 @@
-//! The noise that the article's shader asks its renderer for: OSL's `cellnoise` of a whole number.
+//! The noise of the article's shader: OSL's `cellnoise` of an integer.
 //!
-//! The Open Shading Language specifies a constant, random-looking value for each whole number; its
-//! implementation takes the hash of one word by Jenkins' lookup3 (public domain, 2006), with 13 for
-//! its initial value.
+//! The Open Shading Language specifies a constant pseudo-random value for each integer. Its
+//! implementation hashes one word by Jenkins' lookup3 (public domain, 2006) with the initial
+//! value 13.
 
 /// `cellnoise(k)`, 0 to 1.
 pub(super) fn cell_noise(k: u32) -> f64 {
@@ -13,7 +13,8 @@ pub(super) fn cell_noise(k: u32) -> f64 {
 
 /// lookup3's mixing of the last words: each of seven rounds changes one word by the next.
 fn last_mix(mut words: [u32; 3]) -> [u32; 3] {
-    // Word that changes, word that changes it, and by how many bits that is turned.
+    // The word that is changed, the word that changes it, and the number of bits by which the
+    // latter is rotated.
     const ROUNDS: [(usize, usize, u32); 7] = [
         (2, 1, 14),
         (0, 2, 11),
@@ -33,7 +34,7 @@ fn last_mix(mut words: [u32; 3]) -> [u32; 3] {
 mod tests {
     use super::*;
 
-    /// lookup3's mixing of words before the last, which one word alone never meets.
+    /// lookup3's mixing of words before the last. A single word never needs it; a test does.
     fn mix([mut a, mut b, mut c]: [u32; 3]) -> [u32; 3] {
         for bits in [[4, 6, 8], [16, 19, 4]] {
             a = a.wrapping_sub(c) ^ c.rotate_left(bits[0]);

@@ -5,12 +5,12 @@ use glam::DVec2;
 use super::ArcuateVeins;
 use super::layout::Vein;
 
-/// What a texture is told about a point.
+/// The article's texture fields at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcuateFields {
     /// `Vein`: whether the point lies on a vein.
     pub vein: bool,
-    /// `Net`: whether it lies near enough to one for the finer net.
+    /// `Net`: whether it lies near enough to a vein for the finer net.
     pub net: bool,
     /// `Fac`: 0 off the veins; on them √(1 − distance over `Width`), 1 on the centre line.
     pub fac: f64,
@@ -20,8 +20,8 @@ impl ArcuateVeins {
     /// The fields at a point, mm.
     ///
     /// Where veins overlap, Fac is that of the midrib, else of the first vein found from base to
-    /// tip, as in the article's code. Unlike there, Net is looked for along all veins, also after a
-    /// vein was found.
+    /// tip, as in the article's code. Unlike in that code, Net is evaluated over all veins, even
+    /// after a vein was found.
     pub fn fields_at(&self, p: DVec2) -> ArcuateFields {
         let p = self.frame.to_leaf(p);
         let mut fields = ArcuateFields {
@@ -59,7 +59,7 @@ impl ArcuateVeins {
     fn on_vein(&self, fields: ArcuateFields, distance: f64) -> ArcuateFields {
         ArcuateFields {
             vein: true,
-            // Before the base the midrib is wider than `Width`.
+            // Below the base the midrib is wider than `Width`, where the difference is negative.
             fac: (1.0 - distance / self.plan.width).max(0.0).sqrt(),
             ..fields
         }
@@ -79,7 +79,7 @@ impl ArcuateVeins {
         self.axis_radius(axis, along) * self.taper(t)
     }
 
-    /// From 1 at the base to the tip's share.
+    /// The taper, from 1 at the base to `tip_width` at the tip.
     fn taper(&self, share: f64) -> f64 {
         1.0 - (1.0 - self.plan.tip_width) * share
     }

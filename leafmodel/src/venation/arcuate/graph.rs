@@ -1,4 +1,4 @@
-//! Splines as a network: chains of nodes that end on the margin, and meet where splines cross.
+//! Splines as a network: chains of nodes that end on the margin or meet where splines cross.
 
 use glam::DVec2;
 
@@ -8,23 +8,24 @@ use crate::shape::outline::Outline;
 use crate::shape::segments::crossing;
 use crate::venation::network::{NetworkError, VeinEdge, VeinNode, VenationNetwork};
 
-/// Pieces of the midrib.
+/// Number of pieces of the midrib.
 const PIECES: f64 = 120.0;
 
-/// The article's veins end in nothing; a network's have a radius: this share of `Width` at least.
+/// Least radius of a vein, as a share of `Width`. The article's veins taper to 0; a network needs
+/// radii above 0.
 const LEAST_RADIUS: f64 = 0.02;
 
-/// Nodes nearer than this share of the midrib are one.
+/// Nodes nearer together than this share of the midrib's length are merged.
 const SAME: f64 = 1e-9;
 
-/// Lays the network of veins on a blade.
+/// Lays the veins on a blade as a network.
 pub(super) fn network(
     veins: &ArcuateVeins,
     outline: &Outline,
 ) -> Result<VenationNetwork, NetworkError> {
     let (mut graph, on_axes) = axes(veins, outline);
     for lateral in &veins.laterals {
-        // An axis that was cut short at the margin bears no laterals beyond.
+        // An axis that the margin cut short bears no laterals beyond its end.
         if let Some(from) = node_at(&on_axes[lateral.axis], lateral.start) {
             graph.lateral(lateral, from);
         }
@@ -48,8 +49,8 @@ pub(super) fn primaries_laid(veins: &ArcuateVeins, outline: &Outline) -> Vec<f64
     veins.axes.iter().zip(&on_axes).skip(1).map(laid).collect()
 }
 
-/// Midrib and primaries on a blade, and the nodes of each with their parameters, for laterals to
-/// start from.
+/// Midrib and primaries on a blade. For each axis it also returns the nodes from which laterals
+/// start, with their parameters.
 fn axes<'v>(veins: &'v ArcuateVeins, outline: &'v Outline) -> (Graph<'v>, Vec<Vec<(f64, u32)>>) {
     let mut graph = Graph {
         veins,
@@ -78,13 +79,13 @@ fn axes<'v>(veins: &'v ArcuateVeins, outline: &'v Outline) -> (Graph<'v>, Vec<Ve
     (graph, on_axes)
 }
 
-/// The node of an axis at a parameter.
+/// The node of an axis at a parameter, if there is one.
 fn node_at(nodes: &[(f64, u32)], t: f64) -> Option<u32> {
     let node = nodes.iter().find(|(at, _)| (at - t).abs() < SAME);
     node.map(|&(_, node)| node)
 }
 
-/// Pieces of a vein about as long as the midrib's.
+/// Number of pieces of a vein, so that they are about as long as the midrib's.
 fn pieces(vein: &Vein) -> u32 {
     let [a, b, c] = vein.curve.0;
     let length = (b - a).length() + (c - b).length();
@@ -96,16 +97,17 @@ struct Graph<'v> {
     outline: &'v Outline,
     nodes: Vec<DVec2>,
     edges: Vec<VeinEdge>,
-    /// Edges of one vein lie together: where they start, and the box around them.
+    /// The edges of one vein are consecutive: the first edge of each vein, and the box around its
+    /// edges.
     boxes: Vec<(usize, DVec2, DVec2)>,
 }
 
-/// The way of a vein over the blade.
+/// The path of a vein over the blade.
 struct Way {
-    /// Places after its start, mm.
+    /// Places along the path, the start left out, mm.
     places: Vec<DVec2>,
-    /// The edge it ends on, and where on that, if it meets another vein; else it ends with the
-    /// spline or at the margin.
+    /// If the path meets another vein, the edge of that vein and the place on it. Else the path
+    /// ends with the spline or at the margin.
     meets: Option<(usize, f64)>,
 }
 
@@ -114,7 +116,8 @@ impl Graph<'_> {
         self.veins.frame.length()
     }
 
-    /// Midrib or primary, with nodes where laterals start; gives its nodes by parameter.
+    /// Adds the midrib or a primary with nodes where laterals start; returns its nodes by
+    /// parameter.
     fn axis(&mut self, axis: &Vein, from: u32, mut stops: Vec<f64>) -> Vec<(f64, u32)> {
         let pieces = pieces(axis);
         stops.extend((1..=pieces).map(|i| f64::from(i) / f64::from(pieces)));
@@ -137,7 +140,7 @@ impl Graph<'_> {
         let way = self.way(vein, from, &stops);
         let radius = |t: &f64| self.veins.lateral_radius(vein, *t, vein.curve.at(*t));
         let radii: Vec<f64> = std::iter::once(&0.0).chain(&stops).map(radius).collect();
-        // What would end inside the axis' own width, at a narrow base, is no vein.
+        // At a narrow base a vein that would end within the width of its axis is left out.
         let begin = self.nodes[from as usize];
         let out = |p: &DVec2| (*p - begin).length() >= radii[0] * self.length();
         if way.places.iter().any(out) {
@@ -145,12 +148,12 @@ impl Graph<'_> {
         }
     }
 
-    /// Whether the way from `a` on the blade to `b` leads off it.
+    /// Whether the straight line from `a`, on the blade, to `b` leaves the blade.
     fn leaves_blade(&self, a: DVec2, b: DVec2) -> bool {
         self.outline.is_crossed_by(a, b) || !self.outline.covers(b)
     }
 
-    /// Follows a spline from a node as far as the margin or another vein.
+    /// Follows a spline from a node up to the margin or another vein.
     fn way(&self, vein: &Vein, from: u32, stops: &[f64]) -> Way {
         let mut way = Way {
             places: Vec::with_capacity(stops.len()),
@@ -190,7 +193,8 @@ impl Graph<'_> {
         way
     }
 
-    /// Makes a way a vein; gives its nodes. A way that leads back to where it came from is none.
+    /// Adds a path as a vein; returns its nodes. A path that would close a directed cycle is left
+    /// out.
     fn lay(&mut self, from: u32, way: &Way, radii: Vec<f64>, order: u8) -> Vec<u32> {
         let mut nodes = vec![from];
         let upstream = |(edge, share): (usize, f64)| {
@@ -204,7 +208,7 @@ impl Graph<'_> {
         let joint = way.meets.map(|(edge, share)| self.node_on(edge, share));
         let start = self.edges.len();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        // A lateral that bends back to where its axis is wider stays as thin as it has become.
+        // The radius never grows, even where a lateral bends back to where its axis is wider.
         let mut radius = f64::INFINITY;
         let mut taper = radii.into_iter().map(|here| {
             radius = here.max(LEAST_RADIUS * self.veins.plan.width).min(radius);
@@ -239,7 +243,7 @@ impl Graph<'_> {
         nodes
     }
 
-    /// Which nodes lead to this one, itself among them.
+    /// For each node whether it leads to this one; a node leads to itself.
     fn above(&self, node: u32) -> Vec<bool> {
         let mut leading: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
         for edge in &self.edges {
@@ -282,13 +286,14 @@ impl Graph<'_> {
         first.map(|(_, edge, share)| (edge, share))
     }
 
-    /// The share of an edge below which its two ends are one place.
+    /// The share of an edge below which two places on it count as one.
     fn least_share(&self, edge: usize) -> f64 {
         let [a, b] = self.ends(edge);
         SAME * self.length() / (b - a).length()
     }
 
-    /// A node on an edge: one of its ends if it is there, else a new one that cuts the edge.
+    /// The node at a place on an edge: one of its ends if that is close enough, else a new node
+    /// that subdivides the edge.
     fn node_on(&mut self, edge: usize, share: f64) -> u32 {
         let whole = self.edges[edge];
         let [a, b] = self.ends(edge);

@@ -1,7 +1,7 @@
-//! Where veins start, bend and end.
+//! The start, control and end points of veins.
 //!
 //! Leaf units: x along the midrib from 0 at the base to 1 at the apex, y across it, positive on the
-//! left, which the article draws upwards.
+//! left, which is the upper side in the article.
 
 use glam::DVec2;
 
@@ -15,12 +15,12 @@ use crate::shape::outline::Outline;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vein {
     pub(super) curve: Quadratic,
-    /// Number of the axis it starts from, and where on it; for the midrib its own, 0, and 0.
+    /// Number of the axis from which it starts, and the parameter there; both are 0 for the midrib.
     pub(super) axis: usize,
     pub(super) start: f64,
 }
 
-/// From leaf units to millimetres.
+/// The map from leaf units to millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
     base: DVec2,
@@ -28,7 +28,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Base at the origin, midrib along +y.
+    /// The frame with its base at the origin and the midrib along +y.
     pub(super) fn upright(length_mm: f64) -> Self {
         Self {
             base: DVec2::ZERO,
@@ -81,7 +81,7 @@ impl Line {
         self.points[i - 1].lerp(self.points[i], share.clamp(0.0, 1.0))
     }
 
-    /// Parameters by arc length.
+    /// A line parametrised by arc length.
     fn by_length(points: Vec<DVec2>) -> Self {
         let mut walked = vec![0.0];
         for edge in points.windows(2) {
@@ -95,7 +95,7 @@ impl Line {
     }
 }
 
-/// Both sides of a margin from base to apex.
+/// The two sides of a margin, from base to apex.
 #[derive(Clone, Debug)]
 pub(super) enum Sides {
     /// The article's spline on the left and its mirror image.
@@ -123,7 +123,7 @@ impl Sides {
         ])
     }
 
-    /// The two ways along a margin between the places nearest to the ends of its midrib.
+    /// The two parts of a margin between the places nearest to the ends of the midrib.
     pub(super) fn of(outline: &Outline, frame: Frame) -> Self {
         let points = outline.points();
         let n = points.len();
@@ -132,7 +132,8 @@ impl Sides {
         // Counter-clockwise from the base is the right side.
         let walk = |from: usize, first: DVec2, to: usize, last: DVec2| {
             let mut way = vec![first];
-            // Both on one edge: straight on if the end lies ahead, else all the way round.
+            // If both lie on one edge, the walk is direct if the end lies ahead, else it goes all
+            // the way round.
             let ahead =
                 (last - points[from]).length_squared() >= (first - points[from]).length_squared();
             if from != to || !ahead {
@@ -187,10 +188,10 @@ fn nearest_edge(points: &[DVec2], p: DVec2) -> (usize, DVec2) {
     (edge, foot(edge))
 }
 
-/// Places of a primary that must lie on the blade.
+/// Number of places of a primary that are tested to lie on the blade.
 const CHECKS: u32 = 24;
 
-/// The lowest of these starting points along the midrib that fits; the base if none does.
+/// The lowest of a row of starting points along the midrib that fits; the base if none does.
 fn first_start(fits: impl Fn(f64) -> bool) -> f64 {
     let mut starts = (0..40).map(|i| f64::from(i) / 80.0);
     starts.find(|&start| fits(start)).unwrap_or(0.0)
@@ -204,18 +205,19 @@ fn primary(start: f64, tip: DVec2, up: bool, bow: f64) -> Quadratic {
     Quadratic([from, from + (chord + outwards * bow) * 0.5, tip])
 }
 
-/// A stretch of one side of the margin whose laterals an axis sends out.
+/// The part of one side of the margin that the laterals of one axis reach.
 struct Sector {
     axis: usize,
     up: bool,
-    /// Parameter of the margin that belongs to the base of the axis, and to its tip.
+    /// Parameters of the margin that correspond to the base and to the tip of the axis.
     margin: [f64; 2],
-    /// Laterals of the article's upper side vary in one more way.
+    /// Whether the sector is on the article's upper side, where its formula for variation has one
+    /// more term.
     upper: bool,
 }
 
-/// Midrib and primaries, and the laterals of all. Primaries start at the base, or as far up the
-/// midrib as it takes to lie on the blade.
+/// The midrib, the primaries, and the laterals of all. Primaries start at the base, or as far up
+/// the midrib as is needed for them to lie on the blade.
 pub(super) fn lay_out(
     plan: &ArcuatePlan,
     sides: &Sides,
@@ -226,14 +228,14 @@ pub(super) fn lay_out(
         axis: 0,
         start: 0.0,
     }];
-    // Margin up to here belongs to primaries beside the midrib.
+    // The margin up to this parameter belongs to primaries already dealt with.
     let mut lower = 0.0;
     let mut sectors = Vec::new();
     if let Some(palmate) = &plan.palmate {
         let count = palmate.per_side;
         let end = |k: u32| 1.0 - palmate.spread * (1.0 - f64::from(k) / f64::from(count + 1));
         for k in 1..=count {
-            // Neighbours share the margin between their ends.
+            // Neighbouring primaries share the margin between their ends equally.
             let upper = 0.5 * (end(k) + end(k + 1));
             let start = first_start(|start| {
                 [true, false].into_iter().all(|up| {
@@ -277,12 +279,12 @@ pub(super) fn lay_out(
     (axes, laterals)
 }
 
-/// Lateral `i` of a sector, by the article's formulas; its midrib's are those with the whole margin
-/// for a sector.
+/// Lateral `i` of a sector, by the article's formulas. For the midrib alone, the sector is the
+/// whole side, as in the article.
 fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i: u32) -> Vein {
     let delta = 1.0 / f64::from(plan.veins + 1);
     let half = delta / 2.0;
-    // The article has but one axis; the others count on from far away.
+    // The article has only one axis. Other axes use seeds far from its own.
     let first = plan.seed.wrapping_add(1000 * sector.axis as u32);
     let noise = |offset: u32| cell_noise(first.wrapping_add(i + offset));
     let at = f64::from(i) * delta;
@@ -291,8 +293,8 @@ fn lateral(plan: &ArcuatePlan, sides: &Sides, axes: &[Vein], sector: &Sector, i:
         start += delta / 4.0 * plan.variation * noise(17) * plan.squish3;
     }
     let [from, to] = sector.margin;
-    // Where primaries share the margin, laterals leave the lower part of their axis bare; alone,
-    // the midrib has none such.
+    // Where primaries share the margin, the lower part of an axis bears no laterals. A midrib alone
+    // has no such part.
     let bare = 0.5 * from.min(to) / from.max(to);
     let start = bare + (1.0 - bare) * start;
     let margin = |squish: f64| {

@@ -6,7 +6,7 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Quadratic(pub(super) [DVec2; 3]);
 
-/// The nearest point of a curve.
+/// The point of a curve nearest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
     /// Its distance.
@@ -27,12 +27,12 @@ impl Quadratic {
         a * (u * u) + b * (2.0 * u * t) + c * (t * t)
     }
 
-    /// The foot of the shortest perpendicular from `p`; none if no perpendicular meets the curve
+    /// The foot of the shortest perpendicular from `p`; `None` if no perpendicular meets the curve
     /// between its ends, since ends have no caps.
     pub(super) fn nearest(&self, p: DVec2) -> Option<Nearest> {
         let [p0, p1, p2] = self.0;
         let (a, b, m) = (p1 - p0, p2 - 2.0 * p1 + p0, p0 - p);
-        // Half the derivative of the squared distance over 2: a cubic in t.
+        // A quarter of the derivative of the squared distance: a cubic in t.
         let cubic = [
             m.dot(a),
             2.0 * a.dot(a) + m.dot(b),
@@ -53,7 +53,7 @@ impl Quadratic {
 }
 
 /// Real roots of `c0 + c1 t + c2 t² + c3 t³`, each polished by Newton's method. A cubic term too
-/// small to matter for `t` in [0, 1] is left to the polishing.
+/// small to matter for `t` in [0, 1] enters only through the polishing.
 fn roots([c0, c1, c2, c3]: [f64; 4]) -> [Option<f64>; 3] {
     let polished = |mut t: f64| {
         for _ in 0..3 {
@@ -71,7 +71,7 @@ fn roots([c0, c1, c2, c3]: [f64; 4]) -> [Option<f64>; 3] {
         depressed(c0 / c3, c1 / c3, c2 / c3)
     } else if c2.abs() > 1e-9 * c0.abs().max(c1.abs()) {
         let root = (c1 * c1 - 4.0 * c0 * c2).sqrt();
-        // The root without cancellation first.
+        // The root without cancellation comes first; the other follows from it.
         let q = -0.5 * (c1 + root.copysign(c1));
         [Some(q / c2), Some(c0 / q), None]
     } else {
@@ -80,7 +80,8 @@ fn roots([c0, c1, c2, c3]: [f64; 4]) -> [Option<f64>; 3] {
     raw.map(|t| t.filter(|t| t.is_finite()).map(polished))
 }
 
-/// Real roots of `t³ + a t² + b t + c`: trigonometric if there are three, Cardano's if one.
+/// Real roots of `t³ + a t² + b t + c`: by the trigonometric formula if there are three, by
+/// Cardano's if there is one.
 fn depressed(c: f64, b: f64, a: f64) -> [Option<f64>; 3] {
     let shift = a / 3.0;
     let p = b - a * shift;

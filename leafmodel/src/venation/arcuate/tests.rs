@@ -1,4 +1,4 @@
-//! Fields and networks of spline veins.
+//! Tests of the fields and networks of spline veins.
 
 use proptest::prelude::*;
 
@@ -69,7 +69,7 @@ fn grown(plan: &ArcuatePlan) -> (Outline, VenationNetwork) {
     )
 }
 
-/// How far a lateral's control point lies off its chord, in chords.
+/// Distance of each lateral's control point from its chord, in chord lengths.
 fn bends(plan: &ArcuatePlan) -> Vec<f64> {
     let veins = own(plan);
     let bend = |i| {
@@ -165,7 +165,7 @@ fn veins_lie_in_the_net_and_their_height_falls_from_1_to_0() {
         }
         assert!(on > 200 && off > 2000, "{on} {off}");
     }
-    // On the midrib half a width off its middle.
+    // A point on the midrib, half its width away from the centre line.
     let fields = own(&ArcuatePlan::default()).fields_at(at(0.03, 0.025));
     assert!((fields.fac - 0.5_f64.sqrt()).abs() < 1e-12);
     // The article's midrib tapers to nothing, ours to the tip width asked for.
@@ -214,7 +214,7 @@ fn primaries_start_where_the_blade_is_wide_enough_for_them() {
     assert_sound(&network, &outline, "9d");
 }
 
-/// What every network must be, whatever the blade.
+/// Checks what must hold for every network on every blade.
 fn assert_sound(network: &VenationNetwork, outline: &Outline, name: &str) {
     assert_eq!(network.validate(), Ok(()), "{name}");
     assert_eq!(network.components(), 1, "{name}");
@@ -306,7 +306,7 @@ proptest! {
         p in prop::array::uniform8(-1.0..1.0_f64), straight in 0.0..1.0_f64,
     ) {
         let [a, b, c, p] = [0, 2, 4, 6].map(|i| DVec2::new(p[i], p[i + 1]));
-        // Now and then nearly or exactly a line.
+        // Some curves are nearly or exactly straight.
         let share = if straight < 0.2 { 0.0 } else if straight < 0.5 { 1e-7 } else { 1.0 };
         let curve = Quadratic([a, a.lerp(c, 0.5).lerp(b, share), c]);
         let sampled = (0..=20_000).map(|i| {
@@ -352,7 +352,7 @@ fn primaries_are_laid_whole_but_where_a_bay_lies_in_their_way() {
     let whole = palmate().primaries_laid(&outline).expect("a good plan");
     assert_eq!(whole.len(), 4);
     assert!(whole.iter().all(|&share| share > 0.99), "{whole:?}");
-    // Lobes so deep that primaries meet the margin of a bay on their way.
+    // Lobes so deep that primaries run into a sinus.
     let lobed = FORMS.iter().find(|form| form.name == "young-9a");
     let lobed = lobed.expect("a form of the paper").shape().grow(LENGTH);
     let lobed = lobed.expect("a form of the paper");

@@ -1,26 +1,27 @@
-//! Veins from junction to junction.
+//! Chains: pieces of veins from junction to junction.
 
 use glam::DVec2;
 
 use crate::venation::planar::PlaneGraph;
 
-/// Veins between junctions and tips; nodes in between have two edges.
+/// Pieces of veins between junctions and tips, called chains; nodes in between have two edges.
 ///
-/// A *half* is a vein seen in one direction: `2 c` is vein `c` from its first to its second end,
-/// `2 c + 1` the way back.
+/// A *half* is a chain with a direction: `2 c` is chain `c` from its first to its second end,
+/// `2 c + 1` is the reverse.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chains {
-    /// Junctions and tips at both ends of each vein. A ring without any junction gets one on it.
+    /// The junctions or tips at both ends of each chain. On a ring without junctions one node is
+    /// made a junction.
     pub(crate) ends: Vec<[u32; 2]>,
-    /// Vein `c` runs through `points[starts[c]..starts[c + 1]]`.
+    /// Chain `c` runs through `points[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     points: Vec<DVec2>,
-    /// Edges of the plane graph that make up vein `c`:
+    /// Edges of the plane graph that make up chain `c`:
     /// `edges[starts[c] − c..starts[c + 1] − c − 1]`.
     edges: Vec<u32>,
-    /// Length of each vein, mm.
+    /// Length of each chain, mm.
     pub(crate) lengths: Vec<f64>,
-    /// Mean radius along each vein, mm.
+    /// Mean radius along each chain, mm.
     pub(crate) radii: Vec<f64>,
     /// Nodes of the plane graph that are junctions or tips.
     pub(crate) joints: Vec<u32>,
@@ -52,7 +53,7 @@ impl Chains {
                 chains.follow(graph, &around, &joint_of, &mut done, node, edge);
             }
         }
-        // What is left are rings.
+        // The remaining edges form rings.
         for first in 0..graph.edges().len() {
             if !done[first] {
                 let node = graph.edges()[first].from;
@@ -65,7 +66,7 @@ impl Chains {
         chains
     }
 
-    /// Adds the vein that starts at the joint `node` with `edge`, unless it is there.
+    /// Adds the chain that starts at the joint `node` with `edge`, unless it has been added.
     fn follow(
         &mut self,
         graph: &PlaneGraph,
@@ -138,20 +139,20 @@ impl Chains {
         self.ends[(half / 2) as usize][(half % 2) as usize]
     }
 
-    /// All points of a vein, from its first to its second end.
+    /// All points of a chain, from its first to its second end.
     pub(crate) fn points(&self, chain: u32) -> &[DVec2] {
         let chain = chain as usize;
         &self.points[self.starts[chain] as usize..self.starts[chain + 1] as usize]
     }
 
-    /// Edges of the plane graph along a vein.
+    /// Edges of the plane graph along a chain.
     pub(crate) fn edges(&self, chain: u32) -> &[u32] {
         let chain = chain as usize;
         let (start, end) = (self.starts[chain] as usize, self.starts[chain + 1] as usize);
         &self.edges[start - chain..end - chain - 1]
     }
 
-    /// All points along a half but the last.
+    /// All points along a half except the last.
     pub(crate) fn corners(&self, half: u32) -> impl Iterator<Item = DVec2> + '_ {
         let points = self.points(half / 2);
         let last = points.len() - 1;
@@ -175,13 +176,13 @@ impl Chains {
         }
     }
 
-    /// For each half the one that follows it along the face on its left.
+    /// For each half the next one along the face on its left.
     pub(crate) fn nexts(&self) -> Vec<u32> {
         let mut nexts = vec![0; 2 * self.len()];
         for joint in 0..self.joints.len() as u32 {
             let list = self.leaving(joint);
             for (i, &half) in list.iter().enumerate() {
-                // Having come in along `half`, the next one clockwise has the same face on its
+                // After arriving along `half`, the next half clockwise has the same face on its
                 // left.
                 let before = list[(i + list.len() - 1) % list.len()];
                 nexts[(half ^ 1) as usize] = before;
@@ -197,7 +198,7 @@ fn turn(d: DVec2) -> f64 {
     if d.y >= 0.0 { 1.0 - x } else { 3.0 + x }
 }
 
-/// Edges at each node, whichever way they run.
+/// The edges at each node, in either direction.
 struct Around {
     starts: Vec<u32>,
     edges: Vec<u32>,

@@ -4,14 +4,14 @@ use glam::DVec2;
 
 use super::{Areole, Chains};
 
-/// The finest areole is taken for this many times longer than wide at most.
+/// Upper bound of elongation.
 const MOST_ELONGATED: f64 = 1e6;
 
-/// Every half once, in closed walks with a face on their left.
+/// All halves, each once, in closed walks with a face on their left.
 pub(super) struct Walks {
     starts: Vec<u32>,
     halves: Vec<u32>,
-    /// Signed area enclosed by each walk: negative, or 0, for the one around the outside of each
+    /// Signed area enclosed by each walk: negative or 0 for the walk around the outside of each
     /// component.
     pub(super) areas: Vec<f64>,
     /// Component of each walk.
@@ -67,8 +67,8 @@ pub(super) fn walks(chains: &Chains) -> Walks {
         walks.areas.push(area);
         walks.component.push(component);
         walks.starts.push(walks.halves.len() as u32);
-        // The walk around the outside is the only one of its component with a negative area; that
-        // of a tree is the only one.
+        // The walk around the outside is the only one of its component with a negative area; a tree
+        // has only one walk.
         if component as usize == walks.outer.len() {
             walks.outer.push(walk);
         } else if area < walks.areas[walks.outer[component as usize] as usize] {
@@ -92,7 +92,7 @@ fn tail(chains: &Chains, half: u32) -> DVec2 {
     points[(half % 2) as usize * (points.len() - 1)]
 }
 
-/// Area between a half and `origin`, positive if it runs counter-clockwise around it.
+/// Signed area between a half and `origin`, positive if the half runs counter-clockwise around it.
 fn swept(chains: &Chains, bulges: &[f64], half: u32, origin: DVec2) -> f64 {
     let bulge = bulges[(half / 2) as usize];
     let (a, b) = (tail(chains, half), tail(chains, half ^ 1));
@@ -104,7 +104,7 @@ fn swept(chains: &Chains, bulges: &[f64], half: u32, origin: DVec2) -> f64 {
     }
 }
 
-/// Component of each joint; numbered as the halves, taken in turn, first reach them.
+/// Component of each joint, numbered in the order in which the halves first reach them.
 fn components(chains: &Chains) -> Vec<u32> {
     let mut component = vec![u32::MAX; chains.joints.len()];
     let mut count = 0;
@@ -131,11 +131,11 @@ fn components(chains: &Chains) -> Vec<u32> {
 
 /// Finds the enclosing cycle in a walk around a face.
 ///
-/// The walk passes veins that end inside the face twice, and goes around rings inside that hang on
-/// it. Whenever it comes back to a joint, what lay between is a simple cycle (or a way there and
-/// back) and is taken out. Of these only the enclosing one runs counter-clockwise.
+/// The walk passes veins that end inside the face twice and goes around rings attached inside it.
+/// Whenever it returns to a joint, the part in between is a simple cycle, or a path there and back,
+/// and is removed. Only the enclosing cycle runs counter-clockwise.
 pub(super) struct Cycles {
-    /// Where on the stack a joint is.
+    /// Position of each joint on the stack.
     at: Vec<u32>,
     stack: Vec<u32>,
     best: Vec<u32>,
@@ -152,13 +152,13 @@ impl Cycles {
         }
     }
 
-    /// Halves of the cycle found last.
+    /// Halves of the last enclosing cycle.
     pub(super) fn best(&self) -> &[u32] {
         &self.best
     }
 
-    /// Measures the face to the left of a walk, whose signed area is given; none if rounding has
-    /// left it no area.
+    /// Measures the face to the left of a walk, whose signed area is given; `None` if the area is 0
+    /// up to rounding.
     pub(super) fn enclosing(&mut self, chains: &Chains, walk: &[u32], area: f64) -> Option<Areole> {
         self.best.clear();
         let mut best = 0.0;

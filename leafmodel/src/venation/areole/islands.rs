@@ -1,16 +1,17 @@
-//! Networks that lie inside an areole of another.
+//! Separate networks inside an areole of another network.
 
 use glam::DVec2;
 
 use super::faces::Walks;
 use super::{Areoles, OUTSIDE};
 
-/// Takes the area enclosed by every separate network off the areole in which it lies, and notes
-/// that its outside is there.
+/// Subtracts the area enclosed by every separate network from the areole in which it lies, and
+/// marks that areole as the one on the network's outside.
 ///
-/// The areole in which a network lies is on the near side of the first other vein met from its
-/// leftmost point towards −x; if the outside of that vein's network is met, it is where that one
-/// lies. It reaches farther left, so from left to right everything is known in time.
+/// A ray from the network's leftmost point towards −x meets the vein of another network first. The
+/// areole is the one on the near side of that vein, or, if that side is the other network's
+/// outside, the areole in which the other network lies. The other network reaches farther left, so
+/// networks are dealt with from left to right.
 pub(super) fn take_out(found: &mut Areoles, walks: &Walks) {
     let count = walks.outer.len();
     if count < 2 {
@@ -60,7 +61,7 @@ pub(super) fn take_out(found: &mut Areoles, walks: &Walks) {
         for &half in walks.halves(outside) {
             on_left[half as usize] = areole;
         }
-        // A tree's area is 0 but for rounding.
+        // A tree's area is 0 up to rounding.
         let area = &mut list[areole as usize].area_mm2;
         *area = (*area + walks.areas[outside].min(0.0)).max(f64::MIN_POSITIVE);
     }

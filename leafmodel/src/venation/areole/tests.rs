@@ -1,4 +1,4 @@
-//! Areoles against closed forms, all pairs of edges and Euler.
+//! Areoles, tested against closed forms, all pairs of edges and Euler's formula.
 
 use std::f64::consts::PI;
 
@@ -154,7 +154,8 @@ fn veins_on_top_of_each_other_and_three_through_a_point_are_cut_right() {
     edges.extend((0..5).map(|i| [i, i + 1]));
     edges.push([0, 5]);
     assert_eq!(areoles(&network(&corners, &edges)).len(), 6);
-    // Two squares that share a side twice over, one side longer, and a corner on the other's side.
+    // Two squares with overlapping sides of different length; a corner of one lies on a side of the
+    // other.
     let nodes = places(&[
         (0.0, 0.0),
         (2.0, 0.0),
@@ -226,7 +227,7 @@ fn loops_by_all_pairs(network: &VenationNetwork) -> usize {
             }
         }
     }
-    // A crossing adds a node and two edges; each joining takes a component off the nodes.
+    // A crossing adds one node and two edges; every union reduces the number of components by one.
     edges.len() + crossings - joined
 }
 

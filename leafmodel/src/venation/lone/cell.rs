@@ -1,4 +1,4 @@
-//! Lone sources that are close together, by the node nearest to them.
+//! Lone sources that are close together, grouped by their nearest node.
 
 use std::ops::ControlFlow;
 
@@ -10,21 +10,21 @@ use crate::venation::fresh_nodes::FreshNodes;
 use crate::venation::point_tree::PointTree;
 use crate::venation::probe::{Probe, SLACK, distance_squared};
 
-/// A number that a basin has before it gets its own.
+/// Placeholder for the number of a basin that has none yet.
 pub(super) const UNNUMBERED: u32 = u32::MAX;
 
-/// The lone sources of a cell that have one nearest node.
+/// The lone sources of a cell that share their nearest node.
 #[derive(Clone, Debug)]
 pub(super) struct Basin {
     pub(super) number: u32,
     pub(super) node: Node,
-    /// Corners of a rectangle that holds them.
+    /// Lower corner of a rectangle that holds the sources.
     pub(super) low: DVec2,
     pub(super) high: DVec2,
     pub(super) lone: Vec<Lone>,
-    /// Whether its node is another since the last time.
+    /// Whether its node has changed since the last update.
     pub(super) has_changed: bool,
-    /// Whether it has sources that were not in it the last time.
+    /// Whether sources have joined it since the last update.
     pub(super) is_joined: bool,
 }
 
@@ -41,7 +41,7 @@ impl Basin {
         }
     }
 
-    /// Takes out the sources from which another node than the basin's can be seen.
+    /// Removes the sources to which a node other than the basin's is visible.
     pub(super) fn remove_seeing(&mut self, tree: &PointTree, leaving: &mut Vec<Lone>) {
         let before = leaving.len();
         let mut seen = Vec::new();
@@ -62,18 +62,18 @@ impl Basin {
         View::new(self.low, self.high, self.node.place)
     }
 
-    /// Whether `node` is nearer to all of its sources than `other`, by the margin.
+    /// Whether `node` is nearer than `other` to all sources of the basin, by the safety margin.
     pub(super) fn is_nearer(&self, node: Node, other: Node) -> bool {
         let (low, high) = (self.low - node.place, self.high - node.place);
         let way = other.place - node.place;
-        // Sources are on the near side of the bisector: 2 s·w < ‖w‖².
+        // All sources are on the near side of the bisector: 2 s·w < ‖w‖².
         let most = (low * way).max(high * way);
         let size_squared = low.abs().max(high.abs()).length_squared() + way.length_squared();
         2.0 * (most.x + most.y) < way.length_squared() - MARGIN * size_squared
     }
 
-    /// The one of the nodes found, or its own, that is nearest to all of its sources, if there is
-    /// one.
+    /// The node, among those found and its own, that is nearest to all sources of the basin, if
+    /// there is one.
     pub(super) fn common_nearest(&self, found: &[Node]) -> Option<Node> {
         let centre = 0.5 * (self.low + self.high);
         let distance = |node: &Node| (node.place - centre).length_squared();
@@ -104,7 +104,7 @@ impl Probe for Concern<'_> {
 
     fn meet(&mut self, id: u32, place: DVec2) -> ControlFlow<()> {
         let node = Node { id, place };
-        // Those that are nearer to none, and hidden from all, do not matter.
+        // Nodes that are nearer to no source and hidden from all do not matter.
         if self.view.shows_any_in(place, place) || !self.basin.is_nearer(self.basin.node, node) {
             self.found.push(node);
         }
@@ -116,19 +116,19 @@ impl Probe for Concern<'_> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     pub(super) basins: Vec<Basin>,
-    /// Numbers of basins that are no more.
+    /// Numbers of removed basins.
     pub(super) freed: Vec<u32>,
-    /// Sources that are lone no more.
+    /// Sources that are no longer lone.
     pub(super) leaving: Vec<Lone>,
     pub(super) has_changed: bool,
-    /// New nodes that concern the basin under way.
+    /// New nodes that affect the basin being updated.
     pub(super) found: Vec<Node>,
-    /// Sources that need a basin, and their nearest nodes unless those are near.
+    /// Sources that need a new basin, with their nearest nodes unless these are too near.
     pub(super) split: Vec<(Lone, Option<Node>)>,
 }
 
 impl Cell {
-    /// Finds who has another nearest node now, and who is lone no more.
+    /// Finds the sources whose nearest node has changed and those that are no longer lone.
     pub(super) fn notice(&mut self, fresh: &FreshNodes, tree: &PointTree, near: f64) {
         let mut at = 0;
         while at < self.basins.len() {
@@ -182,7 +182,7 @@ impl Cell {
         }
     }
 
-    /// Gives sources whose nearest nodes are known to basins, if they are lone.
+    /// Assigns sources with known nearest nodes to basins, if they are lone.
     pub(super) fn settle(&mut self, tree: &PointTree) {
         let mut pieces: Vec<Basin> = Vec::new();
         for (lone, node) in self.split.drain(..) {

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::testing::fixed;
 
-/// Squared distances from a place to all nodes, as everyone has them.
+/// Squared distances from a place to all nodes, computed as in the other modules.
 fn squared(place: DVec2, nodes: &[DVec2]) -> Vec<f64> {
     nodes
         .iter()
@@ -11,7 +11,7 @@ fn squared(place: DVec2, nodes: &[DVec2]) -> Vec<f64> {
         .collect()
 }
 
-/// The node that is nearest without a tie and hides all others, by Eq. 2 word by word.
+/// The node that is nearest without a tie and hides all others, by Eq. 2 as written.
 fn only_neighbour(place: DVec2, nodes: &[DVec2]) -> Option<u32> {
     let away = squared(place, nodes);
     let nearest = (0..nodes.len()).min_by(|&a, &b| away[a].total_cmp(&away[b]))?;
@@ -24,7 +24,7 @@ fn only_neighbour(place: DVec2, nodes: &[DVec2]) -> Option<u32> {
         .then_some(nearest as u32)
 }
 
-/// Nodes that come in a line towards the sources, or scattered, or on a lattice with its ties.
+/// Nodes in a line towards the sources, scattered, or on a lattice with ties.
 fn nodes() -> impl Strategy<Value = Vec<DVec2>> {
     let scattered = proptest::collection::vec((0.0..40.0, 0.0..12.0), 1..60);
     (scattered, 0_u8..3).prop_map(|(points, kind)| {
@@ -72,7 +72,7 @@ proptest! {
             sources.fit_cells(spacing / step as f64, |lone, basin| {
                 basins[lone.slot as usize] = Some(basin);
             });
-            // Some come later than others; those that left may come back.
+            // Sources are inserted at different steps; those that left may be inserted again.
             for (slot, &place) in places.iter().enumerate().filter(|(slot, _)| slot % steps < step) {
                 if basins[slot].is_none() {
                     let lone = Lone { place, slot: slot as u32 };
@@ -94,8 +94,8 @@ proptest! {
     fn a_source_in_front_of_a_straight_row_of_nodes_is_lone(
         x in 5.0..35.0, y in 16.0..40.0, slope in -0.1..0.1,
     ) {
-        // From a row of nodes each source sees the foot of its perpendicular, or its neighbour, and
-        // those hide the rest.
+        // Of a row of nodes each source sees the foot of its perpendicular or the node beside it,
+        // which hides the rest.
         let nodes: Vec<DVec2> = (0..400)
             .map(|i| 0.1 * f64::from(i))
             .map(|along| DVec2::new(along, 5.0 + slope * along))

@@ -1,4 +1,4 @@
-//! What can be seen from lone sources: nodes that their nearest node does not hide.
+//! Visibility from lone sources: nodes that their nearest node does not hide.
 
 use std::ops::ControlFlow;
 
@@ -8,22 +8,22 @@ use super::Lone;
 use crate::venation::point_tree::PointTree;
 use crate::venation::probe::{Probe, SLACK, distance_squared};
 
-/// What squared lengths are compared with to spare: far above the rounding of coordinates.
+/// Safety margin in comparisons of squared lengths, far above the rounding of coordinates.
 pub(super) const MARGIN: f64 = 1e-9;
 
-/// Nodes that sources of a basin may see between them before each is asked alone.
+/// Number of nodes visible from a basin above which each source is tested individually.
 pub(super) const MOST_SEEN: usize = 12;
 
-/// A node, and where it is.
+/// A node with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
     pub(super) id: u32,
     pub(super) place: DVec2,
 }
 
-/// What a node leaves visible to sources in a rectangle.
+/// The region that a node leaves visible to sources in a rectangle.
 pub(super) struct View {
-    /// Corners of the rectangle as seen from the node.
+    /// Lower corner of the rectangle relative to the node.
     pub(super) low: DVec2,
     pub(super) high: DVec2,
     pub(super) node: DVec2,
@@ -54,11 +54,11 @@ impl View {
     }
 }
 
-/// Looks for nodes other than that of the view, until there are too many.
+/// Collects visible nodes other than the view's own, until there are too many.
 pub(super) struct Seen<'a> {
     pub(super) view: &'a View,
     pub(super) node: Node,
-    /// Breaks off with more than so many.
+    /// The search stops when more than this many are found.
     pub(super) most: usize,
     pub(super) found: &'a mut Vec<DVec2>,
 }
@@ -79,7 +79,7 @@ impl Probe for Seen<'_> {
     }
 }
 
-/// Looks for the nearest node.
+/// Searches the nearest node.
 pub(super) struct Nearest {
     pub(super) place: DVec2,
     pub(super) node: Option<Node>,
@@ -108,7 +108,7 @@ impl Nearest {
         }
     }
 
-    /// The nearest node, if there is one, without a tie, and not nearer than `near`.
+    /// The nearest node, unless there is none, a tie, or a distance below `near`.
     pub(super) fn unless_near(&self, near: f64) -> Option<Node> {
         let is_lone = !self.is_tied && self.distance_squared >= near * near;
         self.node.filter(|_| is_lone)
@@ -126,8 +126,8 @@ impl Probe for Nearest {
     }
 }
 
-/// Finds those of some sources from which another node than `node` can be seen. Sorts the sources
-/// by place where need be.
+/// Finds the sources to which a node other than `node` is visible. Sorts the sources by place where
+/// that is needed.
 pub(super) fn find_seeing(
     lone: &mut [Lone],
     node: Node,

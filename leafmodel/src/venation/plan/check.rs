@@ -1,4 +1,4 @@
-//! What a plan may ask for.
+//! Ranges of a plan's numbers.
 
 use glam::DVec2;
 use thiserror::Error;
@@ -8,19 +8,19 @@ use crate::shape::growth::GrowthError;
 use crate::shape::outline::Outline;
 use crate::venation::veins::COINCIDENT;
 
-/// A number: its name, its value, least and greatest, and both in words.
+/// A number to be checked: key, value, least and greatest value, and the range in words.
 type Check = (&'static str, f64, f64, f64, &'static str);
 
 const DISTANCE: &str = "0.01 to 10000 (segments)";
 
-/// Darts that all steps of growth together, or one step without growth, may throw. More would take
-/// minutes and add nothing.
+/// Greatest number of darts in all steps of growth together, or in one step without growth. More
+/// would take minutes and add nothing.
 const MOST_DARTS: f64 = 1e8;
 
 /// Why a plan cannot be carried out.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PlanError {
-    /// A number outside the range in which the model holds.
+    /// A number is outside the range in which the model holds.
     #[error("{key} is {value}, outside {range}")]
     OutOfRange {
         /// Which parameter.
@@ -35,10 +35,10 @@ pub enum PlanError {
     TooManySteps {
         /// Growth per step, segments.
         length_step: f64,
-        /// Steps that it takes.
+        /// Number of steps.
         steps: f64,
     },
-    /// A leaf that would start far larger than it ends, or with no width at all.
+    /// The young leaf would be far larger than the full-grown one or have no extent.
     #[error(
         "with these growth functions the young leaf is {times} times as wide or as long as the full-grown one; 0.000001 to 2 is possible"
     )]
@@ -46,7 +46,7 @@ pub enum PlanError {
         /// The worse of the two ratios.
         times: f64,
     },
-    /// Two origins in one place.
+    /// Two origins coincide.
     #[error("origins {first} and {second} of the veins lie in one place")]
     OriginsMeet {
         /// The first of the two, from 0.
@@ -54,10 +54,10 @@ pub enum PlanError {
         /// The second.
         second: usize,
     },
-    /// A vein that would lead from the base to itself.
+    /// With joined origins, an origin lies at the base.
     #[error("one of the joined origins of the veins lies at the base")]
     OriginAtBase,
-    /// Two rules that do not go together.
+    /// Two rules cannot be combined.
     #[error("{key} does not go together with {other}")]
     Incompatible {
         /// One rule.
@@ -65,10 +65,10 @@ pub enum PlanError {
         /// The other.
         other: &'static str,
     },
-    /// A growth function that does not work.
+    /// A growth function is not valid.
     #[error(transparent)]
     Growth(#[from] GrowthError),
-    /// A place where veins start that lies outside the blade.
+    /// An origin lies outside the blade.
     #[error("origin {index} of the veins, ({x}, {y}) of the leaf's length, is not on the blade")]
     OriginOffBlade {
         /// Which origin, from 0.
@@ -87,7 +87,7 @@ pub enum PlanError {
 }
 
 impl AuxinPlan {
-    /// Checks every number by itself, and that growth comes to an end.
+    /// Checks every number by itself, and that growth ends.
     ///
     /// # Errors
     ///
@@ -131,14 +131,14 @@ impl AuxinPlan {
                 initial_length,
                 length_step,
             } => self.validate_growth(*initial_length, *length_step),
-            // That it arrives is found by the clock.
+            // The clock checks that it reaches the final length.
             Growth::Anisotropic { initial_length, .. } => {
                 self.validate_growth(*initial_length, 1.0)
             }
         }
     }
 
-    /// Every plan's numbers, with least, greatest and the range in words.
+    /// The numbers that every plan has.
     fn numbers(&self) -> [Check; 10] {
         let distance = DISTANCE;
         [
@@ -209,7 +209,7 @@ impl AuxinPlan {
         ]
     }
 
-    /// Those of rules that a plan may leave out.
+    /// The numbers of optional rules.
     fn numbers_of_rules(&self) -> Vec<Check> {
         let distance = DISTANCE;
         let mut checks = Vec::new();
@@ -289,7 +289,7 @@ impl AuxinPlan {
         Ok(())
     }
 
-    /// Checks what only the margin can tell; `blade` is in segments, base at the origin.
+    /// Checks what depends on the margin; `blade` is in segments, base at the origin.
     pub(crate) fn validate_on(&self, blade: &Outline) -> Result<(), PlanError> {
         let origins = self.origins_in_segments();
         if let Some(index) = origins
@@ -308,7 +308,7 @@ impl AuxinPlan {
         if self.joined_origins && origins.iter().any(|p| p.length() < COINCIDENT) {
             return Err(PlanError::OriginAtBase);
         }
-        // The map of a saddle ends where lengths vanish.
+        // The map of a saddle ends where the enlargement is 0.
         let middle = (blade.base() + blade.apex()) * 0.5;
         let (low, high) = blade.bounds();
         let farthest = (low - middle).abs().max((high - middle).abs()).length() / self.final_length;
@@ -322,7 +322,7 @@ impl AuxinPlan {
         Ok(())
     }
 
-    /// Checks the size of the young leaf over that of the full-grown one, across and along.
+    /// Checks the ratios of the young leaf's size to the full-grown one's, across and along.
     pub(crate) fn validate_young(ratios: DVec2) -> Result<(), PlanError> {
         let (low, high) = (ratios.min_element(), ratios.max_element());
         if low >= 1e-6 && high <= 2.0 {
@@ -332,7 +332,7 @@ impl AuxinPlan {
         Err(PlanError::YoungLeaf { times })
     }
 
-    /// Checks what `darts` in all would cost.
+    /// Refuses a total number of darts that would take too long.
     pub(crate) fn validate_darts(darts: f64) -> Result<(), PlanError> {
         if darts <= MOST_DARTS {
             Ok(())

@@ -1,22 +1,22 @@
-//! Where edges meet without a common node, and how they are cut there.
+//! Finds where edges meet without a common node, and cuts them there.
 
 use glam::DVec2;
 
 use super::VeinEdge;
 use super::grid::EdgeGrid;
 
-/// Points nearer than this share of the mean edge length are one: far above rounding, far below
-/// anything grown.
+/// Points nearer together than this share of the mean edge length are merged: far above rounding,
+/// far below any grown distance.
 const SLACK: f64 = 1e-9;
 
 /// All places where edges meet without a common node.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// Two edges, and how far along each they cross, in (0, 1).
+    /// Two crossing edges, and the place of the crossing on each, in (0, 1).
     crossings: Vec<(u32, u32, f64, f64)>,
-    /// An edge, a node that lies on it, and how far along, in (0, 1).
+    /// An edge, a node that lies on it, and its place on the edge, in (0, 1).
     touches: Vec<(u32, u32, f64)>,
-    /// Two nodes at one place.
+    /// Two nodes at the same place.
     meetings: Vec<(u32, u32)>,
     slack: f64,
 }
@@ -64,7 +64,7 @@ pub(super) fn find(
             held.push(piece);
         }
     }
-    // A pair that shares several cells was found in each.
+    // A pair that shares several cells was found several times.
     contacts.crossings.sort_unstable_by_key(|c| (c.0, c.1));
     contacts.crossings.dedup_by_key(|c| (c.0, c.1));
     contacts.touches.sort_unstable_by_key(|t| (t.0, t.1));
@@ -87,7 +87,7 @@ impl Piece {
         (a.min(b), a.max(b))
     }
 
-    /// On which side of its line `p` lies, times its length.
+    /// Signed distance of `p` from the edge's line, times the edge's length.
     fn side(&self, p: DVec2) -> f64 {
         (self.ends[1] - self.ends[0]).perp_dot(p - self.ends[0])
     }
@@ -124,7 +124,8 @@ impl Contacts {
         }
     }
 
-    /// Notes that `node`, which lies on the line of `on`, lies on the edge itself, if it does.
+    /// Records a touch if `node`, which lies on the line of `on`, lies on the edge itself; returns
+    /// whether it does.
     fn touch(&mut self, on: &Piece, squared: f64, node: u32, place: DVec2) -> bool {
         let limit = self.slack * self.slack;
         for (end, &other) in on.ends.iter().zip(&on.nodes) {
@@ -160,7 +161,7 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         cuts.extend([(first, t, node), (second, u, node)]);
     }
     let mut leaders: Vec<u32> = (0..nodes.len() as u32).collect();
-    // Ends of cut edges, and nodes that become others.
+    // Marks the ends of cut edges and merged nodes.
     let mut changed = vec![false; nodes.len()];
     changed[first_new as usize..].fill(true);
     for &(edge, _, node) in &cuts {
@@ -174,8 +175,8 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
         changed[q as usize] = true;
         join(&mut leaders, p, q);
     }
-    // Several edges through one point cross there in pairs, and where a node lies there, touch it
-    // besides.
+    // Several edges through one point cross there in pairs, and if a node lies there they also
+    // touch it.
     let mut new: Vec<u32> = cuts.iter().map(|cut| cut.2).collect();
     let x = |node: u32| nodes[node as usize].x;
     new.sort_unstable_by(|&p, &q| x(p).total_cmp(&x(q)).then(p.cmp(&q)));
@@ -213,8 +214,7 @@ pub(super) fn cut(nodes: &mut Vec<DVec2>, edges: &mut Vec<VeinEdge>, contacts: C
             ..*edge
         });
     }
-    // Edges on top of each other have become the same piece twice. Only pieces at changed nodes
-    // can.
+    // Overlapping edges have become duplicate pieces. That can happen only at changed nodes.
     let mut pairs: Vec<(u32, u32, u32)> = Vec::new();
     for (i, piece) in pieces.iter_mut().enumerate() {
         if changed[piece.from as usize] || changed[piece.to as usize] {

@@ -14,8 +14,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// Cells over all points: about two a point if they fill the rectangle, never above four a
-    /// point (and a few), and no smaller than `least`.
+    /// Cells over all points: about two per point if the points fill the rectangle, at most about
+    /// four per point, and with sides no smaller than `least`.
     pub(crate) fn around(points: impl Iterator<Item = DVec2>, count: usize, least: f64) -> Self {
         let (low, high) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
             (low.min(p), high.max(p))
@@ -45,12 +45,13 @@ impl Lattice {
         self.columns * self.rows
     }
 
-    /// Cell in which a point lies; for points off the rectangle the nearest.
+    /// Number of the cell in which a point lies; for points outside the rectangle, of the nearest
+    /// cell.
     pub(crate) fn cell(&self, p: DVec2) -> usize {
         self.row(p.y) * self.columns + self.column(p.x)
     }
 
-    // Casts from float to int saturate, so what lies below the rectangle falls into its first row.
+    // Casts from float to int saturate, so points below the rectangle fall into its first row.
     fn column(&self, x: f64) -> usize {
         (((x - self.low.x) / self.cell) as usize).min(self.columns - 1)
     }
@@ -59,8 +60,8 @@ impl Lattice {
         (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
     }
 
-    /// Every cell through which the segment from `a` to `b` passes, and at times a neighbour of
-    /// one.
+    /// Visits every cell through which the segment from `a` to `b` passes, and sometimes a
+    /// neighbouring cell.
     fn along(&self, a: DVec2, b: DVec2, mut visit: impl FnMut(usize)) {
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let (first, last) = (self.row(a.y), self.row(b.y));
@@ -98,7 +99,7 @@ pub(crate) struct EdgeGrid {
 }
 
 impl EdgeGrid {
-    /// Sorts edges, whose mean length is given, into cells.
+    /// Sorts edges into cells; `mean_length` is the mean length of the edges.
     pub(crate) fn new(nodes: &[DVec2], edges: &[VeinEdge], mean_length: f64) -> Self {
         let ends = |edge: &VeinEdge| (nodes[edge.from as usize], nodes[edge.to as usize]);
         let points = edges.iter().flat_map(|edge| <[DVec2; 2]>::from(ends(edge)));
@@ -141,7 +142,7 @@ impl EdgeGrid {
         &self.edges[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
-    /// Distance from `p` to the nearest edge; none without edges.
+    /// Distance from `p` to the nearest edge; `None` without edges.
     pub(crate) fn distance(&self, nodes: &[DVec2], edges: &[VeinEdge], p: DVec2) -> Option<f64> {
         let lattice = &self.lattice;
         let (column, row) = (lattice.column(p.x), lattice.row(p.y));
@@ -170,8 +171,8 @@ impl EdgeGrid {
                     }
                 }
             }
-            // What was not looked at lies beyond a side of this box that is no side of the grid.
-            // Edges of a cell reach beyond it, but then they are listed there too.
+            // Edges not yet examined lie beyond those sides of this box that are not sides of the
+            // grid. Edges that reach beyond a cell are listed in the next cell too.
             let low = lattice.low + DVec2::new(left as f64, floor as f64) * lattice.cell;
             let high =
                 lattice.low + DVec2::new(right as f64 + 1.0, ceiling as f64 + 1.0) * lattice.cell;
@@ -195,8 +196,8 @@ impl EdgeGrid {
         (nearest < f64::INFINITY).then(|| nearest.sqrt())
     }
 
-    /// Goes from `p` towards −x and gives the first edge met of which `wanted` is true. A node at
-    /// the height of `p` counts as below it.
+    /// The first edge that a ray from `p` towards −x meets and for which `wanted` is true. A node
+    /// at the height of `p` counts as below the ray.
     pub(crate) fn first_to_the_left(
         &self,
         nodes: &[DVec2],
@@ -223,7 +224,8 @@ impl EdgeGrid {
                 })
                 .max_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
             if let Some((number, x, _)) = hit {
-                // An edge of this cell may be met left of it, behind one of another cell.
+                // An edge listed in this cell may be met to the left of the cell, behind an edge of
+                // another cell.
                 let start = self.lattice.low.x + column as f64 * self.lattice.cell;
                 if column == 0 || x >= start {
                     return Some(number);

@@ -1,4 +1,4 @@
-//! Cutting, against all pairs of edges.
+//! Cutting at crossings, tested against all pairs of edges.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::testing::fixed;
 use crate::venation::areole::areoles;
 use crate::venation::testing::network;
 
-/// Whether two segments have a point in common that is no end of both, up to a slack.
+/// Whether two segments share a point, up to a slack, that is not an end of both.
 fn meet(graph: &PlaneGraph, e: &VeinEdge, f: &VeinEdge) -> bool {
     let place = |n: u32| graph.nodes()[n as usize];
     let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).normalize().perp_dot(r - p);

@@ -1,4 +1,4 @@
-//! What comes before and after the loop: arches that are laid out, and veinlets that end freely.
+//! Rounds before and after the loop: arches, and free veinlet endings.
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
 use crate::venation::sources::Sources;
 
 impl<'a, I: Influence> Simulation<'a, I> {
-    /// The last round, in which veinlets grow that end freely, by the plan `rest`.
+    /// Runs the last round, in which free-ending veinlets grow, by the plan `rest`.
     pub(crate) fn with_free_endings<'b>(
         self,
         rest: &'b AuxinPlan,
@@ -44,7 +44,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 self.add_source(place, near);
             }
         }
-        // Far more than a vein takes to cross the young leaf.
+        // Far more than a vein needs to cross the young leaf.
         let end = self.step + 1000 + (50.0 * self.plan.final_length) as u32;
         let mut idle = 0;
         while self.step < end && !self.sources.is_empty() && idle < PATIENCE {
@@ -71,7 +71,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// The same veins under sources of another kind; those there are given up.
+    /// The same veins with another rule for sources; present sources are discarded.
     pub(crate) fn under<J: Influence>(self) -> Simulation<'a, J> {
         Simulation {
             plan: self.plan,
@@ -96,9 +96,9 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
-    /// Margin and apex at the start, in the frame of the simulation.
+    /// The young leaf's margin and apex, in the frame of the simulation.
     fn young_margin(&self) -> (Vec<DVec2>, DVec2) {
-        // Only marginal growth has a margin that its frame does not follow.
+        // Only under marginal growth does the margin move in the frame.
         let scale = match self.plan.growth {
             Growth::Marginal { .. } => self.clock.size(0),
             Growth::None | Growth::Isogonic { .. } | Growth::Anisotropic { .. } => 1.0,

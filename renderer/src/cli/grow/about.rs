@@ -1,4 +1,4 @@
-//! What a preset is, and where its numbers come from.
+//! The description of a preset and the sources of its numbers.
 
 use leafmodel::species;
 use leafmodel::species::colours::{ColouredLeaf, coloured};
@@ -9,7 +9,7 @@ use crate::cli::arguments::file_and_leaf;
 use crate::cli::columns::in_columns;
 use crate::cli::{Failure, say};
 
-/// Prints a preset's words and, if it stands for a species, the table of its traits.
+/// Prints a preset's description and, if it stands for a species, the table of its traits.
 pub(super) fn tell(name: &str) -> Result<(), Failure> {
     let (path, _) = file_and_leaf(name);
     let preset = species::find(name).ok_or_else(|| {
@@ -34,7 +34,7 @@ pub(super) fn tell(name: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Trait, value, range, and where that is from.
+/// Trait, value, range, provenance.
 type Row = [String; 4];
 
 fn row(name: &str, unit: &str, q: Quantity) -> Row {
@@ -66,7 +66,7 @@ fn in_colour(leaf: &ColouredLeaf) -> Vec<Row> {
     rows
 }
 
-/// The species, and rows with a head.
+/// The species, and rows with a heading.
 fn table(species: &str, mut rows: Vec<Row>) -> String {
     rows.insert(0, ["trait", "value", "range", "from"].map(str::to_owned));
     format!("  {species}\n{}", in_columns(&rows))

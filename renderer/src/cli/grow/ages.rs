@@ -31,7 +31,7 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     Ok(())
 }
 
-/// From this day on all of the leaf is dead.
+/// The day from which on all of the leaf is dead.
 fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
     let senescence = plan.senescence.as_ref();
     let last = senescence.and_then(Senescence::last_day);
@@ -42,7 +42,7 @@ fn last_day(plan: &LeafPlan) -> Result<f64, Failure> {
     })
 }
 
-/// `count` days from 0 to `last`; one alone is the last.
+/// `count` evenly spaced days from 0 to `last`; a single one is the last.
 fn days(last: f64, count: u32) -> impl Iterator<Item = f64> {
     let gaps = f64::from(count.saturating_sub(1));
     (0..count).map(move |i| {
@@ -54,16 +54,16 @@ fn days(last: f64, count: u32) -> impl Iterator<Item = f64> {
     })
 }
 
-/// What is written of each day.
+/// What is written for each day.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Written<'a> {
-    /// How many days.
+    /// Number of days.
     pub(super) count: u32,
     /// Pixels along the longer side of a picture.
     pub(super) pixels: u32,
-    /// Where maps of contents go, if they are asked for, and their name.
+    /// Folder of the maps of contents, if they are asked for.
     pub(super) contents: Option<&'a Path>,
-    /// What the leaf is called.
+    /// Name of the leaf.
     pub(super) name: &'a str,
 }
 

@@ -6,10 +6,10 @@ use glam::{DAffine3, DVec2, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::WholeLeaf;
 
-/// One blade or some tubes in their place.
+/// A blade or tubes, with their place.
 struct Part<'l> {
-    /// Which of the different blades, from 1 on: the map of the first is NAME.exr, that of the
-    /// others NAME-k.exr; 0 for stalks.
+    /// Number of the blade among the different ones, from 1: the map of the first is NAME.exr,
+    /// those of others are NAME-k.exr. 0 for stalks.
     number: usize,
     positions: &'l [DVec3],
     normals: &'l [DVec3],
@@ -23,7 +23,7 @@ struct Part<'l> {
 pub(super) struct Parts<'l>(Vec<Part<'l>>);
 
 impl<'l> Parts<'l> {
-    /// Blades and their stalks as they are placed, then the axes.
+    /// Blades and their stalks in their places, then the axes.
     pub(super) fn of(leaf: &'l WholeLeaf) -> Self {
         let mut parts = Vec::new();
         for placement in &leaf.placements {
@@ -43,12 +43,12 @@ impl<'l> Parts<'l> {
         }
         let axes = leaf.axes.iter();
         parts.extend(axes.map(|axes| tubes((axes, DAffine3::IDENTITY))));
-        // All of one kind in one run.
+        // Parts with the same number become consecutive.
         parts.sort_by_key(|part: &Part<'_>| (part.number == 0, part.number));
         Self(parts)
     }
 
-    /// How many there are in all.
+    /// Total number of triangles.
     pub(super) fn triangles(&self) -> usize {
         self.0.iter().map(|part| part.triangles.len()).sum()
     }
@@ -95,7 +95,7 @@ impl Part<'_> {
             if !moved {
                 return (position, normal, uv, thickness);
             }
-            // Turned, mirrored and scaled evenly, so that normals go with directions.
+            // Places only rotate, mirror and scale uniformly, so normals transform like directions.
             let normal = self.place.transform_vector3(normal).normalize();
             let position = self.place.transform_point3(position);
             (position, normal, uv, scale * thickness)
@@ -103,7 +103,7 @@ impl Part<'_> {
     }
 }
 
-/// With normals, uv and thickness, and the number of its part for each face.
+/// PLY with normals, uv and thickness, and the number of the part for each face.
 pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\ncomment lengths in mm\nelement vertex {}\n",
@@ -139,8 +139,8 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     bytes
 }
 
-/// As text: an object and a material for each run of faces of one part, `blade-1` and so on, or
-/// `stalks`.
+/// OBJ with an object and a material, `blade-1` and so on or `stalks`, for each run of faces of one
+/// part.
 pub(super) fn obj(parts: &Parts<'_>) -> String {
     let mut text = String::from("# lengths in mm\n");
     for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {

@@ -1,4 +1,4 @@
-//! Which leaf is to be grown: a preset or one of a file.
+//! The leaf to be grown: a preset or a leaf of a file.
 
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
@@ -13,7 +13,7 @@ use leafmodel::document::nearest::nearest;
 pub(super) struct Chosen {
     pub(super) name: String,
     pub(super) plan: LeafPlan,
-    /// The preset that it was made from, if it was.
+    /// The preset from which it was made, if any.
     pub(super) preset: Option<&'static str>,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Cho
         })
     } else {
         let (path, leaf) = file_and_leaf(wanted);
-        // What looks like a name and is no file was meant for a preset.
+        // A word that is not the name of a file is taken for a preset.
         if is_word(wanted) && !path.exists() {
             return Err(unknown_preset(wanted));
         }
@@ -53,7 +53,7 @@ pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Cho
     })
 }
 
-/// Whether it looks like the name of a preset rather than a file's.
+/// Whether it looks like the name of a preset, not of a file.
 pub(super) fn is_word(wanted: &str) -> bool {
     !wanted.contains(['/', '\\', '.', '#'])
 }

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 use crate::image::tone::to_srgb;
 use crate::spectrum::cie::{d65, observer, srgb_from_xyz};
 
-/// Between wavelengths, nm: reflectance of leaves is smooth.
+/// Step between wavelengths, nm; the reflectance of leaves is smooth.
 const STEP_NM: usize = 10;
-/// What surrounds the leaf, as in other drawings.
+/// The background, as in other drawings.
 const PAPER: u8 = 255;
 
-/// Reflectance of leaves with one palette of pigments to linear sRGB.
+/// The conversion of contents, with one palette of pigments, to linear sRGB under D65.
 struct Daylight(Vec<(PileLanes<1>, [f64; 3])>);
 
 impl Daylight {
@@ -31,7 +31,7 @@ impl Daylight {
         Self(wavelengths().map(lane).collect())
     }
 
-    /// sRGB of the light that comes back from a leaf with these contents; white paper is 255.
+    /// sRGB of the light reflected by a leaf with these contents; white paper is 255.
     fn colour(&self, contents: &Contents) -> [u8; 3] {
         let contents = contents.to_texel();
         let mut rgb = [0.0; 3];
@@ -89,7 +89,8 @@ mod tests {
 
     #[test]
     fn contents_have_the_colours_that_were_computed_from_the_whole_spectrum() {
-        // Of the table in which these contents were chosen; two steps for its wavelengths of 1 nm.
+        // Values from the table by which these contents were chosen. The tolerance of two steps
+        // allows for its wavelengths of 1 nm.
         let daylight = Daylight::new(&Pigments::default());
         for (name, expected) in [
             ("sun-green", [0x48, 0x5f, 0x33]),

@@ -35,8 +35,8 @@ fn none() -> Failure {
     )
 }
 
-/// Writes the fields of a lamina over the texture coordinates of its blade, rows and columns as
-/// those of the maps of contents.
+/// Writes the fields of a lamina over the texture coordinates of its blade, with the rows and
+/// columns of the maps of contents.
 pub(super) fn write(
     path: &Path,
     plan: &LeafPlan,

@@ -13,17 +13,17 @@ use super::outputs::{Outputs, numbered};
 use super::veins_file;
 use crate::cli::{Failure, say};
 
-/// Most nodes of all stages that are held at once: some gigabyte.
+/// Greatest total number of nodes of stages in memory at once, about a gigabyte.
 const MOST_NODES: usize = 10_000_000;
-/// Most stages that are held at once; their files are made in parallel.
+/// Greatest number of stages in memory at once; their files are made in parallel.
 const MOST_STAGES: usize = 64;
 
-/// How all stages are drawn.
+/// Settings for the drawings of all stages.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
-    /// Corners of the page that they share, that of the full-grown leaf.
+    /// Corners of their common page, which is that of the full-grown leaf.
     pub(super) page: Page,
-    /// Along the longer side of a picture.
+    /// Pixels along the longer side of a picture.
     pub(super) pixels: u32,
 }
 
@@ -57,7 +57,7 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
     };
     let scale = stage.outline.length() / grown.outline.length();
     let mut young = plan.clone();
-    // Before there are veins there is no midrib to take the radius from.
+    // Before there are veins there is no midrib whose radius could be used.
     let radius = petiole.radius_on(&grown.outline, &grown.network);
     young.petiole = Some(PetiolePlan {
         radius_mm: Some(radius * scale),
@@ -78,7 +78,7 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
 
 /// Writes `count` stages, evenly spaced in steps, in every format that is asked for.
 ///
-/// Each group of stages grows the leaf anew, which costs far less than to keep them all.
+/// The leaf is grown anew for each group of stages, which costs far less memory than keeping all.
 pub(super) fn write(
     plan: &LeafPlan,
     lamina: &Lamina,
@@ -120,7 +120,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// `count` steps from 0, before the first, to `last`; one alone is the last.
+/// `count` steps from 0, before the first, to `last`; a single one is the last.
 fn steps(last: u32, count: u32) -> Vec<u32> {
     let gaps = u64::from(count.saturating_sub(1));
     let step = |i: u64| match gaps {
@@ -131,7 +131,7 @@ fn steps(last: u32, count: u32) -> Vec<u32> {
     (0..u64::from(count)).map(step).collect()
 }
 
-/// Corners of the page that all stages share.
+/// Corners of the common page of all stages.
 pub(super) type Page = (DVec2, DVec2);
 
 #[cfg(test)]

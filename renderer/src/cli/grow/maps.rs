@@ -43,7 +43,7 @@ pub(super) fn day(plan: &LeafPlan) -> Option<f64> {
     }
 }
 
-/// The map with what its numbers mean and where it lies.
+/// The map with attributes for the units of its values and its place.
 fn picture(name: &str, map: &ContentsMap, outline: &Outline, day: Option<f64>) -> Picture {
     let texture = ContentsTexture::new(map.width as usize, map.height as usize, map.texels.clone());
     let mut picture = map_picture(&texture);
@@ -75,7 +75,7 @@ fn picture(name: &str, map: &ContentsMap, outline: &Outline, day: Option<f64>) -
     picture
 }
 
-/// A unit as attributes have it; that of a number without one is 1.
+/// A unit as written in attributes; 1 for a pure number.
 fn in_ascii(unit: &str) -> String {
     match unit {
         "" => "1".to_owned(),
@@ -148,8 +148,8 @@ radiance_w_m2_sr_nm = 0.1
             panic!("{material:?}");
         };
         let texture = contents_map(file).expect("a map");
-        // Floats go through the file as they are: at the centres of texels, where nothing is
-        // blended, they come back but for rounding.
+        // The file stores floats unchanged. At the centres of texels, where nothing is
+        // interpolated, values are recovered up to rounding.
         let mut seen = 0;
         for row in (0..map.height).step_by(7) {
             for column in (0..map.width).step_by(5) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::arguments::GrowArguments;
 use crate::cli::{Failure, check_writable};
 
-/// What a file holds, told by its ending.
+/// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Svg,
@@ -37,7 +37,7 @@ impl Kind {
         }
     }
 
-    /// Whether it shows margin and veins, which there are at any time of growth.
+    /// Whether it shows margin and veins, which exist at every stage of growth.
     pub(super) fn is_of_veins(self) -> bool {
         match self {
             Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson => true,
@@ -50,12 +50,12 @@ impl Kind {
     }
 }
 
-/// All files that are asked for by name.
+/// All files given by `--out`.
 #[derive(Debug)]
 pub(super) struct Outputs {
     /// Files of the full-grown leaf.
     pub(super) whole: Vec<(PathBuf, Kind)>,
-    /// Files of each of its stages, before the stage's number is put in.
+    /// Files of each stage, without the stage's number.
     pub(super) staged: Vec<(PathBuf, Kind)>,
     /// Whether the blade and its contents are needed.
     pub(super) blade: bool,
@@ -119,7 +119,7 @@ impl Outputs {
 }
 
 impl Outputs {
-    /// Whether nothing is asked for that depends on what the leaf holds.
+    /// Whether no output depends on the contents of the leaf.
     pub(super) fn show_only_veins(&self, arguments: &GrowArguments) -> bool {
         let has_plan = self.whole.iter().any(|(_, kind)| *kind == Kind::Toml);
         let shows_contents = self.blade || arguments.contents.is_some() || arguments.ages.is_some();
@@ -127,7 +127,7 @@ impl Outputs {
     }
 }
 
-/// Fails if a folder could neither be written to nor be made.
+/// Fails if a folder can neither be written to nor be made.
 fn check_folder(folder: &Path) -> Result<(), Failure> {
     let there = folder
         .ancestors()

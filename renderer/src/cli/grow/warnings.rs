@@ -1,4 +1,4 @@
-//! Warnings about a grown leaf: what is allowed but odd.
+//! Warnings about unusual but allowed properties of a grown leaf.
 
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafPlan};
@@ -6,12 +6,12 @@ use leafmodel::optics::Contents;
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::Ending;
 
-/// No leaf is known whose midrib takes more than this share of its width; some needles come near.
+/// Greatest plausible width of the midrib as a share of the leaf's; some needles come close to it.
 const WIDEST_SHARE: f64 = 0.2;
-/// A primary vein that is cut at less than this share of its length no longer leads into its lobe.
+/// Least share of a primary vein's length; a shorter one does not lead into its lobe.
 const STUB: f64 = 0.5;
 
-/// Warnings about a lamina that this plan has brought forth.
+/// Warnings about a lamina grown from this plan.
 pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
     let mut warnings = Vec::new();
     let network = &lamina.network;
@@ -60,7 +60,7 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
         VenationPlan::Arcuate(_) => "width",
     };
     warnings.extend(too_wide("the widest vein", widest, key));
-    // Without a radius of its own it has the midrib's.
+    // Without its own radius it has that of the midrib.
     let petiole = plan.petiole.as_ref().and_then(|petiole| petiole.radius_mm);
     warnings
         .extend(petiole.and_then(|radius| too_wide("the petiole", radius, "petiole.radius_mm")));
@@ -68,7 +68,7 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
     warnings
 }
 
-/// About primaries that end on the margin long before their lobe does.
+/// A warning about primaries that end at the margin long before the tip of their lobe.
 fn stubs(plan: &LeafPlan, lamina: &Lamina) -> Option<String> {
     let VenationPlan::Arcuate(veins) = &plan.venation else {
         return None;

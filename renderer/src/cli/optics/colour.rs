@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::image::tone::to_srgb;
 use crate::spectrum::cie;
 
-/// How the colours are found; files carry it along.
+/// The method by which colours are computed, which is written into files.
 const METHOD: &str = "XYZ by CIE 1931 2° under D65, 360 to 830 nm by 1 nm, Y of the perfect diffuser 1; R and T below 400 nm as at 400 nm; \
                       sRGB by IEC 61966-2-1, clipped to [0, 1]";
 
@@ -37,7 +37,7 @@ impl Colours {
         [("R", &self.reflectance), ("T", &self.transmittance)]
     }
 
-    /// For people.
+    /// A table for human readers.
     pub(super) fn table(&self) -> String {
         let mut text = String::from("   X       Y       Z       sRGB                     hex");
         for (name, colour) in self.both() {
@@ -51,7 +51,7 @@ impl Colours {
         text + "\n" + METHOD
     }
 
-    /// For programs.
+    /// JSON for programs.
     pub(super) fn json(&self) -> Value {
         let of = |colour: &Colour| json!({ "xyz": colour.xyz, "srgb": colour.srgb, "hex": colour.hex() });
         json!({ "R": of(&self.reflectance), "T": of(&self.transmittance), "method": METHOD })
@@ -65,7 +65,7 @@ impl Colour {
         Self { xyz, srgb }
     }
 
-    /// As web pages write it.
+    /// Hexadecimal notation.
     fn hex(&self) -> String {
         let bytes = self.srgb.map(|value| (255.0 * value).round() as u8);
         format!("#{:02x}{:02x}{:02x}", bytes[0], bytes[1], bytes[2])

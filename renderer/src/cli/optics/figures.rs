@@ -1,10 +1,10 @@
-//! What the finer pigments rest on.
+//! The sources of the finer pigments' figures.
 
 use leafmodel::optics::Pigments;
 
 use crate::cli::columns::in_columns;
 
-/// Every figure with its unit, how far it can be trusted, and its source.
+/// Every figure with its unit, reliability and source.
 pub(super) fn table() -> String {
     let head = ["figure", "value", "unit", "trust", "source"].map(str::to_owned);
     let figures = Pigments::figures().into_iter().map(|figure| {

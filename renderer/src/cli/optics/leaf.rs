@@ -1,4 +1,4 @@
-//! Which leaf `lamina optics` computes, and what each of its numbers rests on.
+//! The leaf that `lamina optics` computes, and the sources of its numbers.
 
 use leafmodel::optics::presets::{self, Preset};
 use leafmodel::optics::{Constituent, Contents, PerConstituent};
@@ -18,7 +18,7 @@ const DEFAULT: Contents = Contents::of(&[
     (Constituent::DryMatter, 0.009),
 ]);
 
-/// The leaf, and where its numbers are from.
+/// The leaf, and the sources of its numbers.
 pub(super) struct Chosen {
     pub(super) contents: Contents,
     preset: Option<Preset>,
@@ -71,7 +71,7 @@ impl Chosen {
             .collect()
     }
 
-    /// Every number with its unit and what it rests on.
+    /// Every number with its unit and source.
     pub(super) fn about(&self) -> String {
         let head = ["content", "value", "unit", "rests on"].map(str::to_owned);
         let mut rows = vec![head];

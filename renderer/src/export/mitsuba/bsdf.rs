@@ -10,9 +10,9 @@ use super::absorption_file;
 use super::spectra::Spectra;
 use super::units::material_id;
 
-/// The plugin for leaves, of `reference/`.
+/// Plugin for leaves, in `reference/`.
 const LEAF: &str = "lamina_leaf";
-/// That for solid tissue.
+/// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
 /// The material with this number.
@@ -89,7 +89,7 @@ pub(super) fn bsdf(
     }
 }
 
-/// Adds what tissue holds: contents, the file of a map, or that spectra tell it.
+/// Adds the contents of tissue: uniform contents, the file of a map, or measured spectra.
 fn tissue(bsdf: Element, id: &str, material: &material::Material, extrapolate: bool) -> Element {
     let Some(tissue) = material.tissue() else {
         return bsdf;

@@ -13,11 +13,11 @@ use super::plugin::look_at;
 use super::spectra::Spectra;
 use super::units::UNITS_PER_METRE;
 
-/// Suns stand this many scene radii away: irradiance differs over the scene by twice its inverse,
-/// either way from the middle.
+/// Distance of suns in scene radii. Over the scene irradiance deviates from that at the centre by
+/// up to twice the inverse of this.
 const SUN_DISTANCE: f64 = 1e5;
 
-/// Where in the export the picture of an environment light lies.
+/// Path, within the export, of the picture of an environment light.
 pub(super) fn environment_file(light: &str, file: &Path) -> String {
     let ending = file
         .extension()
@@ -26,7 +26,7 @@ pub(super) fn environment_file(light: &str, file: &Path) -> String {
     format!("maps/environment-{light}.{ending}")
 }
 
-/// A light; `None` of one that is written with its shape.
+/// The emitter of a light; `None` if it is written with its shape.
 pub(super) fn emitter(
     light: &Named<Light>,
     world: &World,
@@ -69,7 +69,7 @@ pub(super) fn emitter(
             let [origin, target] = [position, target].map(|place| place * UNITS_PER_METRE);
             let up = (target - origin).normalize().any_orthonormal_vector();
             let beam = cone_angle - penumbra_angle;
-            // Intensity over the square of a distance in Mitsuba's units is to be irradiance in
+            // Intensity over the square of a distance in Mitsuba's units must equal irradiance in
             // ours.
             let factor = UNITS_PER_METRE * UNITS_PER_METRE;
             let spot = Element::plugin("emitter", "spot")
@@ -81,7 +81,7 @@ pub(super) fn emitter(
     }
 }
 
-/// What makes a shape shine with a radiance times a factor.
+/// The emitter that makes a shape emit a radiance times a factor.
 pub(super) fn area(radiance: &Spectrum, factor: f64, spectra: &mut Spectra) -> Element {
     Element::plugin("emitter", "area")
         .holding(spectra.element("radiance", radiance, factor))

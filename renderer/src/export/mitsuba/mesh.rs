@@ -2,8 +2,8 @@
 
 use crate::geometry::TriangleMesh;
 
-/// Little-endian PLY with positions (m), and normals and uv where the mesh has them; as the mirror
-/// image in x if asked for.
+/// Little-endian PLY with positions (m), and normals and uv where the mesh has them; mirrored in x
+/// if `mirrored`.
 pub(super) fn ply(mesh: &TriangleMesh, mirrored: bool) -> Vec<u8> {
     let side = if mirrored { -1.0 } else { 1.0 };
     let mut lines = vec![

@@ -1,4 +1,4 @@
-//! The words of Mitsuba's scenes: plugins and their parameters as elements.
+//! Mitsuba's plugins and their parameters as XML elements.
 
 use std::fmt::Display;
 
@@ -12,43 +12,43 @@ impl Element {
         Self::new(family).with("type", kind)
     }
 
-    /// With the name by which others refer to it.
+    /// Sets the id by which other plugins refer to it.
     pub(super) fn called(self, id: impl Display) -> Self {
         self.with("id", id)
     }
 
-    /// With a real parameter.
+    /// Adds a real parameter.
     pub(super) fn float(self, name: &str, value: f64) -> Self {
         self.parameter("float", name, value)
     }
 
-    /// With a parameter that is a whole number.
+    /// Adds an integer parameter.
     pub(super) fn integer(self, name: &str, value: impl Into<i64>) -> Self {
         self.parameter("integer", name, value.into())
     }
 
-    /// With a parameter that is on or off.
+    /// Adds a boolean parameter.
     pub(super) fn boolean(self, name: &str, value: bool) -> Self {
         self.parameter("boolean", name, value)
     }
 
-    /// With a parameter that is a word.
+    /// Adds a string parameter.
     pub(super) fn string(self, name: &str, value: impl Display) -> Self {
         self.parameter("string", name, value)
     }
 
-    /// With another plugin that it refers to.
+    /// Adds a reference to another plugin.
     pub(super) fn referring(self, id: impl Display) -> Self {
         self.holding(Self::new("ref").called(id))
     }
 
-    /// Placed in the world by these steps, the first first.
+    /// Adds a transform to the world by these steps, in the order of their application.
     pub(super) fn placed(self, steps: impl IntoIterator<Item = Self>) -> Self {
         let transform = Self::new("transform").with("name", "to_world");
         self.holding(transform.holding_all(steps))
     }
 
-    /// With a parameter of a kind.
+    /// Adds a parameter of the given type.
     pub(super) fn parameter(self, kind: &'static str, name: &str, value: impl Display) -> Self {
         self.holding(Self::new(kind).with("name", name).with("value", value))
     }
@@ -63,7 +63,7 @@ pub(super) fn look_at(origin: DVec3, target: DVec3, up: DVec3) -> Element {
         .with("up", triple(up))
 }
 
-/// A step of a transform: a matrix, in the single precision that Mitsuba reads.
+/// A step of a transform: a matrix, in single precision as read by Mitsuba.
 pub(super) fn matrix(matrix: DMat4) -> Element {
     let row_major = matrix.as_mat4().transpose().to_cols_array();
     let values = row_major.map(|value| value.to_string());

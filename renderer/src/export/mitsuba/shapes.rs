@@ -1,13 +1,13 @@
-//! The objects of the scene. Each mesh is written once, and so is a shape in several places: as a
-//! group with instances.
+//! The objects of the scene. Each mesh is written once. A shape in several places is also written
+//! once, as a group with instances.
 //!
-//! A shape that stands in one place is written as such, with each of its parts. One that stands in
-//! several becomes a `shapegroup` that holds its parts, and an `instance` for each place: Mitsuba
-//! then keeps one copy of its triangles. Shapes that shine are always written alone, since no
+//! A shape in one place is written as separate shapes, one for each of its parts. One in several
+//! places becomes a `shapegroup` of its parts and an `instance` for each place, so that Mitsuba
+//! keeps one copy of its triangles. Emitting shapes are always written separately, since no
 //! instance can hold an emitter.
 //!
-//! Mitsuba turns the normals of mirrored shapes in its own way, so no transform of the export
-//! mirrors: where one would, the file holds the mirror image of the mesh.
+//! Mitsuba treats the normals of mirrored shapes differently, so no exported transform mirrors:
+//! where one would, the file holds the mirror image of the mesh.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,7 +33,7 @@ pub(super) struct MeshFile {
 }
 
 impl MeshFile {
-    /// Where in the export it lies. Further meshes of a leaf are numbered from 2.
+    /// Its path within the export. Further meshes of a leaf are numbered from 2.
     pub(super) fn path(self, scene: &Description, world: &World) -> String {
         let image = if self.mirrored { ".mirrored" } else { "" };
         if let Some(mesh) = scene.meshes.get(self.mesh) {
@@ -60,10 +60,10 @@ impl MeshFile {
     }
 }
 
-/// A shape, or its mirror image: what a group holds.
+/// A shape or its mirror image, which a group holds.
 type Kind = (ObjectShape, bool);
 
-/// Writes all shapes, and gives the meshes that they name.
+/// Writes all shapes, and returns the meshes that they use.
 pub(super) fn write(
     document: &mut Document,
     scene: &Description,
@@ -118,7 +118,7 @@ pub(super) fn write(
     writer.meshes
 }
 
-/// An object's places: number, what stands there, local to world.
+/// An object's places: number, shape, local to world.
 fn places(object: &Object) -> impl Iterator<Item = (usize, Kind, DMat4)> {
     let alone = object
         .instances
@@ -134,7 +134,7 @@ fn places(object: &Object) -> impl Iterator<Item = (usize, Kind, DMat4)> {
 }
 
 fn mirrors(matrix: DMat4) -> bool {
-    // Of an affine matrix this is the determinant of its linear part.
+    // For an affine matrix this is the determinant of its linear part.
     matrix.determinant() < 0.0
 }
 
@@ -150,7 +150,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// A part of a shape; `to_world` takes the shape's own frame to the world or to its group, in
+    /// A part of a shape; `to_world` maps the shape's own frame to the world or to its group, in
     /// metres.
     fn mesh(&mut self, id: &str, piece: &Piece, to_world: DMat4) -> Element {
         let mut to_world = to_world * DMat4::from(piece.to_leaf);

@@ -1,27 +1,27 @@
-//! Spectra and bands as Mitsuba takes them.
+//! Spectra and bands in Mitsuba's form.
 
 use crate::export::element::Element;
 use crate::scene::description::{Band, Spectrum};
 use crate::spectrum::{cie, planck};
 
-/// Mitsuba's spectra are zero outside their points; ours hold their end values. So all are written
-/// over this range, nm, which holds every wavelength of a film.
+/// Range over which all spectra are written, nm; it contains every wavelength of a film. Mitsuba's
+/// spectra are zero outside their points, whereas ours keep their end values.
 const RANGE_NM: [f64; 2] = [300.0, 2600.0];
 
-/// Spectra of more points than this get a file of their own.
+/// Greatest number of points of a spectrum that is written inline; longer ones get a separate file.
 const MOST_INLINE: usize = 16;
 
-/// Intervals that a band's response is written with.
+/// Number of intervals of a band's response.
 const RESPONSE_INTERVALS: usize = 64;
 
-/// Width in nm of the box that stands for a single wavelength: Mitsuba's wavelengths are `f32`,
-/// with steps of up to 2.4e-4 nm.
+/// Width, nm, of the box that represents a single wavelength: Mitsuba's wavelengths are `f32`, with
+/// steps of up to 2.4e-4 nm.
 const SINGLE_WAVELENGTH_NM: f64 = 0.5;
 
-/// Writes spectra, and collects those that become files.
+/// Writes spectra, and collects those that go into files.
 #[derive(Debug, Default)]
 pub(super) struct Spectra {
-    /// Name in the folder `spectra`, and text.
+    /// Names in the folder `spectra`, and texts.
     pub(super) files: Vec<(String, String)>,
 }
 
@@ -30,7 +30,7 @@ impl Spectra {
     pub(super) fn element(&mut self, name: &str, spectrum: &Spectrum, factor: f64) -> Element {
         let element = Element::new("spectrum").with("name", name);
         let points = points(spectrum, factor);
-        // Mitsuba refuses tables without any mass.
+        // Mitsuba refuses tables that are zero everywhere.
         if points.iter().all(|point| point.1 == 0.0) {
             return element.with("value", 0);
         }
@@ -92,8 +92,7 @@ fn points(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
 /// area 1, so that the channel is the band's mean radiance.
 ///
 /// The film draws wavelengths from the sum of all responses, resampled at the finest spacing of any
-/// of them. Written with two points only, a narrow band could fall between the points of that
-/// resampling.
+/// of them. With only two points, a narrow band could fall between the points of that resampling.
 pub(super) fn response(number: usize, band: &Band) -> Element {
     let width = if band.width_nm > 0.0 {
         band.width_nm

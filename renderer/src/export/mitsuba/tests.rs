@@ -169,7 +169,7 @@ position_m = [0, 0, 0.1]
     write(&scene, &world, &out).expect("it is written");
     let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
     assert_eq!(xml.matches("<shape type=\"ply\"").count(), 9);
-    // Two blades and what stalks are made of; each shape names one.
+    // Two blades' materials and that of the stalks; each shape refers to one.
     assert_eq!(
         xml.matches("<bsdf type=\"lamina_leaf\" id=\"leaf-trefoil")
             .count(),
@@ -270,7 +270,8 @@ radiance_w_m2_sr_nm = 1
     let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
     assert_eq!(xml.matches("type=\"shapegroup\"").count(), 1, "{xml}");
     assert_eq!(xml.matches("type=\"instance\"").count(), 3);
-    // The mirror image is another shape that stands once; the panel shines, so it stands alone.
+    // The mirror image is another shape, used once; the panel emits light, so it is written
+    // separately.
     assert_eq!(xml.matches("<shape type=\"ply\"").count(), 3 + 7 + 7);
     let group = xml.find("<shape type=\"shapegroup\"").expect("a group");
     let emitter = xml.find("<emitter type=\"area\">").expect("a light");

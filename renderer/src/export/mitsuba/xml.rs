@@ -1,4 +1,4 @@
-//! The scene description proper.
+//! The scene description `scene.xml`.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use super::shapes::{self, MeshFile};
 use super::spectra::{self, Spectra};
 use super::units::UNITS_PER_METRE;
 
-/// The text of `scene.xml`, and the meshes that it names; spectra that become files are added to
+/// The text of `scene.xml`, and the meshes that it uses; spectra that go into files are added to
 /// `spectra`.
 pub(super) fn scene(
     scene: &Description,

@@ -1,7 +1,7 @@
-//! A ray's way through the two levels of trees.
+//! The traversal of the two levels of trees by a ray.
 //!
-//! Each of the two walks is inlined into one function for each level of instructions and each kind
-//! of search. There are no closures: they would be compiled on their own first, without those
+//! Both traversals are inlined into one function for each instruction level and each kind of
+//! search. There are no closures, since these would first be compiled separately, without those
 //! instructions.
 
 use std::marker::PhantomData;
@@ -15,11 +15,11 @@ use super::super::wide_tree::Visitor;
 use super::{Carrier, Geometry, Hit, TracedMesh};
 use crate::simd::{Eight, LANES, Task};
 
-/// What is looked for.
+/// What a search is for.
 pub(super) trait Found: Default {
-    /// What comes of it.
+    /// The result.
     type Output;
-    /// Whether near hits are to come first.
+    /// Whether near hits should come first.
     const NEAREST_FIRST: bool;
 
     /// Records a hit, which may be farther than the limit. Returns the new limit; −∞ ends the
@@ -126,7 +126,7 @@ impl<F: Found> Task for Search<'_, F> {
     }
 }
 
-/// At the leaves of the upper tree: the ray goes through the tree of the instance's mesh.
+/// Visitor of the leaves of the upper tree: traverses the tree of the instance's mesh.
 struct Instances<'a, E, F> {
     e: E,
     geometry: &'a Geometry,
@@ -144,8 +144,7 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
     fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32 {
         let carrier = &self.geometry.carriers[leaf as usize];
         let (origin, direction) = carrier.carry(self.ray);
-        // A direction can be lost on the way into a frame that scales it to 0 or beyond the largest
-        // number.
+        // The local frame may scale a direction to 0 or to infinity.
         if !origin.is_finite() || !direction.is_finite() || direction == Vec3A::ZERO {
             return limit;
         }
@@ -162,7 +161,7 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
     }
 }
 
-/// The search in one mesh: a function of its own, which keeps more of the walk in registers.
+/// The search in one mesh, a separate function so that more of the traversal stays in registers.
 struct InMesh<'a, F> {
     mesh: &'a TracedMesh,
     carrier: &'a Carrier,
@@ -205,7 +204,7 @@ impl<F: Found> Task for InMesh<'_, F> {
     }
 }
 
-/// At the leaves of a mesh's tree: the ray is tested against eight triangles.
+/// Visitor of the leaves of a mesh's tree: tests the ray against eight triangles.
 struct Triangles<'a, E, F> {
     e: E,
     mesh: &'a TracedMesh,
@@ -234,8 +233,8 @@ impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
             candidates &= candidates - 1;
             if let Some(hit) = block.hit(lane, self.shear, self.slab) {
                 let hit = Hit {
-                    // Rounding may find a hit before the instance's own box; the box's word keeps
-                    // culling by it exact.
+                    // Rounding may put a hit before the instance's own box. The distance of the box
+                    // is used, so that culling by it stays exact.
                     t: hit.t.max(self.enter),
                     instance: self.carrier.instance,
                     triangle: block.id(lane),

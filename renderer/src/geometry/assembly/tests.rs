@@ -10,8 +10,8 @@ use crate::simd::Level;
 use crate::testing::fixed;
 use rayon::prelude::*;
 
-/// The nearest hit found by testing every triangle of every instance with the tracer's own test: no
-/// tree at all.
+/// The nearest hit, found without trees by testing every triangle of every instance with the
+/// tracer's own test.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
     let world = SlabRay::new(
@@ -462,12 +462,12 @@ fn many_equal_or_nested_boxes_are_built_in_time_and_traced_right() {
             .collect();
         let mesh =
             TriangleMesh::new(positions, None, None, triangles).expect("no two are the same");
-        // Threads of the shared pool may be in the midst of another test's long work.
+        // Threads of the shared pool may be busy with another test.
         let pool = rayon::ThreadPoolBuilder::new().build().expect("threads");
         let start = std::time::Instant::now();
         let geometry = pool.install(|| alone(mesh));
-        // No benchmark: a build in quadratic time takes minutes, a sound one a fraction of a second
-        // on the slowest machine.
+        // This is not a benchmark: a build in quadratic time takes minutes, a correct one a
+        // fraction of a second on the slowest machine.
         assert!(
             start.elapsed().as_secs_f32() < 30.0,
             "the build took {:?}",

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::{ImportError, MOST_CORNERS, RawMesh};
 use crate::geometry::import::shown;
 
-/// What a corner of a face names, counted from 0.
+/// The indices of a corner of a face, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Corner {
     position: u32,
@@ -69,8 +69,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
                 }
                 raw.push_fan(&face);
             }
-            // Lines, points, groups, materials, free-form surfaces: nothing that a triangle mesh
-            // holds.
+            // Lines, points, groups, materials and free-form surfaces are ignored.
             Some(_) | None => {}
         }
     }
@@ -79,7 +78,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
         .iter()
         .map(|corner| positions[corner.position as usize])
         .collect();
-    // One corner without a uv would tear the texture: then there are none.
+    // If any corner lacks uvs, all uvs are dropped, since the texture would have gaps.
     raw.uvs = corners
         .iter()
         .map(|corner| corner.uv.map(|uv| uvs[uv as usize]))
@@ -95,8 +94,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ImportError> {
     Ok(raw)
 }
 
-/// Three numbers, of which `least` must be there; the rest are 0. What follows them (w, colours) is
-/// passed over.
+/// Three numbers, of which at least `least` must be given; missing ones are 0. Further ones (w,
+/// colours) are ignored.
 fn numbers<'a>(
     words: &mut impl Iterator<Item = &'a str>,
     least: usize,
@@ -116,7 +115,7 @@ fn numbers<'a>(
     Ok(numbers)
 }
 
-/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, given how many of each have come so far.
+/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, given the numbers of each read so far.
 fn corner(word: &str, counts: [usize; 3]) -> Result<Corner, String> {
     const NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
     let mut found = [None; 3];

@@ -9,7 +9,7 @@ use super::{ImportError, MOST_CORNERS, RawMesh};
 use header::{Element, Header, Kind};
 use values::Values;
 
-/// What a property of a vertex is for.
+/// The meaning of a property of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     Position(usize),

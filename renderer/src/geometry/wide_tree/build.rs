@@ -1,5 +1,5 @@
-//! How a wide tree comes from boxes: neighbours packed into leaves, a binary tree over the leaves,
-//! and that cut into nodes of eight.
+//! Building a wide tree: neighbouring boxes are packed into leaves, a binary tree is built over the
+//! leaves, and its nodes are combined into nodes of eight.
 
 use super::super::bounds::Bounds;
 use super::super::{bvh, median, memory};
@@ -9,7 +9,7 @@ use super::{LEAF, LeafItems, MAX_DEPTH, WideNode, WideTree};
 use crate::geometry::binary_tree::{BinaryNode, upwards};
 
 impl WideTree {
-    /// Builds the tree over `boxes`, and gives for each leaf the numbers of its boxes.
+    /// Builds the tree over `boxes`, and returns for each leaf the numbers of its boxes.
     ///
     /// Boxes must be finite and fewer than 2³⁰, leaves of at most eight.
     pub(in super::super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<LeafItems>) {
@@ -33,8 +33,8 @@ impl WideTree {
         (tree, leaves.collect())
     }
 
-    /// Makes wide nodes of the cuts of a binary tree over the leaves' boxes, and gives the leaves
-    /// in the order in which nodes name them; `None` if the tree gets too deep.
+    /// Combines the nodes of a binary tree over the leaves' boxes into wide nodes. Also returns the
+    /// leaves in the order of their use by nodes. `None` if the tree is too deep.
     pub(super) fn over_leaves<C: Cut>(
         binary: &[BinaryNode],
         boxes: &[Bounds],
@@ -70,7 +70,7 @@ impl WideTree {
     }
 }
 
-/// Bounds of every binary node, from the boxes themselves: a builder may have worked with others.
+/// Bounds of every binary node, computed from the true boxes, since a builder may have used others.
 fn bounds_of(binary: &[BinaryNode], boxes: &[Bounds]) -> Vec<Bounds> {
     let mut bounds = vec![Bounds::EMPTY; binary.len()];
     for node in upwards(binary) {

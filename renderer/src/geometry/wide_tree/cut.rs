@@ -1,4 +1,4 @@
-//! Which nodes of a binary tree become the children of a wide node.
+//! The choice of nodes of a binary tree as children of a wide node.
 
 use super::super::bounds::Bounds;
 use crate::geometry::binary_tree::{BinaryNode, upwards};
@@ -31,23 +31,24 @@ pub(super) trait Cut {
     fn children(&self, binary: &[BinaryNode], root: u32) -> Children;
 }
 
-/// The cut with which the fewest nodes are visited, as estimated from their areas.
+/// The choice with the least expected number of visited nodes, estimated from their areas.
 ///
-/// Dynamic programming over "the cheapest way to hold this subtree in at most i children".
+/// Dynamic programming over the least cost of representing a subtree by at most i children.
 ///
 /// # Source
 ///
-/// \[ylitie2017\], section 3.1, with leaves that are given.
+/// \[ylitie2017\], section 3.1, with given leaves.
 pub(super) struct Cheapest {
-    /// For each node and each `i`: how many of `i + 1` children its left side gets; 0 if it stays
-    /// whole. The last is for the node as a wide node, which is opened in any case.
+    /// For each node and each `i`: how many of `i + 1` children its left side gets; 0 if the node
+    /// stays whole. The last entry is for the node as a wide node, which is always opened.
     left: Vec<[u8; LANES]>,
 }
 
 impl Cut for Cheapest {
     fn new(binary: &[BinaryNode], bounds: &[Bounds]) -> Self {
         let mut left = vec![[0; LANES]; binary.len()];
-        // Sum of the areas of wide nodes in a subtree that is held in at most i + 1 children.
+        // Sum of the areas of wide nodes in a subtree that is represented by at most i + 1
+        // children.
         let mut cost = vec![[0.0_f32; LANES]; binary.len()];
         for node in upwards(binary) {
             let node = node as usize;
@@ -55,7 +56,7 @@ impl Cut for Cheapest {
                 continue;
             };
             let (of_left, of_right) = (cost[l as usize], cost[r as usize]);
-            // Where areas are too large to add up, any way does.
+            // Where sums of areas overflow, any choice will do.
             let (mut least, mut share) = ([f32::INFINITY; LANES], [1; LANES]);
             for most in 1..LANES {
                 for left in 0..most {
@@ -99,7 +100,7 @@ impl Cut for Cheapest {
     }
 }
 
-/// Three levels of the binary tree make one: the least depth, whatever the boxes.
+/// Combines three levels of the binary tree into one, which gives the least depth for any boxes.
 pub(super) struct ThreeLevels;
 
 impl Cut for ThreeLevels {

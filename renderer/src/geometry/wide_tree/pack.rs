@@ -1,4 +1,4 @@
-//! Boxes packed into leaves: few leaves, well filled, and small.
+//! Packing boxes into few, well-filled, small leaves.
 
 use rayon::prelude::*;
 
@@ -7,14 +7,13 @@ use super::super::hilbert;
 use super::LeafItems;
 use crate::simd::LANES;
 
-/// What a leaf costs beside its area, in areas of a mean box: that of the memory and of the tree
-/// above it.
+/// Cost of a leaf besides its area, in areas of a mean box, for its memory and the tree above it.
 ///
-/// Measured on leaves of 5,000 and 500,000 triangles: 0.5 to 4 trace alike, more fill the leaves
-/// better.
+/// Measured on blades of 5,000 and 500,000 triangles: values from 0.5 to 4 trace equally fast;
+/// greater ones fill leaves better.
 const COST_OF_A_LEAF: f64 = 2.0;
 
-/// Boxes along the curve that are packed by one thread at a time.
+/// Number of boxes along the curve that one thread packs at a time.
 const STRETCH: usize = 1 << 14;
 
 /// Numbers of the boxes of each leaf, at most `leaf_size` (1 to 8) of them.
@@ -39,7 +38,7 @@ pub(super) fn leaves(boxes: &[Bounds], leaf_size: u32) -> Vec<LeafItems> {
 
 /// Cuts a stretch of the curve into leaves of the least cost.
 fn cut(stretch: &[u32], boxes: &[Bounds], leaf_size: usize, cost_of_a_leaf: f64) -> Vec<LeafItems> {
-    // Least cost of the first i boxes, and how many the last leaf has then.
+    // Least cost of the first i boxes, and the size of the last leaf in that case.
     let mut least = vec![(0.0, 0); stretch.len() + 1];
     for end in 1..=stretch.len() {
         let mut best = (f64::INFINITY, 0);
@@ -51,7 +50,7 @@ fn cut(stretch: &[u32], boxes: &[Bounds], leaf_size: usize, cost_of_a_leaf: f64)
                 best = (cost, size);
             }
         }
-        // Areas beyond the largest number are all alike: fill the leaves.
+        // If areas overflow, leaves are filled.
         least[end] = if best.1 == 0 {
             (least[end - 1].0, leaf_size.min(end))
         } else {

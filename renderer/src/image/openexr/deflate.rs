@@ -1,7 +1,7 @@
-//! Blocks of an `OpenEXR` file, made and compressed on all threads.
+//! Compression of the blocks of an `OpenEXR` file on all threads.
 //!
 //! - **In**: layers of single precision, in the order of their names.
-//! - **Out**: for each 16 rows the bytes of a ZIP block as the format has it.
+//! - **Out**: for each 16 rows the bytes of a ZIP block of the format.
 //! - **Always true**: a block depends on its rows alone, so the bytes do not depend on threads.
 
 use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock};
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 
 use super::Layer;
 
-/// Rows of a block: what the format says for this compression.
+/// Rows of a block, as the format prescribes for this compression.
 const ROWS: usize = 16;
 /// Effort of the compressor, 1 to 10. A fifth of the time of the `exr` crate's 4, for files 3 %
-/// larger: rendered values are noise but for their exponents, and those any effort finds.
+/// larger: the mantissas of rendered values are noise, and any effort compresses the exponents.
 /// `docs/src/theory/paths.md` has the table.
 const EFFORT: u8 = 1;
 
@@ -34,9 +34,9 @@ pub(super) fn blocks(layers: &[&Layer], width: usize, height: usize) -> Vec<Chun
 /// # Source
 ///
 /// `OpenEXR` File Layout, "Scan line blocks": row by row, in each channel by channel,
-/// little-endian. The ZIP compressor of the reference implementation takes apart bytes of even and
-/// odd place, then stores differences of neighbours plus 128. What does not get smaller is stored
-/// as it is.
+/// little-endian. The ZIP compressor of the reference implementation separates bytes at even and
+/// odd places, then stores differences of neighbours plus 128. A block that does not get smaller is
+/// stored uncompressed.
 fn compressed(layers: &[&Layer], width: usize, rows: std::ops::Range<usize>) -> Vec<u8> {
     let mut plain = Vec::with_capacity(rows.len() * layers.len() * width * size_of::<f32>());
     for row in rows {

@@ -96,7 +96,8 @@ fn the_same_picture_gives_the_same_bytes_in_any_order_and_any_process() {
     picture.layers.reverse();
     picture.attributes.reverse();
     assert_eq!(encode(&picture).expect("the picture is sound"), bytes);
-    // The hash that scrambles attributes is drawn once a process: a child draws another.
+    // The seed of the hash that orders attributes is drawn once per process, so a child process has
+    // another one.
     let checksum = bytes
         .iter()
         .fold(0, |sum, &byte| bits(sum ^ u64::from(byte)));
@@ -219,7 +220,7 @@ fn claiming(width: i32, height: i32) -> Vec<u8> {
         bytes[max..max + 4].copy_from_slice(&(width - 1).to_le_bytes());
         bytes[max + 4..max + 8].copy_from_slice(&(height - 1).to_le_bytes());
     }
-    // The number of blocks has to agree, or the file is refused for that.
+    // The number of blocks must agree, or the file would be refused for that reason.
     let count = b"chunkCount\0int\0";
     if let Some(at) = bytes.windows(count.len()).position(|part| part == count) {
         let at = at + count.len() + 4;
@@ -263,7 +264,7 @@ fn damaged_files_give_a_picture_or_an_error() {
         let mut bytes = whole.clone();
         for change in 0..=seed % 4 {
             let bits = bits(seed << 8 | change);
-            // Half of the changes hit the header, where they hurt.
+            // Half of the changes are in the header, where they have the most effect.
             let range = if bits & 1 == 0 {
                 bytes.len()
             } else {

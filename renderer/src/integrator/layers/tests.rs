@@ -86,7 +86,7 @@ fn a_pixel_of_colour_takes_at_most_160_bytes() {
 const GUIDE: &str = include_str!("../../../../docs/src/guide.md");
 const PATHS: &str = include_str!("../../../../docs/src/theory/paths.md");
 
-/// What the book calls the channels of a layer.
+/// The channels of a layer as written in the book.
 fn shown(layer: &FilmLayer) -> String {
     let [rgb, _] = kinds();
     let names = layer.channel_names(&rgb).join(" ");
@@ -121,7 +121,7 @@ fn rows_of_layers() -> Vec<String> {
     LAYERS.iter().map(row).collect()
 }
 
-/// The rows of the table of what a pixel keeps for features.
+/// The rows of the table of a pixel's storage for features.
 fn rows_of_features() -> Vec<String> {
     let row = |layer: &FilmLayer| match layer.source {
         Source::Feature { sum, .. } => {

@@ -1,10 +1,10 @@
-//! Rectangles, and points on them uniform over the solid angle that they fill.
+//! Rectangles, sampled uniformly over the solid angle that they subtend.
 //!
 //! # Source
 //!
 //! \[urena2013\] for the parameters: first a line across the rectangle that cuts off a share of the
-//! solid angle, then a point on it. The inversion is our own: without arc cosines, and with the
-//! solid angle from one arc tangent.
+//! solid angle, then a point on it. The inversion is our own: it needs no arc cosines, and only one
+//! arc tangent for the solid angle.
 //!
 //! Seen from height `h` over the plane, the solid angle of the rectangle between the foot of the
 //! perpendicular and `(x, y)` is `a(x, y) = atan(x y / (h r))` with `r² = x² + y² + h²`, which is
@@ -16,8 +16,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::offset;
 
-/// How far, as a share of the diagonal, the fourth corner may lie from where the other three put
-/// it, and how far from zero the cosine of a corner may be.
+/// Tolerance of rectangles: for the distance of the fourth corner from its place by the other
+/// three, as a share of the diagonal, and for the cosines of corners.
 const TOLERANCE: f32 = 1e-5;
 
 /// A rectangle in space.
@@ -32,9 +32,9 @@ pub struct Rectangle {
     normal: Vec3,
 }
 
-/// A rectangle as seen from a point over its bright side.
+/// A rectangle relative to a point over its bright side.
 struct Seen {
-    /// Borders along the first and the second axis, seen from the foot of the perpendicular.
+    /// Borders along the first axis, relative to the foot of the perpendicular.
     x: [f64; 2],
     y: [f64; 2],
     /// Height over the plane, > 0.
@@ -42,8 +42,8 @@ struct Seen {
 }
 
 impl Rectangle {
-    /// The rectangle that two triangles make: both counter-clockwise, with one edge of the same two
-    /// corners.
+    /// The rectangle formed by two counter-clockwise triangles that share an edge, if they form
+    /// one.
     pub fn from_triangles(first: &[Vec3; 3], second: &[Vec3; 3]) -> Option<Self> {
         let rotations = |[a, b, c]: [Vec3; 3]| [[a, b, c], [b, c, a], [c, a, b]];
         for [corner, p, q] in rotations(*first) {
@@ -57,7 +57,7 @@ impl Rectangle {
     }
 
     /// From a corner, its two neighbours (counter-clockwise with it) and the corner opposite;
-    /// `None` if the angles are not right or there is no area.
+    /// `None` if the angles are not right angles or there is no area.
     fn from_corners(corner: Vec3, p: Vec3, q: Vec3, opposite: Vec3) -> Option<Self> {
         let edges = [p - corner, q - corner];
         let lengths = edges.map(Vec3::length);
@@ -95,7 +95,7 @@ impl Rectangle {
         0.5 * Vec2::from(self.lengths).length()
     }
 
-    /// The point that is `u` of the way along both edges.
+    /// The point at the shares `u` of both edges.
     pub fn at(&self, u: Vec2) -> Vec3 {
         self.corner + self.edges[0] * u.x + self.edges[1] * u.y
     }
@@ -105,8 +105,8 @@ impl Rectangle {
         self.seen(from).solid_angle().1
     }
 
-    /// The way from a point over the bright side to a point of the rectangle, uniform over solid
-    /// angle, and the density over solid angle, sr⁻¹.
+    /// The vector from a point over the bright side to a sampled point of the rectangle, uniform
+    /// over solid angle, and the density over solid angle, sr⁻¹.
     pub fn sample(&self, from: Vec3, u: Vec2) -> (DVec3, f32) {
         let seen = self.seen(from);
         let (place, solid_angle) = seen.sample(u);
@@ -154,8 +154,8 @@ impl Seen {
         (first, angle)
     }
 
-    /// A place on the rectangle, uniform over solid angle: `u.x` of that along x and `u.y` of what
-    /// is there along y.
+    /// A place on the rectangle, uniform over solid angle: `u.x` is the share of the solid angle
+    /// along x, `u.y` the share along y at that x.
     fn sample(&self, u: Vec2) -> (DVec2, f64) {
         let (first, solid_angle) = self.solid_angle();
         let (sin, cos) = libm::sincos(f64::from(u.x) * solid_angle);

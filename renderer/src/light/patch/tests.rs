@@ -58,7 +58,7 @@ fn known_solid_angles_are_found() {
     let (octant, _) = patches(&[[Vec3::X, Vec3::Z, Vec3::Y]]);
     let eighth = 0.5 * std::f64::consts::PI;
     assert!((octant[0].solid_angle(Vec3::ZERO) - eighth).abs() < 1e-12);
-    // All but all of the half space, and next to nothing.
+    // Nearly the whole half space, and nearly nothing.
     assert!(
         (faces[0].solid_angle(1e-4 * Vec3::Z) / (2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-4
     );

@@ -1,14 +1,14 @@
-//! Triangles, and points on them uniform over the solid angle that they fill.
+//! Triangles, sampled uniformly over the solid angle that they subtend.
 //!
 //! # Source
 //!
 //! \[arvo1995\] for the parameters: first a point `C'` on the arc `AC` such that `ABC'` has a share
-//! of the solid angle, then a point on the arc `BC'`. The inversion is our own, free of arc
+//! of the solid angle, then a point on the arc `BC'`. The inversion is our own, without arc
 //! cosines: by \[oosterom1983\] the solid angle `S'` of `ABC'` has
 //! `tan(S'/2) = det(A, B, C') / (1 + A·B + B·C' + C'·A)`. With `C' = A cos b + T sin b`, where `T`
 //! is the unit tangent at `A` towards `C`, and `τ = tan(b/2)` this is
-//! `τ det(A, B, T) / (1 + A·B + τ B·T)`, so
-//! `τ = (1 + A·B) sin(S'/2) / (det(A, B, T) cos(S'/2) − B·T sin(S'/2))`.
+//! `τ det(A, B, T) / (1 + A·B + τ B·T)`, so `τ = (1 + A·B) sin(S'/2) / (det(A, B, T) cos(S'/2) −
+//! B·T sin(S'/2))`.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -47,7 +47,7 @@ impl Triangle {
         self.normal
     }
 
-    /// Centre of gravity.
+    /// Centroid.
     pub fn center(&self) -> Vec3 {
         (self.corners[0] + self.corners[1] + self.corners[2]) / 3.0
     }
@@ -71,10 +71,10 @@ impl Triangle {
         solid_angle(&self.corners.map(|corner| offset(corner, from)))
     }
 
-    /// The way from a point over the bright side to a point of the triangle, uniform over solid
-    /// angle, and the density over solid angle, sr⁻¹.
+    /// The vector from a point over the bright side to a sampled point of the triangle, uniform
+    /// over solid angle, and the density over solid angle, sr⁻¹.
     ///
-    /// `None` if rounding leads past the plane.
+    /// `None` if by rounding the direction misses the plane.
     pub fn sample(&self, from: Vec3, u: Vec2) -> Option<(DVec3, f32)> {
         let offsets = self.corners.map(|corner| offset(corner, from));
         let solid_angle = solid_angle(&offsets);
@@ -85,7 +85,7 @@ impl Triangle {
             (1.0 + a.dot(b)) * sin / (b.cross(a).dot(tangent).abs() * cos - b.dot(tangent) * sin);
         let scale = 1.0 / (1.0 + tan_half * tan_half);
         let on_ac = a * ((1.0 - tan_half * tan_half) * scale) + tangent * (2.0 * tan_half * scale);
-        // 1 − cos of the arc from B, which keeps its digits where the arc is short.
+        // 1 − cos of the arc from B, which is accurate for short arcs.
         let fall = 0.5 * (on_ac - b).length_squared() * f64::from(u.y);
         let across = (on_ac - b * b.dot(on_ac)).try_normalize()?;
         let way = b * (1.0 - fall) + across * (fall * (2.0 - fall)).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! Builds the tree from the top down by the orientation heuristic of \[conty2018\], in bins.
+//! Builds the tree from the top down by the binned orientation heuristic of \[conty2018\].
 
 use std::f32::consts::PI;
 use std::ops::Range;
@@ -8,14 +8,14 @@ use glam::Vec3;
 use super::{CHILD_BITS, Emitter, IS_LIGHT, LightTree, Node, WIDTH};
 use crate::light::angle;
 
-/// Bins along an axis.
+/// Number of bins along an axis.
 const BINS: usize = 16;
 
-/// From this level on sets are cut into halves of equal number, so that the deepest trail fits its
-/// 64 bits: 2³¹ lights need eleven more levels.
+/// From this level on sets are split into halves of equal number, so that the deepest trail fits
+/// into 64 bits: 2³¹ lights need eleven more levels.
 const HALVING_LEVEL: u32 = 10;
 
-/// A light, and what splitting it from others goes by.
+/// A light with the data used for splitting.
 #[derive(Clone, Copy)]
 struct Item {
     emitter: Emitter,
@@ -55,7 +55,7 @@ struct Builder {
 }
 
 impl Builder {
-    /// Builds the node over a range of lights; gives its number.
+    /// Builds the node over a range of lights; returns its number.
     fn node(&mut self, range: Range<usize>, level: u32, trail: u64) -> u32 {
         let number = self.nodes.len();
         self.nodes.push(Node::EMPTY);
@@ -73,7 +73,7 @@ impl Builder {
         number as u32
     }
 
-    /// Cuts a range into up to eight, again and again the one that costs most.
+    /// Splits a range into up to eight parts, each time the part that costs most.
     fn parts(&mut self, range: Range<usize>, level: u32) -> Vec<Range<usize>> {
         let cost = |items: &[Item]| match items {
             [] | [_] => -1.0,
@@ -142,8 +142,8 @@ impl Summary {
     /// Intensity times surface of the box times a measure of directions: 1 if all axes agree, 4 if
     /// they cancel out.
     ///
-    /// The ends of the paper's measure `M_Ω` for surfaces, π and 4π, joined by the length of the
-    /// mean axis, which adds up.
+    /// It has the same extremes as the paper's measure `M_Ω` for surfaces, π and 4π, up to a
+    /// factor. Between them it follows the length of the mean axis, which can be summed over bins.
     fn cost(&self) -> f32 {
         if self.intensity <= 0.0 {
             return 0.0;
@@ -155,8 +155,7 @@ impl Summary {
     }
 }
 
-/// Parts at least two lights into two sets that are not empty; gives the number of lights in the
-/// first.
+/// Splits at least two lights into two non-empty sets; returns the number of lights in the first.
 fn cut(items: &mut [Item], halve: bool) -> usize {
     let (low, high) = items
         .iter()
@@ -191,8 +190,8 @@ fn cut(items: &mut [Item], halve: bool) -> usize {
     half
 }
 
-/// The axis and the first bin of the second set that cost least; `None` if nothing tells sets
-/// apart.
+/// The axis, and the first bin of the second set, of the split with the least cost; `None` if no
+/// split has a cost above 0.
 fn cheapest(items: &[Item], low: Vec3, size: Vec3) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = f32::INFINITY;
@@ -208,7 +207,7 @@ fn cheapest(items: &[Item], low: Vec3, size: Vec3) -> Option<(usize, usize)> {
         for bin in (0..BINS - 1).rev() {
             above[bin] = above[bin + 1].and(&bins[bin + 1]);
         }
-        // Thin slices of long sets are no good: the paper's regularisation.
+        // The paper's regularisation, against thin slices of long sets.
         let thin = size.max_element() / size[axis];
         let (mut below, mut count) = (Summary::EMPTY, 0);
         for bin in 0..BINS - 1 {
@@ -220,7 +219,7 @@ fn cheapest(items: &[Item], low: Vec3, size: Vec3) -> Option<(usize, usize)> {
             }
         }
     }
-    // Points, or lights of no power: all sets cost nothing.
+    // For points, or lights without power, all costs are 0.
     best.filter(|_| least > 0.0)
 }
 
@@ -249,7 +248,7 @@ fn around(items: &[Item]) -> Emitter {
     };
     Emitter {
         center,
-        // A rounding of coordinates that cancel out in the differences.
+        // Allows for rounding of coordinates that cancel in the differences.
         radius: items.iter().map(farthest).fold(0.0, f32::max) * (1.0 + 1e-5),
         axis,
         spread,

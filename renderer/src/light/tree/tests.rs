@@ -4,7 +4,7 @@ use super::*;
 use crate::light::patch::{Patch, patches};
 use crate::testing::fixed;
 
-/// Numbers in [0, 1) from one.
+/// Pseudo-random numbers in [0, 1) from a seed.
 fn numbers(seed: u32) -> impl FnMut() -> f32 {
     let mut stream = crate::sampling::stream::Stream::new(7, seed, 0, 0);
     let mut left = Vec::new();
@@ -23,7 +23,7 @@ fn direction(next: &mut impl FnMut() -> f32) -> Vec3 {
     Vec3::new(radius * cos, radius * sin, z).normalize()
 }
 
-/// Rectangles and triangles of all sizes about the origin, in clusters, with radiances over six
+/// Rectangles and triangles of all sizes around the origin, in clusters, with radiances over six
 /// decades.
 fn lamps(count: usize, next: &mut impl FnMut() -> f32) -> Vec<(Patch, f32)> {
     let mut lamps = Vec::new();
@@ -100,7 +100,7 @@ proptest! {
                 prop_assert!(!shines || probability > 0.0, "lamp {number} of {count} is hidden");
             }
             prop_assert!(sum < 1.0 + 1e-4, "sum {sum}");
-            // Where no lamp is dark nothing can be chosen in vain.
+            // If no lamp is dark, the choice never fails.
             prop_assert!(shining < count || sum > 1.0 - 1e-4, "sum {sum}");
         }
     }
@@ -125,7 +125,8 @@ proptest! {
             prop_assert!((told / probability - 1.0).abs() < 1e-5, "{told}, not {probability}");
             counts[number] += 1;
         }
-        // Even numbers fall into an interval as often as it is long, give or take its two ends.
+        // The number of evenly spaced numbers in an interval is proportional to its length, up to
+        // its two ends.
         let mut vain = DRAWS as f32;
         for (number, &count) in counts.iter().enumerate() {
             let expected = tree.probability(number, &receiver) * DRAWS as f32;
@@ -146,7 +147,7 @@ fn lamps_that_hang_in_one_place_and_lamps_on_one_line_make_trees_too() {
         reach: std::f32::consts::FRAC_PI_2,
         intensity: 1.0,
     };
-    // Distances that double: each cut by cost would take off one lamp.
+    // With doubling distances, each split by cost would separate only one lamp.
     let doubling = |i: usize| libm::powf(2.0, (i % 60) as f32 - 30.0);
     for spacing in [|_| 0.0, |i| i as f32, doubling] {
         let emitters: Vec<_> = (0..1000)

@@ -9,7 +9,7 @@ use leafmodel::document::value_kind::{Degrees, Integer, Number, Vector};
 use super::report;
 use crate::scene::description::{Camera, Integrator};
 
-/// Coordinates of the world, m. Farther out, single precision no longer resolves a leaf.
+/// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
 pub(super) const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
 
 /// The keys of `[camera]`.

@@ -13,7 +13,7 @@ use leafmodel::document::values::{
 
 use crate::scene::description::{Band, Film, FilmKind, Picture, Tone};
 
-/// Wavelengths that the renderer knows, nm.
+/// Range of wavelengths of the renderer, nm.
 const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
@@ -189,7 +189,7 @@ impl Kind for Range {
     }
 }
 
-/// Middles of bands that rise; the whole of each must lie where there are data.
+/// Centres of bands, rising; each whole band must lie within the range of the data.
 #[derive(Clone, Copy, Debug)]
 struct Bands {
     width_nm: f64,

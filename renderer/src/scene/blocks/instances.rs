@@ -1,14 +1,14 @@
-//! `[objects.NAME.instances]`: a file with a row for each place at which an object stands.
+//! `[objects.NAME.instances]`: a file with one row for each place of an object.
 //!
-//! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both name their
-//!   columns alike ([`columns`]).
+//! - **In**: text with a header ([`text`]) or a structured `NumPy` array ([`npy`]); both have the
+//!   same column names ([`columns`]).
 //! - **Out**: places in the world, 52 bytes each, in the file's order; or errors, each with row,
-//!   column, value and what is allowed.
+//!   column, value and allowed range.
 //! - **Always true**: numbers are finite and in range, shapes are among the object's.
-//! - **Left out**: what the rows mean together. Instances may overlap.
+//! - **Left out**: relations between rows. Instances may overlap.
 //!
-//! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others
-//! counted. So a report on a million rows is as short and as quick as one on ten.
+//! Rows are read on all threads. The first [`MOST_TOLD`] wrong rows are reported, the others are
+//! only counted, so that reports stay short and fast for a million rows.
 
 mod column_names;
 mod columns;
@@ -30,39 +30,39 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::source::{Place, escaped};
 use leafmodel::document::value_kind::{FilePath, NamedFile};
 
-/// Most wrong rows of a file that are told one by one.
+/// Greatest number of wrong rows of a file that are reported one by one.
 const MOST_TOLD: usize = 20;
 
-/// Most rows of a file: up to here the picture's 32-bit layers can number them.
+/// Greatest number of rows of a file, so that the picture's 32-bit layers can number them.
 const MOST_ROWS: usize = 1 << 24;
 
 /// The names of an object's shapes, in the order in which the object lists them.
 type ShapeNames = [String];
 
-/// What is known of a file while its rows are read.
+/// Data for reading the rows of a file.
 #[derive(Debug)]
 struct Table<'a> {
     /// The path as written, safe to print.
     name: String,
     shapes: &'a ShapeNames,
-    /// The place of each name in the list; `None` if the list has it more than once.
+    /// Index of each name in the list; `None` if the name occurs more than once.
     numbers: BTreeMap<&'a str, Option<u32>>,
     /// Local to world of the frame in which the rows are given.
     frame: DMat4,
 }
 
-/// A row with something wrong.
+/// A row with errors.
 #[derive(Debug)]
 struct WrongRow {
-    /// Its line, or of an array its number; from 1.
+    /// Its line number, or for an array its row number, from 1.
     line: usize,
     /// The row as a report shows it.
     shown: String,
-    /// What is wrong, each with bytes of `shown`.
+    /// Its errors, each with a range of bytes of `shown`.
     errors: Vec<(std::ops::Range<usize>, RowError)>,
 }
 
-/// What was made of some rows of a file.
+/// The result of reading some rows of a file.
 #[derive(Debug, Default)]
 struct Rows {
     places: Vec<InstancePlace>,
@@ -72,7 +72,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// Keeps what a row gave; `told` says what to show of a wrong one.
+    /// Stores the result of a row; `told` gives the text to show if it is wrong.
     fn push(
         &mut self,
         row: Result<InstancePlace, Vec<RowError>>,
@@ -89,7 +89,7 @@ impl Rows {
         }
     }
 
-    /// Rows of pieces of the file, in their order.
+    /// Joins the rows of pieces of the file, in their order.
     fn joined(pieces: Vec<Self>) -> Self {
         let mut all = Self::default();
         all.places
@@ -104,8 +104,8 @@ impl Rows {
     }
 }
 
-/// The keys of the block. `shapes` are those that rows choose from, `frame` takes rows' coordinates
-/// to the world; without either the file is only looked up.
+/// The keys of the block. Rows choose from `shapes`; `frame` maps the rows' coordinates to the
+/// world. Without either, only the existence of the file is checked.
 pub(super) fn instances(
     places: &mut Vec<InstancePlace>,
     keys: &mut Keys<'_>,
@@ -175,7 +175,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reports what is wrong with the file as a whole, where the scene names it.
+    /// Reports an error of the file as a whole at its name in the scene.
     fn refuse(&self, cx: &Context, at: &Place, problem: String, help: &str) {
         let error = DocumentError::BadFile {
             path: self.name.clone(),
@@ -185,7 +185,7 @@ impl<'a> Table<'a> {
         cx.error(at, error);
     }
 
-    /// Whether a file may have as many rows; reports it otherwise.
+    /// Whether a file may have this many rows; reports an error otherwise.
     fn bear(&self, cx: &Context, at: &Place, rows: usize) -> bool {
         if rows == 0 {
             let help = "add a row for each place, or take the block out";

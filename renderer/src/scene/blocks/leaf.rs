@@ -1,4 +1,4 @@
-//! `[leaves.NAME]`: a leaf that is grown, and the faces that grown leaves share with materials.
+//! `[leaves.NAME]`: a grown leaf, and the keys for faces that leaves share with materials.
 
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
@@ -11,11 +11,12 @@ use crate::scene::description::{Coat, Leaf, LeafFaces};
 
 /// Refractive index of a coat.
 const COAT_ETA: f64 = 1.45;
-/// GGX roughness of the adaxial and the abaxial coat: satin above, matt below.
+/// GGX roughness of the adaxial and the abaxial coat: satin on the adaxial, matt on the abaxial
+/// face.
 const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
 
 impl From<LeafPlan> for Leaf {
-    /// A leaf with the usual surface.
+    /// A leaf with the default surface.
     fn from(plan: LeafPlan) -> Self {
         Self {
             plan,

@@ -109,7 +109,7 @@ const KINDS: [Variant<Light>; 5] = [
         name: "area",
         about: "An object whose surface shines to the side of its normal.",
         new: || Light::Area {
-            // None yet.
+            // Replaced when the key is read.
             object: usize::MAX,
             radiance: DARK,
         },
@@ -172,12 +172,12 @@ const KINDS: [Variant<Light>; 5] = [
     },
 ];
 
-/// Reports a cone without a direction, and an edge that is wider than its cone.
+/// Reports a cone without a direction, or an edge wider than its cone.
 fn check_cone(position: DVec3, look_at: DVec3, [cone, penumbra]: [f64; 2], keys: &Keys<'_>) {
     if !keys.is_sound() {
         return;
     }
-    // Nearer than this the direction would consist of rounding errors.
+    // Closer than this the direction would be dominated by rounding errors.
     if (look_at - position).length() <= 1e-9 * position.length().max(1e-3) {
         let error = DocumentError::BadView {
             problem: "the light shines at the point where it stands",
@@ -226,7 +226,7 @@ fn direction(towards: &mut DVec3, keys: &mut Keys<'_>) {
     *towards = DVec3::new(along * cos, along * sin, up);
 }
 
-/// Reports a light that shines at no wavelength of the film.
+/// Reports a light that is dark at all wavelengths of the film.
 fn refuse_darkness(spectrum: &Spectrum, keys: &Keys<'_>) {
     let Some(block) = keys.reader().filter(|_| keys.is_sound()) else {
         return;
@@ -244,7 +244,8 @@ fn is_dark(spectrum: &Spectrum, range_nm: Option<[f64; 2]>) -> bool {
         Spectrum::Constant(value) => *value == 0.0,
         Spectrum::Table { points, .. } => {
             let [low, high] = range_nm.unwrap_or([0.0, f64::INFINITY]);
-            // Dark between two rows only if both are 0: those around the range count too.
+            // A table is 0 between two rows only if both are 0, so the rows just outside the range
+            // count too.
             let first = points
                 .partition_point(|(nm, _)| *nm <= low)
                 .saturating_sub(1);

@@ -132,7 +132,7 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
     let extrapolate = keys
         .reader()
         .is_some_and(|block| block.cx.extrapolate.get());
-    // A colour by name needs no contents, but may have some that differ.
+    // A named preset needs no contents, but contents may be given to change it.
     let mut contents = match tissue {
         LeafTissue::Held(Held::Contents { contents, .. }) => *contents,
         LeafTissue::Held(Held::Map { .. }) | LeafTissue::Measured { .. } => Contents::NOTHING,
@@ -237,10 +237,10 @@ fn measured(keys: &mut Keys<'_>) -> LeafTissue {
     }
 }
 
-/// Reports where more light leaves than arrives: R + T is linear between the rows of both
-/// tables, so it is greatest at one of them.
+/// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
+/// of them.
 fn require_energy(keys: &Keys<'_>, reflectance: &Spectrum, transmittance: &Spectrum) {
-    // Sums of decimals such as 0.1 + 0.9 round to just above 1.
+    // Sums of decimals may round to slightly above 1.
     const ROUNDING: f64 = 1e-9;
     let mut wavelengths: Vec<f64> = vec![550.0];
     for spectrum in [reflectance, transmittance] {
@@ -279,7 +279,7 @@ fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
                 (None, None) => 0.0,
             }
         }
-        // No share of light is read from these.
+        // These forms are not used for shares of light.
         Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
     }
 }

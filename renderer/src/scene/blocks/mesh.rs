@@ -6,7 +6,7 @@ use leafmodel::document::value_kind::{FilePath, Integer, Number};
 
 use crate::scene::description::Mesh;
 
-/// Extents of shapes.
+/// Range of the extents of shapes, m.
 const EXTENTS_M: Number = Number(Limits::above(0.0, 1e6));
 /// Largest mesh file that is read, bytes.
 const MOST_MESH_BYTES: u64 = 4 << 30;

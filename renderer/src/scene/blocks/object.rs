@@ -1,5 +1,5 @@
-//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, and where it
-//! stands, once or many times.
+//! `[objects.NAME]`: a mesh with a material, a leaf, or a body of solid tissue, with one place or
+//! many.
 
 use glam::{DMat3, DMat4, DVec3};
 use leafmodel::document::context::{Context, ENOUGH};
@@ -61,12 +61,12 @@ pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
     }
 }
 
-/// What the object is; gives the names of its shapes.
+/// Reads the shapes of the object; returns their names.
 fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
     let mut named: Vec<(usize, String)> = Vec::new();
     let mut chosen = keys.one_of(&["mesh", "leaf", "solid"], None);
     if keys.reader().is_some() && chosen.is_empty() {
-        // Which keys belong here cannot be said without knowing the shape.
+        // Without a shape it is unknown which keys belong here.
         keys.leave(&["material"]);
     }
     for kind in chosen.drain(..) {
@@ -130,7 +130,7 @@ fn mesh_shapes(
     object.shapes = pairs.collect();
 }
 
-/// The blocks of a section that a name, or a list of names, stands for, and the names.
+/// Reads a name or a list of names of blocks of a section.
 #[derive(Clone, Copy, Debug)]
 struct NamesIn(&'static str, &'static str);
 
@@ -178,7 +178,7 @@ impl Kind for NamesIn {
     }
 }
 
-/// Local to world: `matrix`, or scale, then turns about x, y, z, then position.
+/// Local to world: `matrix`, or scale, then rotations about x, y, z, then position.
 fn placement(object: &mut Object, keys: &mut Keys<'_>) {
     let (mut position, mut rotate, mut scale) = (DVec3::ZERO, [0.0; 3], 1.0);
     let about = "Where the shape's origin goes.";
@@ -218,7 +218,7 @@ fn check_matrix(rows: &[f64; 16], matrix: DMat4, keys: &Keys<'_>) {
     let linear = DMat3::from_mat4(matrix);
     let bounds = linear.x_axis.length() * linear.y_axis.length() * linear.z_axis.length();
     // The determinant is at most the product of the columns' lengths (Hadamard). Far below that,
-    // single precision no longer tells the shape from a flat one.
+    // single precision cannot distinguish the shape from a flat one.
     if linear.determinant().abs() <= 1e-6 * bounds || bounds < 1e-30 {
         let error = DocumentError::BadMatrix {
             problem: "is singular: it flattens the object",

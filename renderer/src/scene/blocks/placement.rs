@@ -1,16 +1,16 @@
-//! Turns and sizes by which shapes are placed.
+//! Rotations and scales of objects.
 
 use glam::{DMat3, DVec3};
 use leafmodel::document::limits::Limits;
 
 use crate::scene::angle::sin_cos_deg;
 
-/// Angles of a turn, degrees.
+/// Range of angles of rotation, degrees.
 pub(super) const ANGLES_DEG: Limits = Limits::closed(-3600.0, 3600.0);
-/// Factors on a shape.
+/// Range of scale factors.
 pub(super) const SCALES: Limits = Limits::above(0.0, 1e6);
 
-/// Turns about x, then y, then z, by angles in degrees.
+/// The rotation about x, then y, then z, by angles in degrees.
 pub(super) fn turn([x, y, z]: [f64; 3]) -> DMat3 {
     turn_about_z(z) * turn_about_y(y) * turn_about_x(x)
 }

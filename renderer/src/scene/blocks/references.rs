@@ -8,7 +8,7 @@ use leafmodel::document::sections::{Names, singular};
 
 use crate::scene::description::{Description, Light, ObjectShape};
 
-/// Sections whose blocks others name.
+/// Sections to whose blocks others refer.
 pub(super) const SECTIONS: [&str; 5] = ["meshes", "materials", "leaves", "solids", "objects"];
 
 /// Checks the scene as a whole; `keys` are those at its top.
@@ -30,14 +30,14 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
     }
 }
 
-/// An area light needs a mesh object, and an object bears at most one.
+/// An area light needs a mesh object, and an object has at most one area light.
 fn check_shining(scene: &Description, keys: &Keys<'_>) {
     let mut shining = BTreeSet::new();
     for light in &scene.lights {
         let Light::Area { object, .. } = light.value else {
             continue;
         };
-        // A name that is none is told where it stands.
+        // An unknown name is reported where it is written.
         let Some(named) = scene.objects.get(object) else {
             continue;
         };
@@ -61,7 +61,7 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
     }
 }
 
-/// Warns of blocks that nothing refers to: they are allowed, but mostly a slip.
+/// Warns of unused blocks, which are allowed but usually a mistake.
 fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
     let Some(root) = keys.reader() else {
         return;

@@ -66,7 +66,7 @@ pub(super) fn optics(optics: &mut SolidOptics, keys: &mut Keys<'_>) {
         limits,
         about,
     );
-    // The skin has the index of the tissue where nothing else is said.
+    // By default the skin has the refractive index of the tissue.
     let same = coat.eta == tissue.eta;
     let index = Number(Limits::closed(1.0, 2.0));
     keys.key(

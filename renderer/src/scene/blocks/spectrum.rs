@@ -18,7 +18,7 @@ use leafmodel::document::values::{finite_at, list, number, number_at, wrong_leng
 use super::table_file::{Rows, read_table_file};
 use crate::scene::description::Spectrum;
 
-/// A spectrum, by what it is used for.
+/// A spectrum with its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SpectrumOf {
     /// A share of light, 0 to 1.
@@ -146,12 +146,12 @@ impl Kind for SpectrumOf {
     }
 }
 
-/// Wavelengths that tables may hold, nm; solar spectra start in the far ultraviolet.
+/// Range of wavelengths of tables, nm; solar spectra start in the far ultraviolet.
 pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
 const D65_NM: [f64; 2] = [300.0, 830.0];
 const FACTORS: Limits = Limits::above(0.0, 1e12);
-/// Temperatures of black bodies.
+/// Range of temperatures of black bodies, K.
 const KELVIN: Limits = Limits::closed(100.0, 1e6);
 
 impl SpectrumOf {
@@ -197,7 +197,7 @@ fn read_form(form: &Block<'_>, key: &str, role: SpectrumOf) -> Option<Spectrum> 
                 .and_then(|rows| checked_table(form, &rows, scale, key, role))
         }
         None => {
-            // Known beside most forms; what is wrong was said already.
+            // `scale` is known in most forms, and the error was already reported.
             form.node("scale");
             None
         }

@@ -12,10 +12,11 @@ pub(super) struct Rows {
     pub(super) places: Vec<[Place; 2]>,
 }
 
-/// Reads a table file: columns parted by comma, semicolon, tab or spaces, one line of names on
-/// top if wanted, `#` before comments, empty lines left out.
+/// Reads a table file: columns separated by comma, semicolon, tab or spaces, an optional header
+/// line, `#` before comments; empty lines are ignored.
 ///
-/// Errors point into the file; `at` is its name in the scene, for when it is no text at all.
+/// Errors point into the file; `at` is the place of its name in the scene, for files that are not
+/// text.
 pub(super) fn read_table_file(cx: &Context, path: &str, at: &Place, bytes: &[u8]) -> Option<Rows> {
     let name = escaped(path, 2 * QUOTED);
     let text = match std::str::from_utf8(bytes) {

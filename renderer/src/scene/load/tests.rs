@@ -1,4 +1,4 @@
-//! What is read, written and read again: bodies, and what names pictures and meshes.
+//! Round trips through text: bodies, and blocks that name pictures and meshes.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -217,7 +217,7 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
         panic!("three layers: {:?}", plan.layers);
     };
     assert!(matches!(&all.change, Change::Map(map) if map.texels == [*texel.as_array(); 6]));
-    // As written, not as light; the lowest row first.
+    // Values as stored, not linear light; the lowest row first.
     let share = |byte: u8| [f32::from(byte) / 255.0];
     let weights = [255, 102, 0, 51].map(share);
     assert!(matches!(&rim.mask, Mask::Picture(picture) if picture.texels == weights));

@@ -1,4 +1,4 @@
-//! A grown leaf as bytes: counts and numbers one after the other, little-endian.
+//! A grown leaf as bytes: a sequence of counts and numbers, little-endian.
 
 use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::optics::{Contents, PerConstituent};
@@ -57,7 +57,7 @@ fn doubles(out: &mut Vec<u8>, values: &[f64]) {
     out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
 }
 
-/// The leaf that these bytes encode; `None` if they encode none or some are left over.
+/// The leaf that these bytes encode; `None` if they are not a leaf or some are left over.
 pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
     let mut rest = Rest(bytes);
     let meshes = rest.list(|rest| {
@@ -95,7 +95,7 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
         };
         (piece.mesh < meshes.len() && piece.material < materials).then_some(piece)
     })?;
-    // A leaf has a blade at least.
+    // A leaf has at least one blade.
     (rest.0.is_empty() && !pieces.is_empty()).then_some(LeafParts {
         meshes,
         maps,
@@ -119,7 +119,7 @@ impl<'a> Rest<'a> {
         usize::try_from(u64::from_le_bytes(bytes)).ok()
     }
 
-    /// A list whose length stands before it.
+    /// A list preceded by its length.
     fn list<T>(&mut self, mut one: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         (0..self.count()?).map(|_| one(self)).collect()
     }
@@ -146,7 +146,7 @@ impl<'a> Rest<'a> {
 
     fn triangles(&mut self) -> Option<Vec<[u32; 3]>> {
         let count = self.count()?;
-        // The same bits, which no conversion of a float may touch.
+        // Bits are copied without any conversion of floats.
         let bytes = self.take(count.checked_mul(12)?)?;
         let corner = |bytes: &[u8]| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
         let triangles = bytes.chunks_exact(12);

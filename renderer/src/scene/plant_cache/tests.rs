@@ -9,7 +9,8 @@ use crate::material::palette::Palette;
 use crate::scene::load::parse_leaves;
 use crate::scene::plants;
 
-/// Small leaves with all that a file may hold: one blade alone, one with a stalk, several on axes.
+/// Small leaves that cover the contents of files: a single blade, one with a stalk, several on
+/// axes.
 fn plans() -> Vec<LeafPlan> {
     ["poplar", "ash"]
         .map(|name| {
@@ -20,7 +21,7 @@ fn plans() -> Vec<LeafPlan> {
         .to_vec()
 }
 
-/// The leaf as the cache gives it, and whether it was grown.
+/// The leaf from the cache, and whether it was grown.
 fn take(cache: &PlantCache, plan: &LeafPlan) -> (LeafParts, bool) {
     let grown = Cell::new(false);
     let parts = cache.take_or_grow(plan, || {
@@ -125,7 +126,7 @@ fn no_leaf_of_another_plan_or_program_is_taken() {
 fn bytes_of_every_kind_are_refused_and_not_believed() {
     let parts = LeafParts::grow(&plans()[0]).expect("a good plan");
     let whole = to_bytes(&parts);
-    // Counts that promise more than there is.
+    // Counts greater than the data that follow.
     for place in (0..whole.len() - 8).step_by(whole.len() / 40) {
         let mut bytes = whole.clone();
         bytes[place..place + 8].fill(0xff);

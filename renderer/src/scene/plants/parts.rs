@@ -1,4 +1,4 @@
-//! What plants have grown into, as numbers that can be kept.
+//! Grown leaves as plain data, which can be stored.
 
 use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::compound::CompoundError;
@@ -11,9 +11,9 @@ use crate::geometry::MeshError;
 /// A part of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Which of [`super::GrownLeaf::meshes`].
+    /// Index into [`super::GrownLeaf::meshes`].
     pub mesh: usize,
-    /// Which of [`super::GrownLeaf::materials`].
+    /// Index into [`super::GrownLeaf::materials`].
     pub material: usize,
     /// From the mesh to the leaf, metres; may mirror.
     pub to_leaf: DAffine3,
@@ -25,7 +25,7 @@ pub enum PlantError {
     /// The plan cannot be carried out.
     #[error(transparent)]
     Leaf(#[from] CompoundError),
-    /// The contents of its stalks cannot be told.
+    /// The contents of its stalks cannot be computed.
     #[error(transparent)]
     Stalks(#[from] LeafError),
     /// The blade's mesh is refused.
@@ -33,30 +33,30 @@ pub enum PlantError {
     Mesh(#[from] MeshError),
 }
 
-/// What a leaf has grown into, in metres: the numbers that a [`GrownLeaf`] is made of.
+/// The data of a grown leaf, in metres, from which a [`GrownLeaf`] is made.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct LeafParts {
     /// As [`super::GrownLeaf::meshes`].
     pub(in crate::scene) meshes: Vec<MeshParts>,
     /// The contents of the different blades.
     pub(in crate::scene) maps: Vec<MapParts>,
-    /// What stalks are made of, if there are any.
+    /// Contents of the stalks, if there are any.
     pub(in crate::scene) stalk: Option<Contents>,
     /// As [`super::GrownLeaf::pieces`].
     pub(in crate::scene) pieces: Vec<Piece>,
 }
 
-/// The numbers of a mesh.
+/// The data of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct MeshParts {
     pub(in crate::scene) positions: Vec<Vec3>,
     pub(in crate::scene) normals: Vec<Vec3>,
-    /// None for stalks, which are the same everywhere.
+    /// `None` for stalks, whose contents are uniform.
     pub(in crate::scene) uvs: Option<Vec<Vec2>>,
     pub(in crate::scene) triangles: Vec<[u32; 3]>,
 }
 
-/// The numbers of a map of contents.
+/// The data of a map of contents.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct MapParts {
     pub(in crate::scene) width: usize,

@@ -1,4 +1,4 @@
-//! Lights as a scene describes them, made ready.
+//! Conversion of lights from the description.
 
 use super::WorldError;
 use crate::geometry::{Instance, TriangleMesh};
@@ -11,7 +11,7 @@ use crate::scene::assets;
 use crate::scene::description;
 use crate::spectrum::Curve;
 
-/// A light of the scene; `instance_of` gives the one instance of an object that shines.
+/// A light of the scene; `instance_of` gives the only instance of an emitting object.
 pub(super) fn build_light<'i>(
     name: &str,
     light: &description::Light,

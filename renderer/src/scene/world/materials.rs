@@ -1,4 +1,4 @@
-//! Materials, and what several of them share.
+//! Conversion of materials from the description, with data that several of them share.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::scene::description::{self, Description};
 use crate::scene::tissue;
 use crate::spectrum::{Curve, WavelengthGrid};
 
-/// What materials share, each made when it is first needed.
+/// Data that materials share, made on first use.
 pub(super) struct Known {
     /// Palettes of pigments.
     pub(super) palettes: Palettes,
@@ -24,7 +24,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// For a picture with these wavelengths.
+    /// Empty data for a picture with these wavelengths.
     pub(super) fn on(grid: &WavelengthGrid) -> Self {
         Self {
             palettes: Palettes::on(grid),
@@ -32,7 +32,7 @@ impl Known {
         }
     }
 
-    /// What each leaf and each body of solid tissue needs.
+    /// The shared data for each leaf and each body of solid tissue.
     pub(super) fn for_grown(
         &mut self,
         scene: &Description,

@@ -1,4 +1,4 @@
-//! Meshes of files and shapes that a scene gives by their numbers.
+//! Meshes from files, and of shapes that a scene gives by numbers.
 
 use glam::{DVec3, Vec2, Vec3};
 

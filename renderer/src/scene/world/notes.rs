@@ -1,4 +1,5 @@
-//! Notes about a scene's materials that are possible only once files are read and leaves are grown.
+//! Notes about a scene's materials that can be given only after files are read and leaves are
+//! grown.
 
 use super::MaterialOwner;
 use leafmodel::optics::Contents;
@@ -6,7 +7,8 @@ use leafmodel::optics::Contents;
 use crate::material::{ExceedingCoat, Material};
 use crate::scene::description::Description;
 
-/// Notes leaves and solid tissue whose coat alone reflects more than the whole should, each once.
+/// Notes on leaves and solid tissue whose coat alone reflects more than the whole should, one for
+/// each.
 pub(super) fn on_coats(
     scene: &Description,
     materials: &[Material],
@@ -37,12 +39,12 @@ pub(super) fn on_coats(
     notes.into_iter().map(|(_, note)| note).collect()
 }
 
-/// Notes maps with both betalains and anthocyanins, in whichever texels: no plant holds both.
+/// Notes on maps with both betalains and anthocyanins in any texels, since no plant has both.
 pub(super) fn on_maps<'m>(
     materials: impl IntoIterator<Item = (&'m str, &'m Material)>,
 ) -> Vec<String> {
-    // Contents are at least 0, so their means tell whether any texel has some. Uniform ones are
-    // told of where they are read.
+    // Contents are at least 0, so their means show whether any texel has some. Uniform contents are
+    // checked where they are read.
     let mixes = |material: &Material| {
         let map = material.contents_map();
         map.is_some_and(|map| map.mean().mixes_betalains_and_anthocyanins())
@@ -69,7 +71,7 @@ mod tests {
     use crate::material::palette::Palette;
     use leafmodel::optics::Constituent;
 
-    /// Two texels: what the first holds of anthocyanins, and what the second holds of betaxanthins.
+    /// A leaf of two texels, the first with anthocyanins, the second with betaxanthins.
     fn leaf(anthocyanins: f32, betaxanthins: f32) -> Material {
         let green = Contents::prospect_d([1.5, 30.0, 8.0, 0.0, 0.0, 0.01, 0.01]).to_texel();
         let first = green.with(&[(Constituent::Anthocyanins, anthocyanins)]);

@@ -1,4 +1,4 @@
-//! Puts shapes at their places: instances of meshes, with the object, material and light of each.
+//! Placing of shapes: instances of meshes, with the object, material and light of each.
 
 use std::ops::Index;
 
@@ -32,19 +32,19 @@ impl Pieces {
     }
 }
 
-/// An instance as paths see it.
+/// The object, material and light of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldObject {
     /// Number of the object in the scene.
     pub object: usize,
     /// Number of its material.
     pub material: usize,
-    /// Number of the light that it is, if it shines.
+    /// Number of its light, if it emits light.
     pub light: Option<usize>,
 }
 
-/// What each instance is. All places of an object share an entry for each of its parts, so that an
-/// instance costs eight bytes here.
+/// The object, material and light of each instance. All places of an object share an entry for each
+/// of its parts, so an instance takes eight bytes here.
 #[derive(Clone, Debug, Default)]
 pub struct WorldObjects {
     parts: Vec<WorldObject>,
@@ -53,30 +53,30 @@ pub struct WorldObjects {
 
 #[derive(Clone, Copy, Debug)]
 struct Standing {
-    /// Which of the parts.
+    /// Number of the part.
     part: u32,
-    /// Which of its object's places, from 0.
+    /// Number of the place within its object, from 0.
     place: u32,
 }
 
 impl WorldObjects {
-    /// How many instances there are.
+    /// Number of instances.
     pub fn len(&self) -> usize {
         self.instances.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no instances.
     pub fn is_empty(&self) -> bool {
         self.instances.is_empty()
     }
 
-    /// Which of its object's places an instance belongs to, from 0: the row of the object's file,
-    /// or 0 if the object stands in one place. Parts of a leaf share it.
+    /// Number of an instance's place within its object, from 0: the row of the object's file, or 0
+    /// if the object has one place. Parts of a leaf share it.
     pub fn place_of(&self, instance: u32) -> u32 {
         self.instances[instance as usize].place
     }
 
-    /// Makes an instance a light. It must be the only instance of its part.
+    /// Makes an instance emit light. It must be the only instance of its part.
     pub(super) fn shine(&mut self, instance: usize, light: usize) {
         self.parts[self.instances[instance].part as usize].light = Some(light);
     }
@@ -99,7 +99,7 @@ impl Index<usize> for WorldObjects {
     }
 }
 
-/// Everything at its place.
+/// All instances, placed.
 #[derive(Debug, Default)]
 pub(super) struct Placed {
     pub(super) instances: Vec<Instance>,
@@ -117,7 +117,7 @@ impl Placed {
         self.objects.instances.push(Standing { part, place });
     }
 
-    /// Puts a part of an object that stands in one place.
+    /// Places a part of an object with one place.
     fn put_alone(&mut self, object: usize, piece: &Piece, to_world: DMat4) {
         let part = self.objects.add_part(object, piece.material);
         self.put(part, 0, piece.mesh, carried(to_world, piece));
@@ -126,15 +126,15 @@ impl Placed {
 
 /// Instances of every shape of the scene.
 ///
-/// They come in this order: the first part of each object that stands in one place, the other parts
-/// of these objects, then objects with instances. Of equally near hits the smaller number wins, so
-/// the order affects the picture.
+/// Their order is: the first part of each object with one place, the other parts of these objects,
+/// then objects with instances. Of equally near hits the smaller number wins, so the order affects
+/// the picture.
 pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
     let mut placed = Placed {
         first: vec![0; scene.objects.len()],
         ..Placed::default()
     };
-    // Exact unless leaves have several parts.
+    // The number is exact unless leaves have several parts.
     let places = scene.objects.iter();
     let count = places.map(|object| object.value.instances.as_ref().map_or(1, Vec::len));
     let count = count.sum();
@@ -178,7 +178,7 @@ pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
     placed
 }
 
-/// Transform from a part's mesh to the world, given the transform `to_world` of its shape.
+/// The transform from a part's mesh to the world, given that of its shape.
 fn carried(to_world: DMat4, piece: &Piece) -> Affine3A {
     Affine3A::from_mat4((to_world * DMat4::from(piece.to_leaf)).as_mat4())
 }

@@ -37,7 +37,7 @@ fn of_several_bodies_that_cannot_be_grown_the_first_of_the_scene_is_told() {
     let mut scene = loaded
         .unwrap_or_else(|errors| panic!("{errors}"))
         .description;
-    // The first is found out once its mosaic is grown, the second at once.
+    // The first error is found only when the mosaic is grown, the second at once.
     let pattern = scene.solids[0].value.plan.mosaic.clone();
     scene.solids[0].value.plan.map_size = 1;
     let pattern = scene.solids[1]

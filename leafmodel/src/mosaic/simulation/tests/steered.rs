@@ -1,4 +1,4 @@
-//! Mosaics that cylinders steer.
+//! Mosaics with controls.
 
 use glam::DVec3;
 

@@ -1,9 +1,9 @@
-//! The header of a PLY file: its elements and what they are made of.
+//! The header of a PLY file: its elements and their properties.
 
 use super::super::ImportError;
 use crate::geometry::import::shown;
 
-/// Longest header that is read; every header of use is far shorter.
+/// Longest header that is read, bytes; useful headers are much shorter.
 const LONGEST: usize = 1 << 16;
 
 /// How the values are written.
@@ -43,7 +43,7 @@ impl Scalar {
     }
 }
 
-/// A number, or a list of them after its length.
+/// A number, or a list of numbers preceded by its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Scalar(Scalar),
@@ -59,7 +59,7 @@ pub(super) struct Property {
 #[derive(Debug)]
 pub(super) struct Element {
     pub(super) name: String,
-    /// As claimed; nothing is allocated on its word.
+    /// The claimed count, for which nothing is allocated.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }

@@ -58,7 +58,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// A list: its length, then each of its numbers to `item`.
+    /// Reads a list: its length, then its numbers, each of which is passed to `item`.
     pub(super) fn list(
         &mut self,
         count: Scalar,
@@ -76,7 +76,7 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// Ends a vertex, a face …: in text that is the end of a line.
+    /// Ends a vertex or a face; in a text file that is the end of a line.
     pub(super) fn end_of_item(&mut self) -> Result<(), ImportError> {
         if self.format != Format::Ascii {
             return Ok(());
@@ -95,8 +95,8 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// The next word of this line; empty lines before it are passed over at the beginning of an
-    /// item only, because a line that ends too early must not borrow from the next.
+    /// The next word of this line; empty lines are skipped at the beginning of an item only,
+    /// because a line that ends too early must not continue on the next.
     fn word(&mut self) -> Result<&'a str, ImportError> {
         let mut at_start = self.byte == 0 || self.bytes[self.byte - 1] == b'\n';
         loop {

@@ -1,11 +1,11 @@
-//! The columns that a table of instances may have.
+//! The names of the columns of a table of instances.
 
 use leafmodel::document::limits::Limits;
 
 use crate::scene::blocks::camera::COORDINATES_M;
 use crate::scene::blocks::placement::{ANGLES_DEG, SCALES};
 
-/// Names of the columns, in the order in which a row keeps their numbers.
+/// Names of the columns, in the order in which a row stores their numbers.
 pub(super) const NAMES: [&str; COUNT] = [
     "x_m",
     "y_m",
@@ -24,21 +24,21 @@ pub(super) const NAMES: [&str; COUNT] = [
     "shape",
 ];
 
-/// How many columns there are.
+/// Number of columns.
 pub(super) const COUNT: usize = 15;
 pub(super) const POSITION: usize = 0;
 pub(super) const ROTATION: usize = 3;
 pub(super) const QUATERNION: usize = 6;
 pub(super) const SCALE: usize = 10;
 pub(super) const AXES: usize = 11;
-/// Which of the object's shapes a row is.
+/// Index of the column for the object's shape.
 pub(super) const SHAPE: usize = 14;
 
-/// How far a quaternion's length may be from 1: numbers with three digits pass, other columns do
-/// not.
+/// Greatest deviation of a quaternion's length from 1. Quaternions with three digits pass; columns
+/// with other meanings do not.
 pub(super) const UNIT_TOLERANCE: f64 = 0.01;
 
-/// What a column's numbers may be; shapes are looked up instead.
+/// The range of a column's numbers; shapes are looked up instead.
 pub(super) fn limits(column: usize) -> Limits {
     match column {
         POSITION..ROTATION => COORDINATES_M,

@@ -1,4 +1,4 @@
-//! The columns that a table of instances may have, and what their numbers mean together.
+//! The columns of a table of instances, and the place that a row's numbers give.
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
@@ -13,17 +13,17 @@ use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
 
-/// Which columns a file has, in its order.
+/// The columns of a file, in its order.
 #[derive(Debug)]
 pub(super) struct Header {
-    /// Of each field its column.
+    /// The column of each field.
     pub(super) columns: Vec<usize>,
 }
 
-/// What is wrong with a header.
+/// An error of a header.
 #[derive(Debug, PartialEq)]
 pub(super) struct HeaderError {
-    /// Number of the field, if it is one.
+    /// Number of the field, if a single field is wrong.
     pub(super) field: Option<usize>,
     /// Completes "the header …".
     pub(super) problem: String,
@@ -32,7 +32,7 @@ pub(super) struct HeaderError {
 }
 
 impl Header {
-    /// Looks the names of a header up.
+    /// Looks up the names of a header.
     pub(super) fn of(names: &[&str], shapes: usize) -> Result<Self, Vec<HeaderError>> {
         let mut errors = Vec::new();
         let mut wrong = |field: Option<usize>, problem: String, help: String| {
@@ -42,7 +42,7 @@ impl Header {
                 help,
             });
         };
-        // Of each field its column, if it is one.
+        // The column of each field, if its name is known.
         let mut found: Vec<Option<usize>> = Vec::new();
         let mut misspelt = Vec::new();
         for (field, name) in names.iter().take(ENOUGH).enumerate() {
@@ -68,8 +68,8 @@ impl Header {
         let has = |column: usize| columns.contains(&column) || misspelt.contains(&NAMES[column]);
         let mut needed: Vec<usize> = (POSITION..ROTATION).collect();
         for group in [ROTATION..QUATERNION, QUATERNION..SCALE, AXES..SHAPE] {
-            // An angle that is left out is 0; a part of a quaternion or an axis has no such
-            // default.
+            // A missing angle is 0; a missing component of a position, a quaternion or of scales
+            // along axes is an error.
             if group.start != ROTATION && group.clone().any(has) {
                 needed.extend(group);
             }
@@ -131,12 +131,12 @@ impl Row {
         }
     }
 
-    /// Takes what is wrong with the row beside its numbers.
+    /// Adds an error of the row.
     pub(super) fn fail(&mut self, error: RowError) {
         self.errors.push(error);
     }
 
-    /// Takes the number of a column; `field` is how it is written.
+    /// Sets the number of a column; `field` is its text in the file.
     pub(super) fn number(&mut self, column: usize, value: f64, field: impl Fn() -> String) {
         if !value.is_finite() {
             let field = field();
@@ -152,7 +152,7 @@ impl Row {
         self.numbers[column] = value;
     }
 
-    /// Takes which shape a row is, by its number.
+    /// Sets the shape of a row by its number.
     pub(super) fn shape(&mut self, table: &Table<'_>, number: f64, field: impl Fn() -> String) {
         let is_one = number >= 0.0 && number < table.shapes.len() as f64 && number.fract() == 0.0;
         if is_one {
@@ -162,15 +162,15 @@ impl Row {
         }
     }
 
-    /// The place that the row stands for: scaled, then turned, then moved, as objects are, then
-    /// carried by the object's own frame.
+    /// The place of the row's instance: scale, rotation, translation, as for objects, then the
+    /// object's own frame.
     pub(super) fn place(mut self, table: &Table<'_>) -> Result<InstancePlace, Vec<RowError>> {
         let three = |at: usize| DVec3::from_slice(&self.numbers[at..at + 3]);
         let linear = if self.has_quaternion {
             let [w, x, y, z] = std::array::from_fn(|i| self.numbers[QUATERNION + i]);
             let quaternion = DQuat::from_xyzw(x, y, z, w);
             let length = quaternion.length();
-            // A number that is wrong has been told already.
+            // A wrong number has already been reported.
             if self.errors.is_empty() && (length - 1.0).abs() > UNIT_TOLERANCE {
                 self.errors.push(RowError::NotUnit { length });
             }
@@ -223,7 +223,7 @@ mod tests {
                 "names `scale` and `scale_x`, which exclude each other"
             ]
         );
-        // What is misspelt is not told as missing too.
+        // A misspelt column is not reported as missing too.
         assert_eq!(
             problems(&["x_mm", "y_m", "z_m"], 1),
             ["names `x_mm`, which is no column"]

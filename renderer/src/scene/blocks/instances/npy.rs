@@ -1,8 +1,8 @@
-//! Tables of instances as `NumPy` writes them: a structured array whose fields are named as columns
-//! are.
+//! Tables of instances as `NumPy` writes them: a structured array whose fields have the names of
+//! columns.
 //!
-//! Read are arrays of one dimension, little-endian, with fields of floats or integers: what
-//! `np.save("canopy.npy", np.rec.fromarrays([x, y, z], names="x_m,y_m,z_m"))` gives.
+//! Supported are one-dimensional, little-endian arrays with fields of floats or integers, such as
+//! those written by `np.save("canopy.npy", np.rec.fromarrays([x, y, z], names="x_m,y_m,z_m"))`.
 //!
 //! # Source
 //!
@@ -22,10 +22,10 @@ use leafmodel::document::context::Context;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::source::Place;
 
-/// Rows that one thread reads at a time.
+/// Number of rows that one thread reads at a time.
 const PIECE: usize = 1 << 14;
 
-/// Reads the rows; `None` if the file has no rows that can be read, which is then reported.
+/// Reads the rows; `None`, after a report, if the file has no readable rows.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
     const HELP: &str = "write a structured array: `np.save(\"places.npy\", \
                         np.rec.fromarrays([x, y, z], names=\"x_m,y_m,z_m\"))`";
@@ -114,7 +114,7 @@ impl Field {
     }
 }
 
-/// The row as text, since the file has none.
+/// The row as text, for the report.
 fn wrong_row(
     header: &Header,
     array: &Array,
@@ -180,7 +180,8 @@ mod tests {
             bytes.extend(y.to_le_bytes());
             bytes.extend(z.to_le_bytes());
             bytes.extend(scale.to_le_bytes());
-            // The digits of a 32-bit number mean another number in 64 bits.
+            // The shortest digits of a 32-bit number differ from those of the same number in 64
+            // bits.
             let (y, scale) = (f64::from(y), f64::from(scale));
             text += &format!("{shape} {x} {y} {z} {scale}\n");
         }
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(cx.error_count(), 0);
         assert_eq!(array.places.len(), count);
         assert!(array.places == text.places);
-        // Of a wrong row its number and its values are told.
+        // The report of a wrong row has its number and values.
         let second = bytes.len() - (count - 1) * 28;
         bytes[second..second + 8].copy_from_slice(&7_i64.to_le_bytes());
         let wrong = read(&cx, &table, &at, &bytes).expect("an array").wrong;

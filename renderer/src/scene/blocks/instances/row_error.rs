@@ -1,4 +1,4 @@
-//! What can be wrong with a row of a table of instances, and how a report tells it.
+//! Errors of a row of a table of instances, and their messages.
 
 use super::Table;
 use super::column_names::{NAMES, QUATERNION, SHAPE, limits};
@@ -8,7 +8,7 @@ use leafmodel::document::nearest::nearest;
 use leafmodel::document::source::escaped;
 use leafmodel::document::values::listed;
 
-/// What is wrong with a row.
+/// An error of a row.
 #[derive(Debug, PartialEq)]
 pub(super) enum RowError {
     /// It has more or fewer fields than the header.
@@ -23,23 +23,23 @@ pub(super) enum RowError {
         /// Its bytes.
         bytes: usize,
     },
-    /// A field is no number.
+    /// A field is not a number.
     NotANumber {
-        /// Of the columns.
+        /// Index of the column.
         column: usize,
         /// The field as written.
         field: String,
     },
     /// A number is not finite.
     NotFinite {
-        /// Of the columns.
+        /// Index of the column.
         column: usize,
         /// The field as written.
         field: String,
     },
     /// A number is outside its range.
     Outside {
-        /// Of the columns.
+        /// Index of the column.
         column: usize,
         /// The field as written.
         field: String,
@@ -56,7 +56,7 @@ pub(super) enum RowError {
         /// The field as written.
         field: String,
     },
-    /// A quaternion that is no rotation.
+    /// A quaternion is not of unit length.
     NotUnit {
         /// Its length.
         length: f64,
@@ -76,7 +76,7 @@ impl RowError {
         }
     }
 
-    /// The error as a scene's report tells it.
+    /// The error as it appears in a scene's report.
     pub(super) fn told(&self, table: &Table<'_>) -> DocumentError {
         let key = |column: usize| NAMES[column].to_owned();
         match self {

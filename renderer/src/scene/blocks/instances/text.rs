@@ -1,7 +1,7 @@
-//! Tables of instances as text: a header with the columns' names, then a row a line.
+//! Tables of instances as text: a header with the columns' names, then one row per line.
 //!
-//! Fields are parted by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are left
-//! out.
+//! Fields are separated by comma, semicolon, tab or spaces; `#` begins a comment; empty lines are
+//! ignored.
 
 use rayon::prelude::*;
 
@@ -14,16 +14,16 @@ use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::source::{Place, escaped, line_of_byte};
 
-/// What parts the fields of a line.
+/// Separators of the fields of a line.
 const SEPARATORS: [char; 5] = [',', ';', ' ', '\t', '\r'];
 
-/// Bytes of a piece that one thread reads at a time.
+/// Size of the piece that one thread reads at a time, bytes.
 const PIECE: usize = 1 << 20;
 
 /// Longest line that may be a row, bytes.
 const LONGEST: usize = 1 << 14;
 
-/// Reads the rows; `None` if the file has no rows that can be read, which is then reported.
+/// Reads the rows; `None`, after a report, if the file has no readable rows.
 pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) -> Option<Rows> {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text),
@@ -59,7 +59,7 @@ pub(super) fn read(cx: &Context, table: &Table<'_>, at: &Place, bytes: &[u8]) ->
         return None;
     }
     let header = read_header(cx, table, line, line_number)?;
-    // Lines, not rows: comments and empty ones count here, which is near enough for a bound.
+    // Counts lines, including comments and empty ones, which is accurate enough for a bound.
     let lines = rest.bytes().filter(|byte| *byte == b'\n').count();
     if !table.bear(cx, at, lines.max(1)) {
         return None;
@@ -135,7 +135,7 @@ fn read_header(cx: &Context, table: &Table<'_>, line: &str, number: usize) -> Op
     None
 }
 
-/// The rows of some lines, lines counted from 1, and how many lines there are.
+/// The rows of a piece, with lines counted from 1, and the number of its lines.
 fn read_piece(table: &Table<'_>, header: &Header, piece: &str) -> (Rows, usize) {
     let mut rows = Rows::default();
     let mut lines = 0;
@@ -180,7 +180,7 @@ fn read_row(
     }
     let wanted = header.columns.len();
     if found != wanted {
-        // Which field is which is not known.
+        // Fields cannot be assigned to columns.
         return Err(vec![RowError::Fields { found, wanted }]);
     }
     row.place(table)
@@ -204,13 +204,13 @@ fn shown(field: &str) -> String {
     escaped(field, QUOTED)
 }
 
-/// Where a piece of a line lies in it.
+/// The range of bytes of a piece within its line.
 fn span(line: &str, piece: &str) -> std::ops::Range<usize> {
     let start = piece.as_ptr() as usize - line.as_ptr() as usize;
     start..start + piece.len()
 }
 
-/// A line of which only the beginning is shown.
+/// A wrong row of which only the beginning is shown.
 fn too_long(line: &str, number: usize, errors: Vec<RowError>) -> WrongRow {
     let shown: String = line.chars().take(QUOTED).collect();
     let whole = 0..shown.len();
@@ -319,7 +319,7 @@ mod tests {
         for (row, place) in places.iter().enumerate() {
             assert_eq!(place.to_world[9], row as f32);
         }
-        // Line numbers count the header, and go on over pieces.
+        // Line numbers include the header and continue across pieces.
         let broken = text.replace(&format!("{:>30} 0 0 a", count - 2), "x 0 0 a");
         let errors = read_all(&broken).expect_err("one is no number");
         assert_eq!(errors.len(), 1);
@@ -350,7 +350,7 @@ mod tests {
         );
         assert_eq!(code("x_m y_m z_m shape\n0 0 0 -1\n"), "scene::out_of_range");
         assert_eq!(code("x_m y_m z_m shape\n0 0 0 4\n"), "scene::out_of_range");
-        // A name that is there twice says nothing; its places in the list do.
+        // A name that occurs twice is ambiguous; its numbers in the list are not.
         assert_eq!(code("x_m y_m z_m shape\n0 0 0 c\n"), "scene::impossible");
         assert!(read_all("x_m y_m z_m shape\n0 0 0 2\n0 0 0 3\n").is_ok());
         let long = "0 ".repeat(LONGEST);

@@ -1,7 +1,7 @@
-//! The header of a `NumPy` file: which fields a row has, how many rows there are, and where they
-//! begin.
+//! The header of a `NumPy` file: the fields of a row, the number of rows, and the offset of the
+//! first.
 //!
-//! It is a Python literal, of which only what `np.save` writes is understood.
+//! It is a Python literal; only the forms written by `np.save` are understood.
 
 use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::source::escaped;
@@ -20,12 +20,12 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// What `NumPy` calls a type, such as `<f4`.
+    /// The type with a `NumPy` code such as `<f4`.
     fn of(code: &str) -> Option<Self> {
         let (order, rest) = code.split_at_checked(1)?;
         let (kind, size) = rest.split_at_checked(1)?;
         let size: usize = size.parse().ok()?;
-        // A single byte has no order.
+        // A single byte has no byte order.
         if order != "<" && !(order == "|" && size == 1) {
             return None;
         }
@@ -46,7 +46,7 @@ impl Number {
         }
     }
 
-    /// The number in these bytes, of which there are [`Number::size`].
+    /// The number in [`Number::size`] bytes.
     pub(super) fn read(self, bytes: &[u8]) -> f64 {
         let mut word = [0; 8];
         word[..bytes.len()].copy_from_slice(bytes);
@@ -63,7 +63,7 @@ impl Number {
     }
 }
 
-/// A field of the array: where in a row, and how stored.
+/// A field of the array: its offset in a row and its type.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Field {
     pub(super) name: String,
@@ -71,7 +71,7 @@ pub(super) struct Field {
     pub(super) number: Number,
 }
 
-/// What a header says.
+/// The contents of a header.
 #[derive(Debug, PartialEq)]
 pub(super) struct Array {
     pub(super) fields: Vec<Field>,
@@ -83,7 +83,7 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// What the file's header says, or what is wrong with it.
+    /// Reads the file's header; the error is a message.
     pub(super) fn of(bytes: &[u8]) -> Result<Self, String> {
         let cut = || "ends within its header".to_owned();
         let Some(rest) = bytes.strip_prefix(MAGIC) else {
@@ -114,7 +114,7 @@ impl Array {
         Self::from_literal(text, start)
     }
 
-    /// From the dictionary in the header.
+    /// Reads the dictionary in the header.
     fn from_literal(text: &str, start: usize) -> Result<Self, String> {
         let mut words = Words { rest: text };
         let (mut fields, mut rows) = (None, None);
@@ -124,7 +124,7 @@ impl Array {
             words.take(":")?;
             match key {
                 "descr" => fields = Some(words.fields()?),
-                // Of one dimension both orders are the same.
+                // With one dimension both orders are the same.
                 "fortran_order" if words.take_if("False") => {}
                 "fortran_order" => words.take("True")?,
                 "shape" => rows = Some(words.one_length()?),
@@ -146,7 +146,7 @@ impl Array {
     }
 }
 
-/// What is left of a Python literal.
+/// The unread rest of a Python literal.
 struct Words<'t> {
     rest: &'t str,
 }
@@ -209,7 +209,7 @@ impl<'t> Words<'t> {
         }
     }
 
-    /// `[('x_m', '<f4'), …]`, and bytes of a row.
+    /// `[('x_m', '<f4'), …]`, and the number of bytes of a row.
     fn fields(&mut self) -> Result<(Vec<Field>, usize), String> {
         if !self.take_if("[") {
             return Err(format!(
@@ -229,7 +229,7 @@ impl<'t> Words<'t> {
                 return Err(format!("has a field `{name}` of several numbers"));
             }
             self.take(")")?;
-            // Gaps of aligned rows have no name: '|V4' is four bytes of nothing.
+            // Padding in aligned rows has no name: '|V4' is four bytes of padding.
             let gap = code
                 .strip_prefix("|V")
                 .and_then(|size| size.parse::<u16>().ok());
