@@ -48,6 +48,23 @@ def srgb_of_hex(text: str) -> Array:
     return np.array([int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)])
 
 
+def lightness_chroma_of_xyz(xyz: Array) -> tuple[float, float]:
+    """CIELAB L* and C* of a colour under D65, Y of white 1."""
+    lightness, a, b = science.XYZ_to_Lab(xyz, _D65_XY)
+    return float(lightness), float(np.hypot(a, b))
+
+
+def lightness_chroma(linear: Array) -> tuple[float, float]:
+    """L* and C* of linear sRGB."""
+    xyz = science.RGB_to_XYZ(linear, "sRGB", apply_cctf_decoding=False)
+    return lightness_chroma_of_xyz(xyz)
+
+
+def lightness_chroma_of_srgb(encoded: Array) -> tuple[float, float]:
+    """L* and C* of encoded sRGB."""
+    return lightness_chroma_of_xyz(science.sRGB_to_XYZ(encoded))
+
+
 def delta_e_of_xyz(ours: Array, theirs: Array) -> float:
     """ΔE2000 of two colours under D65, Y of white 1."""
     lab = [science.XYZ_to_Lab(xyz, _D65_XY) for xyz in (ours, theirs)]

@@ -16,7 +16,7 @@ use crate::venation::plan::{AuxinPlan, Growth};
 /// Rows of cells, the paper's typical value.
 const ROWS: u16 = 150;
 
-/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. With veins some 28
+/// Rows, from 1, of the veins of Figs. 7 and 8, which the paper does not print. With veins some 30
 /// rows apart, its paired values of `a` for `n` = 1 and 2 give equally deep notches.
 const OAK_VEINS: [u16; 5] = [15, 45, 75, 105, 135];
 
