@@ -147,9 +147,12 @@ impl CompoundForm {
     /// way.
     pub fn arrange(&self, leaflet: &LeafPlan) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
-        // Only light that is uneven by chance gives leaflets margins of their own.
+        // Only light that is uneven by chance and development give leaflets margins of their own.
         let plans = leaflet_plans(leaflet, self);
-        let alike = !matches!(leaflet.outline.contour, Contour::Transport(_));
+        let alike = !matches!(
+            leaflet.outline.contour,
+            Contour::Transport(_) | Contour::Development(_)
+        );
         let outlines = plans.iter().take(if alike { 1 } else { plans.len() });
         let outlines: Result<Vec<Outline>, LeafError> =
             outlines.map(LeafPlan::grow_outline).collect();
