@@ -147,9 +147,12 @@ impl CompoundForm {
     /// [`CompoundError`], naming the parameter and its range, or the leaflets that overlap.
     pub fn arrange(&self, leaflet: &LeafPlan) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
-        // Only randomly uneven light gives leaflets different margins.
+        // Only randomly uneven light and development give leaflets different margins.
         let plans = leaflet_plans(leaflet, self);
-        let alike = !matches!(leaflet.outline.contour, Contour::Transport(_));
+        let alike = !matches!(
+            leaflet.outline.contour,
+            Contour::Transport(_) | Contour::Development(_)
+        );
         let outlines = plans.iter().take(if alike { 1 } else { plans.len() });
         let outlines: Result<Vec<Outline>, LeafError> =
             outlines.map(LeafPlan::grow_outline).collect();

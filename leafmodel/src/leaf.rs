@@ -41,6 +41,7 @@ use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
+use crate::development::DevelopmentError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
 use crate::optics::Pigments;
 use crate::transport::TransportError;
@@ -113,6 +114,12 @@ pub enum LeafError {
     /// Veins of a transport leaf on another contour.
     #[error("venation: veins of the cells need the outline of a transport leaf")]
     NoCells,
+    /// Veins of a developed leaf.
+    #[error("venation: {0}")]
+    MainVeins(#[from] DevelopmentError),
+    /// Veins of a developed leaf on another contour.
+    #[error("venation: main veins that develop need the outline of a leaf that develops")]
+    NotDeveloped,
     /// Stages of a leaf that has none.
     #[error("there are no stages of growth: {0}")]
     NoStages(&'static str),

@@ -56,6 +56,7 @@
 //! | --- | --- |
 //! | a margin from an SVG file or from control points | [`shape`] |
 //! | how veins come to be | [`venation`], [`transport`] |
+//! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs | [`measure`], [`export`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
 //! | leaflets on a rachis; fruits and caps | [`compound`], [`solid`] |
@@ -67,6 +68,7 @@
 
 pub mod blade;
 pub mod compound;
+pub mod development;
 pub mod document;
 pub mod export;
 pub mod leaf;

@@ -19,7 +19,7 @@ pub mod cubic_margin;
 pub mod growth;
 pub mod growth_form;
 mod interior_grid;
-mod outer_boundary;
+pub(crate) mod outer_boundary;
 pub mod outline;
 pub(crate) mod segments;
 mod slabs;

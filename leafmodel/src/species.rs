@@ -29,6 +29,7 @@ mod claims;
 pub mod colours;
 mod compound_leaves;
 mod contours;
+mod developed;
 mod extended;
 pub mod leaf_traits;
 mod list;

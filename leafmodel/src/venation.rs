@@ -47,6 +47,7 @@ pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
 mod fresh_nodes;
+mod given;
 mod horizon;
 mod influence;
 mod lamina;
@@ -68,7 +69,7 @@ pub(crate) mod testing;
 pub(crate) mod topology;
 mod urquhart;
 mod veins;
-mod width;
+pub(crate) mod width;
 
 use glam::DVec2;
 use thiserror::Error;
@@ -76,6 +77,7 @@ use thiserror::Error;
 use self::auxin::waiting_darts;
 use self::closed::Anastomosis;
 use self::conformal_map::ConformalMap;
+use self::given::GivenVeins;
 use self::influence::Influence;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
@@ -129,7 +131,25 @@ pub fn grow_unless(
     seed: u64,
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<VenationNetwork, VenationError> {
-    let (network, _) = develop(outline, plan, seed, &[], is_stopped)?;
+    let (network, _) = develop(outline, plan, None, seed, &[], is_stopped)?;
+    Ok(network)
+}
+
+/// As [`grow_unless`], but from veins that are there, in the frame of the full-grown outline: finer
+/// veins grow around them. They move with the lamina as it grows, and a margin that grows alone
+/// finds them in place.
+///
+/// # Errors
+///
+/// As [`grow_unless`].
+pub fn grow_around(
+    outline: &Outline,
+    plan: &AuxinPlan,
+    main: &VenationNetwork,
+    seed: u64,
+    is_stopped: &dyn Fn() -> bool,
+) -> Result<VenationNetwork, VenationError> {
+    let (network, _) = develop(outline, plan, Some(main), seed, &[], is_stopped)?;
     Ok(network)
 }
 
@@ -157,7 +177,32 @@ pub fn grow_stages(
     seed: u64,
     steps: &[u32],
 ) -> Result<Vec<Stage>, VenationError> {
-    let (network, mut stages) = develop(outline, plan, seed, steps, &|| false)?;
+    stages_of(outline, plan, None, seed, steps)
+}
+
+/// As [`grow_stages`], from veins that are there as in [`grow_around`].
+///
+/// # Errors
+///
+/// As [`grow`].
+pub fn grow_stages_around(
+    outline: &Outline,
+    plan: &AuxinPlan,
+    main: &VenationNetwork,
+    seed: u64,
+    steps: &[u32],
+) -> Result<Vec<Stage>, VenationError> {
+    stages_of(outline, plan, Some(main), seed, steps)
+}
+
+fn stages_of(
+    outline: &Outline,
+    plan: &AuxinPlan,
+    main: Option<&VenationNetwork>,
+    seed: u64,
+    steps: &[u32],
+) -> Result<Vec<Stage>, VenationError> {
+    let (network, mut stages) = develop(outline, plan, main, seed, steps, &|| false)?;
     stages.sort_by_key(|stage| stage.step);
     let full_grown = Stage {
         step: network.steps(),
@@ -175,6 +220,7 @@ pub fn grow_stages(
 fn develop(
     outline: &Outline,
     plan: &AuxinPlan,
+    main: Option<&VenationNetwork>,
     seed: u64,
     steps: &[u32],
     is_stopped: &dyn Fn() -> bool,
@@ -183,7 +229,13 @@ fn develop(
     let blade = in_segments(outline, plan);
     let (lamina, clock) = prepared(&blade, plan)?;
     let segment_mm = outline.length() / plan.final_length;
-    let (grown, young) = carry_out(plan, lamina, clock, seed, steps, is_stopped);
+    let given = main.map(|main| GivenVeins::new(main, outline.base(), segment_mm));
+    let watch = Watch {
+        steps,
+        young: Vec::new(),
+        is_stopped,
+    };
+    let (grown, young) = carry_out_from(plan, lamina, clock, given.as_ref(), seed, watch);
     if is_stopped() {
         return Err(VenationError::Stopped);
     }
@@ -286,6 +338,7 @@ pub(crate) struct Grown {
 }
 
 /// Runs a checked plan; returns the full-grown state and those after `steps`.
+#[cfg(test)]
 pub(crate) fn carry_out(
     plan: &AuxinPlan,
     lamina: Lamina,
@@ -299,13 +352,25 @@ pub(crate) fn carry_out(
         young: Vec::new(),
         is_stopped,
     };
+    carry_out_from(plan, lamina, clock, None, seed, watch)
+}
+
+/// As [`carry_out`], from veins that are there.
+fn carry_out_from(
+    plan: &AuxinPlan,
+    lamina: Lamina,
+    clock: LaminaClock,
+    given: Option<&GivenVeins>,
+    seed: u64,
+    watch: Watch<'_>,
+) -> (Grown, Vec<Grown>) {
     match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, seed, watch),
+        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, given, seed, watch),
         Pattern::Closed(Neighbourhood::Relative) => {
-            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, seed, watch)
+            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, given, seed, watch)
         }
         Pattern::Closed(Neighbourhood::Urquhart) => {
-            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, seed, watch)
+            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, given, seed, watch)
         }
     }
 }
@@ -334,12 +399,20 @@ fn simulate<I: Influence>(
     plan: &AuxinPlan,
     lamina: Lamina,
     clock: LaminaClock,
+    given: Option<&GivenVeins>,
     seed: u64,
     mut watch: Watch<'_>,
 ) -> (Grown, Vec<Grown>) {
     let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
+    if let Some(given) = given {
+        simulation.start_from(given);
+    }
     watch.look(&simulation);
-    let mut rounds = simulation.arch_rounds();
+    // Veins that are given take the place of those that would be laid out.
+    let mut rounds = match given {
+        Some(_) => Vec::new(),
+        None => simulation.arch_rounds(),
+    };
     if let Some(arches) = rounds.pop() {
         // Secondaries end freely at first and join later (\[scarpella2004\]).
         let mut free = simulation.under::<NearestNode>();

@@ -33,9 +33,10 @@ impl LeafPlan {
                 };
                 Ok(Some(Fields::Arcuate(veins)))
             }
-            VenationPlan::Auxin(_) | VenationPlan::Cells(_) | VenationPlan::Transport(_) => {
-                Ok(self.death_field(lamina)?.map(Fields::Deaths))
-            }
+            VenationPlan::Auxin(_)
+            | VenationPlan::Cells(_)
+            | VenationPlan::Transport(_)
+            | VenationPlan::Development(_) => Ok(self.death_field(lamina)?.map(Fields::Deaths)),
         }
     }
 

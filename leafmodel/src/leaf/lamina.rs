@@ -1,11 +1,13 @@
 //! The flat leaf: margin and veins, and the cells of a transport leaf.
 
+use super::outline_plan::Origin;
 use super::{LeafError, LeafPlan};
+use crate::development::{DevelopedLeaf, MainVeinStyle};
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, TransportLeaf};
 use crate::venation::network::VenationNetwork;
-use crate::venation::{self, grow_unless};
+use crate::venation::{self, grow_around, grow_unless};
 
 /// A leaf before it is bent. Lengths are millimetres; the base is the origin, the midrib goes along
 /// +y.
@@ -17,6 +19,8 @@ pub struct Lamina {
     pub network: VenationNetwork,
     /// The transport leaf whose margin this is, if it is one.
     pub cells: Option<TransportLeaf>,
+    /// The leaf that has developed from this margin, if it did.
+    pub developed: Option<DevelopedLeaf>,
     /// The cells that its veins supply, if they are the cheapest network that fills the margin.
     pub filled: Option<FilledBlade>,
 }
@@ -46,15 +50,19 @@ impl LeafPlan {
     ///
     /// [`LeafError`] of the outline or the veins.
     pub fn check_lamina(&self) -> Result<(), LeafError> {
-        let (outline, cells) = self.outline.grow_with_cells(self.length_mm, self.seed)?;
+        let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         match &self.venation {
             VenationPlan::Auxin(plan) => venation::check(&outline, plan)?,
             VenationPlan::Arcuate(plan) => plan.validate()?,
             VenationPlan::Cells(style) => {
                 style.validate()?;
-                cells.ok_or(LeafError::NoCells)?;
+                origin.cells().ok_or(LeafError::NoCells)?;
             }
             VenationPlan::Transport(plan) => plan.check(&outline)?,
+            VenationPlan::Development(style) => {
+                style.validate()?;
+                origin.developed().ok_or(LeafError::NotDeveloped)?;
+            }
         }
         Ok(())
     }
@@ -66,16 +74,24 @@ impl LeafPlan {
     /// As [`LeafPlan::grow_lamina`], and
     /// [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
-        let (outline, cells) = self.outline.grow_with_cells(self.length_mm, self.seed)?;
+        let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         let mut filled = None;
         let network = match &self.venation {
-            VenationPlan::Auxin(plan) => grow_unless(&outline, plan, self.seed, is_stopped)?,
+            VenationPlan::Auxin(plan) => match origin.developed() {
+                Some(leaf) => {
+                    let main = leaf.network(self.length_mm, MainVeinStyle::default())?;
+                    grow_around(&outline, plan, &main, self.seed, is_stopped)?
+                }
+                None => grow_unless(&outline, plan, self.seed, is_stopped)?,
+            },
             VenationPlan::Arcuate(plan) => match self.outline.plain_cubic() {
                 Some(margin) => plan.network_within(margin, self.length_mm)?,
                 None => plan.network(&outline)?,
             },
             VenationPlan::Cells(style) => {
-                let cells = cells.as_ref().ok_or(LeafError::NoCells)?;
+                let Origin::Cells(cells) = &origin else {
+                    return Err(LeafError::NoCells);
+                };
                 cells.network(self.length_mm, *style)?
             }
             VenationPlan::Transport(plan) => {
@@ -84,11 +100,16 @@ impl LeafPlan {
                 filled = Some(blade);
                 network
             }
+            VenationPlan::Development(style) => {
+                let leaf = origin.developed().ok_or(LeafError::NotDeveloped)?;
+                leaf.network(self.length_mm, *style)?
+            }
         };
         Ok(Lamina {
             outline,
             network,
-            cells,
+            developed: origin.developed().cloned(),
+            cells: origin.cells(),
             filled,
         })
     }

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::development::{DevelopedLeaf, DevelopmentError, DevelopmentPlan};
 use crate::shape::contour_curve::{ContourCurve, ContourCurveError};
 use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
 use crate::shape::growth_form::{GrowthForm, GrowthFormError};
@@ -23,6 +24,8 @@ pub enum Contour {
     Cubic(CubicMargin),
     /// A leaf that grows as the cheapest transport network.
     Transport(TransportPlan),
+    /// A leaf that develops from its margin.
+    Development(DevelopmentPlan),
 }
 
 /// Everything that decides an outline.
@@ -75,9 +78,41 @@ pub enum OutlinePlanError {
     /// The transport leaf.
     #[error(transparent)]
     Transport(#[from] TransportError),
+    /// The leaf that develops from its margin.
+    #[error(transparent)]
+    Development(#[from] DevelopmentError),
     /// Teeth.
     #[error(transparent)]
     Teeth(#[from] TeethError),
+}
+
+/// What an outline is the margin of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Origin {
+    /// It is a curve.
+    Curve,
+    /// Of the cells of a transport leaf.
+    Cells(TransportLeaf),
+    /// Of a leaf that has developed from it.
+    Developed(DevelopedLeaf),
+}
+
+impl Origin {
+    /// The transport leaf, if it is one.
+    pub(super) fn cells(self) -> Option<TransportLeaf> {
+        match self {
+            Self::Cells(leaf) => Some(leaf),
+            Self::Curve | Self::Developed(_) => None,
+        }
+    }
+
+    /// The developed leaf, if it is one.
+    pub(super) fn developed(&self) -> Option<&DevelopedLeaf> {
+        match self {
+            Self::Developed(leaf) => Some(leaf),
+            Self::Curve | Self::Cells(_) => None,
+        }
+    }
 }
 
 impl From<Contour> for OutlinePlan {
@@ -99,30 +134,31 @@ impl OutlinePlan {
             | Contour::Curve(_)
             | Contour::GrowthAlgorithm(_)
             | Contour::Svg(_)
-            | Contour::Transport(_) => None,
+            | Contour::Transport(_)
+            | Contour::Development(_) => None,
         }
     }
 
     /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters
-    /// to transport leaves in uneven light only.
+    /// to transport leaves in uneven light and to leaves that develop from their margin.
     ///
     /// # Errors
     ///
     /// [`OutlinePlanError`], naming what is out of range or why the curve is no margin.
     pub fn grow(&self, length_mm: f64, seed: u64) -> Result<Outline, OutlinePlanError> {
-        Ok(self.grow_with_cells(length_mm, seed)?.0)
+        Ok(self.grow_with_origin(length_mm, seed)?.0)
     }
 
-    /// The outline, and the transport leaf whose margin it is if it is one.
-    pub(super) fn grow_with_cells(
+    /// The outline, and the leaf whose margin it is if that is more than a curve.
+    pub(super) fn grow_with_origin(
         &self,
         length_mm: f64,
         seed: u64,
-    ) -> Result<(Outline, Option<TransportLeaf>), OutlinePlanError> {
+    ) -> Result<(Outline, Origin), OutlinePlanError> {
         if !(1e-3..=1e5).contains(&length_mm) {
             return Err(OutlinePlanError::Length { value: length_mm });
         }
-        let mut cells = None;
+        let mut origin = Origin::Curve;
         let smooth = match &self.contour {
             Contour::GrowthAlgorithm(form) => form.grow(length_mm)?,
             Contour::Curve(curve) => curve.grow(length_mm)?,
@@ -133,11 +169,17 @@ impl OutlinePlan {
             Contour::Transport(plan) => {
                 let leaf = plan.grow(seed)?;
                 let outline = leaf.outline(length_mm)?;
-                cells = Some(leaf);
+                origin = Origin::Cells(leaf);
+                outline
+            }
+            Contour::Development(plan) => {
+                let leaf = plan.develop(seed)?;
+                let outline = leaf.outline(length_mm)?;
+                origin = Origin::Developed(leaf);
                 outline
             }
         };
-        Ok((toothed(&smooth, &self.teeth)?, cells))
+        Ok((toothed(&smooth, &self.teeth)?, origin))
     }
 }
 

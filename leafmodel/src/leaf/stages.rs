@@ -1,13 +1,14 @@
 //! A leaf at times of its growth, whatever it grows by.
 
 use super::{LeafError, LeafPlan};
+use crate::development::{DevelopedLeaf, MainVeinStyle};
 use crate::leaf::lamina::Lamina;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
-use crate::venation::grow_stages;
 use crate::venation::network::VenationNetwork;
-use crate::venation::plan::AuxinPlan;
+use crate::venation::plan::{AuxinPlan, Growth};
+use crate::venation::{grow_stages, grow_stages_around};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +23,8 @@ impl LeafPlan {
     /// The last step of growth of a lamina that this plan has brought forth; the first is 0.
     ///
     /// Steps are those of the veins that grow towards auxin; those in which the revenue of a
-    /// transport leaf rises or, if it rises from event to event, the cells that come.
+    /// transport leaf rises or, if it rises from event to event, the cells that come; those of a
+    /// leaf that develops from its margin.
     ///
     /// # Errors
     ///
@@ -30,8 +32,10 @@ impl LeafPlan {
     pub fn last_step(&self, lamina: &Lamina) -> Result<u32, LeafError> {
         Ok(match self.growing(lamina)? {
             Growing::Auxin(_) => lamina.network.steps(),
+            Growing::DevelopedThenAuxin(leaf, _) => leaf.step() + lamina.network.steps(),
             Growing::Cells(leaf, _) => leaf.last_step(),
             Growing::Filled(blade, _) => blade.leaf().last_step(),
+            Growing::Developed(leaf, _) => leaf.step(),
         })
     }
 
@@ -52,6 +56,9 @@ impl LeafPlan {
                 let stages = stages.into_iter();
                 all(stages.map(|stage| (stage.outline, stage.network)).collect()).collect()
             }
+            Growing::DevelopedThenAuxin(leaf, plan) => {
+                self.main_then_finer(lamina, leaf, plan, steps)?
+            }
             Growing::Cells(leaf, style) => {
                 let stages: Vec<usize> = steps.iter().map(|&step| leaf.stage_of(step)).collect();
                 all(leaf.at_scale(self.length_mm, style, &stages)?).collect()
@@ -62,12 +69,76 @@ impl LeafPlan {
                 let stages = networks.into_iter();
                 all(stages.map(|network| (outline.clone(), network)).collect()).collect()
             }
+            Growing::Developed(leaf, style) => leaf.stages(self.length_mm, style, steps)?,
         })
+    }
+
+    /// Stages of the development, then those of the finer veins on the full-grown blade.
+    fn main_then_finer(
+        &self,
+        lamina: &Lamina,
+        leaf: &DevelopedLeaf,
+        plan: &AuxinPlan,
+        steps: &[u32],
+    ) -> Result<Vec<LeafStage>, LeafError> {
+        let outline = &lamina.outline;
+        let main = leaf.network(self.length_mm, MainVeinStyle::default())?;
+        let later = steps
+            .iter()
+            .filter_map(|&step| step.checked_sub(leaf.step()));
+        let later: Vec<u32> = std::iter::once(0).chain(later).collect();
+        let finer = grow_stages_around(outline, plan, &main, self.seed, &later)?;
+        let mut finer = finer.into_iter();
+        // Main veins are as wide at the end of the development as at the start of the net.
+        let first = finer
+            .next()
+            .into_iter()
+            .flat_map(|stage| stage.network.edges().to_vec());
+        let widest = first.map(|edge| edge.radius_from).fold(0.0, f64::max);
+        let style = MainVeinStyle {
+            base_radius_mm: widest.clamp(1e-4, 100.0),
+            murray_exponent: plan.murray_exponent,
+        };
+        let young: Vec<u32> = steps
+            .iter()
+            .copied()
+            .filter(|&step| step < leaf.step())
+            .collect();
+        let mut stages = leaf.stages(self.length_mm, style, &young)?.into_iter();
+        let mut finer = finer.map(|stage| {
+            // The blade has all its size by now.
+            let factor = match plan.growth {
+                Growth::Isogonic { .. } => outline.length() / stage.outline.length(),
+                Growth::None | Growth::Marginal { .. } | Growth::Anisotropic { .. } => 1.0,
+            };
+            LeafStage {
+                network: stage.network.enlarged(outline.base(), factor),
+                outline: match plan.growth {
+                    Growth::Anisotropic { .. } => stage.outline,
+                    Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => {
+                        outline.clone()
+                    }
+                },
+            }
+        });
+        let next = |&step: &u32| {
+            if step < leaf.step() {
+                stages.next()
+            } else {
+                finer.next()
+            }
+        };
+        Ok(steps.iter().filter_map(next).collect())
     }
 
     fn growing<'a>(&'a self, lamina: &'a Lamina) -> Result<Growing<'a>, LeafError> {
         match &self.venation {
-            VenationPlan::Auxin(plan) => Ok(Growing::Auxin(plan)),
+            VenationPlan::Auxin(plan) => Ok(match &lamina.developed {
+                Some(leaf) if self.outline.teeth.is_empty() => {
+                    Growing::DevelopedThenAuxin(leaf, plan)
+                }
+                Some(_) | None => Growing::Auxin(plan),
+            }),
             VenationPlan::Arcuate(_) => {
                 Err(LeafError::NoStages("arcuate veins are there all at once"))
             }
@@ -82,6 +153,15 @@ impl LeafPlan {
                 let blade = lamina.filled.as_ref().ok_or(LeafError::NoCells)?;
                 Ok(Growing::Filled(blade, plan.style))
             }
+            VenationPlan::Development(_) if !self.outline.teeth.is_empty() => {
+                Err(LeafError::NoStages(
+                    "teeth belong to the full-grown margin of a leaf that develops",
+                ))
+            }
+            VenationPlan::Development(style) => {
+                let leaf = lamina.developed.as_ref().ok_or(LeafError::NotDeveloped)?;
+                Ok(Growing::Developed(leaf, *style))
+            }
         }
     }
 }
@@ -90,8 +170,35 @@ impl LeafPlan {
 enum Growing<'a> {
     Auxin(&'a AuxinPlan),
     Cells(&'a TransportLeaf, VeinStyle),
+    Developed(&'a DevelopedLeaf, MainVeinStyle),
+    /// Main veins with the margin, then finer ones on the blade that has developed.
+    DevelopedThenAuxin(&'a DevelopedLeaf, &'a AuxinPlan),
     /// On a margin that is there from the start.
     Filled(&'a FilledBlade, VeinStyle),
+}
+
+impl DevelopedLeaf {
+    /// True to the size that it had at each step.
+    fn stages(
+        &self,
+        length_mm: f64,
+        style: MainVeinStyle,
+        steps: &[u32],
+    ) -> Result<Vec<LeafStage>, LeafError> {
+        let stage = |&step: &u32| {
+            let young = self.at_step(step)?;
+            let share = young.length() / self.length();
+            let style = MainVeinStyle {
+                base_radius_mm: (style.base_radius_mm * share).max(1e-4),
+                ..style
+            };
+            Ok(LeafStage {
+                outline: young.outline(length_mm * share)?,
+                network: young.network(length_mm * share, style)?,
+            })
+        };
+        steps.iter().map(stage).collect()
+    }
 }
 
 impl TransportLeaf {

@@ -1,11 +1,13 @@
 //! What veins are made from: one of several kinds of venation.
 
+use crate::development::MainVeinStyle;
 use crate::transport::{FilledPlan, VeinStyle};
 use crate::venation::arcuate::ArcuatePlan;
 use crate::venation::plan::AuxinPlan;
 
 /// How the veins of a leaf come to be. Each kind goes with every contour, but that
-/// [`VenationPlan::Cells`] needs the cells of a transport leaf.
+/// [`VenationPlan::Cells`] needs the cells of a transport leaf, and
+/// [`VenationPlan::Development`] a leaf that develops from its margin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VenationPlan {
     /// They grow towards sources of auxin.
@@ -16,6 +18,8 @@ pub enum VenationPlan {
     Cells(VeinStyle),
     /// They are the cheapest transport network that supplies the blade.
     Transport(FilledPlan),
+    /// They are the main veins with which the contour developed.
+    Development(MainVeinStyle),
 }
 
 impl From<FilledPlan> for VenationPlan {
@@ -41,13 +45,17 @@ impl VenationPlan {
     pub fn auxin(&self) -> Option<&AuxinPlan> {
         match self {
             Self::Auxin(plan) => Some(plan),
-            Self::Arcuate(_) | Self::Cells(_) | Self::Transport(_) => None,
+            Self::Arcuate(_) | Self::Cells(_) | Self::Transport(_) | Self::Development(_) => None,
         }
     }
 
     /// The exponent of Murray's law that its veins keep to: the plan's own, or 2 (areas add up)
     /// where there is none.
     pub fn murray_exponent(&self) -> f64 {
-        self.auxin().map_or(2.0, |plan| plan.murray_exponent)
+        match self {
+            Self::Auxin(plan) => plan.murray_exponent,
+            Self::Development(style) => style.murray_exponent,
+            Self::Arcuate(_) | Self::Cells(_) | Self::Transport(_) => 2.0,
+        }
     }
 }

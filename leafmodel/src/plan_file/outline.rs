@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use super::development::{self, development};
 use super::growth_form::{self, growth_form};
 use crate::document::context::{Context, QUOTED};
 use crate::document::error::DocumentError;
@@ -28,7 +29,7 @@ use crate::variant;
 const STEPS: u32 = 80;
 
 /// The kinds of contour.
-pub(super) const KINDS: [Variant<Contour>; 5] = [
+pub(super) const KINDS: [Variant<Contour>; 6] = [
     Variant {
         name: "growth_algorithm",
         about: "Local growth rates bring it forth.",
@@ -81,6 +82,12 @@ pub(super) const KINDS: [Variant<Contour>; 5] = [
         Contour::Transport,
         transport,
         "A leaf that grows as the cheapest transport network."
+    ),
+    variant!(
+        "development",
+        Contour::Development,
+        development,
+        "A leaf that develops from its margin."
     ),
 ];
 
@@ -394,6 +401,10 @@ fn report(keys: &Keys<'_>, error: &OutlinePlanError) {
         }
         OutlinePlanError::GrowthAlgorithm(error) => {
             growth_form::report(keys, error);
+            return;
+        }
+        OutlinePlanError::Development(error) => {
+            development::report(keys, error);
             return;
         }
         // Reported where the length is read.

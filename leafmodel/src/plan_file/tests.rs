@@ -6,6 +6,7 @@ mod veins;
 
 use crate::blade::petiole::PetiolePlan;
 use crate::compound::{Arrangement, CompoundForm, Feather};
+use crate::development::{DevelopmentPlan, MainVeinStyle, Primordium, Sequence, Wave};
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::optics::{Constituent, Contents, PerConstituent, Pigments};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};

@@ -3,6 +3,7 @@
 mod auxin;
 
 use self::auxin::{auxin, report};
+use crate::development::MainVeinStyle;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Integer, Number};
@@ -22,7 +23,7 @@ const SHARE: Number = Number(Limits::closed(0.0, 1.0));
 const RADII_MM: Number = Number(Limits::closed(1e-4, 100.0));
 
 /// The kinds of venation.
-pub(super) const KINDS: [Variant<VenationPlan>; 5] = [
+pub(super) const KINDS: [Variant<VenationPlan>; 6] = [
     Variant {
         name: "closed",
         about: "Veins grow towards auxin and meet.",
@@ -80,6 +81,12 @@ pub(super) const KINDS: [Variant<VenationPlan>; 5] = [
         filled,
         "The cheapest transport network that supplies the blade."
     ),
+    variant!(
+        "development",
+        VenationPlan::Development,
+        main_veins,
+        "The main veins alone of a leaf that develops from its margin."
+    ),
 ];
 
 fn usual_style() -> VeinStyle {
@@ -96,6 +103,14 @@ fn style(style: &mut VeinStyle, keys: &mut Keys<'_>) {
     let count = Integer::within(1, 1_000_000);
     let about = "Veins that supply fewer cells are left out.";
     keys.key("least_cells", &mut style.least_cells, count, about);
+}
+
+fn main_veins(style: &mut MainVeinStyle, keys: &mut Keys<'_>) {
+    let about = "Radius of the midrib at the base.";
+    keys.key("base_radius_mm", &mut style.base_radius_mm, RADII_MM, about);
+    let limits = Number(Limits::closed(0.5, 10.0));
+    let about = "n of Murray's law: rⁿ adds up from the tips to the base.";
+    keys.key("murray_exponent", &mut style.murray_exponent, limits, about);
 }
 
 fn filled(plan: &mut FilledPlan, keys: &mut Keys<'_>) {
@@ -191,6 +206,13 @@ pub(super) fn check(plan: &LeafPlan, outline: Option<&Outline>, keys: &Keys<'_>)
                 let problem = "the outline has no cells: it is not that of a transport leaf";
                 let help = "write [leaves.NAME.outline.transport], or choose another venation";
                 keys.refuse(&["venation", "cells"], problem.to_owned(), help);
+            }
+        }
+        VenationPlan::Development(_) => {
+            if !matches!(plan.outline.contour, Contour::Development(_)) {
+                let problem = "the outline has no main veins: it does not develop from its margin";
+                let help = "write [leaves.NAME.outline.development], or choose another venation";
+                keys.refuse(&["venation", "development"], problem.to_owned(), help);
             }
         }
         VenationPlan::Arcuate(_) => {}

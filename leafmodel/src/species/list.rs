@@ -2,6 +2,7 @@
 
 mod colours;
 mod compound;
+mod developed;
 mod plants;
 mod runions;
 mod splines;
@@ -11,17 +12,18 @@ use super::young::{FORMS, Form};
 use super::{PlanOf, Preset};
 
 /// All presets: the figures of Runions et al. 2005 in their order, extensions of that paper, trees
-/// and shrubs, leaves in other colours, splines, the examples of Xia 2007, extensions of Young
-/// 2010, compound leaves, then the figures of Young 2010.
+/// and shrubs, leaves in other colours, splines, the examples of Xia 2007, leaves that develop from
+/// their margin, extensions of Young 2010, compound leaves, then the figures of Young 2010.
 pub static PRESETS: &[Preset] = &joined::<{ GROWN + FORMS.len() }>();
 
 /// The presets with a function of their own.
-static GROUPS: [&[Preset]; 6] = [
+static GROUPS: [&[Preset]; 7] = [
     runions::RUNIONS,
     plants::PLANTS,
     &colours::COLOURS,
     splines::SPLINES,
     transport::TRANSPORT,
+    developed::DEVELOPED,
     compound::COMPOUND,
 ];
 

@@ -39,6 +39,8 @@ pub(crate) enum Use {
     PatternProbe = 17,
     /// The seed of the patches in which a leaf begins to age or dies.
     Ageing = 18,
+    /// Where convergence points appear, and how unlike their veins are.
+    Development = 31,
     /// The seed of the noise in a layer of contents.
     Layer = 19,
     /// Where the distance to the nearest vein is measured, across the leaf.

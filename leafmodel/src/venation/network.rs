@@ -234,6 +234,14 @@ impl VenationNetwork {
         self.ending
     }
 
+    /// The same veins farther apart by `factor`, about `centre`; their widths stay.
+    pub(crate) fn enlarged(mut self, centre: DVec2, factor: f64) -> Self {
+        for node in &mut self.nodes {
+            node.position = centre + (node.position - centre) * factor;
+        }
+        self
+    }
+
     /// Number of connected components, ≥ 1.
     pub fn components(&self) -> usize {
         let mut leaders: Vec<u32> = (0..self.nodes.len() as u32).collect();

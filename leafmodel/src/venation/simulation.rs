@@ -143,6 +143,11 @@ impl<'a, I: Influence> Simulation<'a, I> {
         }
     }
 
+    /// Length of a segment before the first step, in the frame of the simulation.
+    pub(crate) fn unit_at_start(&self) -> f64 {
+        self.clock.stage(0).unit
+    }
+
     /// The present state, at the size of the lamina in the last step.
     pub(crate) fn state(&self, ending: Ending) -> Grown {
         let size = self.clock.size(self.age(self.step.saturating_sub(1)));

@@ -45,6 +45,42 @@ pub(super) fn transport() -> impl Strategy<Value = Contour> {
     )
 }
 
+pub(super) fn development() -> impl Strategy<Value = Contour> {
+    let usual = Wave::default();
+    let wave = (0.1..0.5, 0.0..0.3, any::<bool>(), 0.0..0.9, 0.0..0.4).prop_map(
+        move |(spacing, hold, from_base, transport, lean)| Wave {
+            spacing,
+            hold,
+            sequence: if from_base {
+                Sequence::Acropetal
+            } else {
+                Sequence::Intercalary
+            },
+            transport,
+            lean,
+            zone: [0.25, 0.75],
+            rates: [1.0 - 0.05 * hold, 1.0],
+            ..usual
+        },
+    );
+    let form = (0.3..1.2, prop_oneof![Just(0.45), 0.3..0.7]);
+    let waves = prop::collection::vec(wave, 0..3);
+    (form, 4.0..12.0, waves, 0.0..0.5).prop_map(|((width, widest_at), growth, waves, chance)| {
+        Contour::Development(DevelopmentPlan {
+            primordium: Primordium {
+                width,
+                widest_at,
+                ..Primordium::default()
+            },
+            growth,
+            waves,
+            irregularity: chance,
+            resolution: 30,
+            ..DevelopmentPlan::default()
+        })
+    })
+}
+
 pub(super) fn half_form() -> impl Strategy<Value = HalfForm> {
     let peak = (1.0..2.0, 0.1..0.9, 0.5..9.0).prop_map(|(rate_ratio, widest_at, falloff)| {
         LateralGrowth::Peak {
@@ -160,7 +196,7 @@ pub(super) fn contour() -> impl Strategy<Value = Contour> {
         }
         Contour::Svg(contour)
     });
-    prop_oneof![grown, drawn, traced, cubic(), transport()]
+    prop_oneof![grown, drawn, traced, cubic(), transport(), development()]
 }
 
 pub(super) fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {

@@ -42,6 +42,12 @@ pub(super) fn venation() -> impl Strategy<Value = VenationPlan> {
         2 => arcuate_plan().prop_map(VenationPlan::Arcuate),
         1 => cells,
         1 => filled_plan().prop_map(VenationPlan::Transport),
+        1 => (0.01..1.0, 1.0..3.0).prop_map(|(base_radius_mm, murray_exponent)| {
+            VenationPlan::Development(MainVeinStyle {
+                base_radius_mm,
+                murray_exponent,
+            })
+        }),
     ]
 }
 

@@ -17,14 +17,16 @@ use crate::image::{Layer, Picture, openexr};
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
     let on_cells = match &plan.outline.contour {
         Contour::Transport(_) => true,
-        Contour::GrowthAlgorithm(_) | Contour::Curve(_) | Contour::Svg(_) | Contour::Cubic(_) => {
-            false
-        }
+        Contour::GrowthAlgorithm(_)
+        | Contour::Curve(_)
+        | Contour::Svg(_)
+        | Contour::Cubic(_)
+        | Contour::Development(_) => false,
     };
     match &plan.venation {
         VenationPlan::Arcuate(_) | VenationPlan::Transport(_) | VenationPlan::Cells(_) => Ok(()),
         VenationPlan::Auxin(_) if on_cells => Ok(()),
-        VenationPlan::Auxin(_) => Err(none()),
+        VenationPlan::Auxin(_) | VenationPlan::Development(_) => Err(none()),
     }
 }
 

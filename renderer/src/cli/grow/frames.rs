@@ -41,7 +41,13 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
         VenationPlan::Cells(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
             &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
         )),
-        VenationPlan::Auxin(_) | VenationPlan::Cells(_) | VenationPlan::Transport(_) => Ok(()),
+        VenationPlan::Development(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+            &LeafError::NoStages("teeth belong to the full-grown margin of a leaf that develops"),
+        )),
+        VenationPlan::Auxin(_)
+        | VenationPlan::Cells(_)
+        | VenationPlan::Transport(_)
+        | VenationPlan::Development(_) => Ok(()),
     }
 }
 
@@ -66,6 +72,7 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
     let lamina = Lamina {
         outline: stage.outline,
         network: stage.network,
+        developed: None,
         cells: None,
         filled: None,
     };

@@ -34,7 +34,7 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
             VenationPlan::Cells(_) | VenationPlan::Transport(_) => {
                 "a smaller least_cells lets thinner veins appear"
             }
-            VenationPlan::Arcuate(_) => {
+            VenationPlan::Development(_) | VenationPlan::Arcuate(_) => {
                 "they go from base to apex as far as there is blade: move base or apex"
             }
         };
@@ -56,7 +56,9 @@ pub(super) fn of(plan: &LeafPlan, lamina: &Lamina) -> Vec<String> {
         .fold(0.0, f64::max);
     let key = match &plan.venation {
         VenationPlan::Auxin(_) => "veinlet_radius_mm",
-        VenationPlan::Cells(_) | VenationPlan::Transport(_) => "base_radius_mm",
+        VenationPlan::Cells(_) | VenationPlan::Transport(_) | VenationPlan::Development(_) => {
+            "base_radius_mm"
+        }
         VenationPlan::Arcuate(_) => "width",
     };
     warnings.extend(too_wide("the widest vein", widest, key));

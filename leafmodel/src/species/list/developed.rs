@@ -1,0 +1,111 @@
+//! Leaves that develop from their margin, after Runions, Tsiantis and Prusinkiewicz 2017.
+
+use super::super::{PlanOf, Preset, developed};
+
+pub(super) static DEVELOPED: &[Preset] = &[
+    Preset {
+        name: "maple-development",
+        about: "Maple: five palmate lobes, then points on them; each has its vein",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in maple",
+        row: None,
+        plan: PlanOf::Function(developed::maple),
+    },
+    Preset {
+        name: "white-oak-development",
+        about: "White oak: rounded lobes down both sides, a secondary vein into each",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in white-oak",
+        row: None,
+        plan: PlanOf::Function(developed::white_oak),
+    },
+    Preset {
+        name: "red-oak-development",
+        about: "Red oak: lobes with bristle points, which came when the leaf was five primordia long",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in red-oak",
+        row: None,
+        plan: PlanOf::Function(developed::red_oak),
+    },
+    Preset {
+        name: "cottonwood-development",
+        about: "Cottonwood: a triangular blade, blunt teeth between its secondary veins",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in cottonwood",
+        row: None,
+        plan: PlanOf::Function(developed::cottonwood),
+    },
+    Preset {
+        name: "birch-development",
+        about: "Birch: a large tooth at each secondary vein, small ones between",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in birch",
+        row: None,
+        plan: PlanOf::Function(developed::birch),
+    },
+    Preset {
+        name: "willow-development",
+        about: "Willow: narrow, with many fine teeth, each with its vein",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in willow",
+        row: None,
+        plan: PlanOf::Function(developed::willow),
+    },
+    Preset {
+        name: "ivy-development",
+        about: "Ivy: five shallow lobes, a primary vein from the base into each",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in ivy",
+        row: None,
+        plan: PlanOf::Function(developed::ivy),
+    },
+    Preset {
+        name: "magnolia-development",
+        about: "Magnolia: an entire margin, nothing held back between secondary veins",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; contents and size as in magnolia",
+        row: None,
+        plan: PlanOf::Function(developed::magnolia),
+    },
+    Preset {
+        name: "linden",
+        about: "Linden: cordate, sharply toothed, palmate at the base",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::linden),
+    },
+    Preset {
+        name: "hawthorn",
+        about: "Hawthorn: a few deep lobes, toothed towards the tip",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::hawthorn),
+    },
+    Preset {
+        name: "arabidopsis",
+        about: "Arabidopsis: a few serrations, from the tip to the base",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::arabidopsis),
+    },
+    Preset {
+        name: "cardamine",
+        about: "Cardamine: growth is held back wholly between leaflets, which are lobes down to the rachis",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::cardamine),
+    },
+    Preset {
+        name: "tomato",
+        about: "Tomato: leaflets with lobes of their own on one rachis",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::tomato),
+    },
+    Preset {
+        name: "horse-chestnut-development",
+        about: "Horse chestnut: leaflets from one point, toothed",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::horse_chestnut),
+    },
+    Preset {
+        name: "plantain",
+        about: "Plantain: lanceolate and entire; veins from the base run beside each other to the margin",
+        source: "the model after Runions, Tsiantis and Prusinkiewicz 2017; its numbers are ours, by eye; size and contents by eye",
+        row: None,
+        plan: PlanOf::Function(developed::plantain),
+    },
+];
