@@ -2,23 +2,20 @@
 
 use glam::DVec2;
 
-use super::steps::Rates;
-
 /// Stands for "no node".
 pub(super) const NO_NODE: u32 = u32::MAX;
 
 /// Pieces of the midrib.
 const MIDRIB_PIECES: usize = 72;
 
-/// Pieces of every other vein, from one per this share of the primordium's length, at least
-/// [`FEWEST_PIECES`].
+/// Fewest pieces of any other vein.
 const FEWEST_PIECES: usize = 6;
 
-/// Most pieces of a vein.
+/// Most pieces of it.
 const MOST_PIECES: usize = 24;
 
 /// A vein from its origin on another to its tip at the margin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vein {
     /// 1 for the midrib, else one more than that of the vein it springs from.
     pub(super) order: u8,
@@ -177,10 +174,11 @@ impl Skeleton {
         before
     }
 
-    /// Grows by a step of the logarithm of the leaf's length, and tells what happens to the tissue
+    /// Grows by a step of the logarithm of the leaf's length, faster at the base if `basal_growth`
+    /// is positive and at the tip if it is negative, and tells what happens to the tissue
     /// about each node.
-    pub(super) fn grow(&mut self, rates: &Rates, step: f64) -> Vec<Deformation> {
-        let elongation = self.midrib_elongation(rates);
+    pub(super) fn grow(&mut self, basal_growth: f64, step: f64) -> Vec<Deformation> {
+        let elongation = self.midrib_elongation(basal_growth);
         // What the tissue grows by where each vein springs from the midrib, itself or by others.
         let mut local: Vec<f64> = vec![1.0];
         for vein in &self.veins[1..] {
@@ -236,9 +234,9 @@ impl Skeleton {
     }
 
     /// Elongation of each piece of the midrib, so that the whole elongates at the rate 1.
-    fn midrib_elongation(&self, rates: &Rates) -> Vec<f64> {
+    fn midrib_elongation(&self, basal_growth: f64) -> Vec<f64> {
         let length = self.length();
-        let raw = |place: DVec2| rates.along_midrib(place.y / length);
+        let raw = |place: DVec2| 1.0 + basal_growth * (1.0 - 2.0 * place.y / length);
         let midrib = &self.nodes[..=self.veins[0].tip as usize];
         let total: f64 = midrib
             .windows(2)
@@ -251,8 +249,8 @@ impl Skeleton {
     }
 }
 
-/// Points of a vein from `from`, exclusive, to `to`, that bows by `bow` of its length to the right
-/// of its way; as many as a vein of this length of a primordium of length 1 has.
+/// Points of a vein of so many pieces from `from`, exclusive, to `to`, that bows by `bow` of its length
+/// to the right of its way.
 pub(super) fn bowed(from: DVec2, to: DVec2, bow: f64, pieces: usize) -> Vec<DVec2> {
     let chord = to - from;
     let middle = from + chord * 0.5 - chord.perp() * (2.0 * bow);
@@ -266,7 +264,7 @@ pub(super) fn bowed(from: DVec2, to: DVec2, bow: f64, pieces: usize) -> Vec<DVec
     points
 }
 
-/// Pieces of a vein that is this share of the leaf long.
+/// Pieces of a vein whose length is this share of the leaf's when it comes.
 pub(super) fn pieces(share: f64) -> usize {
     ((share * 40.0) as usize).clamp(FEWEST_PIECES, MOST_PIECES)
 }
