@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use super::steps::Rates;
+
 /// Stands for "no node".
 pub(super) const NO_NODE: u32 = u32::MAX;
 
@@ -15,7 +17,7 @@ const FEWEST_PIECES: usize = 6;
 const MOST_PIECES: usize = 24;
 
 /// A vein from its origin on another to its tip at the margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Vein {
     /// 1 for the midrib, else one more than that of the vein it springs from.
     pub(super) order: u8,
@@ -156,7 +158,7 @@ impl Skeleton {
     }
 
     /// Adds a vein from the node `origin` through `way`, of which the last point is its tip.
-    pub(super) fn add(&mut self, vein: Vein, way: &[DVec2]) -> u32 {
+    pub(super) fn add(&mut self, mut vein: Vein, way: &[DVec2]) -> u32 {
         let number = self.veins.len() as u32;
         let mut before = vein.origin;
         for &place in way {
@@ -167,18 +169,15 @@ impl Skeleton {
             });
             before = self.nodes.len() as u32 - 1;
         }
-        self.veins.push(Vein {
-            tip: before,
-            ..vein
-        });
+        vein.tip = before;
+        self.veins.push(vein);
         before
     }
 
-    /// Grows by a step of the logarithm of the leaf's length, faster at the base if `basal_growth`
-    /// is positive and at the tip if it is negative, and tells what happens to the tissue
+    /// Grows by a step of the logarithm of the leaf's length, and tells what happens to the tissue
     /// about each node.
-    pub(super) fn grow(&mut self, basal_growth: f64, step: f64) -> Vec<Deformation> {
-        let elongation = self.midrib_elongation(basal_growth);
+    pub(super) fn grow(&mut self, rates: Rates, step: f64) -> Vec<Deformation> {
+        let elongation = self.midrib_elongation(rates);
         // What the tissue grows by where each vein springs from the midrib, itself or by others.
         let mut local: Vec<f64> = vec![1.0];
         for vein in &self.veins[1..] {
@@ -234,9 +233,9 @@ impl Skeleton {
     }
 
     /// Elongation of each piece of the midrib, so that the whole elongates at the rate 1.
-    fn midrib_elongation(&self, basal_growth: f64) -> Vec<f64> {
+    fn midrib_elongation(&self, rates: Rates) -> Vec<f64> {
         let length = self.length();
-        let raw = |place: DVec2| 1.0 + basal_growth * (1.0 - 2.0 * place.y / length);
+        let raw = |place: DVec2| rates.along_midrib(place.y / length);
         let midrib = &self.nodes[..=self.veins[0].tip as usize];
         let total: f64 = midrib
             .windows(2)

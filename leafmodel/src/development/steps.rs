@@ -17,6 +17,19 @@ pub(super) const MOST_POINTS: usize = 10_000;
 /// Logarithm of the leaf's length that one step adds, at most.
 const LONGEST_STEP: f64 = 0.025;
 
+/// How fast parts of the midrib elongate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    basal_growth: f64,
+}
+
+impl Rates {
+    /// Elongation at a share of the midrib's length, but for a factor.
+    pub(super) fn along_midrib(self, share: f64) -> f64 {
+        1.0 + self.basal_growth * (1.0 - 2.0 * share)
+    }
+}
+
 /// A leaf under way.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Developing {
@@ -64,8 +77,11 @@ impl Developing {
                 self.initiate(plan, number)?;
             }
         }
+        let rates = Rates {
+            basal_growth: plan.basal_growth,
+        };
         let step = libm::log(plan.growth) / f64::from(Self::steps(plan));
-        let deformations = self.skeleton.grow(plan.basal_growth, step);
+        let deformations = self.skeleton.grow(rates, step);
         let length = self.skeleton.length();
         self.margin.carry(&self.skeleton, &deformations);
         let apex = self.margin.apex(self.skeleton.veins[0].tip);
