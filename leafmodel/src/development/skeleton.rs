@@ -10,11 +10,10 @@ pub(super) const NO_NODE: u32 = u32::MAX;
 /// Pieces of the midrib.
 const MIDRIB_PIECES: usize = 72;
 
-/// Pieces of every other vein, from one per this share of the primordium's length, at least
-/// [`FEWEST_PIECES`].
+/// Fewest pieces of any other vein.
 const FEWEST_PIECES: usize = 6;
 
-/// Most pieces of a vein.
+/// Most pieces of it.
 const MOST_PIECES: usize = 24;
 
 /// A vein from its origin on another to its tip at the margin.
@@ -249,8 +248,8 @@ impl Skeleton {
     }
 }
 
-/// Points of a vein from `from`, exclusive, to `to`, that bows by `bow` of its length to the right
-/// of its way; as many as a vein of this length of a primordium of length 1 has.
+/// Points of a vein of so many pieces from `from`, exclusive, to `to`, that bows by `bow` of its length
+/// to the right of its way.
 pub(super) fn bowed(from: DVec2, to: DVec2, bow: f64, pieces: usize) -> Vec<DVec2> {
     let chord = to - from;
     let middle = from + chord * 0.5 - chord.perp() * (2.0 * bow);
@@ -264,7 +263,7 @@ pub(super) fn bowed(from: DVec2, to: DVec2, bow: f64, pieces: usize) -> Vec<DVec
     points
 }
 
-/// Pieces of a vein that is this share of the leaf long.
+/// Pieces of a vein whose length is this share of the leaf's when it comes.
 pub(super) fn pieces(share: f64) -> usize {
     ((share * 40.0) as usize).clamp(FEWEST_PIECES, MOST_PIECES)
 }

@@ -259,12 +259,13 @@ pub(super) fn hawthorn() -> LeafPlan {
     let lobes = Wave {
         until: 1.3,
         spacing: 0.32,
-        hold: 0.4,
+        hold: 0.36,
         hold_base: 0.3,
         terminal: 0.7,
         blunt: 1.6,
         sinus: 1.2,
-        zone: [0.25, 0.68],
+        transport: 0.45,
+        zone: [0.3, 0.72],
         bow: 0.02,
         ..Wave::default()
     };
