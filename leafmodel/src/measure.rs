@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod description;
 mod forks;
 mod fourier;
 mod hierarchy;

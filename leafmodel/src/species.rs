@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod architectures;
 mod arcuate;
 mod beyond;
 #[cfg(test)]

@@ -40,6 +40,7 @@ mod agreement;
 #[cfg(test)]
 mod all_pairs;
 mod arches;
+pub mod architecture;
 pub mod arcuate;
 pub mod areole;
 mod auxin;
@@ -141,7 +142,7 @@ pub fn grow_unless(
 ///
 /// # Errors
 ///
-/// As [`grow_unless`].
+/// As [`grow_unless`], and if the plan has an architecture, since its main veins are there already.
 pub fn grow_around(
     outline: &Outline,
     plan: &AuxinPlan,
@@ -226,6 +227,10 @@ fn develop(
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<(VenationNetwork, Vec<Stage>), VenationError> {
     plan.validate()?;
+    if main.is_some() && plan.architecture.is_some() {
+        let (key, other) = ("architecture", "an outline that brings its main veins");
+        return Err(PlanError::Incompatible { key, other }.into());
+    }
     let blade = in_segments(outline, plan);
     let (lamina, clock) = prepared(&blade, plan)?;
     let segment_mm = outline.length() / plan.final_length;
@@ -326,6 +331,8 @@ fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
 pub(crate) struct Grown {
     positions: Vec<DVec2>,
     births: Vec<u32>,
+    /// The order as which each node was laid out, 0 for none; empty without an architecture.
+    laid_orders: Vec<u8>,
     edges: Vec<[u32; 2]>,
     origins: u32,
     steps: u32,
@@ -409,9 +416,13 @@ fn simulate<I: Influence>(
     }
     watch.look(&simulation);
     // Veins that are given take the place of those that would be laid out.
-    let mut rounds = match given {
-        Some(_) => Vec::new(),
-        None => simulation.arch_rounds(),
+    let mut rounds = if given.is_some() {
+        Vec::new()
+    } else {
+        if let Some(architecture) = &plan.architecture {
+            simulation.lay_out_architecture(architecture, |now| watch.look(now));
+        }
+        simulation.arch_rounds()
     };
     if let Some(arches) = rounds.pop() {
         // Secondaries end freely at first and join later (\[scarpella2004\]).
@@ -444,6 +455,9 @@ impl Grown {
     fn joined(mut self) -> Self {
         self.positions.insert(0, DVec2::ZERO);
         self.births.insert(0, 0);
+        if !self.laid_orders.is_empty() {
+            self.laid_orders.insert(0, 0);
+        }
         let grown = self.edges.iter().map(|&[from, to]| [from + 1, to + 1]);
         let joints = (1..=self.origins).map(|origin| [0, origin]);
         self.edges = joints.chain(grown).collect();
@@ -473,7 +487,13 @@ impl Grown {
         let radius = |flow: f64| width::radius(flow, plan.veinlet_radius_mm, plan.murray_exponent);
         let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
         let mut radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
-        let orders = order::orders(&topology, &self.positions, &radii, &base_to_tip);
+        let orders = order::orders(
+            &topology,
+            &self.positions,
+            &radii,
+            &base_to_tip,
+            &self.laid_orders,
+        );
         if plan.unseen_veinlets > 0.0 {
             let major = |edge: u32| orders.edges[edge as usize] <= 2;
             flows = width::flows(&topology, &base_to_tip, |node| {

@@ -2,8 +2,6 @@
 
 use glam::DVec2;
 
-use super::steps::Rates;
-
 /// Stands for "no node".
 pub(super) const NO_NODE: u32 = u32::MAX;
 
@@ -15,6 +13,19 @@ const FEWEST_PIECES: usize = 6;
 
 /// Most pieces of it.
 const MOST_PIECES: usize = 24;
+
+/// How fast parts of the midrib elongate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rates {
+    pub(super) basal_growth: f64,
+}
+
+impl Rates {
+    /// Elongation at a share of the midrib's length, but for a factor.
+    fn along_midrib(self, share: f64) -> f64 {
+        1.0 + self.basal_growth * (1.0 - 2.0 * share)
+    }
+}
 
 /// A vein from its origin on another to its tip at the margin.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use super::check::DevelopmentError;
 use super::initiation::{canal, place_in};
 use super::margin::{Interval, Margin};
 use super::plan::{DevelopmentPlan, Wave};
-use super::skeleton::{NO_NODE, Skeleton, Vein};
+use super::skeleton::{NO_NODE, Rates, Skeleton, Vein};
 
 /// Veins beside the midrib that a leaf may have.
 pub(super) const MOST_VEINS: usize = 300;
@@ -16,19 +16,6 @@ pub(super) const MOST_POINTS: usize = 10_000;
 
 /// Logarithm of the leaf's length that one step adds, at most.
 const LONGEST_STEP: f64 = 0.025;
-
-/// How fast parts of the midrib elongate.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rates {
-    basal_growth: f64,
-}
-
-impl Rates {
-    /// Elongation at a share of the midrib's length, but for a factor.
-    pub(super) fn along_midrib(self, share: f64) -> f64 {
-        1.0 + self.basal_growth * (1.0 - 2.0 * share)
-    }
-}
 
 /// A leaf under way.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,6 +9,10 @@ use crate::venation::plan::AuxinPlan;
 /// [`VenationPlan::Cells`] needs the cells of a transport leaf, and
 /// [`VenationPlan::Development`] a leaf that develops from its margin.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a leaf has one, and most are the largest"
+)]
 pub enum VenationPlan {
     /// They grow towards sources of auxin.
     Auxin(AuxinPlan),

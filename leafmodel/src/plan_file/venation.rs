@@ -1,5 +1,6 @@
 //! `venation`: how the veins of a leaf come to be.
 
+mod architecture;
 mod auxin;
 
 use self::auxin::{auxin, report};

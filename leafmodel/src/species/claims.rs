@@ -10,6 +10,7 @@ use crate::venation::network::{VeinSegment, VenationNetwork};
 use crate::venation::plan::{AuxinPlan, Pattern};
 use crate::venation::{Stage, grow_stages};
 
+mod architecture;
 mod beyond;
 mod open;
 

@@ -14,6 +14,7 @@ use super::trees::{self, net};
 use crate::development::{DevelopmentPlan, Primordium, Sequence, Wave};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
+use crate::leaf::venation_plan::VenationPlan;
 use crate::venation::plan::AuxinPlan;
 
 /// Teeth or small lobes between what is there, when the leaf is some times as long as its
@@ -68,6 +69,10 @@ fn plan(form: [f64; 4], irregularity: f64, waves: Vec<Wave>) -> DevelopmentPlan 
 fn as_if(mut leaf: LeafPlan, seed: u64, plan: DevelopmentPlan) -> LeafPlan {
     leaf.outline = Contour::Development(plan).into();
     leaf.seed = seed;
+    if let VenationPlan::Auxin(veins) = &mut leaf.venation {
+        // The main veins come from the development; the net is the species'.
+        veins.architecture = None;
+    }
     leaf
 }
 

@@ -3,11 +3,13 @@
 //! Nothing here is measured on one specimen. [`leaf_traits`] gives the sources of lengths and
 //! contents; outlines, vein plans and forms are fitted by eye.
 
+use super::architectures;
 use super::leaf_traits::{self, LeafTraits};
 use super::trees_contours as contours;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
-use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, MarginClearance};
+use crate::venation::architecture::Architecture;
+use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
 
 /// A closed net under isogonic growth from `initial_length` to `final_length` segments.
 pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
@@ -39,12 +41,34 @@ pub(super) fn leaf(
     traits.plan(seed, outline, venation)
 }
 
+/// A net as dense as nature's between the veins of an architecture; `density` is about what comes
+/// out, mm of vein per mm² of blade.
+pub(super) fn dense(traits: &LeafTraits, architecture: Architecture, density: f64) -> AuxinPlan {
+    // A segment is so much shorter than veins are apart.
+    let final_length = 4.0 * density * traits.length_mm.value;
+    let initial_length = 0.3 * final_length;
+    AuxinPlan {
+        final_length,
+        kill_distance: 0.93,
+        source_birth_distance: 2.0,
+        vein_birth_distance: 2.0,
+        darts_per_area: 0.0005,
+        growth: Growth::Isogonic {
+            initial_length,
+            length_step: (final_length - initial_length) / 280.0,
+        },
+        murray_exponent: 2.3,
+        architecture: Some(architecture),
+        ..AuxinPlan::default()
+    }
+}
+
 pub(super) fn maple() -> LeafPlan {
     leaf(
         &leaf_traits::MAPLE,
         3,
         contours::maple(),
-        net(80.0, 620.0, 4.0),
+        dense(&leaf_traits::MAPLE, architectures::maple(), 3.2),
     )
 }
 
@@ -53,12 +77,17 @@ pub(super) fn cottonwood() -> LeafPlan {
         &leaf_traits::COTTONWOOD,
         2,
         contours::cottonwood(),
-        net(85.0, 560.0, 3.5),
+        dense(&leaf_traits::COTTONWOOD, architectures::cottonwood(), 3.5),
     )
 }
 
 pub(super) fn ivy() -> LeafPlan {
-    leaf(&leaf_traits::IVY, 2, contours::ivy(), net(70.0, 420.0, 4.0))
+    leaf(
+        &leaf_traits::IVY,
+        2,
+        contours::ivy(),
+        dense(&leaf_traits::IVY, architectures::ivy(), 3.5),
+    )
 }
 
 pub(super) fn white_oak() -> LeafPlan {
@@ -66,7 +95,7 @@ pub(super) fn white_oak() -> LeafPlan {
         &leaf_traits::WHITE_OAK,
         1,
         contours::white_oak(),
-        net(80.0, 620.0, 4.0),
+        dense(&leaf_traits::WHITE_OAK, architectures::white_oak(), 3.2),
     )
 }
 
@@ -75,7 +104,7 @@ pub(super) fn red_oak() -> LeafPlan {
         &leaf_traits::RED_OAK,
         1,
         contours::red_oak(),
-        net(80.0, 620.0, 4.0),
+        dense(&leaf_traits::RED_OAK, architectures::red_oak(), 3.2),
     )
 }
 
@@ -84,7 +113,7 @@ pub(super) fn birch() -> LeafPlan {
         &leaf_traits::BIRCH,
         4,
         contours::birch(),
-        net(90.0, 480.0, 3.5),
+        dense(&leaf_traits::BIRCH, architectures::birch(), 4.5),
     )
 }
 
@@ -93,24 +122,18 @@ pub(super) fn willow() -> LeafPlan {
         &leaf_traits::WILLOW,
         1,
         contours::willow(),
-        net(140.0, 900.0, 3.5),
+        dense(&leaf_traits::WILLOW, architectures::willow(), 4.0),
     )
 }
 
 pub(super) fn magnolia() -> LeafPlan {
     let venation = AuxinPlan {
-        margin_clearance: Some(MarginClearance {
-            distance: 0.05,
-            until: 0.3,
-            arches: 9,
-        }),
         free_endings: Some(FreeEndings {
             birth_distance: 1.6,
             kill_distance: 0.8,
             darts_per_area: 0.03,
         }),
-        murray_exponent: 2.6,
-        ..net(110.0, 620.0, 4.0)
+        ..dense(&leaf_traits::MAGNOLIA, architectures::magnolia(), 3.0)
     };
     leaf(&leaf_traits::MAGNOLIA, 2, contours::magnolia(), venation)
 }
@@ -121,6 +144,6 @@ pub(super) fn croton() -> LeafPlan {
         &leaf_traits::CROTON,
         1,
         contours::croton(),
-        net(110.0, 620.0, 4.0),
+        dense(&leaf_traits::CROTON, architectures::croton(), 3.5),
     )
 }

@@ -183,6 +183,7 @@ impl Oracle<'_> {
             map_apex: self.lamina.blade.apex() * veins,
             positions: scaled(&self.nodes, veins),
             births: self.births.clone(),
+            laid_orders: Vec::new(),
             edges,
             origins: self.origins,
             steps: self.step,

@@ -43,6 +43,8 @@ pub(crate) enum Use {
     Development = 31,
     /// The seed of the noise in a layer of contents.
     Layer = 19,
+    /// How far the veins of an architecture stray.
+    Architecture = 20,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -42,19 +42,48 @@ pub(crate) struct Orders {
     pub(crate) continuations: Vec<Option<u32>>,
 }
 
-/// Gives every edge its order, from the radius at which each starts.
+/// Gives every edge its order, from the radius at which each starts. `laid` is the order as which
+/// each node was laid out, 0 for none, and empty without an architecture: edges that lead to a laid
+/// out node have its order, and all others are of finer ones.
 pub(crate) fn orders(
     topology: &Topology,
     positions: &[DVec2],
     radii: &[f64],
     base_to_tip: &[u32],
+    laid: &[u8],
 ) -> Orders {
     let survey = Survey::new(topology, positions, radii);
     let mut edges = vec![0; topology.edge_count()];
     // For each order the edges that start a vein of it, found while coarser orders are followed.
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); usize::from(FINEST) + 1];
     let mut laterals: Vec<u32> = Vec::new();
-    for &seed in base_to_tip
+    let laid_order = |edge: u32| {
+        let node = topology.edge(edge)[1] as usize;
+        laid.get(node).copied().unwrap_or(0)
+    };
+    let coarse = laid.iter().copied().max().unwrap_or(0);
+    if coarse > 0 {
+        for edge in 0..topology.edge_count() as u32 {
+            edges[edge as usize] = laid_order(edge);
+            let leaves = |&branch: &u32| laid_order(branch) == 0;
+            if edges[edge as usize] > 0 {
+                let end = topology.edge(edge)[1];
+                laterals.extend(topology.leaving(end).iter().copied().filter(leaves));
+            }
+        }
+        let roots = base_to_tip
+            .iter()
+            .filter(|&&node| topology.entering(node).is_empty());
+        for &root in roots {
+            let out = topology.leaving(root).iter().copied();
+            laterals.extend(out.filter(|&branch| laid_order(branch) == 0));
+        }
+        laterals.sort_unstable();
+        laterals.dedup();
+        start_laterals(&mut laterals, coarse, radii, &mut starts);
+    }
+    let grown = if coarse > 0 { &[] } else { base_to_tip };
+    for &seed in grown
         .iter()
         .filter(|&&node| topology.entering(node).is_empty())
     {
@@ -66,7 +95,7 @@ pub(crate) fn orders(
         starts[1].extend(primary);
         laterals.extend(lateral);
     }
-    for order in 1..=FINEST {
+    for order in coarse + 1..=FINEST {
         let mut pending = std::mem::take(&mut starts[usize::from(order)]);
         // Veins are followed in the order found. Neighbours in the list are unrelated, so memory
         // fetches overlap.
@@ -87,19 +116,7 @@ pub(crate) fn orders(
                 }
             }
         }
-        let widest = laterals
-            .iter()
-            .map(|&e| radii[e as usize])
-            .fold(0.0, f64::max);
-        for edge in laterals.drain(..) {
-            let mut finer = order + 1;
-            let mut threshold = widest * NARROWER;
-            while radii[edge as usize] < threshold && finer < FINEST {
-                finer += 1;
-                threshold *= NARROWER;
-            }
-            starts[usize::from(finer.min(FINEST))].push(edge);
-        }
+        start_laterals(&mut laterals, order, radii, &mut starts);
         if order == FINEST {
             // Laterals of the finest order are of the finest order too.
             let mut pending = std::mem::take(&mut starts[usize::from(FINEST)]);
@@ -115,6 +132,23 @@ pub(crate) fn orders(
     Orders {
         edges,
         continuations: survey.continuations,
+    }
+}
+
+/// Gives laterals of veins of an order a finer one, by their width.
+fn start_laterals(laterals: &mut Vec<u32>, order: u8, radii: &[f64], starts: &mut [Vec<u32>]) {
+    let widest = laterals
+        .iter()
+        .map(|&e| radii[e as usize])
+        .fold(0.0, f64::max);
+    for edge in laterals.drain(..) {
+        let mut finer = order + 1;
+        let mut threshold = widest * NARROWER;
+        while radii[edge as usize] < threshold && finer < FINEST {
+            finer += 1;
+            threshold *= NARROWER;
+        }
+        starts[usize::from(finer.min(FINEST))].push(edge);
     }
 }
 
@@ -238,7 +272,7 @@ mod tests {
         let order = topology.base_to_tip().expect("no circle");
         let flows = flows(&topology, &order, |_| 0.0);
         let radii: Vec<f64> = flows.edges.iter().map(|&q| radius(q, 0.01, 2.0)).collect();
-        orders(&topology, &positions, &radii, &order).edges
+        orders(&topology, &positions, &radii, &order, &[]).edges
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod check;
 use glam::DVec2;
 
 pub use self::check::PlanError;
+use super::architecture::Architecture;
 use crate::shape::growth::RateCurve;
 
 /// Whether veins may meet.
@@ -116,6 +117,8 @@ pub struct AuxinPlan {
     pub unseen_veinlets: f64,
     /// Free veinlet endings. Needs a closed pattern.
     pub free_endings: Option<FreeEndings>,
+    /// Coarse veins that are laid out before the lamina grows. Needs a closed pattern.
+    pub architecture: Option<Architecture>,
     /// Sources kept away from the margin at first, and arches.
     pub margin_clearance: Option<MarginClearance>,
     /// `K L²`: Gaussian curvature of the blade times its length squared, −2 to 8; 0 is a flat or
@@ -172,6 +175,7 @@ impl Default for AuxinPlan {
             veinlet_radius_mm: 0.02,
             unseen_veinlets: 0.0,
             free_endings: None,
+            architecture: None,
             margin_clearance: None,
             gaussian_curvature: 0.0,
         }

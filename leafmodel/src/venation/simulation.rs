@@ -4,6 +4,7 @@
 //! Within a step all decisions depend on the state at its beginning and follow the order of
 //! numbers. So results depend neither on the order of work nor on the number of threads.
 
+pub(crate) mod courses;
 mod rounds;
 
 use glam::DVec2;
@@ -103,6 +104,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             Growth::Isogonic { .. } | Growth::Anisotropic { .. }
         );
         let mut veins = Veins::new(low, high, is_stretching);
+        veins.minds_crossings = plan.architecture.is_some();
         for origin in origins {
             veins.add_node(lamina.now_of_full_grown(origin), 0, &lamina);
         }
@@ -158,11 +160,16 @@ impl<'a, I: Influence> Simulation<'a, I> {
             Growth::Isogonic { .. } => (size, size),
         };
         let scaled = |points: &[DVec2], scale: f64| points.iter().map(|&p| p * scale).collect();
+        let laid_orders = match self.plan.architecture {
+            Some(_) => self.veins.laid_orders.clone(),
+            None => Vec::new(),
+        };
         let mut edges = self.veins.edges.clone();
         edges.sort_unstable_by_key(|&[from, to]| (to, from));
         Grown {
             positions: scaled(&self.veins.positions, veins),
             births: self.veins.births.clone(),
+            laid_orders,
             edges,
             origins: self.origins,
             steps: self.step,
@@ -402,6 +409,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
         };
         let child = from + way;
         if self.veins.tree.any_within(child, COINCIDENT * unit) {
+            return Outcome::Blocked;
+        }
+        // Only where an architecture asks for it: the rows of the paper let veins run side by side.
+        if self.veins.minds_crossings
+            && (self.veins.is_crowded(node, way, unit) || self.veins.crosses(node, child, unit))
+        {
             return Outcome::Blocked;
         }
         let id = self.veins.add_node(child, self.step, &self.lamina);

@@ -1,5 +1,9 @@
 //! The growing network: nodes, edges, and an index of nodes by place.
 
+mod nearby;
+
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use super::lamina::Lamina;
@@ -36,10 +40,16 @@ pub(crate) struct Veins {
     parents: Vec<u32>,
     /// The first node that grew from each node, or [`NO_NODE`].
     first_children: Vec<u32>,
+    /// Nodes besides the first from which edges lead to a junction.
+    joints: BTreeMap<u32, Vec<u32>>,
+    /// The order as which each node was laid out, or 0.
+    pub(crate) laid_orders: Vec<u8>,
     /// Edges by length in segments of their place, if edges stretch in time.
     by_length: LengthQueue,
     /// Whether edges stretch in time.
     stretching: bool,
+    /// Whether veins may not cross. The rows of the paper let them.
+    pub(crate) minds_crossings: bool,
 }
 
 /// A queue of edges; a segment is never shorter than one unit of the frame.
@@ -63,8 +73,11 @@ impl Veins {
             tree: PointTree::new(low, high),
             parents: Vec::new(),
             first_children: Vec::new(),
+            joints: BTreeMap::new(),
+            laid_orders: Vec::new(),
             by_length: length_queue(),
             stretching,
+            minds_crossings: false,
         }
     }
 
@@ -75,7 +88,19 @@ impl Veins {
 
     /// Adds a node without an edge to it.
     pub(crate) fn add_node(&mut self, position: DVec2, step: u32, lamina: &Lamina) -> u32 {
+        self.add_ranked_node(position, 0, step, lamina)
+    }
+
+    /// The same for a node of a vein that is laid out as one of this order.
+    pub(crate) fn add_ranked_node(
+        &mut self,
+        position: DVec2,
+        order: u8,
+        step: u32,
+        lamina: &Lamina,
+    ) -> u32 {
         let node = self.count();
+        self.laid_orders.push(order);
         self.positions.push(position);
         if lamina.moves() {
             self.starts.push(lamina.start_of(position));
@@ -93,6 +118,8 @@ impl Veins {
         self.edges.push([from, to]);
         if self.parents[to as usize] == NO_NODE {
             self.parents[to as usize] = from;
+        } else {
+            self.joints.entry(to).or_default().push(from);
         }
         if self.first_children[from as usize] == NO_NODE {
             self.first_children[from as usize] = to;
@@ -142,12 +169,12 @@ impl Veins {
         while let Some((edge, squared)) = self.by_length.pop_above(longest * longest) {
             // At least two, since the root may round down to the limit itself.
             let pieces = (squared.sqrt() / longest).ceil().max(2.0) as u32;
-            self.cut(edge, pieces, lamina, step);
+            self.cut(edge, pieces, unit, lamina, step);
         }
     }
 
     /// Cuts one edge into `pieces`. An edge whose pieces would leave the blade stays whole.
-    fn cut(&mut self, edge: u32, pieces: u32, lamina: &Lamina, step: u32) {
+    fn cut(&mut self, edge: u32, pieces: u32, unit: f64, lamina: &Lamina, step: u32) {
         let [from, to] = self.edges[edge as usize];
         let at = |node: u32| self.positions[node as usize];
         let (p1, p2) = (at(from), at(to));
@@ -179,13 +206,26 @@ impl Veins {
         };
         let curved = at_shares(&|u| catmull_rom([p0, p1, p2, p3], u));
         let straight = at_shares(&|u| p1 + (p2 - p1) * u);
-        let Some(places) = [curved, straight].into_iter().find(|p| stays(p)) else {
+        let crosses = |places: &[DVec2]| {
+            let last = places.len();
+            let all = |k: usize| if k == last { p2 } else { places[k] };
+            (0..=last).any(|k| {
+                // The first piece and the last meet what the edge meets.
+                let start = if k == 0 { from } else { NO_NODE };
+                let end = if k == last { to } else { NO_NODE };
+                let before = if k == 0 { p1 } else { places[k - 1] };
+                self.piece_crosses([before, all(k)], [start, end], Some([from, to]), unit)
+            })
+        };
+        let curved = Some(curved).filter(|places| !self.minds_crossings || !crosses(places));
+        let Some(places) = curved.into_iter().chain([straight]).find(|p| stays(p)) else {
             return;
         };
         let mut tail = from;
         let mut tail_edge = edge;
+        let order = self.laid_orders[to as usize];
         for place in places {
-            let node = self.add_node(place, step, lamina);
+            let node = self.add_ranked_node(place, order, step, lamina);
             self.edges[tail_edge as usize] = [tail, node];
             if self.first_children[tail as usize] == to {
                 self.first_children[tail as usize] = node;
@@ -194,6 +234,11 @@ impl Veins {
             self.first_children[node as usize] = to;
             if self.parents[to as usize] == tail {
                 self.parents[to as usize] = node;
+            } else if let Some(before) = self.joints.get_mut(&to) {
+                before
+                    .iter_mut()
+                    .filter(|n| **n == tail)
+                    .for_each(|n| *n = node);
             }
             let rest = self.edges.len() as u32;
             self.edges.push([node, to]);
@@ -231,7 +276,10 @@ impl Veins {
             return;
         };
         let mut ends = ends;
-        ends.retain(|&v| lamina.can_reach(self.positions[v as usize], place));
+        ends.retain(|&v| {
+            lamina.can_reach(self.positions[v as usize], place)
+                && !(self.minds_crossings && self.crosses(v, place, unit))
+        });
         if ends.len() < 2 {
             return;
         }

@@ -204,6 +204,7 @@ pub struct SchemaArguments {
 
 /// `lamina grow`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct GrowArguments {
     /// A preset, or a file with leaves or a scene, and which leaf if there are several:
     /// scene.toml#beech
@@ -243,6 +244,9 @@ pub struct GrowArguments {
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,
+    /// Describe the veins that have grown in the terms of the Manual of Leaf Architecture
+    #[arg(long)]
+    pub describe: bool,
     /// Write what splines (`vein`, `net`, `fac`) or the cells of a transport leaf (`death`) tell
     /// about every point, as an EXR texture
     #[arg(long, value_name = "FILE.exr")]
@@ -268,7 +272,7 @@ impl GrowArguments {
     /// Whether a file of any kind is asked for.
     pub fn writes_anything(&self) -> bool {
         let files = [&self.measure, &self.fields, &self.contents, &self.stats];
-        !self.out.is_empty() || files.into_iter().any(Option::is_some)
+        !self.out.is_empty() || self.describe || files.into_iter().any(Option::is_some)
     }
 }
 

@@ -20,6 +20,7 @@ use leafmodel::compound::{CompoundLeaf, FlatLeaf, StalkKind, WholeLeaf, leaflet_
 use leafmodel::document::written::Extent;
 use leafmodel::export::{self, SvgStyle};
 use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
+use leafmodel::measure::description::describe;
 use leafmodel::measure::measure;
 use leafmodel::plan_file::{leaf_beside_preset, leaf_to_toml};
 use leafmodel::shape::outline::Outline;
@@ -146,19 +147,7 @@ fn carry_out(
         };
         ages::write(plan, grown.lamina(), outputs, written, stop)?;
     }
-    if let Some(path) = &arguments.measure {
-        if !network.map().is_flat() {
-            eprintln!("note: the blade is curved; measures are those of its conformal map");
-        }
-        let measures = measure(outline, network, plan.venation.murray_exponent());
-        let mut report = measures.json();
-        if let (Some(leaf), Some(report)) = (grown.compound(), report.as_object_mut()) {
-            eprintln!("note: measures are those of the largest leaflet");
-            report.insert("compound".to_owned(), compound_measures(leaf));
-        }
-        eprint!("{}", measures.table());
-        finish(path, format!("{report:#}\n").as_bytes(), stop)?;
-    }
+    tell_veins(arguments, plan, &grown, stop)?;
     let seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
         let report = json!({
@@ -183,6 +172,40 @@ fn carry_out(
         all_veins.loops(),
         all_veins.steps(),
     );
+    Ok(())
+}
+
+/// Measures of the veins, and their description.
+fn tell_veins(
+    arguments: &GrowArguments,
+    plan: &LeafPlan,
+    grown: &Grown,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let Lamina {
+        outline, network, ..
+    } = grown.lamina();
+    if let Some(path) = &arguments.measure {
+        if !network.map().is_flat() {
+            eprintln!("note: the blade is curved; measures are those of its conformal map");
+        }
+        let measures = measure(outline, network, plan.venation.murray_exponent());
+        let mut report = measures.json();
+        if let (Some(leaf), Some(report)) = (grown.compound(), report.as_object_mut()) {
+            eprintln!("note: measures are those of the largest leaflet");
+            report.insert("compound".to_owned(), compound_measures(leaf));
+        }
+        eprint!("{}", measures.table());
+        finish(path, format!("{report:#}\n").as_bytes(), stop)?;
+    }
+    if arguments.describe {
+        if grown.compound().is_some() {
+            eprintln!("note: the description is that of the largest leaflet");
+        }
+        for line in describe(outline, network).text().lines() {
+            say(line);
+        }
+    }
     Ok(())
 }
 

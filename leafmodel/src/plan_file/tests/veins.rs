@@ -153,6 +153,7 @@ pub(super) fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
                         darts_per_area,
                     }
                 }),
+                architecture: None,
                 margin_clearance: clearance.map(|(distance, until, arches)| MarginClearance {
                     distance,
                     until,

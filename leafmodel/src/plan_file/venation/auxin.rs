@@ -1,12 +1,14 @@
 //! `venation.closed` and `venation.open`: veins that grow towards auxin.
 
 use super::SHARE;
+use super::architecture::{architecture, remedy};
 use crate::document::error::DocumentError;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Flag, Integer, ListOf, Number, Numbers, Word};
 use crate::plan_file::rates::Rates;
 use crate::shape::growth::{GrowthError, RateCurve};
+use crate::venation::architecture::Architecture;
 use crate::venation::plan::{
     AuxinPlan, FreeEndings, Growth, MarginClearance, Neighbourhood, Pattern, PlanError,
 };
@@ -87,6 +89,18 @@ pub(super) fn auxin(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
         limits,
         about,
     );
+    rules(plan, keys, closed);
+    let names = GROWTH.map(|kind| kind.name);
+    let final_length = plan.final_length;
+    let about = "How the lamina grows while veins form.";
+    keys.required_block("growth", about, &names, |keys| {
+        keys.kind(&mut plan.growth, &GROWTH);
+        starts_shorter(&plan.growth, keys, final_length);
+    });
+}
+
+/// Rules that a plan may leave out.
+fn rules(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
     // Only areoles have room for them.
     if closed {
         let new = || FreeEndings {
@@ -103,6 +117,18 @@ pub(super) fn auxin(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
             free_endings,
         );
     }
+    if closed {
+        let about = "Coarse veins laid out before the lamina grows, in the terms of the Manual of \
+            Leaf Architecture.";
+        let value = &mut plan.architecture;
+        keys.optional_block(
+            "architecture",
+            value,
+            Architecture::default,
+            about,
+            architecture,
+        );
+    }
     let new = || MarginClearance {
         distance: 0.1,
         until: 1.0,
@@ -111,13 +137,6 @@ pub(super) fn auxin(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
     let about = "Sources kept off the margin of the young leaf.";
     let clearance = &mut plan.margin_clearance;
     keys.optional_block("margin_clearance", clearance, new, about, margin_clearance);
-    let names = GROWTH.map(|kind| kind.name);
-    let final_length = plan.final_length;
-    let about = "How the lamina grows while veins form.";
-    keys.required_block("growth", about, &names, |keys| {
-        keys.kind(&mut plan.growth, &GROWTH);
-        starts_shorter(&plan.growth, keys, final_length);
-    });
 }
 
 /// `bs` and `bv`: one key for both, or one for each.
@@ -317,6 +336,14 @@ pub(super) fn report(keys: &Keys<'_>, error: &PlanError) {
             | GrowthError::BadPlace { .. }
             | GrowthError::BadRate { .. },
         ) => (&["growth"], "mend the growth functions"),
+        PlanError::Architecture(error) => remedy(error),
+        PlanError::Incompatible {
+            key: "architecture",
+            ..
+        } => (
+            &["architecture"],
+            "leave out one of the two; growth may be none, isogonic or anisotropic",
+        ),
         PlanError::TooManyDarts { .. } => (
             &["darts_per_segment2"],
             "use fewer darts, or larger segments or steps",

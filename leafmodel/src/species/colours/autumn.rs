@@ -3,7 +3,7 @@
 use super::super::leaf_traits::coloured::{
     RED_MAPLE as RED_MAPLE_TRAITS, SUGAR_MAPLE as SUGAR_MAPLE_TRAITS,
 };
-use super::super::{leaf_traits, runions, trees, trees_contours};
+use super::super::{architectures, leaf_traits, runions, trees, trees_contours};
 use super::contours as own;
 use super::numbers::{browned, days, fitted, last_carotenoids, last_chlorophyll, litter, red};
 use super::{Age, ColouredLeaf, Holding};
@@ -158,11 +158,8 @@ pub(super) const SUGAR_MAPLE: ColouredLeaf = ColouredLeaf {
             ..YELLOW
         };
         let outline = trees_contours::maple();
-        aged(
-            leaf,
-            trees::leaf(leaf.green, 5, outline, trees::net(80.0, 620.0, 4.0)),
-            course,
-        )
+        let veins = trees::dense(leaf.green, architectures::maple(), 3.2);
+        aged(leaf, trees::leaf(leaf.green, 5, outline, veins), course)
     },
 };
 

@@ -4,7 +4,7 @@
 use super::super::leaf_traits::coloured::{
     AMARANTH as AMARANTH_TRAITS, BOX_ELDER, RED_MAPLE, SMOKE_TREE,
 };
-use super::super::{leaf_traits, trees};
+use super::super::{architectures, leaf_traits, trees};
 use super::autumn::red_maple;
 use super::contours;
 use super::numbers::{angers, betacyanin, betaxanthin, one_leaf, red};
@@ -34,7 +34,8 @@ pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
     age: None,
     plan: |leaf| {
         let outline = contours::smoke_tree();
-        let mut plan = trees::leaf(leaf.green, 2, outline, trees::net(80.0, 480.0, 4.0));
+        let veins = trees::dense(leaf.green, architectures::smoke_tree(), 3.5);
+        let mut plan = trees::leaf(leaf.green, 2, outline, veins);
         plan.tissue.lamina = leaf.of("blade");
         plan.tissue.vein_factors[Anthocyanins] = 0.7;
         let rim = Mask::Margin {
@@ -200,7 +201,8 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
     age: None,
     plan: |leaf| {
         let outline = contours::amaranth();
-        let mut plan = trees::leaf(leaf.green, 2, outline, trees::net(90.0, 520.0, 4.0));
+        let veins = trees::dense(leaf.green, architectures::amaranth(), 3.2);
+        let mut plan = trees::leaf(leaf.green, 2, outline, veins);
         // From base to tip red, yellow, green; red extends farther along the veins.
         let up_to = |to, from| Mask::BaseToTip { from, to };
         let [yellow, red] = ["yellow", "red"].map(|tissue| leaf.of(tissue));

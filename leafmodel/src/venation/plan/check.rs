@@ -6,6 +6,8 @@ use thiserror::Error;
 use super::{AuxinPlan, Growth, Pattern};
 use crate::shape::growth::GrowthError;
 use crate::shape::outline::Outline;
+use crate::venation::architecture::ArchitectureError;
+use crate::venation::simulation::courses::young_size;
 use crate::venation::veins::COINCIDENT;
 
 /// A number to be checked: key, value, least and greatest value, and the range in words.
@@ -65,6 +67,9 @@ pub enum PlanError {
         /// The other.
         other: &'static str,
     },
+    /// An architecture that contradicts itself or its outline.
+    #[error(transparent)]
+    Architecture(#[from] ArchitectureError),
     /// A growth function is not valid.
     #[error(transparent)]
     Growth(#[from] GrowthError),
@@ -101,7 +106,28 @@ impl AuxinPlan {
         }
         let is_anisotropic = matches!(self.growth, Growth::Anisotropic { .. });
         let has_arches = self.margin_clearance.is_some_and(|rule| rule.arches > 0);
+        let has_architecture = self.architecture.is_some();
         let pairs = [
+            (
+                has_architecture && self.pattern == Pattern::Open,
+                "architecture",
+                "an open pattern",
+            ),
+            (
+                has_architecture && matches!(self.growth, Growth::Marginal { .. }),
+                "architecture",
+                "marginal growth",
+            ),
+            (
+                has_architecture && !self.origins.is_empty(),
+                "architecture",
+                "origins",
+            ),
+            (
+                has_architecture && has_arches,
+                "architecture",
+                "margin_clearance.arches",
+            ),
             (
                 has_arches && self.pattern == Pattern::Open,
                 "margin_clearance.arches",
@@ -120,6 +146,9 @@ impl AuxinPlan {
         ];
         if let Some(&(_, key, other)) = pairs.iter().find(|(both, ..)| *both) {
             return Err(PlanError::Incompatible { key, other });
+        }
+        if let Some(architecture) = &self.architecture {
+            architecture.validate()?;
         }
         match &self.growth {
             Growth::None => Ok(()),
@@ -307,6 +336,10 @@ impl AuxinPlan {
         }
         if self.joined_origins && origins.iter().any(|p| p.length() < COINCIDENT) {
             return Err(PlanError::OriginAtBase);
+        }
+        if let Some(architecture) = &self.architecture {
+            let young = young_size(&self.growth, self.final_length);
+            architecture.validate_on(blade, young)?;
         }
         // The map of a saddle ends where the enlargement is 0.
         let middle = (blade.base() + blade.apex()) * 0.5;

@@ -107,8 +107,10 @@ impl Outputs {
         let blade = (arguments.contents.is_some() && !in_ages)
             || whole.iter().any(|(_, kind)| kind.needs_blade());
         let only_plan = !whole.is_empty() && whole.iter().all(|(_, kind)| *kind == Kind::Toml);
-        let counts =
-            arguments.measure.is_some() || arguments.stats.is_some() || arguments.fields.is_some();
+        let counts = arguments.describe
+            || arguments.measure.is_some()
+            || arguments.stats.is_some()
+            || arguments.fields.is_some();
         Ok(Self {
             veins: blade || counts || in_stages || in_ages || !only_plan,
             whole,

@@ -1,0 +1,182 @@
+//! `architecture`: the coarse veins of a closed pattern, in the terms of the Manual of Leaf
+//! Architecture.
+
+use crate::document::keys::Keys;
+use crate::document::limits::Limits;
+use crate::document::value_kind::{Integer, ListOf, Number, Numbers, Word};
+use crate::plan_file::venation::SHARE;
+use crate::venation::architecture::{
+    Architecture, ArchitectureError, Arrangement, PrimaryPattern, SecondaryCourse, SecondaryEnding,
+    SecondarySpacing, TertiaryCourse,
+};
+
+pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
+    let primaries = &mut plan.primaries;
+    let words = [
+        ("pinnate", PrimaryPattern::Pinnate),
+        ("actinodromous", PrimaryPattern::Actinodromous),
+        ("acrodromous", PrimaryPattern::Acrodromous),
+    ];
+    let about = "Primary veins: the midrib only (pinnate), several that diverge from one place \
+        (actinodromous), or several in arches that converge towards the apex (acrodromous).";
+    keys.required("primaries", &mut primaries.pattern, Word(&words), about);
+    let angles = ListOf {
+        of: Number(Limits::closed(5.0, 175.0)),
+        least: 0,
+        most: 6,
+        wanted: "a list of at most 6 angles",
+    };
+    let about = "Angles between the midrib and the lateral primaries of one side, ascending; for \
+        actinodromous and acrodromous leaves.";
+    keys.key(
+        "lateral_primary_angles_deg",
+        &mut primaries.lateral_angles_deg,
+        angles,
+        about,
+    );
+    let limits = Number(Limits::closed(0.0, 0.3));
+    let about = "Where lateral primaries part from the midrib, share of its length: 0 is basal, \
+        more suprabasal.";
+    keys.key("part_at", &mut primaries.part_at, limits, about);
+    let about = "How far chance moves places, angles and courses.";
+    keys.key("irregularity", &mut plan.irregularity, SHARE, about);
+    let about = "Secondary veins.";
+    keys.required_block("secondaries", about, &[], |keys| {
+        secondaries(&mut plan.secondaries, keys);
+    });
+    let about = "Tertiary veins.";
+    keys.block("tertiaries", about, |keys| {
+        tertiaries(&mut plan.tertiaries, keys);
+    });
+}
+
+fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut Keys<'_>) {
+    let about = "How many a side of the midrib; lateral primaries bear as many as their length \
+        allows at the same spacing.";
+    keys.required("pairs", &mut plan.pairs, Integer::within(1, 40), about);
+    let limits = Limits::closed(10.0, 120.0);
+    let about = "Angle to the midrib in its lower, middle and upper third.";
+    keys.required(
+        "angles_deg",
+        &mut plan.angles_deg,
+        Numbers::<3>(limits),
+        about,
+    );
+    let words = [
+        ("craspedodromous", SecondaryEnding::Craspedodromous),
+        ("semicraspedodromous", SecondaryEnding::Semicraspedodromous),
+        ("eucamptodromous", SecondaryEnding::Eucamptodromous),
+        ("brochidodromous", SecondaryEnding::Brochidodromous),
+    ];
+    let about = "Where they end: in teeth or lobes (craspedodromous), joined in arches with \
+        branches into teeth (semicraspedodromous), upturned inside the margin (eucamptodromous), \
+        joined in arches (brochidodromous).";
+    keys.required("ending", &mut plan.ending, Word(&words), about);
+    let words = [
+        ("straight", SecondaryCourse::Straight),
+        ("arching", SecondaryCourse::Arching),
+        ("upturned", SecondaryCourse::Upturned),
+    ];
+    let about = "How they run; upturned ones bend near the margin.";
+    keys.key("course", &mut plan.course, Word(&words), about);
+    let words = [
+        ("regular", SecondarySpacing::Regular),
+        (
+            "increasing_proximally",
+            SecondarySpacing::IncreasingProximally,
+        ),
+        (
+            "decreasing_proximally",
+            SecondarySpacing::DecreasingProximally,
+        ),
+    ];
+    let about = "How they follow one another; proximally is towards the base.";
+    keys.key("spacing", &mut plan.spacing, Word(&words), about);
+    let words = [
+        ("opposite", Arrangement::Opposite),
+        ("alternate", Arrangement::Alternate),
+    ];
+    let about = "How both sides stand to each other.";
+    keys.key("arrangement", &mut plan.arrangement, Word(&words), about);
+    let about = "Where the lowest and the highest leave the midrib, shares of its length.";
+    keys.key(
+        "span",
+        &mut plan.span,
+        Numbers::<2>(Limits::closed(0.0, 1.0)),
+        about,
+    );
+    let limits = Number(Limits::closed(0.005, 0.2));
+    let about = "Distance of arches and of ends without a tooth from the margin, share of the \
+        leaf's length.";
+    keys.key("inset", &mut plan.inset, limits, about);
+    let limits = Number(Limits::closed(0.0, 3.0));
+    let about = "Shorter veins between two secondaries, on average.";
+    keys.key(
+        "intersecondaries",
+        &mut plan.intersecondaries,
+        limits,
+        about,
+    );
+}
+
+fn tertiaries(plan: &mut crate::venation::architecture::Tertiaries, keys: &mut Keys<'_>) {
+    let words = [
+        ("reticulate", TertiaryCourse::Reticulate),
+        ("opposite_percurrent", TertiaryCourse::OppositePercurrent),
+        ("alternate_percurrent", TertiaryCourse::AlternatePercurrent),
+        ("sinuous_percurrent", TertiaryCourse::SinuousPercurrent),
+    ];
+    let about = "How they run: in a net (reticulate), or across from secondary to secondary, \
+        straight (opposite), with an offset (alternate) or in a wave (sinuous).";
+    keys.key("course", &mut plan.course, Word(&words), about);
+    let limits = Number(Limits::closed(0.004, 0.2));
+    let about = "Percurrent only: distance between neighbours, share of the leaf's length.";
+    keys.key("spacing", &mut plan.spacing, limits, about);
+    let limits = Number(Limits::closed(40.0, 140.0));
+    let about = "Percurrent only: angle to the secondary that they leave.";
+    keys.key("angle_deg", &mut plan.angle_deg, limits, about);
+}
+
+/// The key to change, and what to write instead.
+pub(super) fn remedy(error: &ArchitectureError) -> (&'static [&'static str], &'static str) {
+    match error {
+        ArchitectureError::OutOfRange { .. } => (&["architecture"], "use a number in range"),
+        ArchitectureError::LateralPrimaries { .. } => (
+            &["architecture", "lateral_primary_angles_deg"],
+            "name an angle for each lateral primary of one side, or choose another pattern",
+        ),
+        ArchitectureError::NotAscending { key: "span", .. } => (
+            &["architecture", "secondaries", "span"],
+            "write the lower place first",
+        ),
+        ArchitectureError::NotAscending { .. } => (
+            &["architecture", "lateral_primary_angles_deg"],
+            "begin with the angle nearest to the midrib",
+        ),
+        ArchitectureError::TooFewTeeth { .. } => (
+            &["architecture", "secondaries", "ending"],
+            "give the outline teeth, use fewer pairs, or let the secondaries end inside the \
+             margin: eucamptodromous or brochidodromous",
+        ),
+        ArchitectureError::TooManyPairs { .. } => (
+            &["architecture", "secondaries", "pairs"],
+            "use fewer pairs, a wider span, or a longer young leaf: initial_length_segments",
+        ),
+        ArchitectureError::NoWay { .. } => (
+            &["architecture", "secondaries", "pairs"],
+            "use fewer pairs, or a span that starts above the lateral primaries",
+        ),
+        ArchitectureError::TertiariesTooClose { .. } => (
+            &["architecture", "tertiaries", "spacing"],
+            "use a wider spacing, or a longer young leaf: initial_length_segments",
+        ),
+        ArchitectureError::PrimariesOffBlade { .. } => (
+            &["architecture", "lateral_primary_angles_deg"],
+            "use smaller angles, or a greater part_at: higher up the blade is wider",
+        ),
+        ArchitectureError::MidribOffBlade => (
+            &["architecture"],
+            "leave the architecture out, or draw an outline that holds its midrib",
+        ),
+    }
+}

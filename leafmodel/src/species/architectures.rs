@@ -1,0 +1,241 @@
+//! Vein architectures of the presets of trees and shrubs.
+//!
+//! Patterns, endings and numbers of veins are what is typical of the species; angles and spacings
+//! are by eye. None was counted on a specimen.
+
+use crate::venation::architecture::{
+    Architecture, Arrangement, Primaries, PrimaryPattern, Secondaries, SecondaryCourse,
+    SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,
+};
+
+fn pinnate() -> Primaries {
+    Primaries {
+        pattern: PrimaryPattern::Pinnate,
+        lateral_angles_deg: Vec::new(),
+        part_at: 0.0,
+    }
+}
+
+fn actinodromous(lateral_angles_deg: &[f64]) -> Primaries {
+    Primaries {
+        pattern: PrimaryPattern::Actinodromous,
+        lateral_angles_deg: lateral_angles_deg.to_vec(),
+        part_at: 0.0,
+    }
+}
+
+const fn across(course: TertiaryCourse, spacing: f64, angle_deg: f64) -> Tertiaries {
+    Tertiaries {
+        course,
+        spacing,
+        angle_deg,
+    }
+}
+
+/// Silver birch: straight secondaries into the greater teeth.
+pub(super) fn birch() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 7,
+            angles_deg: [50.0, 45.0, 40.0],
+            course: SecondaryCourse::Straight,
+            ending: SecondaryEnding::Craspedodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.04, 0.8],
+            inset: 0.03,
+            intersecondaries: 0.0,
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 92.0),
+        irregularity: 0.3,
+    }
+}
+
+/// Eastern cottonwood: three primaries, arches with branches into the teeth.
+pub(super) fn cottonwood() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[52.0]),
+        secondaries: Secondaries {
+            pairs: 5,
+            angles_deg: [55.0, 50.0, 45.0],
+            course: SecondaryCourse::Arching,
+            ending: SecondaryEnding::Semicraspedodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.2, 0.8],
+            inset: 0.035,
+            intersecondaries: 0.3,
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 95.0),
+        irregularity: 0.4,
+    }
+}
+
+/// Southern magnolia: many arches well inside an entire margin, and intersecondaries.
+pub(super) fn magnolia() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 10,
+            angles_deg: [60.0, 58.0, 52.0],
+            course: SecondaryCourse::Upturned,
+            ending: SecondaryEnding::Brochidodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.06, 0.88],
+            inset: 0.035,
+            intersecondaries: 0.8,
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.5,
+    }
+}
+
+/// White oak: a secondary to each rounded lobe.
+pub(super) fn white_oak() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 4,
+            angles_deg: [55.0, 50.0, 40.0],
+            course: SecondaryCourse::Straight,
+            ending: SecondaryEnding::Craspedodromous,
+            spacing: SecondarySpacing::DecreasingProximally,
+            arrangement: Arrangement::Opposite,
+            span: [0.08, 0.8],
+            inset: 0.03,
+            intersecondaries: 0.0,
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.02, 95.0),
+        irregularity: 0.3,
+    }
+}
+
+/// Red oak: a secondary to each bristle-pointed lobe.
+pub(super) fn red_oak() -> Architecture {
+    Architecture {
+        secondaries: Secondaries {
+            angles_deg: [60.0, 56.0, 48.0],
+            spacing: SecondarySpacing::Regular,
+            span: [0.06, 0.8],
+            ..white_oak().secondaries
+        },
+        ..white_oak()
+    }
+}
+
+/// Maple: five primaries into the lobes, straight secondaries into their teeth.
+pub(super) fn maple() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[53.0, 110.0]),
+        secondaries: Secondaries {
+            pairs: 2,
+            angles_deg: [45.0, 42.0, 38.0],
+            course: SecondaryCourse::Straight,
+            ending: SecondaryEnding::Craspedodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Opposite,
+            span: [0.42, 0.72],
+            inset: 0.03,
+            intersecondaries: 0.0,
+        },
+        tertiaries: across(TertiaryCourse::OppositePercurrent, 0.025, 95.0),
+        irregularity: 0.3,
+    }
+}
+
+/// Ivy: five primaries into the lobes, secondaries that dwindle inside the margin.
+pub(super) fn ivy() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[62.0, 113.0]),
+        secondaries: Secondaries {
+            pairs: 3,
+            angles_deg: [50.0, 45.0, 40.0],
+            course: SecondaryCourse::Arching,
+            ending: SecondaryEnding::Eucamptodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.28, 0.8],
+            inset: 0.04,
+            intersecondaries: 0.0,
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.5,
+    }
+}
+
+/// White willow: secondaries that run up along the margin.
+pub(super) fn willow() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 14,
+            angles_deg: [48.0, 46.0, 40.0],
+            course: SecondaryCourse::Arching,
+            ending: SecondaryEnding::Eucamptodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.06, 0.88],
+            inset: 0.02,
+            intersecondaries: 0.0,
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.012, 95.0),
+        irregularity: 0.4,
+    }
+}
+
+/// Croton: many wide-angled secondaries that meet in arches.
+pub(super) fn croton() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 15,
+            angles_deg: [68.0, 66.0, 58.0],
+            course: SecondaryCourse::Upturned,
+            ending: SecondaryEnding::Brochidodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.05, 0.9],
+            inset: 0.02,
+            intersecondaries: 0.5,
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+    }
+}
+
+/// Smoke tree: straight-running, wide-angled secondaries that dwindle near an entire margin.
+pub(super) fn smoke_tree() -> Architecture {
+    Architecture {
+        primaries: pinnate(),
+        secondaries: Secondaries {
+            pairs: 9,
+            angles_deg: [68.0, 64.0, 55.0],
+            course: SecondaryCourse::Upturned,
+            ending: SecondaryEnding::Eucamptodromous,
+            spacing: SecondarySpacing::Regular,
+            arrangement: Arrangement::Alternate,
+            span: [0.06, 0.88],
+            inset: 0.025,
+            intersecondaries: 0.5,
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+    }
+}
+
+/// Amaranth: arching secondaries that dwindle near an entire margin.
+pub(super) fn amaranth() -> Architecture {
+    Architecture {
+        secondaries: Secondaries {
+            pairs: 8,
+            angles_deg: [52.0, 48.0, 42.0],
+            course: SecondaryCourse::Arching,
+            ending: SecondaryEnding::Eucamptodromous,
+            intersecondaries: 0.3,
+            ..smoke_tree().secondaries
+        },
+        ..smoke_tree()
+    }
+}

@@ -1,0 +1,180 @@
+//! What the presets' architectures ask for, held against what is found on the grown leaves.
+
+use super::Grown;
+use crate::measure::description::{Description, describe};
+use crate::species::PRESETS;
+use crate::venation::architecture::{
+    Architecture, PrimaryPattern, SecondaryCourse, SecondaryEnding, SecondarySpacing,
+    TertiaryCourse,
+};
+
+/// How far the mean angle of a third may be from what was asked for, degrees.
+const ANGLE: f64 = 10.0;
+
+/// Where a grown leaf is not what its architecture says, in words.
+fn disagreements(asked: &Architecture, found: &Description) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut hold = |holds: bool, what: String| {
+        if !holds {
+            all.push(what);
+        }
+    };
+    let primaries = &asked.primaries;
+    hold(
+        found.primaries == Some(primaries.pattern),
+        format!("primaries {:?}", found.primaries),
+    );
+    hold(
+        found.lateral_primaries == 2 * primaries.lateral_angles_deg.len(),
+        format!("{} lateral primaries", found.lateral_primaries),
+    );
+    let bent = found.midrib_over_chord.unwrap_or(9.0);
+    hold(bent <= 1.02, format!("midrib over chord {bent}"));
+    let secondaries = &asked.secondaries;
+    hold(
+        found.secondaries == [secondaries.pairs as usize; 2],
+        format!("secondaries {:?}", found.secondaries),
+    );
+    hold(
+        found.ending == Some(secondaries.ending),
+        format!("ending {:?}", found.ending),
+    );
+    let thirds = secondaries.angles_deg.iter().zip(found.angles_deg);
+    for (third, (asked, found)) in thirds.enumerate() {
+        let found = found.unwrap_or(*asked);
+        hold(
+            (found - asked).abs() <= ANGLE,
+            format!("angle {found:.1}, not {asked} in third {third}"),
+        );
+    }
+    let is_straight = secondaries.course == SecondaryCourse::Straight;
+    hold(
+        found.are_straight == Some(is_straight),
+        format!("straight: {:?}", found.are_straight),
+    );
+    hold(
+        found.spacing == Some(secondaries.spacing),
+        format!("spacing {:?}", found.spacing),
+    );
+    if secondaries.ending == SecondaryEnding::Craspedodromous {
+        let share = found.in_teeth.unwrap_or(0.0);
+        hold(
+            share >= 0.9,
+            format!("{share} of the secondaries end in teeth"),
+        );
+    }
+    let between = found.intersecondaries.unwrap_or(0.0);
+    hold(
+        (between - secondaries.intersecondaries).abs() <= 0.5,
+        format!("{between} intersecondaries"),
+    );
+    let across = found.percurrent.unwrap_or(0.0);
+    let is_percurrent = asked.tertiaries.course != TertiaryCourse::Reticulate;
+    hold(
+        (across > 0.5) == is_percurrent,
+        format!("{across} of the tertiaries run across"),
+    );
+    if let Some(angle) = found.tertiary_angle_deg.filter(|_| is_percurrent) {
+        hold(
+            (angle - asked.tertiaries.angle_deg).abs() <= ANGLE,
+            format!("tertiaries at {angle:.1}"),
+        );
+    }
+    all
+}
+
+#[test]
+fn each_species_is_what_its_architecture_says() {
+    let mut described = 0;
+    let mut wrong = Vec::new();
+    for preset in PRESETS {
+        let plan = preset.plan();
+        let asked = plan.venation.auxin();
+        let Some(asked) = asked.and_then(|plan| plan.architecture.clone()) else {
+            continue;
+        };
+        if crate::species::colours::coloured(preset.name).is_some() {
+            continue;
+        }
+        let leaf = Grown::of(plan);
+        let found = describe(&leaf.outline, &leaf.network);
+        let mut all = disagreements(&asked, &found);
+        let measures = leaf.measures();
+        // The 25th to the 75th percentile of cleared leaves of 75 species, but for crossings.
+        for (key, range) in [
+            ("crossing_count", 0.0..0.5),
+            ("vein_density_mm_per_mm2", 2.9..6.0),
+            ("areoles_per_mm2", 1.5..7.0),
+            ("areole_circularity_median", 0.72..0.82),
+        ] {
+            let value = measures.number(key).expect("a net has it");
+            if !range.contains(&value) {
+                all.push(format!("{key} {value}"));
+            }
+        }
+        wrong.extend(all.iter().map(|what| format!("{}: {what}", preset.name)));
+        described += 1;
+    }
+    assert_eq!(wrong, [""; 0]);
+    assert!(described >= 9, "{described}");
+}
+
+/// A small leaf of a preset, for what no preset has.
+fn small(name: &str, change: impl Fn(&mut Architecture)) -> (Architecture, Description) {
+    let mut plan = super::find(name).expect("a preset").plan();
+    let mut asked = Architecture::default();
+    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation {
+        asked = auxin.architecture.clone().expect("it has one");
+        change(&mut asked);
+        auxin.architecture = Some(asked.clone());
+        auxin.final_length = 400.0;
+        auxin.growth = crate::venation::plan::Growth::Isogonic {
+            initial_length: 300.0,
+            length_step: 2.5,
+        };
+    }
+    let leaf = Grown::of(plan);
+    (asked, describe(&leaf.outline, &leaf.network))
+}
+
+#[test]
+fn endings_and_spacings_are_found_as_they_were_asked_for() {
+    for (name, ending) in [
+        ("birch", SecondaryEnding::Craspedodromous),
+        ("birch", SecondaryEnding::Semicraspedodromous),
+        ("magnolia", SecondaryEnding::Eucamptodromous),
+        ("magnolia", SecondaryEnding::Brochidodromous),
+    ] {
+        let (_, found) = small(name, |asked| {
+            asked.secondaries.ending = ending;
+            asked.tertiaries.course = TertiaryCourse::Reticulate;
+        });
+        assert_eq!(found.ending, Some(ending));
+    }
+    for spacing in [
+        SecondarySpacing::Regular,
+        SecondarySpacing::IncreasingProximally,
+        SecondarySpacing::DecreasingProximally,
+    ] {
+        let (asked, found) = small("magnolia", |asked| {
+            asked.irregularity = 0.1;
+            asked.secondaries.spacing = spacing;
+            asked.secondaries.ending = SecondaryEnding::Brochidodromous;
+        });
+        assert_eq!(found.spacing, Some(spacing));
+        assert_eq!(found.secondaries, [asked.secondaries.pairs as usize; 2]);
+    }
+}
+
+#[test]
+fn acrodromous_primaries_run_in_arches_towards_the_apex() {
+    let (_, found) = small("magnolia", |asked| {
+        asked.primaries.pattern = PrimaryPattern::Acrodromous;
+        asked.primaries.lateral_angles_deg = vec![50.0];
+        asked.secondaries.ending = SecondaryEnding::Eucamptodromous;
+        asked.secondaries.pairs = 1;
+        asked.secondaries.span = [0.9, 0.95];
+    });
+    assert_eq!(found.primaries, Some(PrimaryPattern::Acrodromous));
+    assert_eq!(found.lateral_primaries, 2);
+}

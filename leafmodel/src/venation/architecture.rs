@@ -1,0 +1,288 @@
+//! Vein architecture: which coarse veins a leaf has, in the terms of the Manual of Leaf
+//! Architecture.
+//!
+//! The architecture decides where sources of auxin appear and when; veins still grow towards them.
+//! Primaries come first, then secondaries, then tertiaries: the sources of a vein appear one after
+//! another along its course and draw the tip of that vein only. What is left of the blade is
+//! filled by the ordinary loop while the lamina grows, so that fine veins stay irregular.
+//!
+//! - **In**: an [`Architecture`], a blade in segments, base at the origin.
+//! - **Out**: the courses of its veins, order by order.
+//! - **Always true**: courses of one order start from a vein that was laid out before; the same
+//!   plan and seed give the same bits.
+//! - **Left out**: palinactinodromous, parallelodromous, campylodromous and flabellate primaries;
+//!   festooned secondaries; agrophic veins other than the outer secondaries of lateral primaries.
+//!
+//! # Source
+//!
+//! \[ellis2009\] for terms and classes; the layout is ours.
+
+pub(crate) mod axis;
+pub mod check;
+pub(crate) mod course;
+pub(crate) mod ends;
+pub(crate) mod margin;
+pub(crate) mod secondaries;
+pub(crate) mod tertiaries;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+
+use self::axis::Axis;
+pub use self::check::ArchitectureError;
+use self::course::Course;
+use self::margin::Margin;
+use super::chance::{Use, uniform};
+use crate::shape::outline::Outline;
+
+/// How primary veins run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PrimaryPattern {
+    /// One primary vein, the midrib.
+    Pinnate,
+    /// Three or more primaries diverge from one place.
+    Actinodromous,
+    /// Three or more primaries run in arches that converge towards the apex.
+    Acrodromous,
+}
+
+/// The primary veins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primaries {
+    /// How they run.
+    pub pattern: PrimaryPattern,
+    /// Angles between the midrib and the lateral primaries of one side, degrees, 5 to 175,
+    /// ascending; both sides have the same. None for pinnate leaves, at most 6.
+    pub lateral_angles_deg: Vec<f64>,
+    /// Where lateral primaries part from the midrib, share of its length, 0 to 0.3; 0 is basal,
+    /// more suprabasal.
+    pub part_at: f64,
+}
+
+/// How a secondary vein runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SecondaryCourse {
+    /// Without a bend.
+    Straight,
+    /// Bent evenly towards the apex.
+    Arching,
+    /// Straight at first, bent towards the apex near the margin.
+    Upturned,
+}
+
+/// How secondary veins follow one another along the midrib.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SecondarySpacing {
+    /// At even distances.
+    Regular,
+    /// Farther apart towards the base.
+    IncreasingProximally,
+    /// Nearer to each other towards the base.
+    DecreasingProximally,
+}
+
+/// Where a secondary vein ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SecondaryEnding {
+    /// In a tooth or lobe.
+    Craspedodromous,
+    /// Joined to the next in an arch, from which a branch runs into a tooth.
+    Semicraspedodromous,
+    /// Inside the margin, upturned and dwindling, not joined to the next.
+    Eucamptodromous,
+    /// Joined to the next in an arch.
+    Brochidodromous,
+}
+
+/// How secondaries of both sides stand to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// In pairs.
+    Opposite,
+    /// Those of one side between those of the other.
+    Alternate,
+}
+
+/// The secondary veins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Secondaries {
+    /// How many a side of the midrib, 1 to 40. Lateral primaries have as many as their length
+    /// allows at the same spacing.
+    pub pairs: u32,
+    /// Angle to the midrib's direction in its lower, middle and upper third, degrees, 10 to 120.
+    pub angles_deg: [f64; 3],
+    /// How they run.
+    pub course: SecondaryCourse,
+    /// Where they end.
+    pub ending: SecondaryEnding,
+    /// How they follow one another.
+    pub spacing: SecondarySpacing,
+    /// How both sides stand to each other.
+    pub arrangement: Arrangement,
+    /// Where the lowest and the highest depart, shares of the midrib's length, ascending.
+    pub span: [f64; 2],
+    /// Distance of arches and dwindling ends from the margin, share of the leaf's length, 0.005
+    /// to 0.2.
+    pub inset: f64,
+    /// Intersecondary veins to an intercostal area, 0 to 3.
+    pub intersecondaries: f64,
+}
+
+/// How tertiary veins run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TertiaryCourse {
+    /// They join in a net; chance lays them out.
+    Reticulate,
+    /// Straight across from secondary to secondary.
+    OppositePercurrent,
+    /// Across with an offset midway.
+    AlternatePercurrent,
+    /// Across in a wave.
+    SinuousPercurrent,
+}
+
+/// The tertiary veins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tertiaries {
+    /// How they run.
+    pub course: TertiaryCourse,
+    /// Distance between neighbours, share of the leaf's length, 0.004 to 0.2. Percurrent only.
+    pub spacing: f64,
+    /// Angle to the secondary that they leave, measured from its direction, degrees, 40 to 140.
+    /// Percurrent only.
+    pub angle_deg: f64,
+}
+
+/// The coarse veins of a species.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Architecture {
+    /// Order 1.
+    pub primaries: Primaries,
+    /// Order 2.
+    pub secondaries: Secondaries,
+    /// Order 3.
+    pub tertiaries: Tertiaries,
+    /// How far chance moves places, angles and courses, 0 to 1.
+    pub irregularity: f64,
+}
+
+impl Default for Architecture {
+    /// A pinnate leaf with eight pairs of secondaries that meet in arches.
+    fn default() -> Self {
+        Self {
+            primaries: Primaries {
+                pattern: PrimaryPattern::Pinnate,
+                lateral_angles_deg: Vec::new(),
+                part_at: 0.0,
+            },
+            secondaries: Secondaries {
+                pairs: 8,
+                angles_deg: [60.0, 55.0, 45.0],
+                course: SecondaryCourse::Arching,
+                ending: SecondaryEnding::Brochidodromous,
+                spacing: SecondarySpacing::Regular,
+                arrangement: Arrangement::Alternate,
+                span: [0.06, 0.85],
+                inset: 0.03,
+                intersecondaries: 0.0,
+            },
+            tertiaries: Tertiaries {
+                course: TertiaryCourse::AlternatePercurrent,
+                spacing: 0.022,
+                angle_deg: 90.0,
+            },
+            irregularity: 0.3,
+        }
+    }
+}
+
+/// Random numbers of an architecture, each for its order, its vein and what it decides.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lots {
+    seed: u64,
+    strength: f64,
+}
+
+impl Lots {
+    pub(crate) fn new(seed: u64, strength: f64) -> Self {
+        Self { seed, strength }
+    }
+
+    /// Uniform in [−1, 1) times the plan's irregularity.
+    pub(crate) fn jitter(self, order: u8, vein: u64, what: u64) -> f64 {
+        self.strength * (2.0 * self.share(order, vein, what) - 1.0)
+    }
+
+    /// Uniform in [0, 1).
+    pub(crate) fn share(self, order: u8, vein: u64, what: u64) -> f64 {
+        let counter = (u64::from(order) << 56) | (vein << 8) | what;
+        uniform(self.seed, Use::Architecture, counter)
+    }
+}
+
+/// The primaries of an architecture on a blade: the midrib first. None for an axis that does not
+/// fit.
+pub(crate) fn primaries(
+    architecture: &Architecture,
+    blade: &Outline,
+    margin: &Margin,
+    lots: Lots,
+) -> Vec<Axis> {
+    let plan = &architecture.primaries;
+    let apex = blade.apex();
+    let length = apex.length();
+    let up = apex / length;
+    let mut axes = vec![Axis::new(
+        Course::curve(
+            DVec2::ZERO,
+            &[apex - up * (0.004 * length)],
+            lots,
+            1,
+            0,
+            0.15,
+        ),
+        0.0,
+    )];
+    let part = up * (plan.part_at * length);
+    for side in [1.0, -1.0] {
+        for (number, &degrees) in plan.lateral_angles_deg.iter().enumerate() {
+            let vein = 1 + 2 * number as u64 + u64::from(side < 0.0);
+            let turn = 3.0 * lots.jitter(1, vein, 200);
+            let angle = (degrees + turn).to_radians();
+            let way = ends::aside(up, angle, side);
+            let (bends, tip): (Vec<DVec2>, _) = match plan.pattern {
+                PrimaryPattern::Acrodromous => {
+                    // Out at its angle, along the margin at a distance, and in towards the apex.
+                    let across = ends::aside(up, std::f64::consts::FRAC_PI_2, side);
+                    let left = 1.0 - plan.part_at;
+                    let wide = (degrees / 90.0).clamp(0.25, 0.75);
+                    let at = |along: f64, aside: f64| {
+                        let on = part + up * (along * left * length);
+                        let reach = margin
+                            .hit(on, across)
+                            .map_or(0.0, |hit| (hit.place - on).length());
+                        on + across * (aside * wide * reach)
+                    };
+                    (
+                        vec![at(0.2, 0.9), at(0.45, 1.0), at(0.72, 0.9)],
+                        at(0.93, 0.6),
+                    )
+                }
+                PrimaryPattern::Pinnate | PrimaryPattern::Actinodromous => {
+                    let Some(hit) = margin.hit(part, way) else {
+                        continue;
+                    };
+                    let reach = (hit.place - part).length();
+                    let tip = margin.lobe_near(hit.at, 0.35 * reach).unwrap_or(hit.place);
+                    let inner = tip - (tip - part).normalize_or_zero() * (0.012 * length);
+                    (Vec::new(), inner)
+                }
+            };
+            let points: Vec<DVec2> = bends.into_iter().chain([tip]).collect();
+            let course = Course::curve(part, &points, lots, 1, vein, 0.5);
+            axes.push(Axis::new(course, side));
+        }
+    }
+    axes
+}

@@ -1,0 +1,459 @@
+//! Where secondary veins leave their primaries, how they run and where they end.
+
+use glam::DVec2;
+
+use super::axis::Axis;
+use super::course::Course;
+use super::ends::{aside, assign, tip_cost};
+use super::margin::{Hit, Margin, Tip};
+use super::{Architecture, Arrangement, Lots, Secondaries, SecondaryCourse, SecondaryEnding};
+use super::{PrimaryPattern, SecondarySpacing};
+use crate::shape::outline::Outline;
+
+/// Exponent of uneven spacing.
+const UNEVEN: f64 = 1.4;
+
+/// Share of the spacing by which a fully irregular place is moved.
+const PLACE_JITTER: f64 = 0.4;
+
+/// Degrees by which a fully irregular angle is turned.
+const ANGLE_JITTER: f64 = 9.0;
+
+/// Where on the next vein an arch ends, as a share of the places of its course.
+const ARCH_END: f64 = 0.56;
+
+/// Where a course bends up near the margin, likewise.
+const KNEE: f64 = 2.0 / 3.0;
+
+/// A secondary vein to be laid out.
+#[derive(Clone, Debug)]
+pub(crate) struct Secondary {
+    /// Its course.
+    pub(crate) course: Course,
+    /// The number of the primary that it leaves.
+    pub(crate) axis: usize,
+    /// On which side of it: 1 the right, −1 the left.
+    pub(crate) side: f64,
+}
+
+/// What secondaries there are, and what goes with them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Laid {
+    /// Order 2.
+    pub(crate) veins: Vec<Secondary>,
+    /// Intersecondaries, and branches that run from arches into teeth.
+    pub(crate) finer: Vec<Course>,
+}
+
+/// Radians by which a vein to a tooth is turned as gladly as it is moved half a spacing.
+const TURN: f64 = 0.14;
+
+/// How far from its angle a vein leaves for a tooth, radians: 35°.
+const MOST_TURN: f64 = 0.611;
+
+/// What it costs that the straight way to a tooth leaves the blade.
+const OFF_BLADE: f64 = 40.0;
+
+/// The blade and its primaries.
+#[derive(Clone, Copy)]
+pub(crate) struct Site<'s> {
+    /// Full-grown, in segments, base at the origin.
+    pub(crate) blade: &'s Outline,
+    /// Its margin.
+    pub(crate) margin: &'s Margin,
+    /// Its primaries, the midrib first.
+    pub(crate) axes: &'s [Axis],
+    /// Chance.
+    pub(crate) lots: Lots,
+}
+
+/// One vein while its place is settled.
+struct Draft {
+    /// Place on the axis, share of its length.
+    share: f64,
+    /// Angle of the chord to the axis, radians.
+    angle: f64,
+    hit: Hit,
+    tip: Option<DVec2>,
+}
+
+/// How far a course bows towards the base, over its chord, at half and at five sixths.
+fn bow(course: SecondaryCourse) -> [f64; 2] {
+    match course {
+        SecondaryCourse::Straight => [0.0, 0.0],
+        SecondaryCourse::Arching => [0.075, 0.055],
+        SecondaryCourse::Upturned => [0.045, 0.075],
+    }
+}
+
+/// How much flatter the chord is than the departure, radians.
+pub(crate) fn bend(course: SecondaryCourse) -> f64 {
+    match course {
+        SecondaryCourse::Straight => 0.0,
+        SecondaryCourse::Arching => 0.16,
+        SecondaryCourse::Upturned => 0.06,
+    }
+}
+
+impl Secondaries {
+    /// Angle at a share of the axis, degrees: the thirds' in their middles, even between.
+    fn angle_at(&self, share: f64) -> f64 {
+        let [base, middle, apex] = self.angles_deg;
+        let place = (share - 1.0 / 6.0) * 3.0;
+        if place < 1.0 {
+            base + (middle - base) * place.max(-0.5)
+        } else {
+            middle + (apex - middle) * (place - 1.0).min(1.5)
+        }
+    }
+
+    /// Places of `count` veins of one side, shares of the axis, ascending.
+    fn places(&self, count: u32, span: [f64; 2], shifted: f64) -> Vec<f64> {
+        let even = |k: u32| {
+            let t = if count > 1 {
+                (f64::from(k) + shifted) / (f64::from(count) - 1.0 + 0.5)
+            } else {
+                0.5
+            };
+            match self.spacing {
+                SecondarySpacing::Regular => t,
+                SecondarySpacing::IncreasingProximally => 1.0 - libm::pow(1.0 - t, UNEVEN),
+                SecondarySpacing::DecreasingProximally => libm::pow(t, UNEVEN),
+            }
+        };
+        (0..count)
+            .map(|k| span[0] + (span[1] - span[0]) * even(k))
+            .collect()
+    }
+}
+
+/// The secondaries of all primaries.
+pub(crate) fn lay_out(architecture: &Architecture, site: Site<'_>) -> Laid {
+    let mut laid = Laid::default();
+    let mut taken: Vec<DVec2> = site.axes.iter().map(|axis| axis.course.at(1.0).0).collect();
+    for axis in 0..site.axes.len() {
+        for side in [1.0, -1.0] {
+            one_side(architecture, site, axis, side, &mut taken, &mut laid);
+        }
+    }
+    laid
+}
+
+/// How many veins a side of an axis bears, and where.
+fn places(architecture: &Architecture, axes: &[Axis], axis: usize, side: f64) -> Vec<f64> {
+    let plan = &architecture.secondaries;
+    let shifted = match plan.arrangement {
+        Arrangement::Opposite => 0.25,
+        Arrangement::Alternate if side > 0.0 => 0.0,
+        Arrangement::Alternate => 0.5,
+    };
+    if axis == 0 {
+        return plan.places(plan.pairs, plan.span, shifted);
+    }
+    if architecture.primaries.pattern == PrimaryPattern::Acrodromous {
+        return Vec::new();
+    }
+    let share = axes[axis].course.length() / axes[0].course.length();
+    let gap = (plan.span[1] - plan.span[0]) / f64::from(plan.pairs.max(2) - 1);
+    let span = [plan.span[0].max(0.18), plan.span[1]];
+    let count = ((span[1] - span[0]) * share / gap).round().max(1.0) as u32;
+    plan.places(count, span, shifted)
+}
+
+fn one_side(
+    architecture: &Architecture,
+    site: Site<'_>,
+    number: usize,
+    side: f64,
+    taken: &mut Vec<DVec2>,
+    laid: &mut Laid,
+) {
+    let Site {
+        margin, axes, lots, ..
+    } = site;
+    let plan = &architecture.secondaries;
+    let axis = &axes[number];
+    let vein = |k: usize| (number as u64) << 16 | u64::from(side < 0.0) << 12 | k as u64;
+    let wanted = places(architecture, axes, number, side);
+    let gap = match wanted[..] {
+        [first, .., last] => (last - first) / (wanted.len() as f64 - 1.0),
+        _ => 0.3,
+    };
+    let length = axes[0].course.length();
+    let mut drafts: Vec<Draft> = wanted
+        .iter()
+        .enumerate()
+        .filter_map(|(k, &share)| {
+            let share = share + 0.5 * PLACE_JITTER * gap * lots.jitter(2, vein(k), 0);
+            let (place, ahead) = axis.at(share);
+            let degrees = plan.angle_at(share) + ANGLE_JITTER * lots.jitter(2, vein(k), 1);
+            let angle = (degrees.to_radians() - bend(plan.course)).max(0.15);
+            let hit = margin.hit(place, aside(ahead, angle, side))?;
+            let is_free = axes.iter().enumerate().all(|(i, other)| {
+                let from = place + (hit.place - place) * 0.02;
+                i == number || !other.course.is_crossed_by(from, hit.place)
+            });
+            is_free.then_some(Draft {
+                share,
+                angle,
+                hit,
+                tip: None,
+            })
+        })
+        .collect();
+    match plan.ending {
+        SecondaryEnding::Craspedodromous => run_into_teeth(&mut drafts, site, number, gap, taken),
+        SecondaryEnding::Semicraspedodromous => branch_into_teeth(&mut drafts, margin),
+        SecondaryEnding::Eucamptodromous | SecondaryEnding::Brochidodromous => {}
+    }
+    // From the apex on, so that the next vein is there when an arch looks for it.
+    let mut next: Option<(Course, f64)> = None;
+    let mut courses = Vec::new();
+    for (k, draft) in drafts.iter().enumerate().rev() {
+        let (start, _) = axis.at(draft.share);
+        let course = course(plan, site, start, draft, side, next.as_ref(), [length, gap])
+            .map(|bends| Course::curve(start, &bends, lots, 2, vein(k), 1.0));
+        let Some(course) = course else { continue };
+        let arches = match plan.ending {
+            SecondaryEnding::Brochidodromous | SecondaryEnding::Semicraspedodromous => {
+                next.is_some()
+            }
+            SecondaryEnding::Craspedodromous | SecondaryEnding::Eucamptodromous => false,
+        };
+        if plan.ending == SecondaryEnding::Semicraspedodromous
+            && let Some(tip) = draft.tip
+        {
+            let (from, _) = course.at(KNEE - 0.04);
+            let end = inward(tip, from, length);
+            laid.finer
+                .push(Course::curve(from, &[end], lots, 3, vein(k), 0.3));
+        }
+        next = Some((course.clone(), draft.hit.at));
+        courses.push(if arches { course.joined() } else { course });
+    }
+    courses.reverse();
+    intersecondaries(plan, &courses, lots, number, side, laid);
+    laid.veins
+        .extend(courses.into_iter().map(|course| Secondary {
+            course,
+            axis: number,
+            side,
+        }));
+}
+
+/// A place just inside a tooth.
+fn inward(tip: DVec2, from: DVec2, length: f64) -> DVec2 {
+    tip + (from - tip).normalize_or_zero() * (0.006 * length)
+}
+
+/// Gives each draft a tooth or lobe, and moves its start so that it reaches that at about its
+/// angle, on a way that stays on the blade.
+fn run_into_teeth(
+    drafts: &mut [Draft],
+    site: Site<'_>,
+    number: usize,
+    gap: f64,
+    taken: &mut Vec<DVec2>,
+) {
+    let Site {
+        margin,
+        axes,
+        blade,
+        ..
+    } = site;
+    let axis = &axes[number];
+    let length = blade.length();
+    let free = |tip: &&Tip| {
+        taken
+            .iter()
+            .all(|p| (*p - tip.place).length() > 0.03 * length)
+    };
+    let mut tips: Vec<Tip> = margin.tips().iter().filter(free).copied().collect();
+    let [Some(first), Some(last)] = [drafts.first(), drafts.last()] else {
+        return;
+    };
+    // In the order in which the veins come.
+    if first.hit.at > last.hit.at {
+        tips.reverse();
+    }
+    let is_open = |share: f64, tip: &Tip| {
+        let (place, _) = axis.at(share);
+        let from = place + (tip.place - place) * 0.02;
+        // The tip itself lies on the margin.
+        let to = inward(tip.place, place, length);
+        let mut others = axes.iter().enumerate().filter(|(i, _)| *i != number);
+        !blade.is_crossed_by(from, to)
+            && others.all(|(_, other)| !other.course.is_crossed_by(from, to))
+    };
+    // The best start for a tip, and what it costs.
+    let best = |draft: &Draft, tip: &Tip| {
+        let starts = (-12..=12).map(|i| draft.share + gap * 0.1 * f64::from(i));
+        let cost = |share: f64| {
+            let (place, ahead) = axis.at(share);
+            let turned = ((tip.place - place).angle_to(ahead).abs() - draft.angle) / TURN;
+            let moved = (share - draft.share) / (0.5 * gap);
+            turned * turned + moved * moved
+        };
+        let mut ways: Vec<(f64, f64)> = starts
+            .filter(|share| (0.01..0.97).contains(share))
+            .map(|share| (cost(share), share))
+            .collect();
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let turned_little = |share: f64| {
+            let (place, ahead) = axis.at(share);
+            ((tip.place - place).angle_to(ahead).abs() - draft.angle).abs() < MOST_TURN
+        };
+        let open = ways
+            .iter()
+            .find(|&&(_, share)| turned_little(share) && is_open(share, tip));
+        open.copied().or_else(|| {
+            let &(cost, share) = ways.first()?;
+            Some((cost + OFF_BLADE, share))
+        })
+    };
+    let highest = tips.iter().map(|tip| tip.height).fold(0.0, f64::max);
+    // What is out of all reach is not looked at.
+    let apex = margin.apex_at();
+    let near = |draft: &Draft, tip: &Tip| {
+        let same_half = (tip.at < apex) == (draft.hit.at < apex);
+        same_half && (tip.at - draft.hit.at).abs() < 0.15
+    };
+    let costs: Vec<Vec<Option<(f64, f64)>>> = drafts
+        .iter()
+        .map(|draft| {
+            let of = |tip: &Tip| best(draft, tip).filter(|_| near(draft, tip));
+            tips.iter().map(of).collect()
+        })
+        .collect();
+    let cost = |i: usize, t: usize| match costs[i][t] {
+        Some((cost, _)) => tip_cost(cost.sqrt(), &tips[t], highest),
+        None => 4.0 * OFF_BLADE,
+    };
+    let Some(chosen) = assign(drafts.len(), tips.len(), cost) else {
+        return;
+    };
+    let mut least = 0.01;
+    for (i, &t) in chosen.iter().enumerate() {
+        let Some((cost, share)) = costs[i][t] else {
+            continue;
+        };
+        drafts[i].share = share.max(least);
+        least = drafts[i].share + 0.35 * gap;
+        if cost < OFF_BLADE {
+            drafts[i].tip = Some(tips[t].place);
+            taken.push(tips[t].place);
+        }
+    }
+}
+
+/// Gives each draft the tooth nearest to where it would meet the margin.
+fn branch_into_teeth(drafts: &mut [Draft], margin: &Margin) {
+    let tips = margin.tips();
+    let highest = tips.iter().map(|tip| tip.height).fold(0.0, f64::max);
+    let mut order: Vec<usize> = (0..drafts.len()).collect();
+    order.sort_by(|&a, &b| drafts[a].hit.at.total_cmp(&drafts[b].hit.at));
+    let wanted: Vec<f64> = order.iter().map(|&i| drafts[i].hit.at).collect();
+    let spread = wanted
+        .last()
+        .zip(wanted.first())
+        .map_or(0.0, |(b, a)| b - a);
+    let spacing = (spread / wanted.len().max(2) as f64).max(0.01);
+    let away = |i: usize, t: usize| (tips[t].at - wanted[i]) / spacing;
+    let cost = |i: usize, t: usize| tip_cost(away(i, t), &tips[t], highest);
+    for (i, t) in assign(wanted.len(), tips.len(), cost)
+        .into_iter()
+        .flatten()
+        .enumerate()
+    {
+        // A tooth far from where the vein would end is another vein's.
+        if away(i, t).abs() < 2.0 {
+            drafts[order[i]].tip = Some(tips[t].place);
+        }
+    }
+}
+
+/// The bends of a vein after its start; none if there is no room for it.
+fn course(
+    plan: &Secondaries,
+    site: Site<'_>,
+    start: DVec2,
+    draft: &Draft,
+    side: f64,
+    next: Option<&(Course, f64)>,
+    [length, gap]: [f64; 2],
+) -> Option<Vec<DVec2>> {
+    let margin = site.margin;
+    let bowed = |end: DVec2| {
+        let chord = end - start;
+        let basal = -chord.perp() * side;
+        let [half, far] = bow(plan.course);
+        [
+            start + chord * 0.5 + basal * half,
+            start + chord * 0.82 + basal * far,
+        ]
+    };
+    let reach = (draft.hit.place - start).length();
+    let inset = (plan.inset * length).min(0.3 * reach);
+    if reach < 0.02 * length {
+        return None;
+    }
+    if plan.ending == SecondaryEnding::Craspedodromous {
+        let end = inward(draft.tip?, start, length);
+        let [half, far] = bowed(end);
+        let stays = [(start, half), (half, far), (far, end)]
+            .iter()
+            .all(|&(a, b)| {
+                let from = a + (b - a) * 0.02;
+                !site.blade.is_crossed_by(from, b)
+            });
+        return Some(if stays {
+            vec![half, far, end]
+        } else {
+            vec![end]
+        });
+    }
+    // The knee lies on the way to the margin, inside it by `inset`.
+    let way = (draft.hit.place - start) / reach;
+    let back = inset / way.perp_dot(margin.direction(draft.hit.at)).abs().max(0.25);
+    let knee = draft.hit.place - way * back.min(0.5 * reach);
+    let [half, _] = bowed(knee);
+    let towards_apex = if side > 0.0 { 1.0 } else { -1.0 };
+    let on = match next {
+        Some((_, at)) => (at - draft.hit.at).abs().min(0.2),
+        None => gap * 0.3 * length / margin.perimeter(),
+    };
+    let is_arch = match plan.ending {
+        SecondaryEnding::Brochidodromous | SecondaryEnding::Semicraspedodromous => true,
+        SecondaryEnding::Craspedodromous | SecondaryEnding::Eucamptodromous => false,
+    };
+    let end = match next {
+        Some((next, _)) if is_arch => next.at(ARCH_END).0,
+        Some(_) | None => margin.inside(draft.hit.at + towards_apex * 0.62 * on, 0.8 * inset),
+    };
+    Some(vec![half, knee, end])
+}
+
+/// Veins of a part of the length between two secondaries, and along them.
+fn intersecondaries(
+    plan: &Secondaries,
+    courses: &[Course],
+    lots: Lots,
+    number: usize,
+    side: f64,
+    laid: &mut Laid,
+) {
+    for (k, pair) in courses.windows(2).enumerate() {
+        let vein = (number as u64) << 16 | u64::from(side < 0.0) << 12 | 1 << 11 | k as u64;
+        let whole = plan.intersecondaries.floor();
+        let more = lots.share(3, vein, 0) < plan.intersecondaries - whole;
+        let count = whole as u32 + u32::from(more);
+        for i in 0..count {
+            let between = f64::from(i + 1) / f64::from(count + 1);
+            let at = |t: f64| pair[0].at(t).0.lerp(pair[1].at(t).0, between);
+            let reach = 0.26 + 0.14 * lots.share(3, vein, 1 + u64::from(i));
+            let bends = [at(0.5 * reach), at(reach)];
+            let course = Course::curve(at(0.0), &bends, lots, 3, vein + u64::from(i), 0.5);
+            laid.finer.push(course);
+        }
+    }
+}

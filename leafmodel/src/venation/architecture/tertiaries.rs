@@ -1,0 +1,158 @@
+//! Percurrent tertiary veins: across from each secondary to the next.
+
+use glam::DVec2;
+
+use super::course::{Course, cross};
+use super::margin::Margin;
+use super::{Architecture, Lots, TertiaryCourse};
+use crate::shape::outline::Outline;
+
+/// Tertiaries reach at most so far, share of the leaf's length.
+const LONGEST: f64 = 0.25;
+
+/// How much farther apart than others the tertiaries below the lowest secondaries are.
+const OUTER: f64 = 1.6;
+
+/// Their angle to the secondary, degrees.
+const OUTER_DEG: f64 = 65.0;
+
+/// How far from the margin they end, share of the leaf's length.
+const MARGIN: f64 = 0.015;
+
+/// A vein of order 1 or 2 as it has grown.
+#[derive(Clone, Debug)]
+pub(crate) struct Grown {
+    /// Its nodes, from its start on another vein.
+    pub(crate) nodes: Vec<DVec2>,
+    /// On which side of its parent it lies: 1 the right, −1 the left, 0 for the midrib.
+    pub(crate) side: f64,
+    /// Share of its length that sends tertiaries to the next vein.
+    pub(crate) fertile: f64,
+    /// Whether it is the lowest of its side, which sends tertiaries to the margin below as well.
+    pub(crate) is_lowest: bool,
+}
+
+/// The tertiaries between veins that have grown; `unit` is a segment.
+pub(crate) fn courses(
+    architecture: &Architecture,
+    veins: &[Grown],
+    blade: &Outline,
+    margin: &Margin,
+    unit: f64,
+    lots: Lots,
+) -> Vec<Course> {
+    let plan = architecture.tertiaries;
+    if plan.course == TertiaryCourse::Reticulate {
+        return Vec::new();
+    }
+    let length = blade.length();
+    let spacing = (plan.spacing * length).max(2.5 * unit);
+    let pieces: Vec<(usize, DVec2, DVec2)> = veins
+        .iter()
+        .enumerate()
+        .flat_map(|(i, vein)| vein.nodes.windows(2).map(move |pair| (i, pair[0], pair[1])))
+        .collect();
+    let meets = |number: usize, near: DVec2, far: DVec2| {
+        pieces
+            .iter()
+            .filter(|(i, ..)| *i != number)
+            .filter_map(|&(_, a, b)| cross(near, far, a, b))
+            .min_by(f64::total_cmp)
+    };
+    let mut courses = Vec::new();
+    let lateral = |vein: &&Grown| vein.side != 0.0;
+    let flanks = |vein: &Grown| {
+        let below = vein.is_lowest.then_some(-vein.side);
+        std::iter::once(vein.side).chain(below)
+    };
+    let numbered = veins.iter().enumerate().filter(|(_, vein)| lateral(vein));
+    for (number, side, vein) in numbered.flat_map(|(i, v)| flanks(v).map(move |s| (i, s, v))) {
+        let is_below = side != vein.side;
+        let spacing = if is_below { OUTER * spacing } else { spacing };
+        let total: f64 = vein.nodes.windows(2).map(|p| (p[1] - p[0]).length()).sum();
+        let key = (number as u64) << 13 | u64::from(is_below) << 12;
+        let (mut walked, mut count) = (0.0, 0_u64);
+        let place = |count: u64| {
+            let jitter = 0.4 * lots.jitter(3, key | count, 0);
+            (count as f64 + 0.6 + jitter) * spacing
+        };
+        for pair in vein.nodes.windows(2) {
+            let piece = pair[1] - pair[0];
+            let step = piece.length();
+            while place(count) < (walked + step).min(total * vein.fertile - 1.5 * unit) {
+                let id = key | count;
+                let start = pair[0] + piece * ((place(count) - walked).max(0.0) / step);
+                count += 1;
+                let degrees = if is_below { OUTER_DEG } else { plan.angle_deg };
+                let turn = (degrees + 10.0 * lots.jitter(3, id, 1)).to_radians();
+                let (sin, cos) = libm::sincos(turn);
+                let ahead = piece / step;
+                let way = ahead * cos + ahead.perp() * (side * sin);
+                let far = start + way * (LONGEST * length);
+                let near = start + way * (0.5 * unit);
+                let meets = meets(number, near, far).map(|share| near.lerp(far, share));
+                let inside = |end: &DVec2| !blade.is_crossed_by(near, *end);
+                let course = if let Some(end) = meets.filter(inside) {
+                    if (end - start).length() < 2.5 * unit {
+                        continue;
+                    }
+                    let bends = bends(plan.course, start, end, ahead, spacing, lots, id);
+                    Course::curve(start, &bends, lots, 3, id, 0.8).joined()
+                } else {
+                    let Some(hit) = margin.hit(start, way).filter(|_| is_below) else {
+                        continue;
+                    };
+                    let end = hit.place - way * (MARGIN * length).max(1.5 * unit);
+                    if (end - start).dot(way) < 2.5 * unit {
+                        continue;
+                    }
+                    let bow = ahead * (0.06 * (end - start).length());
+                    Course::curve(start, &[start.lerp(end, 0.5) - bow, end], lots, 3, id, 0.8)
+                };
+                courses.push(course);
+            }
+            walked += step;
+        }
+    }
+    courses
+}
+
+/// What leads a tertiary from start to end.
+fn bends(
+    course: TertiaryCourse,
+    start: DVec2,
+    end: DVec2,
+    ahead: DVec2,
+    spacing: f64,
+    lots: Lots,
+    id: u64,
+) -> Vec<DVec2> {
+    let at = |share: f64, offset: f64| start.lerp(end, share) + ahead * (offset * spacing);
+    let side = if lots.share(3, id, 2) < 0.5 {
+        -1.0
+    } else {
+        1.0
+    };
+    match course {
+        TertiaryCourse::Reticulate | TertiaryCourse::OppositePercurrent => vec![end],
+        TertiaryCourse::AlternatePercurrent => {
+            let middle = 0.5 + 0.2 * lots.jitter(3, id, 3);
+            let jog = 0.13 * side;
+            vec![
+                at(0.5 * middle, 0.5 * jog),
+                at(middle - 0.03, jog),
+                at(middle + 0.03, -jog),
+                at(0.5 + 0.5 * middle, -0.5 * jog),
+                end,
+            ]
+        }
+        TertiaryCourse::SinuousPercurrent => {
+            vec![
+                at(0.27, 0.16 * side),
+                at(0.5, 0.0),
+                at(0.73, -0.16 * side),
+                end,
+            ]
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What new veins have to mind: veins that they would cross, and daughters that they would run
+//! along.
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+
+use super::{NO_NODE, Veins};
+use crate::venation::architecture::course::cross;
+use crate::venation::probe::{Probe, SLACK, distance_squared};
+
+/// A new vein leaves a node at least so far from others there: the cosine of 40°.
+const APART: f64 = 0.766;
+
+/// Edges at a node, at most.
+const MOST: usize = 4;
+
+/// Calls `meet` with all nodes within a distance until it breaks.
+struct Around<F> {
+    place: DVec2,
+    squared: f64,
+    meet: F,
+}
+
+impl<F: FnMut(u32, DVec2) -> ControlFlow<()>> Probe for Around<F> {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        distance_squared(low, high, self.place) <= self.squared * SLACK
+    }
+
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
+        if (position - self.place).length_squared() > self.squared {
+            return ControlFlow::Continue(());
+        }
+        (self.meet)(id, position)
+    }
+}
+
+impl Veins {
+    /// Visits all nodes within `distance` of a place until `meet` breaks.
+    fn around(
+        &self,
+        place: DVec2,
+        distance: f64,
+        meet: impl FnMut(u32, DVec2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let squared = distance * distance;
+        self.tree.visit(
+            place,
+            &mut Around {
+                place,
+                squared,
+                meet,
+            },
+        )
+    }
+
+    /// The nodes from which edges lead to a node.
+    fn before(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        let first = self.parents[node as usize];
+        let more = self.joints.get(&node).into_iter().flatten().copied();
+        std::iter::once(first).filter(|&n| n != NO_NODE).chain(more)
+    }
+
+    /// Whether an edge leads from one of two nodes to the other.
+    pub(crate) fn are_joined(&self, a: u32, b: u32) -> bool {
+        self.before(a).any(|node| node == b) || self.before(b).any(|node| node == a)
+    }
+
+    /// Whether a straight vein from a node to a place crosses another; `unit` is a segment there.
+    pub(crate) fn crosses(&self, from: u32, to: DVec2, unit: f64) -> bool {
+        let start = self.positions[from as usize];
+        self.piece_crosses([start, to], [from, NO_NODE], None, unit)
+    }
+
+    /// Whether a straight piece crosses a vein; those that meet in one of `ends` do not count, nor
+    /// does the edge `own`.
+    pub(super) fn piece_crosses(
+        &self,
+        [start, to]: [DVec2; 2],
+        ends: [u32; 2],
+        own: Option<[u32; 2]>,
+        unit: f64,
+    ) -> bool {
+        let middle = (start + to) * 0.5;
+        // An edge is at most two segments long, so that one of its ends is not farther than that.
+        let reach = (to - start).length() * 0.5 + 2.1 * unit;
+        self.around(middle, reach, |node, place| {
+            if ends.contains(&node) {
+                return ControlFlow::Continue(());
+            }
+            for before in self.before(node) {
+                let there = self.positions[before as usize];
+                let is_own = own == Some([before, node]);
+                if !is_own && !ends.contains(&before) && cross(start, to, there, place).is_some() {
+                    return ControlFlow::Break(());
+                }
+            }
+            ControlFlow::Continue(())
+        })
+        .is_break()
+    }
+
+    /// Whether a vein that leaves a node in this direction would run along another there, or be
+    /// one too many.
+    pub(crate) fn is_crowded(&self, node: u32, way: DVec2, unit: f64) -> bool {
+        let place = self.positions[node as usize];
+        let way = way.normalize_or_zero();
+        let runs_along = |other: DVec2| (other - place).normalize_or_zero().dot(way) > APART;
+        let mut count = 0;
+        for before in self.before(node) {
+            count += 1;
+            if runs_along(self.positions[before as usize]) {
+                return true;
+            }
+        }
+        if self.first_children[node as usize] == NO_NODE {
+            return false;
+        }
+        let crowded = self.around(place, 2.1 * unit, |other, at| {
+            if other != node && self.before(other).any(|before| before == node) {
+                count += 1;
+                if runs_along(at) {
+                    return ControlFlow::Break(());
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        crowded.is_break() || count >= MOST
+    }
+
+    /// The nearest node within `reach` of a place that `counts`.
+    pub(crate) fn nearest(
+        &self,
+        place: DVec2,
+        reach: f64,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let mut best: Option<(f64, u32)> = None;
+        let _ = self.around(place, reach, |node, at| {
+            let candidate = ((at - place).length_squared(), node);
+            // Of equally near ones the oldest, whatever the order of the tree.
+            if counts(node) && best.is_none_or(|best| candidate < best) {
+                best = Some(candidate);
+            }
+            ControlFlow::Continue(())
+        });
+        best.map(|(_, node)| node)
+    }
+}
