@@ -2,7 +2,7 @@
 //! `cargo run --release -p leafmodel --example own_outline -- [margin.svg [leaf.svg]]`.
 //!
 //! The margin is the first path of an SVG file, traced from a scan for example; without a file it
-//! is the drawing below. The veins are those of a birch. The measures go to the standard output as
+//! is the drawing below. The veins are those of a magnolia, which join in arches along any margin. The measures go to the standard output as
 //! CSV, the leaf is drawn into the second file if one is named.
 
 use std::error::Error;
@@ -31,8 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let margin = SvgContour::parse(&name, &drawing, None)?;
 
-    let birch = species::find("birch").ok_or("the birch is a preset")?;
-    let mut plan = birch.plan();
+    let magnolia = species::find("magnolia").ok_or("the magnolia is a preset")?;
+    let mut plan = magnolia.plan();
     plan.length_mm = LENGTH_MM;
     plan.outline = Contour::Svg(margin).into();
     let lamina = plan.grow_lamina()?;

@@ -30,6 +30,7 @@ fn varied(leaf: &LeafPlan, kill_distance: f64, birth_distance: f64, seed: u64) -
         source_birth_distance: birth_distance,
         vein_birth_distance: birth_distance,
         final_length: 150.0,
+        darts_per_area: 0.01,
         ..leaf.venation.auxin()?.clone()
     };
     Some(LeafPlan {
@@ -47,15 +48,15 @@ fn measured(plan: &LeafPlan) -> Result<Measures, LeafError> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let seeds: u64 = std::env::args().nth(1).map_or(Ok(3), |text| text.parse())?;
-    let birch = species::find("birch").ok_or("the birch is a preset")?;
-    let birch = birch.plan();
+    let poplar = species::find("poplar").ok_or("the poplar is a preset")?;
+    let poplar = poplar.plan();
 
     let mut rows = Vec::new();
     for kill_distance in KILL_DISTANCES {
         for birth_distance in BIRTH_DISTANCES {
             for seed in 0..seeds {
-                let plan = varied(&birch, kill_distance, birth_distance, seed);
-                let plan = plan.ok_or("the birch's veins grow towards auxin")?;
+                let plan = varied(&poplar, kill_distance, birth_distance, seed);
+                let plan = plan.ok_or("the poplar's veins grow towards auxin")?;
                 rows.push((kill_distance, birth_distance, plan));
             }
         }
