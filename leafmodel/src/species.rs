@@ -24,6 +24,7 @@
 
 mod architectures;
 mod arcuate;
+mod as_grown;
 mod beyond;
 #[cfg(test)]
 mod claims;

@@ -44,11 +44,13 @@ pub mod architecture;
 pub mod arcuate;
 pub mod areole;
 mod auxin;
+mod bipolar;
 pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
 mod fresh_nodes;
 mod given;
+mod grown;
 mod horizon;
 mod influence;
 mod lamina;
@@ -65,6 +67,7 @@ mod probe;
 mod relative_neighbourhood;
 mod simulation;
 mod sources;
+mod tension;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod topology;
@@ -76,18 +79,18 @@ use glam::DVec2;
 use thiserror::Error;
 
 use self::auxin::waiting_darts;
+use self::bipolar::Bipolar;
 use self::closed::Anastomosis;
-use self::conformal_map::ConformalMap;
 use self::given::GivenVeins;
+use self::grown::Grown;
 use self::influence::Influence;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
-use self::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
+use self::network::{Ending, VenationNetwork};
 use self::open::NearestNode;
 use self::plan::{AuxinPlan, Growth, Neighbourhood, Pattern, PlanError};
 use self::relative_neighbourhood::RelativeNeighbourhood;
 use self::simulation::Simulation;
-use self::topology::Topology;
 use self::urquhart::UrquhartNeighbourhood;
 use crate::shape::outline::Outline;
 
@@ -326,24 +329,6 @@ fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     AuxinPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
 }
 
-/// A simulation's state, in segments of its step, base at the origin, without widths.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Grown {
-    positions: Vec<DVec2>,
-    births: Vec<u32>,
-    /// The order as which each node was laid out, 0 for none; empty without an architecture.
-    laid_orders: Vec<u8>,
-    edges: Vec<[u32; 2]>,
-    origins: u32,
-    steps: u32,
-    sources: u32,
-    ending: Ending,
-    margin: Vec<DVec2>,
-    apex: DVec2,
-    /// Apex of the leaf to which the conformal map belongs: only isogonic growth scales the map.
-    map_apex: DVec2,
-}
-
 /// Runs a checked plan; returns the full-grown state and those after `steps`.
 #[cfg(test)]
 pub(crate) fn carry_out(
@@ -375,6 +360,9 @@ fn carry_out_from(
         Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, given, seed, watch),
         Pattern::Closed(Neighbourhood::Relative) => {
             simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, given, seed, watch)
+        }
+        Pattern::Closed(Neighbourhood::Bipolar) => {
+            simulate::<Anastomosis<Bipolar>>(plan, lamina, clock, given, seed, watch)
         }
         Pattern::Closed(Neighbourhood::Urquhart) => {
             simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, given, seed, watch)
@@ -447,101 +435,4 @@ fn simulate<I: Influence>(
         }
     };
     (grown, watch.young)
-}
-
-impl Grown {
-    /// Adds straight veins from the base to all origins. The base becomes node 0; the numbers of
-    /// all other nodes rise by one.
-    fn joined(mut self) -> Self {
-        self.positions.insert(0, DVec2::ZERO);
-        self.births.insert(0, 0);
-        if !self.laid_orders.is_empty() {
-            self.laid_orders.insert(0, 0);
-        }
-        let grown = self.edges.iter().map(|&[from, to]| [from + 1, to + 1]);
-        let joints = (1..=self.origins).map(|origin| [0, origin]);
-        self.edges = joints.chain(grown).collect();
-        self.origins = 1;
-        self
-    }
-
-    /// Adds widths and orders and converts to millimetres.
-    fn into_network(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
-        let grown = if plan.joined_origins {
-            self.joined()
-        } else {
-            self
-        };
-        grown.widened(plan, segment_mm, base)
-    }
-
-    fn widened(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
-        let apex = self.map_apex * segment_mm;
-        let curvature = plan.gaussian_curvature / apex.length_squared();
-        let map = ConformalMap::new(curvature, base + apex * 0.5);
-        let place = |node: u32| base + self.positions[node as usize] * segment_mm;
-        let topology = Topology::new(self.positions.len(), &self.edges);
-        let base_to_tip = topology
-            .base_to_tip()
-            .expect("children and junctions are younger than what leads to them, so no edges run in a circle");
-        let radius = |flow: f64| width::radius(flow, plan.veinlet_radius_mm, plan.murray_exponent);
-        let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
-        let mut radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
-        let orders = order::orders(
-            &topology,
-            &self.positions,
-            &radii,
-            &base_to_tip,
-            &self.laid_orders,
-        );
-        if plan.unseen_veinlets > 0.0 {
-            let major = |edge: u32| orders.edges[edge as usize] <= 2;
-            flows = width::flows(&topology, &base_to_tip, |node| {
-                let bears = topology.entering(node).iter().any(|&edge| major(edge));
-                if bears { plan.unseen_veinlets } else { 0.0 }
-            });
-            radii = flows.edges.iter().map(|&flow| radius(flow)).collect();
-        }
-        let edges = self
-            .edges
-            .iter()
-            .enumerate()
-            .map(|(i, &[from, to])| {
-                // A lateral starts with its own radius; only a vein that continues tapers between
-                // its nodes.
-                let continues = orders.continuations[from as usize] == Some(i as u32);
-                let start = if continues {
-                    radius(flows.nodes[from as usize])
-                } else {
-                    radii[i]
-                };
-                VeinEdge {
-                    from,
-                    to,
-                    radius_from: start.max(radii[i]) * map.enlargement(place(from)),
-                    radius_to: radii[i] * map.enlargement(place(to)),
-                    order: orders.edges[i],
-                }
-            })
-            .collect();
-        let nodes = self
-            .positions
-            .iter()
-            .zip(&self.births)
-            .map(|(&position, &born)| VeinNode {
-                position: base + position * segment_mm,
-                born,
-            })
-            .collect();
-        VenationNetwork {
-            nodes,
-            edges,
-            map,
-            origins: self.origins,
-            steps: self.steps,
-            sources: self.sources,
-            segment_mm,
-            ending: self.ending,
-        }
-    }
 }

@@ -40,6 +40,9 @@ const STRAIGHT: f64 = 0.05;
 /// An intersecondary strays less from its chord, share of the chord.
 const WINDING: f64 = 0.12;
 
+/// So many lateral primaries are many.
+const MANY: usize = 6;
+
 /// Ratio of spacings in the two halves of the midrib from which on they change.
 const UNEVEN: f64 = 1.3;
 
@@ -96,7 +99,7 @@ pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
         return description;
     };
     description.midrib_over_chord = Some(midrib.length() / midrib.chord().max(1e-12));
-    description.primaries = Some(pattern(laterals, outline));
+    description.primaries = Some(pattern(laterals, midrib, outline));
     description.lateral_primaries = laterals.len();
     let part = laterals.iter().map(|vein| midrib.share_near(vein.start()));
     description.part_at = part.reduce(f64::min);
@@ -142,15 +145,35 @@ pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
 }
 
 /// How lateral primaries run.
-fn pattern(laterals: &[Vein], outline: &Outline) -> PrimaryPattern {
+fn pattern(laterals: &[Vein], midrib: &Vein, outline: &Outline) -> PrimaryPattern {
+    let length = outline.length();
+    let most = |count: usize| 2 * count > laterals.len();
+    let count = |holds: &dyn Fn(&Vein) -> bool| laterals.iter().filter(|v| holds(v)).count();
     if laterals.is_empty() {
         return PrimaryPattern::Pinnate;
     }
-    let converges = |vein: &&Vein| (vein.end() - outline.apex()).length() < 0.25 * outline.length();
-    if 2 * laterals.iter().filter(converges).count() > laterals.len() {
-        PrimaryPattern::Acrodromous
+    if most(count(&|vein| {
+        (vein.end() - outline.apex()).length() < 0.25 * length
+    })) {
+        let up = midrib.direction_at(0.5);
+        if most(count(&|vein| vein.departure(0.06).dot(up) < 0.5)) {
+            PrimaryPattern::Campylodromous
+        } else if laterals.len() >= MANY {
+            PrimaryPattern::Parallelodromous
+        } else {
+            PrimaryPattern::Acrodromous
+        }
     } else {
-        PrimaryPattern::Actinodromous
+        // Those that leave another lateral, away from the midrib.
+        let leaves = |vein: &Vein| {
+            let on_midrib = midrib.at(midrib.share_near(vein.start()));
+            (vein.start() - on_midrib).length() > 0.02 * length
+        };
+        match count(&leaves) {
+            0 => PrimaryPattern::Actinodromous,
+            some if some >= MANY && most(some) => PrimaryPattern::Flabellate,
+            _ => PrimaryPattern::Palinactinodromous,
+        }
     }
 }
 
@@ -173,7 +196,13 @@ fn ending(
     }
     let branches = |vein: &&&Vein| tracer.leaving(vein, 3).iter().any(&in_tooth);
     if 2 * joined.iter().filter(branches).count() > joined.len() {
-        Some(SecondaryEnding::Semicraspedodromous)
+        return Some(SecondaryEnding::Semicraspedodromous);
+    }
+    // Loops leave an arch and come back to a vein of its order, on a long way round.
+    let is_loop = |vein: &Vein| vein.joined_order == Some(2) && vein.length() > 1.25 * vein.chord();
+    let loops = |vein: &&&Vein| tracer.leaving(vein, 3).iter().any(is_loop);
+    if 2 * joined.iter().filter(loops).count() > joined.len() {
+        Some(SecondaryEnding::Festooned)
     } else {
         Some(SecondaryEnding::Brochidodromous)
     }

@@ -4,7 +4,7 @@
 //! are by eye. None was counted on a specimen.
 
 use crate::venation::architecture::{
-    Architecture, Arrangement, Primaries, PrimaryPattern, Secondaries, SecondaryCourse,
+    Architecture, Arrangement, Attachment, Primaries, PrimaryPattern, Secondaries, SecondaryCourse,
     SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,
 };
 
@@ -12,7 +12,7 @@ fn pinnate() -> Primaries {
     Primaries {
         pattern: PrimaryPattern::Pinnate,
         lateral_angles_deg: Vec::new(),
-        part_at: 0.0,
+        ..Architecture::default().primaries
     }
 }
 
@@ -20,7 +20,7 @@ fn actinodromous(lateral_angles_deg: &[f64]) -> Primaries {
     Primaries {
         pattern: PrimaryPattern::Actinodromous,
         lateral_angles_deg: lateral_angles_deg.to_vec(),
-        part_at: 0.0,
+        ..Architecture::default().primaries
     }
 }
 
@@ -40,6 +40,7 @@ pub(super) fn birch() -> Architecture {
             pairs: 7,
             angles_deg: [50.0, 45.0, 40.0],
             course: SecondaryCourse::Straight,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Craspedodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -49,6 +50,7 @@ pub(super) fn birch() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 92.0),
         irregularity: 0.3,
+        is_fimbrial: false,
     }
 }
 
@@ -60,6 +62,7 @@ pub(super) fn cottonwood() -> Architecture {
             pairs: 5,
             angles_deg: [55.0, 50.0, 45.0],
             course: SecondaryCourse::Arching,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Semicraspedodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -69,6 +72,7 @@ pub(super) fn cottonwood() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 95.0),
         irregularity: 0.4,
+        is_fimbrial: false,
     }
 }
 
@@ -80,6 +84,7 @@ pub(super) fn magnolia() -> Architecture {
             pairs: 10,
             angles_deg: [60.0, 58.0, 52.0],
             course: SecondaryCourse::Upturned,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Brochidodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -89,6 +94,7 @@ pub(super) fn magnolia() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.5,
+        is_fimbrial: false,
     }
 }
 
@@ -100,6 +106,7 @@ pub(super) fn white_oak() -> Architecture {
             pairs: 4,
             angles_deg: [55.0, 50.0, 40.0],
             course: SecondaryCourse::Straight,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Craspedodromous,
             spacing: SecondarySpacing::DecreasingProximally,
             arrangement: Arrangement::Opposite,
@@ -109,6 +116,7 @@ pub(super) fn white_oak() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.02, 95.0),
         irregularity: 0.3,
+        is_fimbrial: false,
     }
 }
 
@@ -133,6 +141,7 @@ pub(super) fn maple() -> Architecture {
             pairs: 2,
             angles_deg: [45.0, 42.0, 38.0],
             course: SecondaryCourse::Straight,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Craspedodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Opposite,
@@ -142,6 +151,7 @@ pub(super) fn maple() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::OppositePercurrent, 0.025, 95.0),
         irregularity: 0.3,
+        is_fimbrial: false,
     }
 }
 
@@ -153,6 +163,7 @@ pub(super) fn ivy() -> Architecture {
             pairs: 3,
             angles_deg: [50.0, 45.0, 40.0],
             course: SecondaryCourse::Arching,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Eucamptodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -162,6 +173,7 @@ pub(super) fn ivy() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.5,
+        is_fimbrial: false,
     }
 }
 
@@ -173,6 +185,7 @@ pub(super) fn willow() -> Architecture {
             pairs: 14,
             angles_deg: [48.0, 46.0, 40.0],
             course: SecondaryCourse::Arching,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Eucamptodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -182,6 +195,7 @@ pub(super) fn willow() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.012, 95.0),
         irregularity: 0.4,
+        is_fimbrial: false,
     }
 }
 
@@ -193,6 +207,7 @@ pub(super) fn croton() -> Architecture {
             pairs: 15,
             angles_deg: [68.0, 66.0, 58.0],
             course: SecondaryCourse::Upturned,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Brochidodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -202,6 +217,7 @@ pub(super) fn croton() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.4,
+        is_fimbrial: false,
     }
 }
 
@@ -213,6 +229,7 @@ pub(super) fn smoke_tree() -> Architecture {
             pairs: 9,
             angles_deg: [68.0, 64.0, 55.0],
             course: SecondaryCourse::Upturned,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Eucamptodromous,
             spacing: SecondarySpacing::Regular,
             arrangement: Arrangement::Alternate,
@@ -222,6 +239,7 @@ pub(super) fn smoke_tree() -> Architecture {
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.4,
+        is_fimbrial: false,
     }
 }
 
@@ -232,10 +250,156 @@ pub(super) fn amaranth() -> Architecture {
             pairs: 8,
             angles_deg: [52.0, 48.0, 42.0],
             course: SecondaryCourse::Arching,
+            attachment: Attachment::Excurrent,
             ending: SecondaryEnding::Eucamptodromous,
             intersecondaries: 0.3,
             ..smoke_tree().secondaries
         },
         ..smoke_tree()
+    }
+}
+
+/// Ginkgo: veins that fork again and again and never meet.
+pub(super) fn ginkgo() -> Architecture {
+    Architecture {
+        primaries: Primaries {
+            pattern: PrimaryPattern::Flabellate,
+            lateral_angles_deg: vec![15.0, 30.0, 45.0],
+            fork_spacing: 0.018,
+            ..pinnate()
+        },
+        secondaries: none(),
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+        ..Architecture::default()
+    }
+}
+
+/// Lady's mantle: nine primaries, one a lobe, secondaries into the teeth.
+pub(super) fn alchemilla() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[27.0, 55.0, 84.0, 118.0]),
+        secondaries: Secondaries {
+            pairs: 2,
+            angles_deg: [36.0, 34.0, 27.0],
+            course: SecondaryCourse::Straight,
+            ending: SecondaryEnding::Craspedodromous,
+            span: [0.6, 0.85],
+            ..birch().secondaries
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+        ..Architecture::default()
+    }
+}
+
+/// Sweetgum: five primaries into the lobes; their secondaries meet in arches inside the margin.
+pub(super) fn sweetgum() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[53.0, 107.0]),
+        secondaries: Secondaries {
+            pairs: 9,
+            angles_deg: [55.0, 50.0, 42.0],
+            ending: SecondaryEnding::Festooned,
+            span: [0.16, 0.9],
+            inset: 0.025,
+            ..smoke_tree().secondaries
+        },
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+        ..Architecture::default()
+    }
+}
+
+/// Nankin cherry: arches with branches into the teeth.
+pub(super) fn cherry() -> Architecture {
+    Architecture {
+        secondaries: Secondaries {
+            pairs: 6,
+            angles_deg: [48.0, 46.0, 40.0],
+            ending: SecondaryEnding::Semicraspedodromous,
+            span: [0.1, 0.86],
+            inset: 0.03,
+            ..cottonwood().secondaries
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.026, 95.0),
+        irregularity: 0.4,
+        ..Architecture::default()
+    }
+}
+
+/// An orchid: arches from base to apex, cross veins between them.
+pub(super) fn orchid() -> Architecture {
+    Architecture {
+        primaries: Primaries {
+            pattern: PrimaryPattern::Parallelodromous,
+            laterals: 4,
+            ..pinnate()
+        },
+        secondaries: none(),
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 80.0),
+        irregularity: 0.3,
+        ..Architecture::default()
+    }
+}
+
+/// A grass: many veins side by side, short cross veins.
+pub(super) fn grass() -> Architecture {
+    Architecture {
+        primaries: Primaries {
+            pattern: PrimaryPattern::Parallelodromous,
+            laterals: 9,
+            ..pinnate()
+        },
+        secondaries: none(),
+        tertiaries: across(TertiaryCourse::OppositePercurrent, 0.012, 88.0),
+        irregularity: 0.3,
+        ..Architecture::default()
+    }
+}
+
+/// A trillium's petal: arches that converge, a loose net between them.
+pub(super) fn trillium() -> Architecture {
+    Architecture {
+        primaries: Primaries {
+            pattern: PrimaryPattern::Parallelodromous,
+            laterals: 3,
+            ..pinnate()
+        },
+        secondaries: none(),
+        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
+        irregularity: 0.4,
+        ..Architecture::default()
+    }
+}
+
+/// Red maple: as the maple, with three great lobes and two small ones.
+pub(super) fn red_maple() -> Architecture {
+    Architecture {
+        primaries: actinodromous(&[48.0, 95.0]),
+        ..maple()
+    }
+}
+
+/// A box elder's leaflet: straight secondaries into few teeth.
+pub(super) fn box_elder() -> Architecture {
+    Architecture {
+        secondaries: Secondaries {
+            pairs: 7,
+            angles_deg: [50.0, 46.0, 40.0],
+            course: SecondaryCourse::Arching,
+            ending: SecondaryEnding::Eucamptodromous,
+            span: [0.08, 0.84],
+            ..birch().secondaries
+        },
+        ..birch()
+    }
+}
+
+/// No secondaries, where many primaries take their place.
+fn none() -> Secondaries {
+    Secondaries {
+        pairs: 0,
+        ..Architecture::default().secondaries
     }
 }

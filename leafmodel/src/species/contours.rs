@@ -208,6 +208,22 @@ pub(super) fn strip() -> OutlinePlan {
     .into()
 }
 
+/// A whole grass blade: widest near its base, drawn out to a long point.
+pub(super) fn linear() -> OutlinePlan {
+    pointed(&[
+        (0.0, 0.0),
+        (0.016, 0.004),
+        (0.032, 0.06),
+        (0.042, 0.2),
+        (0.042, 0.4),
+        (0.035, 0.62),
+        (0.022, 0.82),
+        (0.009, 0.95),
+        (0.0, 1.0),
+    ])
+    .into()
+}
+
 /// A trillium's petal.
 pub(super) fn petal() -> OutlinePlan {
     pointed(&[

@@ -185,7 +185,14 @@ pub fn traits(preset: &str) -> Option<&'static LeafTraits> {
     SPECIES
         .iter()
         .copied()
-        .find(|traits| traits.preset == preset)
+        .find(|traits| traits.preset == preset || is_grown_from(preset, traits.preset))
+}
+
+/// Whether a preset is the leaf of a species whose own name is a row of a paper.
+fn is_grown_from(preset: &str, species: &str) -> bool {
+    let organs = ["-leaf", "-blade", "-petal"];
+    let named = organs.iter().find_map(|organ| preset.strip_suffix(organ));
+    named == Some(species)
 }
 
 /// All species, in the order of the book's table.

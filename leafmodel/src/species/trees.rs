@@ -9,7 +9,7 @@ use super::trees_contours as contours;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::venation::architecture::Architecture;
-use crate::venation::plan::{AuxinPlan, FreeEndings, Growth};
+use crate::venation::plan::{AuxinPlan, FreeEndings, Growth, Neighbourhood, Pattern};
 
 /// A closed net under isogonic growth from `initial_length` to `final_length` segments.
 pub(super) fn net(initial_length: f64, final_length: f64, birth_distance: f64) -> AuxinPlan {
@@ -49,15 +49,19 @@ pub(super) fn dense(traits: &LeafTraits, architecture: Architecture, density: f6
     let initial_length = 0.3 * final_length;
     AuxinPlan {
         final_length,
-        kill_distance: 0.93,
+        pattern: Pattern::Closed(Neighbourhood::Bipolar),
+        axis_along_vein: 0.15,
+        tension_rounds: 20,
+        kill_distance: 0.75,
         source_birth_distance: 2.0,
         vein_birth_distance: 2.0,
-        darts_per_area: 0.0005,
+        darts_per_area: 0.0004,
         growth: Growth::Isogonic {
             initial_length,
             length_step: (final_length - initial_length) / 280.0,
         },
-        murray_exponent: 2.3,
+        murray_exponent: 2.0,
+        murray_exponent_finest: Some(3.0),
         architecture: Some(architecture),
         ..AuxinPlan::default()
     }
@@ -95,7 +99,7 @@ pub(super) fn white_oak() -> LeafPlan {
         &leaf_traits::WHITE_OAK,
         1,
         contours::white_oak(),
-        dense(&leaf_traits::WHITE_OAK, architectures::white_oak(), 3.2),
+        dense(&leaf_traits::WHITE_OAK, architectures::white_oak(), 3.4),
     )
 }
 
@@ -104,7 +108,7 @@ pub(super) fn red_oak() -> LeafPlan {
         &leaf_traits::RED_OAK,
         1,
         contours::red_oak(),
-        dense(&leaf_traits::RED_OAK, architectures::red_oak(), 3.2),
+        dense(&leaf_traits::RED_OAK, architectures::red_oak(), 3.4),
     )
 }
 
@@ -122,7 +126,7 @@ pub(super) fn willow() -> LeafPlan {
         &leaf_traits::WILLOW,
         1,
         contours::willow(),
-        dense(&leaf_traits::WILLOW, architectures::willow(), 4.0),
+        dense(&leaf_traits::WILLOW, architectures::willow(), 4.2),
     )
 }
 
@@ -133,7 +137,7 @@ pub(super) fn magnolia() -> LeafPlan {
             kill_distance: 0.8,
             darts_per_area: 0.03,
         }),
-        ..dense(&leaf_traits::MAGNOLIA, architectures::magnolia(), 3.0)
+        ..dense(&leaf_traits::MAGNOLIA, architectures::magnolia(), 3.2)
     };
     leaf(&leaf_traits::MAGNOLIA, 2, contours::magnolia(), venation)
 }

@@ -79,7 +79,7 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = AuxinPlan> {
     let distances = (0.4..4.0, 0.7..4.0, 0.7..4.0);
     let extras = (0_u8..3, 0_u8..3, 0_u8..3, -1.0..6.0);
     let growth = lengths.prop_flat_map(|length| growths(length).prop_map(move |g| (length, g)));
-    (0_u8..3, growth, distances, 0.003..0.15, extras).prop_map(
+    (0_u8..4, growth, distances, 0.003..0.15, extras).prop_map(
         |(pattern, (final_length, growth), (kill, bs, bv), darts_per_area, extras)| {
             let (row, free, clearance, curvature) = extras;
             let moves = matches!(growth, Growth::Anisotropic { .. });
@@ -87,6 +87,7 @@ fn plans(lengths: std::ops::Range<f64>) -> impl Strategy<Value = AuxinPlan> {
                 pattern: match pattern {
                     0 => Pattern::Open,
                     1 => Pattern::Closed(Neighbourhood::Relative),
+                    2 => Pattern::Closed(Neighbourhood::Bipolar),
                     _ => Pattern::Closed(Neighbourhood::Urquhart),
                 },
                 origins: if row == 0 {

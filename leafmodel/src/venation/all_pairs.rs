@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::Grown;
 use super::auxin::Darts;
+use super::bipolar::axis_of;
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
@@ -24,6 +25,8 @@ struct Source {
     id: u32,
     place: DVec2,
     start: DVec2,
+    /// Of a bipolar source.
+    axis: DVec2,
     tagged: Option<Vec<usize>>,
     arrived: Vec<usize>,
     blocked_steps: u32,
@@ -193,7 +196,18 @@ impl Oracle<'_> {
     }
 
     fn add_source(&mut self, place: DVec2) {
+        let away = |node: &&DVec2| (**node - place).length_squared();
+        let nearest = self.nodes.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let axis = nearest.map_or(DVec2::X, |&near| {
+            axis_of(
+                near - place,
+                self.born,
+                self.plan.axis_along_vein,
+                self.seed,
+            )
+        });
         self.sources.push(Source {
+            axis,
             id: self.born,
             place,
             start: self.lamina.start_of(place),

@@ -10,8 +10,8 @@
 //! - **Out**: the courses of its veins, order by order.
 //! - **Always true**: courses of one order start from a vein that was laid out before; the same
 //!   plan and seed give the same bits.
-//! - **Left out**: palinactinodromous, parallelodromous, campylodromous and flabellate primaries;
-//!   festooned secondaries; agrophic veins other than the outer secondaries of lateral primaries.
+//! - **Left out**: secondaries that end in a sinus; agrophic veins other than the outer secondaries
+//!   of lateral primaries; quaternaries, which the ordinary loop lays out.
 //!
 //! # Source
 //!
@@ -21,20 +21,17 @@ pub(crate) mod axis;
 pub mod check;
 pub(crate) mod course;
 pub(crate) mod ends;
+mod fan;
+pub(crate) mod festoons;
 pub(crate) mod margin;
+pub(crate) mod primaries;
 pub(crate) mod secondaries;
 pub(crate) mod tertiaries;
 #[cfg(test)]
 mod tests;
 
-use glam::DVec2;
-
-use self::axis::Axis;
 pub use self::check::ArchitectureError;
-use self::course::Course;
-use self::margin::Margin;
 use super::chance::{Use, uniform};
-use crate::shape::outline::Outline;
 
 /// How primary veins run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +40,16 @@ pub enum PrimaryPattern {
     Pinnate,
     /// Three or more primaries diverge from one place.
     Actinodromous,
+    /// As actinodromous, but the outer lateral primaries part from the innermost one of their side.
+    Palinactinodromous,
     /// Three or more primaries run in arches that converge towards the apex.
     Acrodromous,
+    /// Many primaries from the base run beside each other and converge at the apex.
+    Parallelodromous,
+    /// Several primaries turn back at the base and run in wide arches that converge at the apex.
+    Campylodromous,
+    /// Many equal veins radiate from the base and fork again and again towards the margin.
+    Flabellate,
 }
 
 /// The primary veins.
@@ -53,8 +58,15 @@ pub struct Primaries {
     /// How they run.
     pub pattern: PrimaryPattern,
     /// Angles between the midrib and the lateral primaries of one side, degrees, 5 to 175,
-    /// ascending; both sides have the same. None for pinnate leaves, at most 6.
+    /// ascending; both sides have the same. None for pinnate, parallelodromous and campylodromous
+    /// leaves, at most 6. For flabellate leaves those of the veins at the base; the last bounds the
+    /// fan.
     pub lateral_angles_deg: Vec<f64>,
+    /// Lateral primaries a side of parallelodromous and campylodromous leaves, 1 to 30; else 0.
+    pub laterals: u32,
+    /// Distance between the veins of flabellate leaves, share of the leaf's length, 0.004 to 0.2;
+    /// a vein forks where it is twice that away from the next.
+    pub fork_spacing: f64,
     /// Where lateral primaries part from the midrib, share of its length, 0 to 0.3; 0 is basal,
     /// more suprabasal.
     pub part_at: f64,
@@ -82,6 +94,15 @@ pub enum SecondarySpacing {
     DecreasingProximally,
 }
 
+/// How a secondary vein leaves its primary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attachment {
+    /// At its angle at once.
+    Excurrent,
+    /// Beside the primary at first.
+    Decurrent,
+}
+
 /// Where a secondary vein ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SecondaryEnding {
@@ -93,6 +114,18 @@ pub enum SecondaryEnding {
     Eucamptodromous,
     /// Joined to the next in an arch.
     Brochidodromous,
+    /// The same, with a second row of loops outside the arches.
+    Festooned,
+}
+
+impl SecondaryEnding {
+    /// Whether secondaries join in arches.
+    pub(crate) fn has_arches(self) -> bool {
+        match self {
+            Self::Craspedodromous | Self::Eucamptodromous => false,
+            Self::Semicraspedodromous | Self::Brochidodromous | Self::Festooned => true,
+        }
+    }
 }
 
 /// How secondaries of both sides stand to each other.
@@ -107,13 +140,15 @@ pub enum Arrangement {
 /// The secondary veins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Secondaries {
-    /// How many a side of the midrib, 1 to 40. Lateral primaries have as many as their length
+    /// How many a side of the midrib, 1 to 40, or 0 where there are many primaries. Lateral primaries have as many as their length
     /// allows at the same spacing.
     pub pairs: u32,
     /// Angle to the midrib's direction in its lower, middle and upper third, degrees, 10 to 120.
     pub angles_deg: [f64; 3],
     /// How they run.
     pub course: SecondaryCourse,
+    /// How they leave their primary.
+    pub attachment: Attachment,
     /// Where they end.
     pub ending: SecondaryEnding,
     /// How they follow one another.
@@ -140,6 +175,8 @@ pub enum TertiaryCourse {
     AlternatePercurrent,
     /// Across in a wave.
     SinuousPercurrent,
+    /// Across with a sharp bend midway that points away from the primary.
+    ChevronPercurrent,
 }
 
 /// The tertiary veins.
@@ -163,6 +200,8 @@ pub struct Architecture {
     pub secondaries: Secondaries,
     /// Order 3.
     pub tertiaries: Tertiaries,
+    /// Whether a vein runs all along the margin.
+    pub is_fimbrial: bool,
     /// How far chance moves places, angles and courses, 0 to 1.
     pub irregularity: f64,
 }
@@ -174,12 +213,15 @@ impl Default for Architecture {
             primaries: Primaries {
                 pattern: PrimaryPattern::Pinnate,
                 lateral_angles_deg: Vec::new(),
+                laterals: 0,
+                fork_spacing: 0.02,
                 part_at: 0.0,
             },
             secondaries: Secondaries {
                 pairs: 8,
                 angles_deg: [60.0, 55.0, 45.0],
                 course: SecondaryCourse::Arching,
+                attachment: Attachment::Excurrent,
                 ending: SecondaryEnding::Brochidodromous,
                 spacing: SecondarySpacing::Regular,
                 arrangement: Arrangement::Alternate,
@@ -192,6 +234,7 @@ impl Default for Architecture {
                 spacing: 0.022,
                 angle_deg: 90.0,
             },
+            is_fimbrial: false,
             irregularity: 0.3,
         }
     }
@@ -219,70 +262,4 @@ impl Lots {
         let counter = (u64::from(order) << 56) | (vein << 8) | what;
         uniform(self.seed, Use::Architecture, counter)
     }
-}
-
-/// The primaries of an architecture on a blade: the midrib first. None for an axis that does not
-/// fit.
-pub(crate) fn primaries(
-    architecture: &Architecture,
-    blade: &Outline,
-    margin: &Margin,
-    lots: Lots,
-) -> Vec<Axis> {
-    let plan = &architecture.primaries;
-    let apex = blade.apex();
-    let length = apex.length();
-    let up = apex / length;
-    let mut axes = vec![Axis::new(
-        Course::curve(
-            DVec2::ZERO,
-            &[apex - up * (0.004 * length)],
-            lots,
-            1,
-            0,
-            0.15,
-        ),
-        0.0,
-    )];
-    let part = up * (plan.part_at * length);
-    for side in [1.0, -1.0] {
-        for (number, &degrees) in plan.lateral_angles_deg.iter().enumerate() {
-            let vein = 1 + 2 * number as u64 + u64::from(side < 0.0);
-            let turn = 3.0 * lots.jitter(1, vein, 200);
-            let angle = (degrees + turn).to_radians();
-            let way = ends::aside(up, angle, side);
-            let (bends, tip): (Vec<DVec2>, _) = match plan.pattern {
-                PrimaryPattern::Acrodromous => {
-                    // Out at its angle, along the margin at a distance, and in towards the apex.
-                    let across = ends::aside(up, std::f64::consts::FRAC_PI_2, side);
-                    let left = 1.0 - plan.part_at;
-                    let wide = (degrees / 90.0).clamp(0.25, 0.75);
-                    let at = |along: f64, aside: f64| {
-                        let on = part + up * (along * left * length);
-                        let reach = margin
-                            .hit(on, across)
-                            .map_or(0.0, |hit| (hit.place - on).length());
-                        on + across * (aside * wide * reach)
-                    };
-                    (
-                        vec![at(0.2, 0.9), at(0.45, 1.0), at(0.72, 0.9)],
-                        at(0.93, 0.6),
-                    )
-                }
-                PrimaryPattern::Pinnate | PrimaryPattern::Actinodromous => {
-                    let Some(hit) = margin.hit(part, way) else {
-                        continue;
-                    };
-                    let reach = (hit.place - part).length();
-                    let tip = margin.lobe_near(hit.at, 0.35 * reach).unwrap_or(hit.place);
-                    let inner = tip - (tip - part).normalize_or_zero() * (0.012 * length);
-                    (Vec::new(), inner)
-                }
-            };
-            let points: Vec<DVec2> = bends.into_iter().chain([tip]).collect();
-            let course = Course::curve(part, &points, lots, 1, vein, 0.5);
-            axes.push(Axis::new(course, side));
-        }
-    }
-    axes
 }

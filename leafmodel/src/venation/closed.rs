@@ -11,10 +11,11 @@
 //!   nearer than the kill distance have arrived.
 //! - When no tagged node is left, the source is used up, and the arrived nodes are joined.
 //!
-//! Neighbours are relative neighbours, or Urquhart's approximation of them.
+//! Neighbours are relative neighbours, Urquhart's approximation of them, or one on either side.
 
 use glam::DVec2;
 
+use super::bipolar::Bipolar;
 use super::fresh_nodes::FreshNodes;
 use super::influence::{Fate, Influence, Surroundings};
 use super::relative_neighbourhood::RelativeNeighbourhood;
@@ -22,8 +23,11 @@ use super::urquhart::UrquhartNeighbourhood;
 
 /// The rule that decides which nodes are neighbours of a source.
 pub(crate) trait Zone: Send + Sized {
-    /// The neighbours of a source at `place` among all nodes.
-    fn find(place: DVec2, surroundings: &Surroundings) -> Self;
+    /// The neighbours of source number `id` at `place` among all nodes.
+    fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self;
+
+    /// The neighbours of the same source when it and all nodes have moved.
+    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings);
 
     /// Takes in the nodes added since the last call.
     fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings);
@@ -33,8 +37,12 @@ pub(crate) trait Zone: Send + Sized {
 }
 
 impl Zone for RelativeNeighbourhood {
-    fn find(place: DVec2, surroundings: &Surroundings) -> Self {
+    fn find(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
         Self::find(place, surroundings.tree)
+    }
+
+    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+        *self = Self::find(place, surroundings.tree);
     }
 
     fn update(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {
@@ -46,9 +54,31 @@ impl Zone for RelativeNeighbourhood {
     }
 }
 
+impl Zone for Bipolar {
+    fn find(place: DVec2, id: u32, surroundings: &Surroundings) -> Self {
+        Self::find(place, id, surroundings)
+    }
+
+    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+        self.find_anew(place, surroundings.tree);
+    }
+
+    fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
+        self.update(fresh);
+    }
+
+    fn members(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.members().iter().copied()
+    }
+}
+
 impl Zone for UrquhartNeighbourhood {
-    fn find(place: DVec2, surroundings: &Surroundings) -> Self {
+    fn find(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
         Self::find(place, surroundings.tree)
+    }
+
+    fn find_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
+        *self = Self::find(place, surroundings.tree);
     }
 
     fn update(&mut self, fresh: &FreshNodes, _surroundings: &Surroundings) {
@@ -72,16 +102,16 @@ pub(crate) struct Anastomosis<Z> {
 }
 
 impl<Z: Zone> Influence for Anastomosis<Z> {
-    fn new(place: DVec2, _id: u32, surroundings: &Surroundings) -> Self {
+    fn new(place: DVec2, id: u32, surroundings: &Surroundings) -> Self {
         Self {
-            zone: Z::find(place, surroundings),
+            zone: Z::find(place, id, surroundings),
             tagged: None,
             arrived: Vec::new(),
         }
     }
 
     fn place_anew(&mut self, place: DVec2, surroundings: &Surroundings) {
-        self.zone = Z::find(place, surroundings);
+        self.zone.find_anew(place, surroundings);
     }
 
     fn notice(&mut self, fresh: &FreshNodes, surroundings: &Surroundings) {

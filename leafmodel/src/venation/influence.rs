@@ -11,6 +11,8 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) tree: &'a PointTree,
     /// Seed of the simulation, which decides ties.
     pub(crate) seed: u64,
+    /// Share of bipolar sources whose axis runs along the nearest vein.
+    pub(crate) axis_along_vein: f64,
 }
 
 /// The fate of a source at the end of a step.

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 pub use self::check::PlanError;
 use super::architecture::Architecture;
+use super::width::WidthLaw;
 use crate::shape::growth::RateCurve;
 
 /// Whether veins may meet.
@@ -25,6 +26,9 @@ pub enum Neighbourhood {
     /// Those of its Delaunay neighbours that no other Delaunay neighbour excludes: Urquhart's
     /// approximation (section 5.2).
     Urquhart,
+    /// The nearest node on either side along an axis of its own, so that new veins cross areoles
+    /// from side to side. Not in the paper.
+    Bipolar,
 }
 
 /// How the lamina grows while veins form.
@@ -100,6 +104,13 @@ pub struct AuxinPlan {
     pub final_length: f64,
     /// `dk`, kill distance: a source is used up when a vein is nearer than this, 0.01 to 10 000.
     pub kill_distance: f64,
+    /// Share of the sources whose axis runs along the nearest vein, 0 to 1; more makes areoles
+    /// longer. Only for [`Neighbourhood::Bipolar`].
+    pub axis_along_vein: f64,
+    /// Rounds in which veins, each under a tension proportional to its width, move towards
+    /// balance, 0 to 1000. It straightens them and opens their angles over about as many segments
+    /// as the root of the rounds; veins that were laid out stay.
+    pub tension_rounds: u32,
     /// `bs`, least distance of a new source from other sources, 0.01 to 10 000.
     pub source_birth_distance: f64,
     /// `bv`, least distance of a new source from vein nodes, 0.01 to 10 000.
@@ -110,6 +121,9 @@ pub struct AuxinPlan {
     pub growth: Growth,
     /// Murray's exponent `n`, 0.5 to 10; 2 in most of the paper's leaves, 3 in Murray's law.
     pub murray_exponent: f64,
+    /// Murray's exponent of the finest veins, 0.5 to 10: the exponent changes towards this where
+    /// veins are a few times as wide as the finest. Without it, it is the same everywhere.
+    pub murray_exponent_finest: Option<f64>,
     /// Radius of the finest veins in mm, 10⁻⁶ to 10.
     pub veinlet_radius_mm: f64,
     /// Number of unmodelled veinlets at each node of a vein of order 1 or 2, which widen the vein,
@@ -128,6 +142,14 @@ pub struct AuxinPlan {
 }
 
 impl AuxinPlan {
+    /// How wide veins are for what they carry.
+    pub(crate) fn width_law(&self) -> WidthLaw {
+        WidthLaw {
+            coarse: self.murray_exponent,
+            finest: self.murray_exponent_finest.unwrap_or(self.murray_exponent),
+        }
+    }
+
     /// Where veins start, in segments, base at the origin.
     pub(crate) fn origins_in_segments(&self) -> Vec<DVec2> {
         if self.origins.is_empty() {
@@ -164,6 +186,8 @@ impl Default for AuxinPlan {
             joined_origins: false,
             final_length: 350.0,
             kill_distance: 1.0,
+            axis_along_vein: 0.0,
+            tension_rounds: 0,
             source_birth_distance: 2.0,
             vein_birth_distance: 2.0,
             darts_per_area: 200e-6,
@@ -172,6 +196,7 @@ impl Default for AuxinPlan {
                 length_step: 0.9,
             },
             murray_exponent: 2.0,
+            murray_exponent_finest: None,
             veinlet_radius_mm: 0.02,
             unseen_veinlets: 0.0,
             free_endings: None,

@@ -16,7 +16,7 @@ use super::influence::{Fate, Influence, Surroundings};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
-use super::plan::{AuxinPlan, Growth};
+use super::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 use super::point_tree::PointTree;
 use super::sources::{Known, Sources};
 use super::veins::{COINCIDENT, Veins};
@@ -253,6 +253,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let surroundings = Surroundings {
             tree: &self.veins.tree,
             seed: self.seed,
+            axis_along_vein: self.plan.axis_along_vein,
         };
         let (lamina, source_tree) = (&self.lamina, &mut self.source_tree);
         self.sources.carry(
@@ -271,6 +272,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             let surroundings = Surroundings {
                 tree: &self.veins.tree,
                 seed: self.seed,
+                axis_along_vein: self.plan.axis_along_vein,
             };
             self.sources.notice(&fresh, near, &surroundings);
         }
@@ -280,7 +282,8 @@ impl<'a, I: Influence> Simulation<'a, I> {
     /// Distance from all veins from which sources may be lone, if any may: they must not be used up
     /// in this step.
     fn nearness(&self, unit: f64) -> Option<f64> {
-        let may_be = self.lamina.is_flat() && !self.lamina.moves();
+        let is_bipolar = self.plan.pattern == Pattern::Closed(Neighbourhood::Bipolar);
+        let may_be = self.lamina.is_flat() && !self.lamina.moves() && !is_bipolar;
         may_be.then_some((self.plan.kill_distance + CLEAR) * unit)
     }
 
@@ -294,6 +297,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             let surroundings = Surroundings {
                 tree: &self.veins.tree,
                 seed: self.seed,
+                axis_along_vein: self.plan.axis_along_vein,
             };
             self.sources.reconsider(self.step, near, &surroundings);
         }
@@ -327,6 +331,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
         let surroundings = Surroundings {
             tree: &self.veins.tree,
             seed: self.seed,
+            axis_along_vein: self.plan.axis_along_vein,
         };
         let start = self.lamina.start_of(place);
         self.sources.push(id, place, start, near, &surroundings);

@@ -6,6 +6,8 @@
 //! the width of the parent nodes"), so that loops neither create nor destroy flow. No vein is finer
 //! than a veinlet: a share below 1 counts as 1.
 //!
+//! The exponent may rise in the finest veins ([`WidthLaw`]).
+//!
 //! The paper walks from the veinlets to the base; with loops that is well defined since edges run
 //! from older to younger tissue: every node is processed after all nodes to which it leads.
 
@@ -43,6 +45,51 @@ pub(crate) fn flows(
         }
     }
     Flows { nodes, edges }
+}
+
+/// Radii over that of a veinlet at which a law that rises lies halfway between its exponents.
+const HALFWAY: f64 = 4.0;
+
+/// How wide a vein is for what it carries.
+///
+/// Murray's exponent is near 2 where veins are wide and rises towards 3 in the finest orders
+/// (\[price2013\]). With `x` for a radius over a veinlet's, what adds up at a junction is
+/// `xᶠ ((1 + c) / (x + c))^(f − n)`: its exponent is `f` where `x` is far below `c`, and `n` far
+/// above. With `f = n` it is `xⁿ`, Murray's law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WidthLaw {
+    /// Exponent of wide veins, `n`.
+    pub(crate) coarse: f64,
+    /// Exponent of the finest veins, `f`.
+    pub(crate) finest: f64,
+}
+
+impl WidthLaw {
+    /// What a vein carries, in units of a veinlet's, for its radius over a veinlet's.
+    pub(crate) fn flow(self, radius: f64) -> f64 {
+        let rise = (1.0 + HALFWAY) / (radius + HALFWAY);
+        libm::pow(radius, self.finest) * libm::pow(rise, self.finest - self.coarse)
+    }
+
+    /// The radius over a veinlet's of a vein that carries `flow`, at least 1.
+    pub(crate) fn radius(self, flow: f64) -> f64 {
+        if self.finest == self.coarse {
+            return libm::pow(flow, 1.0 / self.coarse);
+        }
+        // Newton's method on logarithms, in which the law is nearly straight.
+        let wanted = libm::log(flow);
+        let mut x = wanted / self.coarse;
+        for _ in 0..30 {
+            let radius = libm::exp(x);
+            let over = libm::log(self.flow(radius)) - wanted;
+            let slope = self.finest - (self.finest - self.coarse) * radius / (radius + HALFWAY);
+            x -= over / slope;
+            if over.abs() < 1e-14 * wanted.abs().max(1.0) {
+                break;
+            }
+        }
+        libm::exp(x)
+    }
 }
 
 /// Radius of a vein that carries `flow`: `r = r_0 flow^{1/n}`, in the unit of the veinlet's radius
@@ -88,5 +135,32 @@ mod tests {
         let flows = flows_of(4, &[[0, 1], [0, 2], [1, 3], [2, 3]]);
         assert_eq!(flows.edges, [1.0; 4]);
         assert_eq!(flows.nodes, [2.0, 1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn the_exponent_rises_from_coarse_veins_to_fine_ones() {
+        let law = WidthLaw {
+            coarse: 2.0,
+            finest: 3.0,
+        };
+        assert!(
+            (law.radius(1.0) - 1.0).abs() < 1e-12,
+            "the finest carries 1"
+        );
+        for flow in [1.5, 4.0, 50.0, 1e4, 1e7] {
+            assert!((law.flow(law.radius(flow)) / flow - 1.0).abs() < 1e-10);
+        }
+        // The exponent with which two equal veins join: 2 = (r / r_child)ⁿ.
+        let exponent = |flow: f64| {
+            let ratio = law.radius(2.0 * flow) / law.radius(flow);
+            libm::log(2.0) / libm::log(ratio)
+        };
+        assert!((2.7..3.0).contains(&exponent(1.0)), "{}", exponent(1.0));
+        assert!((2.0..2.05).contains(&exponent(1e6)), "{}", exponent(1e6));
+        let same = WidthLaw {
+            coarse: 2.5,
+            finest: 2.5,
+        };
+        assert_eq!(same.radius(7.0), libm::pow(7.0, 1.0 / 2.5));
     }
 }

@@ -23,17 +23,13 @@ impl Description {
     fn primaries_text(&self) -> Option<String> {
         let pattern = match self.primaries? {
             PrimaryPattern::Pinnate => "pinnate".to_owned(),
-            kind @ (PrimaryPattern::Actinodromous | PrimaryPattern::Acrodromous) => {
-                let name = match kind {
-                    PrimaryPattern::Acrodromous => "acrodromous",
-                    PrimaryPattern::Actinodromous | PrimaryPattern::Pinnate => "actinodromous",
-                };
+            kind => {
                 let place = match self.part_at {
                     Some(at) if at > 0.02 => "suprabasal",
                     Some(_) | None => "basal",
                 };
                 let count = self.lateral_primaries + 1;
-                format!("{place} {name}, {count} primaries")
+                format!("{place} {}, {count} primaries", name(kind))
             }
         };
         let course = match self.midrib_over_chord {
@@ -49,6 +45,7 @@ impl Description {
             SecondaryEnding::Semicraspedodromous => "semicraspedodromous",
             SecondaryEnding::Eucamptodromous => "eucamptodromous",
             SecondaryEnding::Brochidodromous => "brochidodromous",
+            SecondaryEnding::Festooned => "festooned brochidodromous",
         };
         let [right, left] = self.secondaries;
         let pairs = if right == left {
@@ -120,5 +117,17 @@ impl Description {
             "incomplete: veins end freely at the margin"
         };
         Some(format!("marginal ultimate venation: {words}"))
+    }
+}
+
+fn name(pattern: PrimaryPattern) -> &'static str {
+    match pattern {
+        PrimaryPattern::Pinnate => "pinnate",
+        PrimaryPattern::Actinodromous => "actinodromous",
+        PrimaryPattern::Palinactinodromous => "palinactinodromous",
+        PrimaryPattern::Acrodromous => "acrodromous",
+        PrimaryPattern::Parallelodromous => "parallelodromous",
+        PrimaryPattern::Campylodromous => "campylodromous",
+        PrimaryPattern::Flabellate => "flabellate",
     }
 }

@@ -182,7 +182,7 @@ impl Vein {
     }
 
     /// The place at a share of its length.
-    fn at(&self, share: f64) -> DVec2 {
+    pub(super) fn at(&self, share: f64) -> DVec2 {
         let mut left = share.clamp(0.0, 1.0) * self.length();
         for pair in self.places.windows(2) {
             let step = (pair[1] - pair[0]).length();

@@ -100,6 +100,7 @@ pub(super) fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
         Just(Pattern::Open),
         Just(Pattern::Closed(Neighbourhood::Relative)),
         Just(Pattern::Closed(Neighbourhood::Urquhart)),
+        Just(Pattern::Closed(Neighbourhood::Bipolar)),
     ];
     let free = prop::option::of((0.5..9.0, 0.5..9.0, 0.01..5.0));
     let clearance = prop::option::of((0.01..0.5, 0.0..1.0, 0_u32..9));
@@ -115,6 +116,8 @@ pub(super) fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
         1e-3..1.0,
         prop_oneof![Just(0.0), 0.0..100.0],
         prop_oneof![Just(0.0), -0.5..8.0],
+        prop::option::of(1.0..4.0),
+        (0.0..1.0, 0_u32..30),
     );
     let origins = prop_oneof![
         Just((Vec::new(), false)),
@@ -124,7 +127,9 @@ pub(super) fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
     (pattern, growth(), free, clearance, numbers, more, origins).prop_map(
         |(pattern, growth, free, clearance, numbers, more, origins)| {
             let (final_length, kill_distance, birth, same, darts_per_area) = numbers;
-            let (murray_exponent, veinlet_radius_mm, unseen_veinlets, gaussian_curvature) = more;
+            let (murray_exponent, veinlet_radius_mm, unseen_veinlets, gaussian_curvature, ..) =
+                more;
+            let (.., murray_exponent_finest, (axis_along_vein, tension_rounds)) = more;
             let free = free.filter(|_| pattern != Pattern::Open);
             AuxinPlan {
                 pattern,
@@ -144,6 +149,17 @@ pub(super) fn auxin_plan() -> impl Strategy<Value = AuxinPlan> {
                 },
                 growth,
                 murray_exponent,
+                murray_exponent_finest,
+                axis_along_vein: if pattern == Pattern::Open {
+                    0.0
+                } else {
+                    axis_along_vein
+                },
+                tension_rounds: if pattern == Pattern::Open {
+                    0
+                } else {
+                    tension_rounds
+                },
                 veinlet_radius_mm,
                 unseen_veinlets,
                 free_endings: free.map(|(birth_distance, kill_distance, darts_per_area)| {

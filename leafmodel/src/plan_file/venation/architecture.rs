@@ -3,11 +3,11 @@
 
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
-use crate::document::value_kind::{Integer, ListOf, Number, Numbers, Word};
+use crate::document::value_kind::{Flag, Integer, ListOf, Number, Numbers, Word};
 use crate::plan_file::venation::SHARE;
 use crate::venation::architecture::{
-    Architecture, ArchitectureError, Arrangement, PrimaryPattern, SecondaryCourse, SecondaryEnding,
-    SecondarySpacing, TertiaryCourse,
+    Architecture, ArchitectureError, Arrangement, Attachment, PrimaryPattern, SecondaryCourse,
+    SecondaryEnding, SecondarySpacing, TertiaryCourse,
 };
 
 pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
@@ -15,10 +15,17 @@ pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
     let words = [
         ("pinnate", PrimaryPattern::Pinnate),
         ("actinodromous", PrimaryPattern::Actinodromous),
+        ("palinactinodromous", PrimaryPattern::Palinactinodromous),
         ("acrodromous", PrimaryPattern::Acrodromous),
+        ("parallelodromous", PrimaryPattern::Parallelodromous),
+        ("campylodromous", PrimaryPattern::Campylodromous),
+        ("flabellate", PrimaryPattern::Flabellate),
     ];
     let about = "Primary veins: the midrib only (pinnate), several that diverge from one place \
-        (actinodromous), or several in arches that converge towards the apex (acrodromous).";
+        (actinodromous) or from the innermost lateral (palinactinodromous), several in arches that \
+        converge towards the apex (acrodromous), many beside each other (parallelodromous) or in \
+        wide arches that turn back at the base (campylodromous), or many that radiate and fork \
+        (flabellate).";
     keys.required("primaries", &mut primaries.pattern, Word(&words), about);
     let angles = ListOf {
         of: Number(Limits::closed(5.0, 175.0)),
@@ -27,19 +34,29 @@ pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
         wanted: "a list of at most 6 angles",
     };
     let about = "Angles between the midrib and the lateral primaries of one side, ascending; for \
-        actinodromous and acrodromous leaves.";
+        actinodromous, palinactinodromous and acrodromous leaves. Of flabellate ones the \
+        veins at the base; the last bounds the fan.";
     keys.key(
         "lateral_primary_angles_deg",
         &mut primaries.lateral_angles_deg,
         angles,
         about,
     );
+    let about = "Lateral primaries a side of parallelodromous and campylodromous leaves.";
+    let count = Integer::within(0, 30);
+    keys.key("lateral_primaries", &mut primaries.laterals, count, about);
+    let limits = Number(Limits::closed(0.004, 0.2));
+    let about = "Distance between the veins of flabellate leaves, share of the leaf's length; a vein \
+        forks where it is twice that away from the next.";
+    keys.key("fork_spacing", &mut primaries.fork_spacing, limits, about);
     let limits = Number(Limits::closed(0.0, 0.3));
     let about = "Where lateral primaries part from the midrib, share of its length: 0 is basal, \
         more suprabasal.";
     keys.key("part_at", &mut primaries.part_at, limits, about);
     let about = "How far chance moves places, angles and courses.";
     keys.key("irregularity", &mut plan.irregularity, SHARE, about);
+    let about = "Whether a vein runs all along the margin.";
+    keys.key("fimbrial", &mut plan.is_fimbrial, Flag, about);
     let about = "Secondary veins.";
     keys.required_block("secondaries", about, &[], |keys| {
         secondaries(&mut plan.secondaries, keys);
@@ -52,8 +69,8 @@ pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
 
 fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut Keys<'_>) {
     let about = "How many a side of the midrib; lateral primaries bear as many as their length \
-        allows at the same spacing.";
-    keys.required("pairs", &mut plan.pairs, Integer::within(1, 40), about);
+        allows at the same spacing. None where primaries run beside each other or fork.";
+    keys.required("pairs", &mut plan.pairs, Integer::within(0, 40), about);
     let limits = Limits::closed(10.0, 120.0);
     let about = "Angle to the midrib in its lower, middle and upper third.";
     keys.required(
@@ -67,11 +84,18 @@ fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut
         ("semicraspedodromous", SecondaryEnding::Semicraspedodromous),
         ("eucamptodromous", SecondaryEnding::Eucamptodromous),
         ("brochidodromous", SecondaryEnding::Brochidodromous),
+        ("festooned", SecondaryEnding::Festooned),
     ];
     let about = "Where they end: in teeth or lobes (craspedodromous), joined in arches with \
         branches into teeth (semicraspedodromous), upturned inside the margin (eucamptodromous), \
-        joined in arches (brochidodromous).";
+        joined in arches (brochidodromous), the same with a second row of loops (festooned).";
     keys.required("ending", &mut plan.ending, Word(&words), about);
+    let words = [
+        ("excurrent", Attachment::Excurrent),
+        ("decurrent", Attachment::Decurrent),
+    ];
+    let about = "How they leave the primary: at their angle, or beside it at first (decurrent).";
+    keys.key("attachment", &mut plan.attachment, Word(&words), about);
     let words = [
         ("straight", SecondaryCourse::Straight),
         ("arching", SecondaryCourse::Arching),
@@ -125,9 +149,11 @@ fn tertiaries(plan: &mut crate::venation::architecture::Tertiaries, keys: &mut K
         ("opposite_percurrent", TertiaryCourse::OppositePercurrent),
         ("alternate_percurrent", TertiaryCourse::AlternatePercurrent),
         ("sinuous_percurrent", TertiaryCourse::SinuousPercurrent),
+        ("chevron_percurrent", TertiaryCourse::ChevronPercurrent),
     ];
     let about = "How they run: in a net (reticulate), or across from secondary to secondary, \
-        straight (opposite), with an offset (alternate) or in a wave (sinuous).";
+        straight (opposite), with an offset (alternate), in a wave (sinuous) or with a sharp bend \
+        (chevron).";
     keys.key("course", &mut plan.course, Word(&words), about);
     let limits = Number(Limits::closed(0.004, 0.2));
     let about = "Percurrent only: distance between neighbours, share of the leaf's length.";
@@ -144,6 +170,19 @@ pub(super) fn remedy(error: &ArchitectureError) -> (&'static [&'static str], &'s
         ArchitectureError::LateralPrimaries { .. } => (
             &["architecture", "lateral_primary_angles_deg"],
             "name an angle for each lateral primary of one side, or choose another pattern",
+        ),
+        ArchitectureError::LateralCount { .. } => (
+            &["architecture", "lateral_primaries"],
+            "only parallelodromous and campylodromous leaves have a number of them",
+        ),
+        ArchitectureError::NoSecondaries { .. } => (
+            &["architecture", "secondaries", "pairs"],
+            "use 0, or choose another pattern",
+        ),
+        ArchitectureError::PrimariesTooClose { .. } => (
+            &["architecture"],
+            "use fewer primaries or a wider fork_spacing, or a longer young leaf: \
+             initial_length_segments",
         ),
         ArchitectureError::NotAscending { key: "span", .. } => (
             &["architecture", "secondaries", "span"],

@@ -42,6 +42,10 @@ pub(super) fn auxin(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
     let about = "n: exponent of Murray's law: the parent's radius to this power is the sum of \
         the children's.";
     keys.key("murray_exponent", &mut plan.murray_exponent, limits, about);
+    let about = "The same of the finest veins: the exponent changes towards this where veins are a \
+        few times as wide as the finest. Left out, it is the same everywhere.";
+    let finest = &mut plan.murray_exponent_finest;
+    keys.optional("murray_exponent_finest", finest, limits, about);
     let limits = Number(Limits::closed(1e-6, 10.0));
     let about = "Radius of the finest veins.";
     keys.required(
@@ -58,11 +62,20 @@ pub(super) fn auxin(plan: &mut AuxinPlan, keys: &mut Keys<'_>, closed: bool) {
         let words = [
             ("relative", Neighbourhood::Relative),
             ("urquhart", Neighbourhood::Urquhart),
+            ("bipolar", Neighbourhood::Bipolar),
         ];
-        let about = "Closed only: which veins a source draws, its relative neighbours (Eq. 2) or \
-            Urquhart's approximation of them (section 5.2).";
+        let about = "Closed only: which veins a source draws, its relative neighbours (Eq. 2), \
+            Urquhart's approximation of them (section 5.2), or one on either side (bipolar).";
         keys.key("neighbourhood", &mut neighbourhood, Word(&words), about);
         plan.pattern = Pattern::Closed(neighbourhood);
+        let limits = Number(Limits::closed(0.0, 1.0));
+        let about = "Bipolar only: share of the sources whose veins run along the nearest vein; \
+            more makes areoles longer.";
+        keys.key("axis_along_vein", &mut plan.axis_along_vein, limits, about);
+        let limits = Integer::within(0, 1000);
+        let about = "Rounds in which finer veins, each under a tension proportional to its width, \
+            move towards balance: they straighten and their angles open.";
+        keys.key("tension_rounds", &mut plan.tension_rounds, limits, about);
     }
     let places = ListOf {
         of: Numbers::<2>(Limits::closed(-10.0, 10.0)),

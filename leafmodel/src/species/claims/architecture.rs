@@ -24,13 +24,24 @@ fn disagreements(asked: &Architecture, found: &Description) -> Vec<String> {
         found.primaries == Some(primaries.pattern),
         format!("primaries {:?}", found.primaries),
     );
+    // A flabellate leaf has as many as its forks give. Among many, an end may pass for one.
+    let wanted = 2 * (primaries.lateral_angles_deg.len() + primaries.laterals as usize);
+    let most = if primaries.laterals > 0 {
+        wanted + 2
+    } else {
+        wanted
+    };
     hold(
-        found.lateral_primaries == 2 * primaries.lateral_angles_deg.len(),
+        primaries.pattern == PrimaryPattern::Flabellate
+            || (wanted..=most).contains(&found.lateral_primaries),
         format!("{} lateral primaries", found.lateral_primaries),
     );
     let bent = found.midrib_over_chord.unwrap_or(9.0);
     hold(bent <= 1.02, format!("midrib over chord {bent}"));
     let secondaries = &asked.secondaries;
+    if secondaries.pairs == 0 {
+        return all;
+    }
     hold(
         found.secondaries == [secondaries.pairs as usize; 2],
         format!("secondaries {:?}", found.secondaries),
@@ -101,12 +112,22 @@ fn each_species_is_what_its_architecture_says() {
         let mut all = disagreements(&asked, &found);
         let measures = leaf.measures();
         // The 25th to the 75th percentile of cleared leaves of 75 species, but for crossings.
-        for (key, range) in [
+        let all_ranges = [
             ("crossing_count", 0.0..0.5),
             ("vein_density_mm_per_mm2", 2.9..6.0),
             ("areoles_per_mm2", 1.5..7.0),
             ("areole_circularity_median", 0.72..0.82),
-        ] {
+            ("areole_elongation_median", 1.54..1.69),
+            ("areole_area_cv", 0.9..1.5),
+        ];
+        // Ginkgo and grass have no net, a petal a loose one.
+        let has_net = !["ginkgo-leaf", "grass-blade", "trillium-petal"].contains(&preset.name);
+        let ranges = if has_net {
+            &all_ranges[..]
+        } else {
+            &all_ranges[..1]
+        };
+        for (key, range) in ranges {
             let value = measures.number(key).expect("a net has it");
             if !range.contains(&value) {
                 all.push(format!("{key} {value}"));
@@ -116,7 +137,7 @@ fn each_species_is_what_its_architecture_says() {
         described += 1;
     }
     assert_eq!(wrong, [""; 0]);
-    assert!(described >= 9, "{described}");
+    assert!(described >= 16, "{described}");
 }
 
 /// A small leaf of a preset, for what no preset has.
@@ -177,4 +198,49 @@ fn acrodromous_primaries_run_in_arches_towards_the_apex() {
     });
     assert_eq!(found.primaries, Some(PrimaryPattern::Acrodromous));
     assert_eq!(found.lateral_primaries, 2);
+}
+
+#[test]
+fn patterns_with_many_primaries_are_found_as_they_were_asked_for() {
+    for (name, pattern, laterals, angles) in [
+        ("magnolia", PrimaryPattern::Parallelodromous, 4, vec![]),
+        ("alchemilla-leaf", PrimaryPattern::Campylodromous, 3, vec![]),
+        (
+            "ginkgo-leaf",
+            PrimaryPattern::Flabellate,
+            0,
+            vec![15.0, 30.0, 45.0],
+        ),
+        (
+            "maple",
+            PrimaryPattern::Palinactinodromous,
+            0,
+            vec![53.0, 110.0],
+        ),
+    ] {
+        let (_, found) = small(name, |asked| {
+            asked.primaries.pattern = pattern;
+            asked.primaries.laterals = laterals;
+            asked.primaries.lateral_angles_deg.clone_from(&angles);
+            asked.primaries.fork_spacing = 0.05;
+            asked.secondaries.ending = SecondaryEnding::Eucamptodromous;
+            asked.secondaries.pairs = if pattern == PrimaryPattern::Palinactinodromous {
+                3
+            } else {
+                0
+            };
+            asked.tertiaries.course = TertiaryCourse::Reticulate;
+        });
+        assert_eq!(found.primaries, Some(pattern), "{name}");
+    }
+}
+
+#[test]
+fn loops_outside_arches_are_found() {
+    let (_, found) = small("magnolia", |asked| {
+        asked.secondaries.ending = SecondaryEnding::Festooned;
+        asked.secondaries.inset = 0.05;
+        asked.tertiaries.course = TertiaryCourse::Reticulate;
+    });
+    assert_eq!(found.ending, Some(SecondaryEnding::Festooned));
 }

@@ -1,6 +1,6 @@
 //! Extensions of Runions et al. 2005, then trees and shrubs.
 
-use super::super::{PlanOf, Preset, beyond, trees};
+use super::super::{PlanOf, Preset, as_grown, beyond, trees};
 
 pub(super) static PLANTS: &[Preset] = &[
     Preset {
@@ -86,5 +86,54 @@ pub(super) static PLANTS: &[Preset] = &[
         source: "length and kind of venation as floras give them; contents each with its own source (--about); outline, veins and form by eye",
         row: None,
         plan: PlanOf::Function(trees::croton),
+    },
+    Preset {
+        name: "ginkgo-leaf",
+        about: "Ginkgo as it grows: veins from the base that fork again and again",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::ginkgo),
+    },
+    Preset {
+        name: "alchemilla-leaf",
+        about: "Lady's mantle as it grows: nine primaries, secondaries into the teeth",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::alchemilla),
+    },
+    Preset {
+        name: "sweetgum-leaf",
+        about: "Sweetgum as it grows: five primaries, secondaries in two rows of loops",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::sweetgum),
+    },
+    Preset {
+        name: "cherry-leaf",
+        about: "Nankin cherry as it grows: arches with branches into the teeth",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::cherry),
+    },
+    Preset {
+        name: "orchid-leaf",
+        about: "A thin-leaved orchid as it grows: nine veins side by side, cross veins, a net",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::orchid),
+    },
+    Preset {
+        name: "grass-blade",
+        about: "Reed as it grows: a whole blade, nineteen veins side by side, cross veins",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::grass),
+    },
+    Preset {
+        name: "trillium-petal",
+        about: "A petal of trillium as it grows: arches from base to tip, a loose net",
+        source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::trillium),
     },
 ];

@@ -41,6 +41,22 @@ impl Oracle<'_> {
                         .all(|(i, &u)| i == v || squared(at, s) < squared(u, s).max(squared(at, u)))
                 })
                 .collect(),
+            Pattern::Closed(Neighbourhood::Bipolar) => {
+                let axis = source.axis;
+                let nearest = |ways: &dyn Fn(DVec2) -> bool| {
+                    let all = (0..self.nodes.len()).filter(|&v| ways(self.nodes[v] - s));
+                    all.min_by(|&v, &u| {
+                        squared(self.nodes[v], s).total_cmp(&squared(self.nodes[u], s))
+                    })
+                };
+                let cosine = libm::cos(35.0_f64.to_radians());
+                let ahead = nearest(&|way| way.dot(axis) >= cosine * way.length());
+                let behind = nearest(&|way| -way.dot(axis) >= cosine * way.length());
+                match (ahead, behind) {
+                    (None, None) => nearest(&|_| true).into_iter().collect(),
+                    (ahead, behind) => ahead.into_iter().chain(behind).collect(),
+                }
+            }
         }
     }
 

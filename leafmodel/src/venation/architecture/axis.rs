@@ -11,11 +11,17 @@ pub(crate) struct Axis {
     pub(crate) course: Course,
     /// On which side of the midrib it lies: 1 the right, −1 the left, 0 the midrib.
     pub(crate) side: f64,
+    /// 0 the midrib, then one more than the primary that it leaves.
+    pub(crate) generation: u32,
 }
 
 impl Axis {
-    pub(crate) fn new(course: Course, side: f64) -> Self {
-        Self { course, side }
+    pub(crate) fn new(course: Course, side: f64, generation: u32) -> Self {
+        Self {
+            course,
+            side,
+            generation,
+        }
     }
 
     /// Where it is at a share of its length, and its direction over a tenth of it.

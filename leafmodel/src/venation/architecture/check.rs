@@ -3,8 +3,9 @@
 use thiserror::Error;
 
 use super::margin::Margin;
+use super::primaries::{self, Ground};
 use super::secondaries;
-use super::{Architecture, Lots, PrimaryPattern, SecondaryEnding, TertiaryCourse, primaries};
+use super::{Architecture, Lots, PrimaryPattern, SecondaryEnding, TertiaryCourse};
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.
@@ -34,6 +35,32 @@ pub enum ArchitectureError {
         wanted: &'static str,
         /// How many are named.
         named: usize,
+    },
+    /// A number of lateral primaries that the pattern cannot have.
+    #[error("{pattern} venation has {wanted} lateral_primaries a side, not {laterals}")]
+    LateralCount {
+        /// The pattern.
+        pattern: &'static str,
+        /// What it has.
+        wanted: &'static str,
+        /// How many are asked for.
+        laterals: u32,
+    },
+    /// Secondaries between primaries that leave them no room.
+    #[error("{pattern} venation has no secondaries between its primaries, not {pairs} pairs")]
+    NoSecondaries {
+        /// The pattern.
+        pattern: &'static str,
+        /// Pairs asked for.
+        pairs: u32,
+    },
+    /// Primaries nearer to each other than vein segments are long.
+    #[error(
+        "primaries {apart:.2} segments of the young leaf apart, less than 3, cannot be told from each other"
+    )]
+    PrimariesTooClose {
+        /// Segments between neighbours.
+        apart: f64,
     },
     /// Angles or places that do not ascend.
     #[error("{key} does not ascend: {first} is followed by {second}")]
@@ -125,13 +152,41 @@ impl Architecture {
         let (pattern, wanted, fits) = match self.primaries.pattern {
             PrimaryPattern::Pinnate => ("pinnate", "no", named == 0),
             PrimaryPattern::Actinodromous => ("actinodromous", "1 to 6", (1..=6).contains(&named)),
+            PrimaryPattern::Palinactinodromous => {
+                ("palinactinodromous", "2 to 6", (2..=6).contains(&named))
+            }
             PrimaryPattern::Acrodromous => ("acrodromous", "1 to 3", (1..=3).contains(&named)),
+            PrimaryPattern::Flabellate => ("flabellate", "1 to 6", (1..=6).contains(&named)),
+            PrimaryPattern::Parallelodromous => ("parallelodromous", "no angles of", named == 0),
+            PrimaryPattern::Campylodromous => ("campylodromous", "no angles of", named == 0),
         };
         if !fits {
             return Err(ArchitectureError::LateralPrimaries {
                 pattern,
                 wanted,
                 named,
+            });
+        }
+        let many = match self.primaries.pattern {
+            PrimaryPattern::Parallelodromous | PrimaryPattern::Campylodromous => true,
+            PrimaryPattern::Pinnate
+            | PrimaryPattern::Actinodromous
+            | PrimaryPattern::Palinactinodromous
+            | PrimaryPattern::Acrodromous
+            | PrimaryPattern::Flabellate => false,
+        };
+        if many != (self.primaries.laterals > 0) {
+            return Err(ArchitectureError::LateralCount {
+                pattern,
+                wanted: if many { "1 to 30" } else { "0" },
+                laterals: self.primaries.laterals,
+            });
+        }
+        let has_secondaries = !many && self.primaries.pattern != PrimaryPattern::Flabellate;
+        if !has_secondaries && self.secondaries.pairs > 0 {
+            return Err(ArchitectureError::NoSecondaries {
+                pattern,
+                pairs: self.secondaries.pairs,
             });
         }
         let span = ("span", &self.secondaries.span[..]);
@@ -158,7 +213,21 @@ impl Architecture {
                 0.3,
                 "0 to 0.3 (of the midrib)",
             ),
-            ("pairs", f64::from(plan.pairs), 1.0, 40.0, "1 to 40"),
+            ("pairs", f64::from(plan.pairs), 0.0, 40.0, "0 to 40"),
+            (
+                "lateral_primaries",
+                f64::from(self.primaries.laterals),
+                0.0,
+                30.0,
+                "0 to 30",
+            ),
+            (
+                "fork_spacing",
+                self.primaries.fork_spacing,
+                0.004,
+                0.2,
+                "0.004 to 0.2 (of the length)",
+            ),
             ("span", plan.span[0], 0.0, 1.0, share),
             ("span", plan.span[1], 0.0, 1.0, share),
             (
@@ -218,8 +287,8 @@ impl Architecture {
         }
         let length = young * blade.length();
         let reach = (plan.span[1] - plan.span[0]) * length;
-        let apart = reach / f64::from(plan.pairs);
-        if apart < CLOSEST {
+        let apart = reach / f64::from(plan.pairs.max(1));
+        if plan.pairs > 0 && apart < CLOSEST {
             return Err(ArchitectureError::TooManyPairs {
                 pairs: plan.pairs,
                 apart,
@@ -231,11 +300,25 @@ impl Architecture {
             let least = 2.5 / length;
             return Err(ArchitectureError::TertiariesTooClose { apart, least });
         }
+        let (low, high) = blade.bounds();
+        let apart = match self.primaries.pattern {
+            PrimaryPattern::Flabellate => self.primaries.fork_spacing * length,
+            _ if self.primaries.laterals > 0 => {
+                let width = young * (high.x - low.x);
+                0.5 * width / f64::from(self.primaries.laterals + 1)
+            }
+            _ => f64::INFINITY,
+        };
+        if apart < 3.0 {
+            return Err(ArchitectureError::PrimariesTooClose { apart });
+        }
         let margin = Margin::new(blade);
         let ending = match plan.ending {
             SecondaryEnding::Craspedodromous => Some("craspedodromous"),
             SecondaryEnding::Semicraspedodromous => Some("semicraspedodromous"),
-            SecondaryEnding::Eucamptodromous | SecondaryEnding::Brochidodromous => None,
+            SecondaryEnding::Eucamptodromous
+            | SecondaryEnding::Brochidodromous
+            | SecondaryEnding::Festooned => None,
         };
         if let Some(ending) = ending {
             let [right, left] = margin.tips_a_side();
@@ -249,7 +332,12 @@ impl Architecture {
             }
         }
         let lots = Lots::new(0, 0.0);
-        let axes = primaries(self, blade, &margin, lots);
+        let ground = Ground {
+            blade,
+            margin: &margin,
+            lots,
+        };
+        let axes = primaries::lay_out(self, ground);
         let asked = 1 + 2 * self.primaries.lateral_angles_deg.len();
         if axes.len() < asked {
             return Err(ArchitectureError::PrimariesOffBlade {

@@ -18,6 +18,8 @@ pub(crate) struct Course {
     pub(crate) points: Vec<DVec2>,
     /// Whether it is to join the vein that its end lies on.
     pub(crate) joins: bool,
+    /// Whether it starts among others, beside which it runs for a while without joining them.
+    pub(crate) is_crowded: bool,
 }
 
 impl Course {
@@ -74,6 +76,16 @@ impl Course {
         Self {
             points,
             joins: false,
+            is_crowded: false,
+        }
+    }
+
+    /// A course through these points, two or more.
+    pub(crate) fn through(points: Vec<DVec2>) -> Self {
+        Self {
+            points,
+            joins: false,
+            is_crowded: false,
         }
     }
 
@@ -81,6 +93,14 @@ impl Course {
     pub(crate) fn joined(self) -> Self {
         Self {
             joins: true,
+            ..self
+        }
+    }
+
+    /// The same, started among others.
+    pub(crate) fn crowded(self) -> Self {
+        Self {
+            is_crowded: true,
             ..self
         }
     }

@@ -5,8 +5,11 @@ use glam::DVec2;
 use super::axis::Axis;
 use super::course::Course;
 use super::ends::{aside, assign, tip_cost};
+use super::festoons;
 use super::margin::{Hit, Margin, Tip};
-use super::{Architecture, Arrangement, Lots, Secondaries, SecondaryCourse, SecondaryEnding};
+use super::{
+    Architecture, Arrangement, Attachment, Lots, Secondaries, SecondaryCourse, SecondaryEnding,
+};
 use super::{PrimaryPattern, SecondarySpacing};
 use crate::shape::outline::Outline;
 
@@ -24,6 +27,9 @@ const ARCH_END: f64 = 0.56;
 
 /// Where a course bends up near the margin, likewise.
 const KNEE: f64 = 2.0 / 3.0;
+
+/// How far below its place a decurrent vein leaves, share of the axis.
+const DECURRENT: f64 = 0.035;
 
 /// A secondary vein to be laid out.
 #[derive(Clone, Debug)]
@@ -150,7 +156,16 @@ fn places(architecture: &Architecture, axes: &[Axis], axis: usize, side: f64) ->
     if axis == 0 {
         return plan.places(plan.pairs, plan.span, shifted);
     }
-    if architecture.primaries.pattern == PrimaryPattern::Acrodromous {
+    match architecture.primaries.pattern {
+        PrimaryPattern::Pinnate
+        | PrimaryPattern::Actinodromous
+        | PrimaryPattern::Palinactinodromous => {}
+        PrimaryPattern::Acrodromous
+        | PrimaryPattern::Parallelodromous
+        | PrimaryPattern::Campylodromous
+        | PrimaryPattern::Flabellate => return Vec::new(),
+    }
+    if plan.pairs == 0 {
         return Vec::new();
     }
     let share = axes[axis].course.length() / axes[0].course.length();
@@ -204,22 +219,33 @@ fn one_side(
     match plan.ending {
         SecondaryEnding::Craspedodromous => run_into_teeth(&mut drafts, site, number, gap, taken),
         SecondaryEnding::Semicraspedodromous => branch_into_teeth(&mut drafts, margin),
-        SecondaryEnding::Eucamptodromous | SecondaryEnding::Brochidodromous => {}
+        SecondaryEnding::Eucamptodromous
+        | SecondaryEnding::Brochidodromous
+        | SecondaryEnding::Festooned => {}
     }
     // From the apex on, so that the next vein is there when an arch looks for it.
     let mut next: Option<(Course, f64)> = None;
     let mut courses = Vec::new();
     for (k, draft) in drafts.iter().enumerate().rev() {
         let (start, _) = axis.at(draft.share);
-        let course = course(plan, site, start, draft, side, next.as_ref(), [length, gap])
-            .map(|bends| Course::curve(start, &bends, lots, 2, vein(k), 1.0));
-        let Some(course) = course else { continue };
-        let arches = match plan.ending {
-            SecondaryEnding::Brochidodromous | SecondaryEnding::Semicraspedodromous => {
-                next.is_some()
+        let bends = course(plan, site, start, draft, side, next.as_ref(), [length, gap]);
+        let Some(bends) = bends else { continue };
+        let course = match plan.attachment {
+            Attachment::Excurrent => Course::curve(start, &bends, lots, 2, vein(k), 1.0),
+            Attachment::Decurrent => {
+                // Lower on the axis, and beside it up to where it turns away.
+                let (below, _) = axis.at(draft.share - DECURRENT);
+                let turn = start + (bends[0] - start) * 0.12;
+                let bends: Vec<DVec2> = std::iter::once(turn).chain(bends).collect();
+                Course::curve(below, &bends, lots, 2, vein(k), 1.0)
             }
-            SecondaryEnding::Craspedodromous | SecondaryEnding::Eucamptodromous => false,
         };
+        let arches = plan.ending.has_arches() && next.is_some();
+        if arches && plan.ending == SecondaryEnding::Festooned {
+            let inset = plan.inset * length;
+            laid.finer
+                .extend(festoons::outside(&course, margin, inset, lots, vein(k)));
+        }
         if plan.ending == SecondaryEnding::Semicraspedodromous
             && let Some(tip) = draft.tip
         {
@@ -422,10 +448,7 @@ fn course(
         Some((_, at)) => (at - draft.hit.at).abs().min(0.2),
         None => gap * 0.3 * length / margin.perimeter(),
     };
-    let is_arch = match plan.ending {
-        SecondaryEnding::Brochidodromous | SecondaryEnding::Semicraspedodromous => true,
-        SecondaryEnding::Craspedodromous | SecondaryEnding::Eucamptodromous => false,
-    };
+    let is_arch = plan.ending.has_arches();
     let end = match next {
         Some((next, _)) if is_arch => next.at(ARCH_END).0,
         Some(_) | None => margin.inside(draft.hit.at + towards_apex * 0.62 * on, 0.8 * inset),

@@ -19,6 +19,9 @@ const OUTER_DEG: f64 = 65.0;
 /// How far from the margin they end, share of the leaf's length.
 const MARGIN: f64 = 0.015;
 
+/// How far the bend of a chevron lies off the straight way, share of that.
+const CHEVRON: f64 = 0.18;
+
 /// A vein of order 1 or 2 as it has grown.
 #[derive(Clone, Debug)]
 pub(crate) struct Grown {
@@ -96,7 +99,12 @@ pub(crate) fn courses(
                     if (end - start).length() < 2.5 * unit {
                         continue;
                     }
-                    let bends = bends(plan.course, start, end, ahead, spacing, lots, id);
+                    let bends = if plan.course == TertiaryCourse::ChevronPercurrent {
+                        let bend = CHEVRON * (end - start).length();
+                        vec![start.lerp(end, 0.47) - ahead * bend, end]
+                    } else {
+                        bends(plan.course, start, end, ahead, spacing, lots, id)
+                    };
                     Course::curve(start, &bends, lots, 3, id, 0.8).joined()
                 } else {
                     let Some(hit) = margin.hit(start, way).filter(|_| is_below) else {
@@ -134,7 +142,9 @@ fn bends(
         1.0
     };
     match course {
-        TertiaryCourse::Reticulate | TertiaryCourse::OppositePercurrent => vec![end],
+        TertiaryCourse::Reticulate
+        | TertiaryCourse::OppositePercurrent
+        | TertiaryCourse::ChevronPercurrent => vec![end],
         TertiaryCourse::AlternatePercurrent => {
             let middle = 0.5 + 0.2 * lots.jitter(3, id, 3);
             let jog = 0.13 * side;

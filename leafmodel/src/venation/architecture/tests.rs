@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::margin::Margin;
 use super::*;
+use crate::shape::outline::Outline;
 use crate::species;
 use crate::testing::fixed;
 use crate::venation::areole::areoles;

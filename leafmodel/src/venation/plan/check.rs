@@ -241,7 +241,15 @@ impl AuxinPlan {
     /// The numbers of optional rules.
     fn numbers_of_rules(&self) -> Vec<Check> {
         let distance = DISTANCE;
-        let mut checks = Vec::new();
+        let rounds = f64::from(self.tension_rounds);
+        let mut checks = vec![
+            ("axis_along_vein", self.axis_along_vein, 0.0, 1.0, "0 to 1"),
+            ("tension_rounds", rounds, 0.0, 1e3, "0 to 1000"),
+        ];
+        if let Some(finest) = self.murray_exponent_finest {
+            let range = "0.5 to 10";
+            checks.push(("murray_exponent_finest", finest, 0.5, 10.0, range));
+        }
         if let Some(free) = &self.free_endings {
             checks.extend([
                 (

@@ -8,7 +8,9 @@ use glam::DVec2;
 use super::{Simulation, turned};
 use crate::venation::architecture::course::Course;
 use crate::venation::architecture::margin::Margin;
-use crate::venation::architecture::{self, Architecture, Lots, secondaries, tertiaries};
+use crate::venation::architecture::{
+    Architecture, Lots, festoons, primaries, secondaries, tertiaries,
+};
 use crate::venation::influence::Influence;
 use crate::venation::plan::Growth;
 
@@ -24,6 +26,9 @@ const TOUCH: f64 = 0.8;
 /// The length that a vein needs to get away from the one that it leaves, segments: coarse ones may
 /// leave at acute angles.
 const AWAY: [f64; 2] = [5.0, 2.5];
+
+/// The same of one that starts among others, segments.
+const CROWDED: f64 = 30.0;
 
 /// How far the last leg of a vein that joins another may be, segments.
 const LAST_LEG: f64 = 4.0;
@@ -41,6 +46,7 @@ struct Tip {
     sources: Vec<DVec2>,
     next: usize,
     joins: bool,
+    is_crowded: bool,
     length: f64,
     /// Steps in which it had to turn aside at the margin.
     turns: u32,
@@ -60,11 +66,23 @@ impl<I: Influence> Simulation<'_, I> {
         let lots = Lots::new(self.seed, plan.irregularity);
         let blade = self.lamina.blade;
         let margin = Margin::new(blade);
-        let axes = architecture::primaries(plan, blade, &margin, lots);
-        let primaries: Vec<Course> = axes.iter().map(|axis| axis.course.clone()).collect();
-        // The midrib first: lateral primaries may leave it.
-        let mut grown = self.lay_out_order(&primaries[..1], 1, &mut look);
-        grown.extend(self.lay_out_order(&primaries[1..], 1, &mut look));
+        let ground = primaries::Ground {
+            blade,
+            margin: &margin,
+            lots,
+        };
+        let axes = primaries::lay_out(plan, ground);
+        let mut grown = Vec::new();
+        // Each generation leaves the one before it.
+        for generation in axes.chunk_by(|a, b| a.generation == b.generation) {
+            let courses: Vec<Course> = generation.iter().map(|a| a.course.clone()).collect();
+            grown.extend(self.lay_out_order(&courses, 1, &mut look));
+        }
+        if plan.is_fimbrial {
+            // Before secondaries, which end on it.
+            let along = festoons::fimbrial(&margin, blade.length());
+            self.lay_out_order(&along, 3, &mut look);
+        }
         let site = secondaries::Site {
             blade,
             margin: &margin,
@@ -180,6 +198,7 @@ impl<I: Influence> Simulation<'_, I> {
             sources,
             next: 0,
             joins: course.joins,
+            is_crowded: course.is_crowded,
             length: 0.0,
             turns: 0,
             is_done: false,
@@ -222,7 +241,12 @@ impl<I: Influence> Simulation<'_, I> {
         };
         let place = from + step;
         // It ends where it would touch another vein, so that none of its nodes lies upon that.
-        let is_away = tip.length > AWAY[usize::from(order > 2)] * unit;
+        let away = if tip.is_crowded {
+            CROWDED
+        } else {
+            AWAY[usize::from(order > 2)]
+        };
+        let is_away = tip.length > away * unit;
         if is_away && self.join(tip, order, place, TOUCH * unit, unit) {
             return;
         }

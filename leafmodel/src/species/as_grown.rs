@@ -1,0 +1,93 @@
+//! The species of Table 1 of Runions et al. 2005 as they grow: their veins by architecture.
+//!
+//! The rows of the table keep every node under their own names; `ginkgo` is Fig. 10, `ginkgo-leaf`
+//! the plant.
+
+use super::architectures;
+use super::contours;
+use super::leaf_traits;
+use super::trees::{dense, leaf};
+use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::OutlinePlan;
+use crate::venation::architecture::Architecture;
+use crate::venation::plan::{AuxinPlan, Growth};
+
+/// No source appears: only what is laid out.
+const NO_DARTS: f64 = 1e-12;
+
+/// Veins of an architecture alone, without a net between them.
+fn bare(final_length: f64, architecture: Architecture) -> AuxinPlan {
+    AuxinPlan {
+        final_length,
+        darts_per_area: NO_DARTS,
+        growth: Growth::Isogonic {
+            initial_length: 0.98 * final_length,
+            length_step: 0.02 * final_length,
+        },
+        murray_exponent: 2.0,
+        architecture: Some(architecture),
+        ..AuxinPlan::default()
+    }
+}
+
+pub(super) fn ginkgo() -> LeafPlan {
+    let traits = &leaf_traits::GINKGO;
+    let mut plan = leaf(
+        traits,
+        1,
+        contours::fan(),
+        bare(1100.0, architectures::ginkgo()),
+    );
+    widen(&mut plan, 0.03);
+    plan
+}
+
+pub(super) fn alchemilla() -> LeafPlan {
+    let traits = &leaf_traits::ALCHEMILLA;
+    let venation = dense(traits, architectures::alchemilla(), 4.0);
+    leaf(traits, 1, contours::lobed_round(), venation)
+}
+
+pub(super) fn sweetgum() -> LeafPlan {
+    let traits = &leaf_traits::SWEETGUM;
+    let venation = dense(traits, architectures::sweetgum(), 3.6);
+    leaf(traits, 1, contours::star(), venation)
+}
+
+pub(super) fn cherry() -> LeafPlan {
+    let traits = &leaf_traits::CHERRY;
+    let venation = dense(traits, architectures::cherry(), 4.2);
+    leaf(traits, 2, contours::obovate(), venation)
+}
+
+pub(super) fn orchid() -> LeafPlan {
+    let traits = &leaf_traits::ORCHID;
+    let venation = dense(traits, architectures::orchid(), 3.0);
+    leaf(traits, 1, contours::elliptic(), venation)
+}
+
+/// A whole blade, where the row is a piece of one.
+pub(super) fn grass() -> LeafPlan {
+    let traits = &leaf_traits::GRASS;
+    let outline: OutlinePlan = contours::linear();
+    let mut plan = leaf(traits, 1, outline, bare(1600.0, architectures::grass()));
+    plan.length_mm = 240.0;
+    widen(&mut plan, 0.03);
+    plan
+}
+
+pub(super) fn trillium() -> LeafPlan {
+    let traits = &leaf_traits::TRILLIUM;
+    let venation = AuxinPlan {
+        final_length: 400.0,
+        ..dense(traits, architectures::trillium(), 1.2)
+    };
+    leaf(traits, 1, contours::petal(), venation)
+}
+
+/// Finest veins of this radius, mm: a segment says nothing of it where there is no net.
+fn widen(plan: &mut LeafPlan, radius_mm: f64) {
+    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation {
+        auxin.veinlet_radius_mm = radius_mm;
+    }
+}

@@ -1,0 +1,135 @@
+//! What a simulation has grown, and the network that it becomes: widths, orders, millimetres.
+
+use glam::DVec2;
+
+use super::conformal_map::ConformalMap;
+use super::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
+use super::plan::AuxinPlan;
+use super::topology::Topology;
+use super::{order, tension, width};
+
+/// A simulation's state, in segments of its step, base at the origin, without widths.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Grown {
+    pub(super) positions: Vec<DVec2>,
+    pub(super) births: Vec<u32>,
+    /// The order as which each node was laid out, 0 for none; empty without an architecture.
+    pub(super) laid_orders: Vec<u8>,
+    pub(super) edges: Vec<[u32; 2]>,
+    pub(super) origins: u32,
+    pub(super) steps: u32,
+    pub(super) sources: u32,
+    pub(super) ending: Ending,
+    pub(super) margin: Vec<DVec2>,
+    pub(super) apex: DVec2,
+    /// Apex of the leaf to which the conformal map belongs: only isogonic growth scales the map.
+    pub(super) map_apex: DVec2,
+}
+
+impl Grown {
+    /// Adds straight veins from the base to all origins. The base becomes node 0; the numbers of
+    /// all other nodes rise by one.
+    fn joined(mut self) -> Self {
+        self.positions.insert(0, DVec2::ZERO);
+        self.births.insert(0, 0);
+        if !self.laid_orders.is_empty() {
+            self.laid_orders.insert(0, 0);
+        }
+        let grown = self.edges.iter().map(|&[from, to]| [from + 1, to + 1]);
+        let joints = (1..=self.origins).map(|origin| [0, origin]);
+        self.edges = joints.chain(grown).collect();
+        self.origins = 1;
+        self
+    }
+
+    /// Adds widths and orders and converts to millimetres.
+    pub(super) fn into_network(
+        self,
+        plan: &AuxinPlan,
+        segment_mm: f64,
+        base: DVec2,
+    ) -> VenationNetwork {
+        let grown = if plan.joined_origins {
+            self.joined()
+        } else {
+            self
+        };
+        grown.widened(plan, segment_mm, base)
+    }
+
+    fn widened(self, plan: &AuxinPlan, segment_mm: f64, base: DVec2) -> VenationNetwork {
+        let apex = self.map_apex * segment_mm;
+        let curvature = plan.gaussian_curvature / apex.length_squared();
+        let map = ConformalMap::new(curvature, base + apex * 0.5);
+        let place = |node: u32| base + self.positions[node as usize] * segment_mm;
+        let topology = Topology::new(self.positions.len(), &self.edges);
+        let base_to_tip = topology
+            .base_to_tip()
+            .expect("children and junctions are younger than what leads to them, so no edges run in a circle");
+        let law = plan.width_law();
+        let radius = |flow: f64| plan.veinlet_radius_mm * law.radius(flow);
+        let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
+        let mut radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
+        let orders = order::orders(
+            &topology,
+            &self.positions,
+            &radii,
+            &base_to_tip,
+            &self.laid_orders,
+        );
+        if plan.unseen_veinlets > 0.0 {
+            let major = |edge: u32| orders.edges[edge as usize] <= 2;
+            flows = width::flows(&topology, &base_to_tip, |node| {
+                let bears = topology.entering(node).iter().any(|&edge| major(edge));
+                if bears { plan.unseen_veinlets } else { 0.0 }
+            });
+            radii = flows.edges.iter().map(|&flow| radius(flow)).collect();
+        }
+        let edges: Vec<VeinEdge> = self
+            .edges
+            .iter()
+            .enumerate()
+            .map(|(i, &[from, to])| {
+                // A lateral starts with its own radius; only a vein that continues tapers between
+                // its nodes.
+                let continues = orders.continuations[from as usize] == Some(i as u32);
+                let start = if continues {
+                    radius(flows.nodes[from as usize])
+                } else {
+                    radii[i]
+                };
+                VeinEdge {
+                    from,
+                    to,
+                    radius_from: start.max(radii[i]) * map.enlargement(place(from)),
+                    radius_to: radii[i] * map.enlargement(place(to)),
+                    order: orders.edges[i],
+                }
+            })
+            .collect();
+        let positions = if plan.tension_rounds == 0 {
+            self.positions
+        } else {
+            let is_free = |node: usize| self.laid_orders.get(node).is_none_or(|&order| order == 0);
+            tension::relaxed(&self.positions, &edges, is_free, plan.tension_rounds)
+        };
+        let nodes = positions
+            .iter()
+            .zip(&self.births)
+            .map(|(&position, &born)| VeinNode {
+                position: base + position * segment_mm,
+                born,
+            })
+            .collect();
+        VenationNetwork {
+            nodes,
+            edges,
+            map,
+            origins: self.origins,
+            steps: self.steps,
+            sources: self.sources,
+            segment_mm,
+            ending: self.ending,
+        }
+    }
+}

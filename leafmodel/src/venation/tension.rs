@@ -1,0 +1,200 @@
+//! Veins under tension: they straighten, and their angles follow their widths.
+//!
+//! Where veins meet, each pulls along its own direction with a force in proportion to its radius,
+//! and the forces cancel in real leaves (\[bohn2002\]): three equal veins meet at 120°, a fine one
+//! leaves a thick one squarely. Nodes move towards that balance for a number of rounds.
+//!
+//! - **Always true**: no two veins cross that did not before; all nodes move at once, so the order
+//!   of work does not matter.
+
+use glam::DVec2;
+
+use super::network::VeinEdge;
+use super::planar::EdgeGrid;
+
+/// Share of the way to balance that a node goes in a round.
+const STEP: f64 = 0.5;
+
+/// How often veins that came to cross are held in place and the rest is moved anew; after that
+/// nothing moves at all.
+const TRIES: u32 = 24;
+
+/// The places of the nodes after `rounds`; only nodes with two or more veins for which `is_free`
+/// holds move.
+pub(super) fn relaxed(
+    positions: &[DVec2],
+    edges: &[VeinEdge],
+    is_free: impl Fn(usize) -> bool,
+    rounds: u32,
+) -> Vec<DVec2> {
+    let mut degrees = vec![0_u32; positions.len()];
+    for edge in edges {
+        degrees[edge.from as usize] += 1;
+        degrees[edge.to as usize] += 1;
+    }
+    let mut moves: Vec<bool> = degrees
+        .iter()
+        .enumerate()
+        .map(|(node, &degree)| degree > 1 && is_free(node))
+        .collect();
+    let before = crossings(positions, edges);
+    for attempt in 0..TRIES {
+        let now = moved(positions, edges, &moves, rounds);
+        let new: Vec<[u32; 2]> = crossings(&now, edges)
+            .into_iter()
+            .filter(|pair| before.binary_search(pair).is_err())
+            .collect();
+        if new.is_empty() {
+            return now;
+        }
+        hold(&mut moves, edges, new.as_flattened(), 1 + attempt / 4);
+    }
+    positions.to_vec()
+}
+
+/// Holds the ends of these edges and all nodes up to `reach` edges from them.
+fn hold(moves: &mut [bool], edges: &[VeinEdge], held: &[u32], reach: u32) {
+    let mut near = vec![false; moves.len()];
+    for &edge in held {
+        near[edges[edge as usize].from as usize] = true;
+        near[edges[edge as usize].to as usize] = true;
+    }
+    for _ in 0..reach {
+        let inner = near.clone();
+        for &VeinEdge { from, to, .. } in edges {
+            near[from as usize] |= inner[to as usize];
+            near[to as usize] |= inner[from as usize];
+        }
+    }
+    for (moves, near) in moves.iter_mut().zip(near) {
+        *moves &= !near;
+    }
+}
+
+fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -> Vec<DVec2> {
+    let mut now = positions.to_vec();
+    let mut pulls = vec![(DVec2::ZERO, 0.0_f64); positions.len()];
+    for _ in 0..rounds {
+        pulls.fill((DVec2::ZERO, 0.0));
+        for edge in edges {
+            let way = now[edge.to as usize] - now[edge.from as usize];
+            let stiffness = edge.radius_to / way.length().max(f64::MIN_POSITIVE);
+            for (node, sign) in [(edge.from, 1.0), (edge.to, -1.0)] {
+                let (pull, sum) = &mut pulls[node as usize];
+                *pull += way * (sign * stiffness);
+                *sum += stiffness;
+            }
+        }
+        let pulled = now.iter_mut().zip(&pulls).zip(moves);
+        for ((place, &(pull, sum)), _) in pulled.filter(|(_, moves)| **moves) {
+            *place += pull * (STEP / sum);
+        }
+    }
+    now
+}
+
+/// Pairs of edges that cross, ascending.
+fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
+    let ends = |edge: u32| {
+        let edge = &edges[edge as usize];
+        [edge.from, edge.to]
+    };
+    let place = |node: u32| positions[node as usize];
+    let length = |e: &VeinEdge| (place(e.to) - place(e.from)).length();
+    let mean = edges.iter().map(length).sum::<f64>() / (edges.len() as f64).max(1.0);
+    let mut found = Vec::new();
+    for near in EdgeGrid::new(positions, edges, mean).lists() {
+        for (i, &first) in near.iter().enumerate() {
+            let [a, b] = ends(first);
+            for &second in &near[i + 1..] {
+                let [c, d] = ends(second);
+                let share_a_node = a == c || a == d || b == c || b == d;
+                if !share_a_node && cross([a, b, c, d].map(place)) {
+                    found.push([first.min(second), first.max(second)]);
+                }
+            }
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Whether the way from the first to the second place crosses that from the third to the fourth.
+fn cross([a, b, c, d]: [DVec2; 4]) -> bool {
+    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vein(from: u32, to: u32, radius: f64) -> VeinEdge {
+        VeinEdge {
+            from,
+            to,
+            radius_from: radius,
+            radius_to: radius,
+            order: 1,
+        }
+    }
+
+    /// Three veins of these radii from a junction to fixed ends, at 0°, 90° and 180°.
+    fn angle_after(radii: [f64; 3]) -> f64 {
+        let ends = [DVec2::X, DVec2::Y, -DVec2::X].map(|end| end * 10.0);
+        let positions = [DVec2::ZERO, ends[0], ends[1], ends[2]];
+        let edges: Vec<VeinEdge> = (0..3).map(|i| vein(0, i + 1, radii[i as usize])).collect();
+        let now = relaxed(&positions, &edges, |_| true, 400);
+        assert_eq!(now[1..], positions[1..], "ends stay");
+        (now[1] - now[0])
+            .angle_to(now[3] - now[0])
+            .abs()
+            .to_degrees()
+    }
+
+    #[test]
+    fn equal_veins_meet_at_120_degrees_and_a_fine_one_leaves_squarely() {
+        assert!((angle_after([1.0; 3]) - 120.0).abs() < 0.1);
+        // 2 cos(θ / 2) = 0.2 of forces 1, 0.2, 1.
+        let thin = 2.0 * libm::acos(0.1).to_degrees();
+        assert!((angle_after([1.0, 0.2, 1.0]) - thin).abs() < 0.1);
+    }
+
+    #[test]
+    fn a_zigzag_straightens_and_keeps_its_ends() {
+        let positions: Vec<DVec2> = (0..9)
+            .map(|i| DVec2::new(f64::from(i), if i % 2 == 0 { 0.0 } else { 0.4 }))
+            .collect();
+        let edges: Vec<VeinEdge> = (0..8).map(|i| vein(i, i + 1, 1.0)).collect();
+        let now = relaxed(&positions, &edges, |_| true, 10);
+        assert_eq!((now[0], now[8]), (positions[0], positions[8]));
+        let length = |p: &[DVec2]| p.windows(2).map(|w| (w[1] - w[0]).length()).sum::<f64>();
+        assert!(length(&now) < 0.25 * length(&positions) + 0.75 * 8.01);
+        let kept = relaxed(&positions, &edges, |node| node != 3, 10);
+        assert_eq!(kept[3], positions[3]);
+    }
+
+    #[test]
+    fn a_vein_that_straightens_does_not_pass_a_free_end() {
+        // A bow around the end of a veinlet.
+        let bow = (0..=8).map(|i| {
+            let angle = f64::from(i) * std::f64::consts::PI / 8.0;
+            DVec2::new(-libm::cos(angle), libm::sin(angle))
+        });
+        let positions: Vec<DVec2> = bow
+            .chain([DVec2::new(0.0, -1.0), DVec2::new(0.0, 0.5)])
+            .collect();
+        let bow = (0..8).map(|i| vein(i, i + 1, 1.0));
+        let edges: Vec<VeinEdge> = bow.chain([vein(9, 10, 1.0)]).collect();
+        let mut moves = [true; 11];
+        for fixed in [0, 8, 9, 10] {
+            moves[fixed] = false;
+        }
+        let free = moved(&positions, &edges, &moves, 200);
+        assert_eq!(crossings(&free, &edges).len(), 1, "it would pass");
+        let now = relaxed(&positions, &edges, |_| true, 200);
+        assert_eq!(crossings(&now, &edges), [[0; 2]; 0]);
+        assert!(now != positions, "what is far from the end moves");
+    }
+}
