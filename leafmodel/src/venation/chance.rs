@@ -45,6 +45,10 @@ pub(crate) enum Use {
     Layer = 19,
     /// How far the veins of an architecture stray.
     Architecture = 20,
+    /// How dead tissue weathers.
+    Weathering = 41,
+    /// Spots on dead tissue.
+    WeatheringSpot = 42,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -10,8 +10,12 @@ use super::{Age, ColouredLeaf, Holding};
 use crate::blade::ageing::{Course, Delay};
 use crate::blade::ageing_courses::{LITTER, YELLOW};
 use crate::blade::senescence::{AgeSource, Senescence};
+use crate::blade::weathering::Weathering;
 use crate::leaf::LeafPlan;
-use crate::optics::Constituent::{Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter};
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::VeinFactors;
 
 /// Days over which living contents blend into dead ones.
 const BLEND_DAYS: f64 = 5.0;
@@ -44,9 +48,13 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
         .brown(browned(0.06))],
     age: Some(age(27.0, 8.0, 16.0)),
     plan: |leaf| {
-        // The leaf turns evenly from the upper margin; its parallel veins leave no trace.
+        // The leaf turns evenly from the upper margin; its parallel veins stay greener than the
+        // tissue between them, and hold more of everything, since they are dense with wood.
         let course = Course {
             onset: Delay {
+                veins_days: 7.0,
+                veins_reach_mm: 0.12,
+                veins_order: 20,
                 margin_days: 5.0,
                 margin_reach_mm: 10.0,
                 tip_days: 6.0,
@@ -64,7 +72,16 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, runions::ginkgo(), course)
+        let mut plan = aged(leaf, runions::ginkgo(), course);
+        plan.tissue.vein_factors = VeinFactors::of(&[
+            (Structure, 1.25),
+            (Chlorophyll, 1.6),
+            (Carotenoids, 1.2),
+            (Brown, 3.0),
+            (Water, 1.5),
+            (DryMatter, 3.0),
+        ]);
+        plan
     },
 };
 
@@ -232,6 +249,16 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
     },
 };
 
+/// Oak leaves on the ground, by eye.
+const OAK_WEATHERING: Weathering = Weathering {
+    leaves: 0.5,
+    patches: 0.5,
+    patch_scale_mm: 11.0,
+    bleached: 0.2,
+    spots_per_cm2: 1.5,
+    spot_radius_mm: 0.6,
+};
+
 pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
     preset: "oak-litter",
     species: "Quercus alba, fallen",
@@ -251,7 +278,8 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
             .water(litter(0.001, [0.0005, 0.002]))
             .dry_matter(litter(0.007, [0.005, 0.009])),
     ],
-    age: Some(age(46.0, 9.0, 12.0)),
+    // On the last day all of it has died.
+    age: Some(age(70.0, 9.0, 12.0)),
     plan: |leaf| {
         let course = Course {
             death: Delay {
@@ -263,6 +291,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
                 veins_reach_mm: 1.2,
                 ..YELLOW.death
             },
+            weathering: Some(OAK_WEATHERING),
             ..YELLOW
         };
         let mut plan = aged(leaf, trees::white_oak(), course);
