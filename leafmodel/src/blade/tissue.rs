@@ -117,7 +117,12 @@ impl Tissue {
             TissueError::unless(valid, field, value, "from 0 to 100")?;
         }
         if let Some(body) = &self.vein_body {
-            body.validate()?;
+            let (thickness, valid) = (body.blade_mm, (0.001..=10.0).contains(&body.blade_mm));
+            TissueError::unless(valid, "vein_body.blade_mm", thickness, "from 0.001 to 10")?;
+            for (_, share) in body.shares {
+                let valid = (0.0..=VeinBody::MOST).contains(&share);
+                TissueError::unless(valid, "vein_body", share, "from 0 to 100")?;
+            }
         }
         let full = self.full_vein_radius_mm;
         let valid = (0.001..=100.0).contains(&full);

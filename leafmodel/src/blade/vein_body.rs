@@ -1,6 +1,5 @@
 //! What thick veins are made of.
 
-use super::tissue::TissueError;
 use crate::optics::{Constituent, PerConstituent};
 
 /// The tissue by which a vein is thicker than the blade: parenchyma, collenchyma and wood.
@@ -42,22 +41,6 @@ impl VeinBody {
         ]),
     };
 
-    /// Checks every number.
-    pub(super) fn validate(&self) -> Result<(), TissueError> {
-        let valid = (0.001..=10.0).contains(&self.blade_mm);
-        TissueError::unless(
-            valid,
-            "veins.body.blade_mm",
-            self.blade_mm,
-            "from 0.001 to 10",
-        )?;
-        for (_, share) in self.shares {
-            let valid = (0.0..=Self::MOST).contains(&share);
-            TissueError::unless(valid, "veins.body", share, "from 0 to 100")?;
-        }
-        Ok(())
-    }
-
     /// Layers as thick as the blade by which a vein of radius `r` is thicker, at the distance `d`
     /// from its axis.
     pub(crate) fn layers(&self, d: f64, r: f64) -> f64 {
@@ -68,7 +51,35 @@ impl VeinBody {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tissue::Tissue;
+    use super::super::tissue::tests::GREEN;
+    use super::super::vein_cover::VeinCover;
     use super::*;
+    use crate::optics::ProspectD;
+
+    #[test]
+    fn against_the_light_thin_veins_are_lighter_than_the_blade_and_thick_ones_darker() {
+        let body = VeinBody::USUAL;
+        let tissue = Tissue {
+            vein_body: Some(body),
+            ..GREEN
+        };
+        let at = ProspectD::coefficients(550.0).expect("in range");
+        let through = |weight: f64, radius: f64| {
+            let excess = body.layers(0.0, radius);
+            let held = tissue.contents(VeinCover { weight, excess }, 0.0);
+            at.reflectance_transmittance(&held).transmittance
+        };
+        let blade = through(0.0, 0.0);
+        assert!(through(0.5, 0.03) > 1.15 * blade && through(1.0, 0.1) > 1.3 * blade);
+        assert!(through(1.0, 0.6) < 0.5 * blade && through(1.0, 1.0) < 0.25 * blade);
+        let radii = (0..20).map(|i| 0.1 + 0.05 * f64::from(i));
+        let falling: Vec<f64> = radii.map(|radius| through(1.0, radius)).collect();
+        assert!(
+            falling.is_sorted_by(|more, less| more > less),
+            "{falling:?}"
+        );
+    }
 
     #[test]
     fn a_vein_adds_layers_only_where_it_is_thicker_than_the_blade() {
