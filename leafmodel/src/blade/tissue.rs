@@ -160,14 +160,12 @@ impl Tissue {
         for (constituent, value) in contents.iter_mut() {
             let factor = self.vein_factors[constituent];
             let thick = constituent.is_bulk() && factor > 1.0;
-            *value *= match &self.vein_body {
-                Some(body) => {
-                    1.0 + (factor - 1.0) * cover.weight + body.shares[constituent] * cover.excess
-                }
-                None => {
-                    let share = cover.weight + if thick { cover.excess } else { 0.0 };
-                    1.0 + (factor - 1.0) * share
-                }
+            let body = self.vein_body.as_ref();
+            *value *= if let Some(body) = body {
+                1.0 + (factor - 1.0) * cover.weight + body.shares[constituent] * cover.excess
+            } else {
+                let share = cover.weight + if thick { cover.excess } else { 0.0 };
+                1.0 + (factor - 1.0) * share
             };
             if MOTTLED.contains(&constituent) {
                 *value *= patch;

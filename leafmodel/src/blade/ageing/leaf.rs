@@ -152,7 +152,7 @@ pub(in super::super) struct AgeingLeaf {
 
 impl AgeingLeaf {
     pub(in super::super) fn new(
-        course: Course,
+        course: &Course,
         day: f64,
         (blend, dead): (f64, Contents),
         place: &Place<'_>,
@@ -160,7 +160,7 @@ impl AgeingLeaf {
         seed: u64,
     ) -> Self {
         Self {
-            course,
+            course: *course,
             decay: Decay::new(course.steepness),
             day,
             blend,

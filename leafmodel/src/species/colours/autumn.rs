@@ -72,7 +72,7 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        let mut plan = aged(leaf, runions::ginkgo(), course);
+        let mut plan = aged(leaf, runions::ginkgo(), &course);
         plan.tissue.vein_factors = VeinFactors::of(&[
             (Structure, 1.25),
             (Chlorophyll, 1.6),
@@ -115,7 +115,7 @@ pub(super) const BIRCH: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, trees::birch(), course)
+        aged(leaf, trees::birch(), &course)
     },
 };
 
@@ -145,7 +145,7 @@ pub(super) const POPLAR: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, trees::cottonwood(), course)
+        aged(leaf, trees::cottonwood(), &course)
     },
 };
 
@@ -176,7 +176,7 @@ pub(super) const SUGAR_MAPLE: ColouredLeaf = ColouredLeaf {
         };
         let outline = trees_contours::maple();
         let veins = trees::dense(leaf.green, architectures::maple(), 3.2);
-        aged(leaf, trees::leaf(leaf.green, 5, outline, veins), course)
+        aged(leaf, trees::leaf(leaf.green, 5, outline, veins), &course)
     },
 };
 
@@ -202,7 +202,7 @@ pub(super) const RED_MAPLE: ColouredLeaf = ColouredLeaf {
             death: EDGE,
             ..YELLOW
         };
-        let mut plan = aged(leaf, red_maple(leaf), course);
+        let mut plan = aged(leaf, red_maple(leaf), &course);
         // Veins stay paler than the blade between them.
         plan.tissue.vein_factors[Anthocyanins] = 0.5;
         plan
@@ -243,7 +243,7 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
             death: EDGE,
             ..YELLOW
         };
-        let mut plan = aged(leaf, runions::sweetgum(), course);
+        let mut plan = aged(leaf, runions::sweetgum(), &course);
         plan.tissue.vein_factors[Anthocyanins] = 0.6;
         plan
     },
@@ -294,7 +294,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
             weathering: Some(OAK_WEATHERING),
             ..YELLOW
         };
-        let mut plan = aged(leaf, trees::white_oak(), course);
+        let mut plan = aged(leaf, trees::white_oak(), &course);
         // Dry leaves roll in; lighter veins stand out.
         plan.form.fold = 16.0_f64.to_radians();
         plan.form.curl = 48.0_f64.to_radians();
@@ -305,7 +305,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
 };
 
 /// The green leaf after ageing.
-fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
+fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: &Course) -> LeafPlan {
     let (turned, summer) = (leaf.of("turned"), green.tissue.lamina);
     let kept = turned[Carotenoids] / summer[Carotenoids];
     let age = leaf.age.expect("leaves that turn have an age");
@@ -316,7 +316,7 @@ fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
         labile_carotenoids: (1.0 - kept).max(0.0),
         anthocyanins: turned[Anthocyanins],
         brown: turned[Brown],
-        ..course
+        ..*course
     };
     let dry = course.dry_matter_factor * summer[DryMatter];
     let contents = leaf
