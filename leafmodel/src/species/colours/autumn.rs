@@ -335,3 +335,20 @@ fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: &Course) -> LeafPlan {
         ..green
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::blade::senescence::AgeSource;
+    use crate::species;
+
+    #[test]
+    fn no_tissue_of_oak_litter_is_left_alive() {
+        let plan = species::find("oak-litter").expect("a preset").plan();
+        let senescence = plan.senescence.expect("it has aged");
+        let AgeSource::Day { day, .. } = senescence.source else {
+            panic!("it ages by days");
+        };
+        let last = senescence.last_day().expect("it ages by days");
+        assert!(last <= day, "the last tissue dies on day {last} of {day}");
+    }
+}
