@@ -67,6 +67,7 @@ fn tissue() -> Result<Tissue, Box<dyn std::error::Error>> {
             (Constituent::Water, 2.0),
             (Constituent::DryMatter, 2.5),
         ]),
+        vein_body: None,
         full_vein_radius_mm: 0.06,
         sheath_width_mm: 0.08,
         mottle: 0.1,

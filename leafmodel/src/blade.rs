@@ -46,10 +46,12 @@ mod skeleton;
 pub mod stalk;
 pub mod tissue;
 mod triangulate;
+pub mod vein_body;
 pub mod vein_cover;
 pub mod vein_field;
 mod vein_grid;
 pub mod vein_profile;
+pub mod weathering;
 
 pub use frame::UvFrame;
 pub use mesh::{BladeError, BladeMesh, MeshDefect};

@@ -288,6 +288,7 @@ mod tests {
                     (Constituent::Water, 2.0),
                     (Constituent::DryMatter, 2.5),
                 ]),
+                vein_body: None,
                 full_vein_radius_mm: 0.25,
                 sheath_width_mm: 0.1,
                 mottle: 0.1,

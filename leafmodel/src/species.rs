@@ -120,6 +120,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
                 (DryMatter, 0.005),
             ]),
             vein_factors: VeinFactors::default(),
+            vein_body: None,
             full_vein_radius_mm: (4.0 * veinlet).clamp(0.001, 0.2),
             sheath_width_mm: (5.0 * veinlet).clamp(0.001, 0.15),
             mottle: 0.1,

@@ -10,6 +10,8 @@ Parameters of the plugin:
   the numbers of `prospect.CONTENTS`; or `map`, an EXR with channels of those names; or
   `reflectance` and `transmittance`, spectra;
 - `prospect` (the table's file) and `extrapolate`, for the first two;
+- `spread_u`, `spread_v`: one thickness of the blade in texture coordinates, for maps whose light
+  spreads sideways (`docs/src/theory/light-spread.md`);
 - `abaxial_ratio`: a spectrum; if absent, the page's ratio by absorptance;
 - `adaxial_eta`, `adaxial_alpha_across`, `adaxial_alpha_along`, and the same for `abaxial_`.
 
@@ -27,7 +29,7 @@ import numpy as np
 import OpenImageIO as oiio
 
 from .coat import COUNT_AZIMUTH, COUNT_MU, Coat
-from .lookup import Table, cell
+from .lookup import Table, bits, cell, nearest
 from .prospect import BETALAINS, CONTENTS, Prospect
 
 Double = dr.float64_array_t(mi.UnpolarizedSpectrum)
@@ -57,6 +59,15 @@ class ContentsMap:
             plane = np.pad(plane, ((0, self.height == 1), (0, self.width == 1)), mode="edge")
             self.tables[name] = Table(plane)
         self.stride = max(self.width, 2)
+        # Mean over the map's own texels.
+        size = self.width * self.height
+        self.mean = {
+            name: float(
+                table.host.reshape(-1, self.stride)[: self.height, : self.width].sum(dtype=np.float64)
+                / size
+            )
+            for name, table in self.tables.items()
+        }
 
     def at(self, uv: Any) -> dict[str, Any]:
         """The contents at texture coordinates."""
@@ -70,6 +81,27 @@ class ContentsMap:
             high = dr.lerp(table.at(mi.Float, corner_up), table.at(mi.Float, corner_up + 1), a)
             result[name] = dr.lerp(low, high, b)
         return result
+
+
+    def drawn(self, kind: type, u: Any, v: Any, within: tuple[Any, Any]) -> dict[str, Any]:
+        """One texel of four at `u`, `v` of type `kind`, by the weights of bilinear interpolation."""
+        column = nearest(kind, u * self.width - 0.5 + kind(within[0]), self.width)
+        row = nearest(kind, v * self.height - 0.5 + kind(within[1]), self.height)
+        if isinstance(column, list):
+            corner = [j * self.stride + i for i, j in zip(column, row, strict=True)]
+        else:
+            corner = row * self.stride + column
+        return {name: table.at(kind, corner) for name, table in self.tables.items()}
+
+
+def five_numbers(uv: Any, wavelengths: Any) -> list[Any]:
+    """Numbers in [0, 1) that look random, from the place and the first wavelength."""
+    state = bits(uv.x), bits(uv.y) ^ bits(wavelengths[0])
+    drawn = []
+    for step in range(3):
+        state = mi.sample_tea_32(state[0], state[1] ^ (step + 1), 8)
+        drawn += [mi.Float(word >> 8) * (1.0 / (1 << 24)) for word in state]
+    return drawn[:5]
 
 
 class Tissue:
@@ -87,6 +119,15 @@ class Tissue:
         self.r_b = dr.clip(1.0 - self.t_ba - a_b, 0.0, 1.0 - self.t_ba)
         self.back_a = self.r_a / (1.0 - top.mean)
         self.back_b = self.r_b / (1.0 - bottom.mean)
+
+    def passing(self, t: Any, coats: tuple[Coat, Coat]) -> None:
+        """Lets through what entered elsewhere; reflectances stay."""
+        top, bottom = coats
+        back = (1.0 - top.mean) / (1.0 - bottom.mean)
+        most = dr.minimum(1.0 - self.r_a, (1.0 - self.r_b) / back)
+        self.t_ab = dr.minimum(t / (1.0 - top.normal), most)
+        self.t_ba = self.t_ab * back
+        self.through = self.t_ab / (1.0 - bottom.mean)
 
     def c(self, same: Any, adaxial: Any) -> Any:
         """c for two directions: on the same face or not, and on which one."""
@@ -116,6 +157,7 @@ class LeafBSDF(mi.BSDF):
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
         self.kind = str(props.get("tissue"))
         self.abaxial_ratio = None
+        self.spread = None
         if props.has_property("abaxial_ratio"):
             self.abaxial_ratio = props.get_unbounded_texture("abaxial_ratio")
         if self.kind == "measured":
@@ -127,6 +169,8 @@ class LeafBSDF(mi.BSDF):
                 Path(str(table)), Double, bool(props.get("extrapolate", False))
             )
             if self.kind == "map":
+                if props.has_property("spread_u"):
+                    self.spread = float(props.get("spread_u")), float(props.get("spread_v"))
                 self.map = ContentsMap(Path(str(mi.file_resolver().resolve(str(props.get("map"))))))
             elif self.kind == "contents":
                 self.contents = {
@@ -163,7 +207,33 @@ class LeafBSDF(mi.BSDF):
     def tissue(self, si: Any, active: Any) -> Tissue:
         """The tissue's coefficients at a hit."""
         r, t = self.spectra(si, active)
-        return Tissue(r, t, self.ratio(si, r, t, active), self.coats)
+        tissue = Tissue(r, t, self.ratio(si, r, t, active), self.coats)
+        if self.spread is not None:
+            tissue.passing(self.spread_transmittance(si), self.coats)
+        return tissue
+
+    def spread_transmittance(self, si: Any) -> Any:
+        """T at one place from which light at the hit comes, drawn for each wavelength's length."""
+        kind = mi.UnpolarizedSpectrum
+        mean = self.map.mean
+        absorbed = self.prospect.absorbed(si.wavelengths, mean)
+        scattering = 1.0 + 0.18 * (mean["structure"] - 1.0)
+        length = kind(0.81 / scattering * dr.exp(dr.log(1.0 + 6.2 * absorbed) * (-1.0 / 3.0)))
+        u1, u2, turn, *within = five_numbers(si.uv, si.wavelengths)
+        away = length * kind(-dr.log((1.0 - u1) * (1.0 - u2)))
+        s, c = dr.sincos(dr.two_pi * turn)
+        u, v = away * kind(c * self.spread[0]), away * kind(s * self.spread[1])
+        at_u, at_v = kind(si.uv.x), kind(si.uv.y)
+        there = self.map.drawn(kind, at_u + u, at_v + v, within)
+        opposite = self.map.drawn(kind, at_u - u, at_v - v, within)
+        here = self.map.drawn(kind, at_u, at_v, within)
+        # Texels without tissue are outside the blade.
+        first, second = there["structure"] >= 1.0, opposite["structure"] >= 1.0
+        entered = {
+            name: dr.select(first, there[name], dr.select(second, opposite[name], here[name]))
+            for name in CONTENTS
+        }
+        return self.prospect.spectra(si.wavelengths, entered)[1]
 
     def ratio(self, si: Any, r: Any, t: Any, active: Any) -> Any:
         """Abaxial over adaxial reflectance at a hit."""

@@ -47,3 +47,18 @@ def cell(kind: type, x: Any, count: int) -> tuple[Any, Any]:
         return index, x - kind(index)
     lower = [min(int(value), count - 2) for value in x]
     return lower, x - kind([float(i) for i in lower])
+
+
+def nearest(kind: type, x: Any, count: int) -> Any:
+    """⌊x⌋ of numbers of type `kind`, within 0..count-1."""
+    x = dr.clip(dr.floor(x), 0.0, float(count - 1))
+    if IS_JIT:
+        return dr.uint32_array_t(kind)(x)
+    return int(x) if isinstance(x, float) else [int(value) for value in x]
+
+
+def bits(x: Any) -> Any:
+    """The bits of single-precision numbers."""
+    if IS_JIT:
+        return dr.reinterpret_array(mi.UInt32, mi.Float(x))
+    return int(np.float32(x).view(np.uint32))

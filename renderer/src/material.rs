@@ -17,6 +17,7 @@
 pub mod contents_texture;
 pub mod held;
 pub mod leaf;
+pub mod light_spread;
 pub mod palette;
 pub mod solid;
 

@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::distances::Distances;
 use super::frame::UvFrame;
 use super::tissue::TissueError;
+use super::weathering::Weathering;
 use crate::optics::{Constituent, Contents};
 use crate::venation::network::VeinSegment;
 
@@ -130,6 +131,8 @@ pub struct Course {
     pub death_day: f64,
     /// Where it dies first.
     pub death: Delay,
+    /// How dead tissue differs from leaf to leaf and from place to place; `None`: not at all.
+    pub weathering: Option<Weathering>,
 }
 
 impl Course {
@@ -141,6 +144,9 @@ impl Course {
     pub fn validate(&self) -> Result<(), TissueError> {
         self.onset.validate()?;
         self.death.validate()?;
+        if let Some(weathering) = &self.weathering {
+            weathering.validate()?;
+        }
         for (field, value, least, most, range) in [
             ("half_days", self.half_days, 0.1, 1e3, "from 0.1 to 1000"),
             ("steepness", self.steepness, 0.1, 50.0, "from 0.1 to 50"),

@@ -41,6 +41,7 @@ pub const YELLOW: Course = Course {
         veins_order: 2,
         ..Delay::NONE
     },
+    weathering: None,
 };
 
 /// Orange: some anthocyanin over carotenoids, as in sugar maple.

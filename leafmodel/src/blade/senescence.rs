@@ -157,7 +157,7 @@ impl Withering {
             }
             AgeSource::Day { day, course } => {
                 let end = (blend, contents);
-                let leaf = AgeingLeaf::new(course, day, end, place, deaths.as_ref(), seed);
+                let leaf = AgeingLeaf::new(&course, day, end, place, deaths.as_ref(), seed);
                 Some(Self(Way::Day(Box::new(leaf))))
             }
         }

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use thiserror::Error;
 
+use super::vein_body::VeinBody;
 use super::vein_cover::VeinCover;
 use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 
@@ -14,6 +15,9 @@ pub struct Tissue {
     pub lamina: Contents,
     /// Factors on these contents in veins; structure stays at least 1.
     pub vein_factors: VeinFactors,
+    /// What thick veins are made of. Without it the surplus of structure, water and dry matter
+    /// follows from the factors and grows with the radius over `full_vein_radius_mm`.
+    pub vein_body: Option<VeinBody>,
     /// Radius, mm, from which a vein counts as fully developed. The factors act only partly on
     /// finer veins.
     pub full_vein_radius_mm: f64,
@@ -34,6 +38,7 @@ impl Tissue {
         Self {
             lamina,
             vein_factors: VeinFactors::default(),
+            vein_body: None,
             full_vein_radius_mm: 0.06,
             sheath_width_mm: 0.1,
             mottle: 0.0,
@@ -111,6 +116,14 @@ impl Tissue {
             let field = FACTORS[constituent].as_str();
             TissueError::unless(valid, field, value, "from 0 to 100")?;
         }
+        if let Some(body) = &self.vein_body {
+            let (thickness, valid) = (body.blade_mm, (0.001..=10.0).contains(&body.blade_mm));
+            TissueError::unless(valid, "vein_body.blade_mm", thickness, "from 0.001 to 10")?;
+            for (_, share) in body.shares {
+                let valid = (0.0..=VeinBody::MOST).contains(&share);
+                TissueError::unless(valid, "vein_body", share, "from 0 to 100")?;
+            }
+        }
         let full = self.full_vein_radius_mm;
         let valid = (0.001..=100.0).contains(&full);
         TissueError::unless(valid, "full_vein_radius_mm", full, "from 0.001 to 100")?;
@@ -130,7 +143,8 @@ impl Tissue {
     /// Each of the contents is `C (1 + (f − 1) w)`, with its value `C` between veins, its factor
     /// `f` and the veins' weight `w`. Structure, water and dry matter with `f > 1` are
     /// `C (1 + (f − 1)(w + e))`: their surplus grows with a vein's thickness, so with its radius
-    /// (`e`, [`VeinCover::excess`]), whereas pigment contents do not. Chlorophyll and carotenoids
+    /// (`e`, [`VeinCover::excess`]), whereas pigment contents do not. With a [`VeinBody`] it is
+    /// `C (1 + (f − 1) w + b e)` for all of them, with the body's share `b`. Chlorophyll and carotenoids
     /// are multiplied by `1 + mottle share × mottle`. Structure is at least 1, the others at
     /// least 0.
     #[must_use]
@@ -146,8 +160,13 @@ impl Tissue {
         for (constituent, value) in contents.iter_mut() {
             let factor = self.vein_factors[constituent];
             let thick = constituent.is_bulk() && factor > 1.0;
-            let share = cover.weight + if thick { cover.excess } else { 0.0 };
-            *value *= 1.0 + (factor - 1.0) * share;
+            let body = self.vein_body.as_ref();
+            *value *= if let Some(body) = body {
+                1.0 + (factor - 1.0) * cover.weight + body.shares[constituent] * cover.excess
+            } else {
+                let share = cover.weight + if thick { cover.excess } else { 0.0 };
+                1.0 + (factor - 1.0) * share
+            };
             if MOTTLED.contains(&constituent) {
                 *value *= patch;
             }
@@ -180,6 +199,7 @@ pub(super) mod tests {
             (Constituent::Water, 2.0),
             (Constituent::DryMatter, 2.5),
         ]),
+        vein_body: None,
         full_vein_radius_mm: 0.25,
         sheath_width_mm: 0.1,
         mottle: 0.0,
@@ -304,6 +324,25 @@ pub(super) mod tests {
             0.0,
         );
         assert_eq!(drained[Constituent::Water], 0.0);
+    }
+
+    #[test]
+    fn a_body_adds_its_share_of_everything_for_each_layer() {
+        let tissue = Tissue {
+            vein_body: Some(VeinBody::USUAL),
+            ..GREEN
+        };
+        let thick = VeinCover {
+            weight: 1.0,
+            excess: 3.0,
+        };
+        let (full, thick) = (tissue.contents(FULL, 0.0), tissue.contents(thick, 0.0));
+        assert_eq!(full, GREEN.contents(FULL, 0.0));
+        for (constituent, share) in VeinBody::USUAL.shares {
+            let added = thick[constituent] - full[constituent];
+            let expected = 3.0 * share * GREEN.lamina[constituent];
+            assert!((added - expected).abs() < 1e-12, "{constituent:?}");
+        }
     }
 
     #[test]

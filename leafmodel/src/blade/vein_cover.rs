@@ -6,7 +6,8 @@ pub struct VeinCover {
     /// 0 between veins to 1 over a fully developed one; finer veins reach less.
     pub weight: f64,
     /// `r / r_full − 1` on the axis of a vein of radius `r > r_full`, falling to 0 at its edge; 0
-    /// elsewhere.
+    /// elsewhere. With a [`VeinBody`](super::vein_body::VeinBody): layers as thick as the blade by
+    /// which the vein is thicker.
     pub excess: f64,
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::tissue::{Tissue, TissueError};
 use super::vein_cover::VeinCover;
-use super::vein_profile::{Profile, strength};
+use super::vein_profile::{Profile, Surplus, strength};
 use crate::venation::network::VeinSegment;
 
 /// The veins of a leaf in a uniform grid; each cell lists every segment within reach.
@@ -15,6 +15,7 @@ use crate::venation::network::VeinSegment;
 pub struct VeinField {
     profile: Profile,
     full_radius: f64,
+    surplus: Surplus,
     segments: Vec<Segment>,
     origin: DVec2,
     cell: f64,
@@ -38,12 +39,12 @@ struct Segment {
 }
 
 impl Segment {
-    fn new(vein: &VeinSegment, profile: Profile, full_radius: f64) -> Self {
+    fn new(vein: &VeinSegment, profile: Profile, surplus: Surplus) -> Self {
         let along = vein.to - vein.from;
         let square = along.length_squared();
         let widest = vein.radius_from.max(vein.radius_to);
         let mut reach = profile.reach(widest);
-        if widest > full_radius {
+        if widest > surplus.least_radius() {
             reach = reach.max(profile.excess_reach(widest));
         }
         Self {
@@ -63,7 +64,8 @@ impl Segment {
         ((offset - t * self.along).length_squared(), t)
     }
 
-    fn cover(&self, point: DVec2, profile: Profile, full_radius: f64) -> VeinCover {
+    fn cover(&self, point: DVec2, field: &VeinField) -> VeinCover {
+        let (profile, full_radius) = (field.profile, field.full_radius);
         let (square, t) = self.nearest(point);
         if square >= self.reach * self.reach {
             return VeinCover::NONE;
@@ -72,7 +74,7 @@ impl Segment {
         let radius = self.radius_from + t * self.radius_growth;
         VeinCover {
             weight: strength(radius, full_radius) * profile.weight(distance, radius),
-            excess: profile.excess(distance, radius, full_radius),
+            excess: profile.excess(distance, radius, field.surplus),
         }
     }
 }
@@ -94,15 +96,20 @@ impl VeinField {
             sheath: tissue.sheath_width_mm,
             texel: texel_mm,
         };
-        let full_radius = tissue.full_vein_radius_mm;
+        let surplus = Surplus::of(tissue);
         let segments: Vec<Segment> = veins
             .iter()
-            .map(|vein| Segment::new(vein, profile, full_radius))
+            .map(|vein| Segment::new(vein, profile, surplus))
             .collect();
-        Ok(Self::sort(segments, profile, full_radius))
+        Ok(Self::sort(
+            segments,
+            profile,
+            tissue.full_vein_radius_mm,
+            surplus,
+        ))
     }
 
-    fn sort(segments: Vec<Segment>, profile: Profile, full_radius: f64) -> Self {
+    fn sort(segments: Vec<Segment>, profile: Profile, full_radius: f64, surplus: Surplus) -> Self {
         let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for segment in &segments {
             let (low, high) = bounds(segment);
@@ -122,6 +129,7 @@ impl VeinField {
         let mut field = Self {
             profile,
             full_radius,
+            surplus,
             segments,
             origin: min,
             cell,
@@ -184,9 +192,7 @@ impl VeinField {
         let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
         self.entries[start..end]
             .iter()
-            .map(|&index| {
-                self.segments[index as usize].cover(point, self.profile, self.full_radius)
-            })
+            .map(|&index| self.segments[index as usize].cover(point, self))
             .fold(VeinCover::NONE, VeinCover::strongest)
     }
 }
@@ -234,7 +240,7 @@ mod tests {
         field
             .segments
             .iter()
-            .map(|segment| segment.cover(point, field.profile, field.full_radius))
+            .map(|segment| segment.cover(point, field))
             .fold(VeinCover::NONE, VeinCover::strongest)
     }
 

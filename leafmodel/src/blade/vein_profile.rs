@@ -1,5 +1,8 @@
 //! The profile of a vein across its width, and how maps of coarse texels preserve it.
 
+use super::tissue::Tissue;
+use super::vein_body::VeinBody;
+
 /// Strength of a vein of radius `r` over that of a fully developed one: `min(1, r / r_full)^½`, in
 /// [0, 1].
 ///
@@ -8,6 +11,30 @@
 pub(super) fn strength(radius: f64, full_radius: f64) -> f64 {
     // A square root, unlike a power, is exact on every machine.
     (radius / full_radius).min(1.0).sqrt()
+}
+
+/// What the excess of a vein is measured by.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Surplus {
+    /// The radius of a fully developed vein, mm.
+    OverFull(f64),
+    /// The thickness of the blade.
+    OverBlade(VeinBody),
+}
+
+impl Surplus {
+    pub(super) fn of(tissue: &Tissue) -> Self {
+        let full = Self::OverFull(tissue.full_vein_radius_mm);
+        tissue.vein_body.map_or(full, Self::OverBlade)
+    }
+
+    /// Radius, mm, from which veins have an excess.
+    pub(super) fn least_radius(self) -> f64 {
+        match self {
+            Self::OverFull(radius) => radius,
+            Self::OverBlade(body) => 0.5 * body.blade_mm,
+        }
+    }
 }
 
 /// Weight across a vein: 1 up to the radius `r`, then `1 − (3u² − 2u³)` with `u = (d − r) / s` down
@@ -70,11 +97,11 @@ impl Profile {
 
     /// Excess of a vein of radius `r` over a fully developed one at the distance `d` from its axis:
     /// `r / r_full − 1` on the axis, falling as `(1 − (d/r)²)²` to 0 at the vein's edge; 0 for
-    /// veins up to `r_full`.
+    /// veins up to `r_full`. Over a blade it is [`VeinBody::layers`].
     ///
     /// A vein narrower than the texels is widened to 1.5 texels and lowered in proportion.
-    pub(super) fn excess(self, d: f64, r: f64, full_radius: f64) -> f64 {
-        if r <= full_radius {
+    pub(super) fn excess(self, d: f64, r: f64, surplus: Surplus) -> f64 {
+        if r <= surplus.least_radius() {
             return 0.0;
         }
         let shown = r.max(1.5 * self.texel);
@@ -82,8 +109,13 @@ impl Profile {
             return 0.0;
         }
         let q = d / shown;
-        let dome = (1.0 - q * q) * (1.0 - q * q);
-        (r / full_radius - 1.0) * (r / shown) * dome
+        match surplus {
+            Surplus::OverFull(full) => {
+                let dome = (1.0 - q * q) * (1.0 - q * q);
+                (r / full - 1.0) * (r / shown) * dome
+            }
+            Surplus::OverBlade(body) => body.layers(q * r, r) * (r / shown),
+        }
     }
 
     /// Distance from the axis beyond which the excess is 0.
@@ -151,7 +183,7 @@ mod tests {
             let profile = Profile { sheath: 0.1, texel };
             let count = (profile.excess_reach(radius) / texel).ceil() as i32 + 1;
             let sum: f64 = (-count..=count)
-                .map(|i| profile.excess(((f64::from(i) + phase) * texel).abs(), radius, 0.25) * texel)
+                .map(|i| profile.excess(((f64::from(i) + phase) * texel).abs(), radius, Surplus::OverFull(0.25)) * texel)
                 .sum();
             let whole = (radius / 0.25 - 1.0) * radius * 16.0 / 15.0;
             prop_assert!((sum / whole - 1.0).abs() < 0.05, "{sum} {whole}");

@@ -59,9 +59,13 @@ impl LeafPlan {
         let veins: Vec<VeinSegment> = lamina.network.segments().collect();
         let place = lamina.place(&frame, &veins);
         let withering = self.withering(lamina, &place)?;
+        let mut tissue = self.tissue;
+        if let Some(body) = &mut tissue.vein_body {
+            body.blade_mm = self.form.thickness_mm;
+        }
         Ok(ContentsMap::paint_layered(
             &place,
-            &self.tissue,
+            &tissue,
             pattern,
             &self.layers,
             withering.as_ref(),

@@ -101,6 +101,26 @@ impl<const L: usize> PileLanes<L> {
         }
         (r, t)
     }
+
+    /// `T` of a leaf with its own contents at each of the wavelengths.
+    #[inline]
+    pub fn transmittance_of_each(&self, contents: &[&Texel; L]) -> [f32; L] {
+        let table = DepthTable::get();
+        let [t_lit, t_in, t_out, ..] = &self.constants;
+        let mut t = [0.0; L];
+        let mut depths = [0.0; L];
+        for lane in 0..L {
+            let [structure, held @ ..] = contents[lane].as_array();
+            let rows = self.constants[FACES..].iter();
+            let absorbed = rows.zip(held).map(|(row, content)| row[lane] * content);
+            depths[lane] = table.optical_depth(absorbed.sum::<f32>() / structure);
+        }
+        for i in 0..L {
+            let structure = contents[i][Constituent::Structure];
+            (_, t[i]) = pile(t_lit[i], t_in[i], t_out[i], depths[i], structure);
+        }
+        t
+    }
 }
 
 /// `R`, `T` of `n` plates from the transmissivities of a plate's faces and the optical depth
@@ -191,6 +211,23 @@ mod tests {
             let (r, t) = fast(nm, k, n);
             prop_assert!((f64::from(r) - exact.reflectance).abs() <= 1e-6, "R {r}: {exact:?}");
             prop_assert!((f64::from(t) - exact.transmittance).abs() <= 1e-6, "T {t}: {exact:?}");
+        }
+    }
+
+    #[test]
+    fn lanes_with_their_own_contents_let_through_what_each_does_alone() {
+        let at = [450.0, 550.0, 680.0].map(|nm| ProspectD::coefficients(nm).expect("in range"));
+        let lanes = PileLanes::new(&at);
+        let leaves = [(1.2, 60.0), (1.5, 20.0), (2.4, 5.0)].map(|(n, chlorophyll)| {
+            PerConstituent::splat(0.0).with(&[
+                (Constituent::Structure, n),
+                (Constituent::Chlorophyll, chlorophyll),
+            ])
+        });
+        let each = lanes.transmittance_of_each(&leaves.each_ref());
+        for lane in 0..3 {
+            let alone = lanes.reflectance_transmittance(&leaves[lane]).1[lane];
+            assert!((each[lane] - alone).abs() < 1e-6, "{} {alone}", each[lane]);
         }
     }
 

@@ -12,6 +12,7 @@ use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::senescence::AgeSource;
 use crate::blade::tissue::Tissue;
+use crate::blade::vein_body::VeinBody;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Degrees, Integer, Number};
@@ -185,6 +186,24 @@ fn tissue(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
             &mut tissue.sheath_width_mm,
             limits,
             about,
+        );
+        let about = "What thick veins are made of: a vein thicker than the blade holds this for \
+            each thickness of the blade that it is thicker. Left out, the surplus follows from the \
+            factors.";
+        let body = &mut tissue.vein_body;
+        keys.optional_block(
+            "body",
+            body,
+            || VeinBody::USUAL,
+            about,
+            |body, keys| {
+                let limits = Number(Limits::closed(0.0, VeinBody::MOST));
+                for (constituent, share) in body.shares.iter_mut() {
+                    let about =
+                        "Share of what the blade between veins holds in the same thickness.";
+                    keys.key(constituent.name(), share, limits, about);
+                }
+            },
         );
     });
     let mut mottle = (tissue.mottle != 0.0 || tissue.mottle_scale_mm != Tissue::MOTTLE_SCALE_MM)

@@ -304,7 +304,7 @@ mod tests {
         );
         assert_eq!(
             refusal("structure=2"),
-            "--set structure could be contents.structure or veins.structure: write the whole of one of them"
+            "--set structure could be contents.structure or veins.body.structure or veins.structure: write the whole of one of them"
         );
         let range = refusal("kill_distance_segments=-1");
         assert!(

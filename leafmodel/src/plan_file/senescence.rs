@@ -4,6 +4,7 @@ use super::contents::contents;
 use crate::blade::ageing::{Course, Delay};
 use crate::blade::ageing_courses::{COURSES, LITTER, YELLOW};
 use crate::blade::senescence::{AgeSource, Senescence};
+use crate::blade::weathering::Weathering;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Integer, Number, Word};
@@ -100,11 +101,65 @@ fn by_days(value: &mut Senescence, keys: &mut Keys<'_>, has_day: bool) {
     keys.block("onset", about, |keys| delay(&mut course.onset, keys));
     let about = "When tissue dies: days by which places differ.";
     keys.block("death", about, |keys| delay(&mut course.death, keys));
+    let about = "How dead tissue differs from leaf to leaf and from place to place; left out, it \
+        does not.";
+    let own = &mut course.weathering;
+    keys.optional_block("weathering", own, || Weathering::LITTER, about, weathering);
     let mut held = (value.contents != LITTER).then_some(value.contents);
     let about = "What dead tissue holds; left out, litter.";
     keys.optional_block("contents", &mut held, || LITTER, about, contents);
     value.contents = held.unwrap_or(LITTER);
     value.source = AgeSource::Day { day, course };
+}
+
+/// The keys of `weathering`.
+fn weathering(value: &mut Weathering, keys: &mut Keys<'_>) {
+    for (key, value, least, most, about) in [
+        (
+            "leaves",
+            &mut value.leaves,
+            0.0,
+            3.0,
+            "Leaves hold up to e to the power of this more or less brown.",
+        ),
+        (
+            "patches",
+            &mut value.patches,
+            0.0,
+            3.0,
+            "The same for patches within a leaf.",
+        ),
+        (
+            "patch_scale_mm",
+            &mut value.patch_scale_mm,
+            0.01,
+            1e3,
+            "Size of patches.",
+        ),
+        (
+            "bleached",
+            &mut value.bleached,
+            0.0,
+            1.0,
+            "About the share of dead tissue that rain and sun have bleached.",
+        ),
+        (
+            "spots_per_cm2",
+            &mut value.spots_per_cm2,
+            0.0,
+            1e3,
+            "Dark spots of fungi.",
+        ),
+        (
+            "spot_radius_mm",
+            &mut value.spot_radius_mm,
+            0.01,
+            100.0,
+            "Their mean radius.",
+        ),
+    ] {
+        keys.key(key, value, Number(Limits::closed(least, most)), about);
+    }
 }
 
 /// The numbers of a course with their keys, ranges and meanings.

@@ -14,6 +14,7 @@ mod trees;
 
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
+use crate::blade::vein_body::VeinBody;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::optics::Constituent::{
@@ -251,6 +252,7 @@ impl LeafTraits {
             tissue: Tissue {
                 lamina: self.contents(),
                 vein_factors,
+                vein_body: Some(VeinBody::USUAL),
                 full_vein_radius_mm: (self.veins.full_over_finest * finest).clamp(0.001, 0.2),
                 sheath_width_mm: (self.veins.sheath_over_finest * finest).clamp(0.001, 0.15),
                 mottle: 0.1,

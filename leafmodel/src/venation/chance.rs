@@ -47,6 +47,10 @@ pub(crate) enum Use {
     Architecture = 20,
     /// Along which line a source draws two veins.
     Axis = 32,
+    /// How dead tissue weathers.
+    Weathering = 41,
+    /// Spots on dead tissue.
+    WeatheringSpot = 42,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -168,6 +168,23 @@ impl<const N: usize> Tissue<N> {
         tissue
     }
 
+    /// The same reflectances with the transmittance of light that entered elsewhere. Where both
+    /// faces could not send back what they do and let so much through, they let less through.
+    #[must_use]
+    #[inline]
+    pub fn passing(mut self, coats: &[Coat; 2], transmittance: Lanes<N>) -> Self {
+        let into = 1.0 / (1.0 - coats[0].albedo.normal());
+        let back = coats[0].passed_mean() / coats[1].passed_mean();
+        let [r_a, r_b] = self.reflectance;
+        for lane in 0..N {
+            let most = (1.0 - r_a.0[lane]).min((1.0 - r_b.0[lane]) / back);
+            let t_ab = (transmittance.0[lane] * into).min(most);
+            self.transmittance[0].0[lane] = t_ab;
+            self.transmittance[1].0[lane] = t_ab * back;
+        }
+        self
+    }
+
     /// Its numbers, to be stored in a table.
     pub fn to_lanes(self) -> [Lanes<N>; 4] {
         let [r_a, r_b] = self.reflectance;

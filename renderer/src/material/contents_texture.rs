@@ -68,6 +68,16 @@ impl ContentsTexture {
         };
         Texel::from_fn(value)
     }
+
+    /// One of the four texels around `uv`, drawn by the numbers `within` in [0, 1) with the weights
+    /// of [`ContentsTexture::at`].
+    #[inline]
+    pub fn drawn(&self, uv: Vec2, within: Vec2) -> &Texel {
+        // A float below 0 becomes the index 0.
+        let x = (uv.x * self.width as f32 - 0.5 + within.x) as usize;
+        let y = (uv.y * self.height as f32 - 0.5 + within.y) as usize;
+        &self.texels[y.min(self.height - 1) * self.width + x.min(self.width - 1)]
+    }
 }
 
 #[cfg(test)]

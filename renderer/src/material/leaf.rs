@@ -6,6 +6,7 @@ use leafmodel::optics::{ProspectD, Texel};
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
 use crate::material::held::Held;
+use crate::material::light_spread::LightSpread;
 use crate::material::palette::Palette;
 use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
@@ -22,6 +23,8 @@ pub struct LeafMaterial {
     coats: [Coat; 2],
     /// The tissue's optics, tabulated, if the leaf is uniform.
     uniform: Option<Table>,
+    /// How far light that it lets through spreads sideways; not used without a map of contents.
+    spread: Option<LightSpread>,
 }
 
 /// The tissue of a leaf, which determines its reflectance and transmittance.
@@ -54,13 +57,32 @@ impl LeafMaterial {
             abaxial_ratio: abaxial_ratio.map(Spectrum::from),
             coats,
             uniform: None,
+            spread: None,
         }
+    }
+
+    /// The same leaf, in which light that it lets through spreads sideways; `thickness_uv` is one
+    /// thickness of the blade in texture coordinates. Uniform leaves stay as they are.
+    #[must_use]
+    pub fn spreading(mut self, thickness_uv: Vec2) -> Self {
+        if let LeafTissue::Held(Held::Map(map)) = &self.tissue {
+            self.spread = Some(LightSpread::new(thickness_uv, &map.mean(), &self.palette));
+        }
+        self
+    }
+
+    /// How far light that it lets through spreads sideways.
+    pub fn spread(&self) -> Option<&LightSpread> {
+        self.spread.as_ref()
     }
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         if let Some(ratio) = &mut self.abaxial_ratio {
             ratio.tabulate(grid);
+        }
+        if let Some(spread) = &mut self.spread {
+            spread.tabulate(grid);
         }
         let is_uniform = match &self.tissue {
             LeafTissue::Held(held) => held.is_uniform(),
@@ -101,7 +123,11 @@ impl LeafMaterial {
         LeafBsdf::new(&self.coats, tissue)
     }
 
-    fn tissue_at<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Tissue<N> {
+    pub(super) fn tissue_at<const N: usize>(
+        &self,
+        uv: Vec2,
+        wavelengths: &Wavelengths<N>,
+    ) -> Tissue<N> {
         let optics = |contents: &Texel| {
             let pile = self.palette.lanes(wavelengths);
             let (reflectance, transmittance) = pile.reflectance_transmittance(contents);
@@ -121,7 +147,15 @@ impl LeafMaterial {
             Some(ratio) => ratio.lanes(wavelengths),
             None => usual_abaxial_ratio(reflectance, transmittance),
         };
-        Tissue::new(&self.coats, reflectance, transmittance, ratio)
+        let tissue = Tissue::new(&self.coats, reflectance, transmittance, ratio);
+        let (Some(spread), LeafTissue::Held(Held::Map(map))) = (&self.spread, &self.tissue) else {
+            return tissue;
+        };
+        let pile = self.palette.lanes(wavelengths);
+        tissue.passing(
+            &self.coats,
+            spread.transmittance(map, &pile, uv, wavelengths),
+        )
     }
 }
 

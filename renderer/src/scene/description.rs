@@ -266,6 +266,8 @@ pub struct Leaf {
     pub plan: LeafPlan,
     /// The properties of its faces.
     pub faces: LeafFaces,
+    /// Factor on the distance over which light that the blade lets through spreads sideways, ≥ 0.
+    pub light_spread: f64,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
 }

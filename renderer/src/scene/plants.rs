@@ -92,17 +92,26 @@ pub fn grow(
         None => grow()?,
     };
     let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &leaf.faces);
-    let maps = parts.maps.into_iter();
-    let textures = maps.map(|map| ContentsTexture::new(map.width, map.height, map.texels));
-    let tissues = textures
-        .map(Held::Map)
-        .chain(parts.stalk.map(Held::Uniform));
+    let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
+    let blades = parts.maps.into_iter().map(|map| {
+        let spread_uv = map.size_mm.map(|side_mm| (spread_mm / side_mm) as f32);
+        let texture = ContentsTexture::new(map.width, map.height, map.texels);
+        let blade = material(Held::Map(texture));
+        if spread_mm > 0.0 {
+            blade.spreading(Vec2::from(spread_uv))
+        } else {
+            blade
+        }
+    });
+    let stalk = parts
+        .stalk
+        .map(|contents| material(Held::Uniform(contents)));
     let meshes = parts.meshes.into_iter().map(|mesh| {
         TriangleMesh::new(mesh.positions, Some(mesh.normals), mesh.uvs, mesh.triangles)
     });
     Ok(GrownLeaf {
         meshes: meshes.collect::<Result<_, _>>()?,
-        materials: tissues.map(material).collect(),
+        materials: blades.chain(stalk).collect(),
         pieces: parts.pieces,
     })
 }
@@ -124,6 +133,7 @@ impl LeafParts {
             maps.push(MapParts {
                 width: grown.contents.width as usize,
                 height: grown.contents.height as usize,
+                size_mm: grown.frame.size.to_array(),
                 texels: grown.contents.texels,
             });
         }

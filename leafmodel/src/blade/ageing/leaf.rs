@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::super::distances::Distances;
 use super::super::mottle::Mottle;
+use super::super::weathering::Weathered;
 use super::{Along, Course, Decay, Delay, Place};
 use crate::optics::{Constituent, Contents};
 use crate::transport::DeathField;
@@ -146,11 +147,12 @@ pub(in super::super) struct AgeingLeaf {
     surroundings: Surroundings,
     onset: DelayField,
     death: DelayField,
+    weathered: Option<Weathered>,
 }
 
 impl AgeingLeaf {
     pub(in super::super) fn new(
-        course: Course,
+        course: &Course,
         day: f64,
         (blend, dead): (f64, Contents),
         place: &Place<'_>,
@@ -158,7 +160,7 @@ impl AgeingLeaf {
         seed: u64,
     ) -> Self {
         Self {
-            course,
+            course: *course,
             decay: Decay::new(course.steepness),
             day,
             blend,
@@ -166,6 +168,7 @@ impl AgeingLeaf {
             surroundings: Surroundings::new([&course.onset, &course.death], place),
             onset: DelayField::new(course.onset, place, deaths, seed, 0),
             death: DelayField::new(course.death, place, deaths, seed, 1),
+            weathered: course.weathering.map(|of| Weathered::new(of, seed)),
         }
     }
 
@@ -204,7 +207,9 @@ impl AgeingLeaf {
         }
         // Dead tissue holds no more chlorophyll and carotenoids than it had alive, and no less
         // brown.
-        let mut dead = self.dead;
+        let weathered = self.weathered.as_ref();
+        let mut dead =
+            weathered.map_or(self.dead, |weathered| weathered.contents(self.dead, near.p));
         for pigment in [Constituent::Chlorophyll, Constituent::Carotenoids] {
             dead[pigment] = dead[pigment].min(aged[pigment]);
         }

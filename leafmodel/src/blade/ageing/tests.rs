@@ -27,7 +27,7 @@ const GREEN: Contents = Contents::of(&[
     (DryMatter, 0.005),
 ]);
 
-fn leaf(course: Course, day: f64) -> AgeingLeaf {
+fn leaf(course: &Course, day: f64) -> AgeingLeaf {
     let vein = VeinSegment {
         from: DVec2::ZERO,
         to: DVec2::new(0.0, 60.0),
@@ -55,7 +55,7 @@ fn points() -> impl Iterator<Item = DVec2> {
 #[test]
 fn at_day_0_there_is_the_living_leaf_to_the_bit() {
     for (_, course) in COURSES {
-        let leaf = leaf(course, 0.0);
+        let leaf = leaf(&course, 0.0);
         assert!(points().all(|p| leaf.contents(GREEN, p) == GREEN));
     }
 }
@@ -63,7 +63,7 @@ fn at_day_0_there_is_the_living_leaf_to_the_bit() {
 #[test]
 fn chlorophyll_never_rises_brown_never_falls_and_carotenoids_outlast_chlorophyll() {
     for (name, course) in COURSES {
-        let days: Vec<AgeingLeaf> = (0..=80).map(|day| leaf(course, f64::from(day))).collect();
+        let days: Vec<AgeingLeaf> = (0..=80).map(|day| leaf(&course, f64::from(day))).collect();
         for p in points() {
             let mut before = GREEN;
             for leaf in &days {
@@ -129,7 +129,7 @@ fn death_begins_at_the_margin() {
     };
     let course = Course { death: even, ..RED };
     for day in [28.0, 32.0, 36.0] {
-        let leaf = leaf(course, day);
+        let leaf = leaf(&course, day);
         let shares: Vec<f64> = (0..=18)
             .map(|i| leaf.dead_share(DVec2::new(20.0 - f64::from(i), 30.0)))
             .collect();
@@ -138,7 +138,7 @@ fn death_begins_at_the_margin() {
             "{shares:?}"
         );
     }
-    let leaf = leaf(course, 31.0);
+    let leaf = leaf(&course, 31.0);
     assert_eq!(leaf.dead_share(DVec2::new(20.0, 30.0)), 1.0);
     assert_eq!(leaf.dead_share(DVec2::new(5.0, 30.0)), 0.0);
 }
@@ -150,7 +150,7 @@ fn tissue_near_veins_stays_green_longest_or_goes_first() {
             veins_days,
             ..Delay::NONE
         };
-        let leaf = leaf(Course { onset, ..RED }, 10.0);
+        let leaf = leaf(&Course { onset, ..RED }, 10.0);
         let chlorophyll = |x| leaf.contents(GREEN, DVec2::new(x, 30.0))[Chlorophyll];
         chlorophyll(0.0) - chlorophyll(10.0)
     };
@@ -166,7 +166,7 @@ fn contents_are_smooth_in_time() {
     let p = DVec2::new(9.0, 22.0);
     let mut before = GREEN;
     for i in 1..8000 {
-        let now = leaf(RED, f64::from(i) * 0.01).contents(GREEN, p);
+        let now = leaf(&RED, f64::from(i) * 0.01).contents(GREEN, p);
         for (constituent, b) in *before {
             let a = now[constituent];
             assert!((a - b).abs() < 0.1, "{constituent:?}: {a} after {b}");

@@ -10,8 +10,12 @@ use super::{Age, ColouredLeaf, Holding};
 use crate::blade::ageing::{Course, Delay};
 use crate::blade::ageing_courses::{LITTER, YELLOW};
 use crate::blade::senescence::{AgeSource, Senescence};
+use crate::blade::weathering::Weathering;
 use crate::leaf::LeafPlan;
-use crate::optics::Constituent::{Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter};
+use crate::optics::Constituent::{
+    Anthocyanins, Brown, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
+use crate::optics::VeinFactors;
 
 /// Days over which living contents blend into dead ones.
 const BLEND_DAYS: f64 = 5.0;
@@ -44,9 +48,13 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
         .brown(browned(0.06))],
     age: Some(age(27.0, 8.0, 16.0)),
     plan: |leaf| {
-        // The leaf turns evenly from the upper margin; its parallel veins leave no trace.
+        // The leaf turns evenly from the upper margin; its parallel veins stay greener than the
+        // tissue between them, and hold more of everything, since they are dense with wood.
         let course = Course {
             onset: Delay {
+                veins_days: 7.0,
+                veins_reach_mm: 0.12,
+                veins_order: 20,
                 margin_days: 5.0,
                 margin_reach_mm: 10.0,
                 tip_days: 6.0,
@@ -64,7 +72,16 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, runions::ginkgo(), course)
+        let mut plan = aged(leaf, runions::ginkgo(), &course);
+        plan.tissue.vein_factors = VeinFactors::of(&[
+            (Structure, 1.25),
+            (Chlorophyll, 1.6),
+            (Carotenoids, 1.2),
+            (Brown, 3.0),
+            (Water, 1.5),
+            (DryMatter, 3.0),
+        ]);
+        plan
     },
 };
 
@@ -98,7 +115,7 @@ pub(super) const BIRCH: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, trees::birch(), course)
+        aged(leaf, trees::birch(), &course)
     },
 };
 
@@ -128,7 +145,7 @@ pub(super) const POPLAR: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        aged(leaf, trees::cottonwood(), course)
+        aged(leaf, trees::cottonwood(), &course)
     },
 };
 
@@ -159,7 +176,7 @@ pub(super) const SUGAR_MAPLE: ColouredLeaf = ColouredLeaf {
         };
         let outline = trees_contours::maple();
         let veins = trees::dense(leaf.green, architectures::maple(), 3.2);
-        aged(leaf, trees::leaf(leaf.green, 5, outline, veins), course)
+        aged(leaf, trees::leaf(leaf.green, 5, outline, veins), &course)
     },
 };
 
@@ -185,7 +202,7 @@ pub(super) const RED_MAPLE: ColouredLeaf = ColouredLeaf {
             death: EDGE,
             ..YELLOW
         };
-        let mut plan = aged(leaf, red_maple(leaf), course);
+        let mut plan = aged(leaf, red_maple(leaf), &course);
         // Veins stay paler than the blade between them.
         plan.tissue.vein_factors[Anthocyanins] = 0.5;
         plan
@@ -226,10 +243,20 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
             death: EDGE,
             ..YELLOW
         };
-        let mut plan = aged(leaf, runions::sweetgum(), course);
+        let mut plan = aged(leaf, runions::sweetgum(), &course);
         plan.tissue.vein_factors[Anthocyanins] = 0.6;
         plan
     },
+};
+
+/// Oak leaves on the ground, by eye.
+const OAK_WEATHERING: Weathering = Weathering {
+    leaves: 0.5,
+    patches: 0.5,
+    patch_scale_mm: 11.0,
+    bleached: 0.2,
+    spots_per_cm2: 1.5,
+    spot_radius_mm: 0.6,
 };
 
 pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
@@ -251,7 +278,8 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
             .water(litter(0.001, [0.0005, 0.002]))
             .dry_matter(litter(0.007, [0.005, 0.009])),
     ],
-    age: Some(age(46.0, 9.0, 12.0)),
+    // On the last day all of it has died.
+    age: Some(age(70.0, 9.0, 12.0)),
     plan: |leaf| {
         let course = Course {
             death: Delay {
@@ -263,9 +291,10 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
                 veins_reach_mm: 1.2,
                 ..YELLOW.death
             },
+            weathering: Some(OAK_WEATHERING),
             ..YELLOW
         };
-        let mut plan = aged(leaf, trees::white_oak(), course);
+        let mut plan = aged(leaf, trees::white_oak(), &course);
         // Dry leaves roll in; lighter veins stand out.
         plan.form.fold = 16.0_f64.to_radians();
         plan.form.curl = 48.0_f64.to_radians();
@@ -276,7 +305,7 @@ pub(super) const OAK_LITTER: ColouredLeaf = ColouredLeaf {
 };
 
 /// The green leaf after ageing.
-fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
+fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: &Course) -> LeafPlan {
     let (turned, summer) = (leaf.of("turned"), green.tissue.lamina);
     let kept = turned[Carotenoids] / summer[Carotenoids];
     let age = leaf.age.expect("leaves that turn have an age");
@@ -287,7 +316,7 @@ fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
         labile_carotenoids: (1.0 - kept).max(0.0),
         anthocyanins: turned[Anthocyanins],
         brown: turned[Brown],
-        ..course
+        ..*course
     };
     let dry = course.dry_matter_factor * summer[DryMatter];
     let contents = leaf
@@ -304,5 +333,22 @@ fn aged(leaf: &ColouredLeaf, green: LeafPlan, course: Course) -> LeafPlan {
             contents,
         }),
         ..green
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::blade::senescence::AgeSource;
+    use crate::species;
+
+    #[test]
+    fn no_tissue_of_oak_litter_is_left_alive() {
+        let plan = species::find("oak-litter").expect("a preset").plan();
+        let senescence = plan.senescence.expect("it has aged");
+        let AgeSource::Day { day, .. } = senescence.source else {
+            panic!("it ages by days");
+        };
+        let last = senescence.last_day().expect("it ages by days");
+        assert!(last <= day, "the last tissue dies on day {last} of {day}");
     }
 }

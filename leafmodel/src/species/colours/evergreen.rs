@@ -16,6 +16,7 @@ use crate::leaf::LeafPlan;
 use crate::mosaic::MosaicPlan;
 use crate::mosaic::pattern::{LeafFaces, MosaicPattern};
 use crate::optics::Constituent::{self, Anthocyanins, Betacyanins, Carotenoids, Chlorophyll};
+use crate::optics::pigments::AnthocyaninMix;
 use crate::optics::{Contents, PerConstituent};
 
 pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
@@ -24,12 +25,13 @@ pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
     green: &SMOKE_TREE,
     tissues: &[
         Holding::new("blade")
-            .carotenoids(angers(8.0, [5.0, 12.0]))
-            .anthocyanins(red(30.0, [10.0, 60.0])),
+            .chlorophyll(angers(30.0, [0.8, 35.0]))
+            .carotenoids(angers(7.0, [5.0, 12.0]))
+            .anthocyanins(red(52.0, [10.0, 60.0])),
         Holding::new("rim")
-            .chlorophyll(angers(12.0, [0.8, 35.0]))
+            .chlorophyll(angers(14.0, [0.8, 35.0]))
             .carotenoids(angers(4.0, [0.0, 8.0]))
-            .anthocyanins(red(24.0, [10.0, 60.0])),
+            .anthocyanins(red(46.0, [10.0, 60.0])),
     ],
     age: None,
     plan: |leaf| {
@@ -37,7 +39,13 @@ pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
         let veins = trees::dense(leaf.green, architectures::smoke_tree(), 3.5);
         let mut plan = trees::leaf(leaf.green, 2, outline, veins);
         plan.tissue.lamina = leaf.of("blade");
-        plan.tissue.vein_factors[Anthocyanins] = 0.7;
+        plan.tissue.vein_factors[Anthocyanins] = 0.75;
+        // With cyanidin alone, whose band PROSPECT's column is, dark leaves are brown.
+        plan.pigments.anthocyanins = AnthocyaninMix::Aglycones {
+            shares: [0.0, 0.3, 0.0, 0.5, 0.2, 0.0],
+            shift_nm: 4.0,
+            blue_fraction: 0.0,
+        };
         let rim = Mask::Margin {
             width: RimWidth::Mm(0.3),
             softness_mm: 1.4,

@@ -31,7 +31,8 @@ pub(super) fn bsdf(
     let number = match world.owners[material] {
         MaterialOwner::Leaf { leaf, .. } => {
             let leaf = &scene.leaves[leaf].value;
-            return leaf_faces(plugin(LEAF, leaf.extrapolate), &leaf.faces, spectra);
+            let bsdf = light_spread(plugin(LEAF, leaf.extrapolate), own);
+            return leaf_faces(bsdf, &leaf.faces, spectra);
         }
         MaterialOwner::Solid(solid) => {
             let solid = &scene.solids[solid].value;
@@ -112,6 +113,19 @@ fn tissue(bsdf: Element, id: &str, material: &material::Material, extrapolate: b
         }
         None => bsdf.string("tissue", "measured"),
     }
+}
+
+/// Adds one thickness of the blade in texture coordinates, if light spreads sideways in it.
+fn light_spread(bsdf: Element, material: &material::Material) -> Element {
+    let material::Material::Leaf(leaf) = material else {
+        return bsdf;
+    };
+    let Some(spread) = leaf.spread() else {
+        return bsdf;
+    };
+    let [u, v] = spread.thickness_uv().to_array();
+    bsdf.float("spread_u", f64::from(u))
+        .float("spread_v", f64::from(v))
 }
 
 fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Element {

@@ -21,6 +21,7 @@ impl From<LeafPlan> for Leaf {
         Self {
             plan,
             faces: LeafFaces::usual(),
+            light_spread: 1.0,
             extrapolate: false,
         }
     }
@@ -49,6 +50,13 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
     plan_file::leaf_preset(&mut leaf.plan, keys);
     plan_file::leaf(&mut leaf.plan, keys);
     faces(&mut leaf.faces, keys);
+    keys.key(
+        "light_spread",
+        &mut leaf.light_spread,
+        Number(Limits::closed(0.0, 10.0)),
+        "Factor on the distance over which light that the blade lets through spreads sideways; \
+         with 1 that follows from thickness, scattering and absorption, with 0 veins stay sharp.",
+    );
 }
 
 /// The keys of a leaf's faces.

@@ -27,6 +27,7 @@ pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {
     for map in &parts.maps {
         count(&mut out, map.width);
         count(&mut out, map.height);
+        doubles(&mut out, &map.size_mm);
         floats(
             &mut out,
             map.texels.iter().flat_map(|texel| *texel.as_array()),
@@ -74,10 +75,12 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
     })?;
     let maps = rest.list(|rest| {
         let (width, height) = (rest.count()?, rest.count()?);
+        let size_mm = rest.doubles()?;
         let texels = rest.floats(width.checked_mul(height)?, PerConstituent::new)?;
         (!texels.is_empty()).then_some(MapParts {
             width,
             height,
+            size_mm,
             texels,
         })
     })?;

@@ -61,5 +61,7 @@ pub(in crate::scene) struct MeshParts {
 pub(in crate::scene) struct MapParts {
     pub(in crate::scene) width: usize,
     pub(in crate::scene) height: usize,
+    /// Width and height, mm.
+    pub(in crate::scene) size_mm: [f64; 2],
     pub(in crate::scene) texels: Vec<Texel>,
 }
