@@ -39,11 +39,12 @@ use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
+use crate::blade::stance::{Settled, Stance};
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
-use crate::optics::Pigments;
+use crate::optics::{Constituent, Pigments};
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
@@ -70,6 +71,8 @@ pub struct LeafPlan {
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
     pub form: BladeForm,
+    /// What has happened to the blade since.
+    pub stance: Stance,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
     pub petiole: Option<PetiolePlan>,
     /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`]
@@ -159,6 +162,37 @@ impl LeafPlan {
     }
 }
 
+impl LeafPlan {
+    /// Where the blade of a lamina has come to lie.
+    fn settled(&self, lamina: &Lamina) -> Option<Settled> {
+        let (outline, network) = (&lamina.outline, &lamina.network);
+        let stalk = self.petiole.map(|petiole| {
+            let length = petiole.length * outline.length();
+            [length, petiole.radius_on(outline, network)]
+        });
+        let held = &self.tissue.lamina;
+        Settled::of(
+            &self.stance,
+            &self.form,
+            (outline, network),
+            [held[Constituent::Water], held[Constituent::DryMatter]],
+            stalk,
+            self.seed,
+        )
+    }
+}
+
+/// Lifts a leaf so that its lowest point touches the plane z = 0.
+fn put_on_ground(mesh: &mut BladeMesh, mut petiole: Option<&mut StalkMesh>) {
+    let stalk = petiole.iter().flat_map(|stalk| &stalk.positions);
+    let all = mesh.positions.iter().chain(stalk);
+    let lowest = all.map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let stalk = petiole.iter_mut().flat_map(|stalk| &mut stalk.positions);
+    for p in mesh.positions.iter_mut().chain(stalk) {
+        p.z -= lowest;
+    }
+}
+
 impl Leaf {
     /// Grows the leaf of a plan.
     ///
@@ -182,6 +216,7 @@ impl Leaf {
             mosaic.validate()?;
         }
         plan.form.validate()?;
+        plan.stance.validate()?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
@@ -204,11 +239,16 @@ impl Leaf {
         let Lamina {
             outline, network, ..
         } = &lamina;
-        let mesh = BladeMesh::build(outline, network, &plan.form)?;
-        let petiole = plan
+        let settled = plan.settled(&lamina);
+        let settled = settled.as_ref();
+        let mut mesh = BladeMesh::settled(outline, network, &plan.form, settled)?;
+        let mut petiole = plan
             .petiole
-            .map(|petiole| petiole.build(outline, network, &plan.form))
+            .map(|petiole| petiole.settled(outline, network, &plan.form, settled))
             .transpose()?;
+        if plan.stance.on_ground {
+            put_on_ground(&mut mesh, petiole.as_mut());
+        }
         let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
         Ok(Self {
@@ -227,7 +267,7 @@ mod tests {
 
     use super::*;
     use crate::leaf::outline_plan::Contour;
-    use crate::optics::{Constituent, Contents, VeinFactors};
+    use crate::optics::{Contents, VeinFactors};
     use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
     use crate::testing::fixed;
     use crate::transport::VeinStyle;
@@ -306,6 +346,7 @@ mod tests {
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },
+            stance: Stance::default(),
             petiole: None,
             compound: None,
             pigments: Pigments::default(),

@@ -5,11 +5,11 @@ use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 use super::BladeForm;
-use super::form::Bending;
 use super::frame::UvFrame;
 use super::relief::Relief;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
+use super::stance::{Posture, Settled};
 use super::triangulate::{Triangulation, triangulate};
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
@@ -95,6 +95,8 @@ pub enum MeshDefect {
 /// Share by which the areas of triangles and outline may differ: the mesh keeps the margin except
 /// for points nearer together than a thousandth of an edge.
 const SAME_AREA: f64 = 1e-6;
+/// How often corners of triangles that are turned over are moved.
+const SMOOTHINGS: usize = 40;
 
 impl BladeMesh {
     /// Makes the blade of a leaf: cuts the lamina within `outline` into triangles with the major
@@ -109,8 +111,7 @@ impl BladeMesh {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
-        let veins: Vec<VeinSegment> = network.segments().collect();
-        Self::from_veins(outline, &veins, network.map(), form)
+        Self::settled(outline, network, form, None)
     }
 
     /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
@@ -125,6 +126,31 @@ impl BladeMesh {
         map: ConformalMap,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
+        Self::within(outline, veins, map, form, None)
+    }
+
+    /// As [`BladeMesh::build`], of a blade that has come to lie as `settled` says.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub fn settled(
+        outline: &Outline,
+        network: &VenationNetwork,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<Self, BladeError> {
+        let veins: Vec<VeinSegment> = network.segments().collect();
+        Self::within(outline, &veins, network.map(), form, settled)
+    }
+
+    fn within(
+        outline: &Outline,
+        veins: &[VeinSegment],
+        map: ConformalMap,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<Self, BladeError> {
         form.validate()?;
         let major: Vec<VeinSegment> = veins
             .iter()
@@ -135,35 +161,69 @@ impl BladeMesh {
         let skeleton = Skeleton::new(outline, &size, &major);
         let flat = triangulate(outline, &size, &skeleton, MOST_TRIANGLES)?;
         let relief = Relief::new(form, &major);
-        let bending = Bending::new(form, outline, map);
-        Self::raised(flat, &UvFrame::around(outline.points()), |p| {
+        let posture = Posture::new(form, outline, map, settled);
+        let mut mesh = Self::raised(flat, &UvFrame::around(outline.points()), |p| {
             let height = relief.height(p);
-            (bending.place(p, -height), form.thickness_mm + height)
-        })
+            (posture.place(p, -height), form.thickness_mm + height)
+        });
+        if settled.is_some() {
+            mesh.smooth_turned_over();
+        }
+        let faces = mesh.turned_over().count();
+        if faces > 0 {
+            return Err(BladeError::TurnedOver { faces });
+        }
+        Ok(mesh)
     }
 
     /// A flat triangulation brought into space by `place`, which gives position and thickness.
-    fn raised(
-        flat: Triangulation,
-        frame: &UvFrame,
-        place: impl Fn(DVec2) -> (DVec3, f64),
-    ) -> Result<Self, BladeError> {
+    fn raised(flat: Triangulation, frame: &UvFrame, place: impl Fn(DVec2) -> (DVec3, f64)) -> Self {
         let (positions, thickness_mm): (Vec<DVec3>, Vec<f64>) =
             flat.points.iter().map(|&p| place(p)).unzip();
         let normals = vertex_normals(&positions, &flat.triangles);
-        let mesh = Self {
+        Self {
             normals,
             positions,
             thickness_mm,
             uvs: flat.points.iter().map(|&p| frame.uv(p)).collect(),
             lamina: flat.points,
             triangles: flat.triangles,
-        };
-        let faces = mesh.triangles.iter().filter(|t| !mesh.faces_out(t)).count();
-        if faces > 0 {
-            return Err(BladeError::TurnedOver { faces });
         }
-        Ok(mesh)
+    }
+
+    /// The triangles that face away from a normal of their corners.
+    fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
+        self.triangles.iter().filter(|t| !self.faces_out(t))
+    }
+
+    /// Draws the corners of triangles that are turned over towards their neighbours. In a crumpled
+    /// blade a ridge of relief may fold over itself.
+    fn smooth_turned_over(&mut self) {
+        for _ in 0..SMOOTHINGS {
+            let mut moved = vec![false; self.positions.len()];
+            for &v in self.turned_over().flatten() {
+                moved[v as usize] = true;
+            }
+            if !moved.contains(&true) {
+                return;
+            }
+            let mut means = vec![(DVec3::ZERO, 0.0); self.positions.len()];
+            for &[a, b, c] in &self.triangles {
+                for [v, from, to] in [[a, b, c], [b, c, a], [c, a, b]] {
+                    if moved[v as usize] {
+                        let (sum, count) = &mut means[v as usize];
+                        *sum += self.positions[from as usize] + self.positions[to as usize];
+                        *count += 2.0;
+                    }
+                }
+            }
+            for (position, (sum, count)) in self.positions.iter_mut().zip(means) {
+                if count > 0.0 {
+                    *position = sum / count;
+                }
+            }
+            self.normals = vertex_normals(&self.positions, &self.triangles);
+        }
     }
 
     /// Whether a triangle faces the same way as its vertices' normals.

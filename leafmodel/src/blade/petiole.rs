@@ -12,9 +12,9 @@ use glam::{DVec2, DVec3};
 
 use super::BladeForm;
 use super::error::BladeError;
-use super::form::Bending;
 use super::relief::{Relief, smooth_step};
 use super::stalk::StalkMesh;
+use super::stance::{Posture, Settled};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 use midrib::Midrib;
@@ -107,6 +107,21 @@ impl PetiolePlan {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<StalkMesh, BladeError> {
+        self.settled(outline, network, form, None)
+    }
+
+    /// As [`PetiolePlan::build`], of a blade that has come to lie as `settled` says.
+    ///
+    /// # Errors
+    ///
+    /// As [`PetiolePlan::build`].
+    pub fn settled(
+        &self,
+        outline: &Outline,
+        network: &VenationNetwork,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<StalkMesh, BladeError> {
         self.validate()?;
         form.validate()?;
         let leaf = outline.length();
@@ -120,7 +135,7 @@ impl PetiolePlan {
             radius,
             &midrib,
             Relief::new(form, &veins),
-            Bending::new(form, outline, network.map()),
+            Posture::new(form, outline, network.map(), settled),
             leaf,
         );
         let (mut points, mut radii) = (Vec::new(), Vec::new());
@@ -130,7 +145,14 @@ impl PetiolePlan {
             let ready = (READY_RADII * joint.radius).min(0.5 * length);
             for back in self.places(length, foot, ready) {
                 let near = smooth_step(1.0 - back / ready);
-                points.push(self.behind(back, length) - DVec3::Z * (near * joint.depth));
+                let (base, frame) = joint.posture.base();
+                let curl = self.curl + joint.posture.sag();
+                let straight = behind(curl, back, length) - DVec3::Z * (near * joint.depth);
+                let mut point = base + frame * straight;
+                if joint.posture.on_ground() {
+                    point.z = point.z.max(radius);
+                }
+                points.push(point);
                 let from_foot = (length - back) / foot;
                 let own = radius * (1.0 + FOOT * (1.0 - smooth_step(from_foot)));
                 radii.push(own + (joint.radius - radius) * near);
@@ -170,23 +192,23 @@ impl PetiolePlan {
         backs.dedup_by(|next, kept| *kept - *next < 0.02 * ready.min(foot));
         backs
     }
+}
 
-    /// The point of the petiole's axis at the distance `back` from the base.
-    fn behind(&self, back: f64, length: f64) -> DVec3 {
-        let curvature = self.curl / length;
-        let angle = curvature * back;
-        let (y, z) = if angle.abs() < 1e-6 {
-            (back, 0.5 * angle * back)
-        } else {
-            let half = libm::sin(0.5 * angle);
-            (libm::sin(angle) / curvature, 2.0 * half * half / curvature)
-        };
-        DVec3::new(0.0, -y, -z)
-    }
+/// The point, at the distance `back` from the base, of the axis of a petiole that bends by `curl`.
+fn behind(curl: f64, back: f64, length: f64) -> DVec3 {
+    let curvature = curl / length;
+    let angle = curvature * back;
+    let (y, z) = if angle.abs() < 1e-6 {
+        (back, 0.5 * angle * back)
+    } else {
+        let half = libm::sin(0.5 * angle);
+        (libm::sin(angle) / curvature, 2.0 * half * half / curvature)
+    };
+    DVec3::new(0.0, -y, -z)
 }
 
 /// The joint: the part of the tube beyond the base.
-struct Joint {
+struct Joint<'s> {
     /// Radius at the base.
     radius: f64,
     /// Depth of the axis at the base, towards the abaxial side.
@@ -196,12 +218,12 @@ struct Joint {
     end: f64,
     length: f64,
     relief: Relief,
-    bending: Bending,
+    posture: Posture<'s>,
 }
 
-impl Joint {
+impl<'s> Joint<'s> {
     /// The joint of a petiole with this radius.
-    fn new(radius: f64, midrib: &Midrib, relief: Relief, bending: Bending, leaf: f64) -> Self {
+    fn new(radius: f64, midrib: &Midrib, relief: Relief, posture: Posture<'s>, leaf: f64) -> Self {
         let [least, most] = JOINT_SHARE;
         let ridge = ridge(&relief, midrib.at(0.0).0, radius.max(midrib.radius));
         let wide = radius.max(HOLDS * ridge);
@@ -213,7 +235,7 @@ impl Joint {
             end: END_RADIUS * radius.min(midrib.radius.max(1e-3)),
             length: (JOINT_RADII * wide).clamp(least * leaf, most * leaf),
             relief,
-            bending,
+            posture,
         }
     }
 
@@ -227,7 +249,7 @@ impl Joint {
         } else {
             self.depth
         };
-        (self.bending.place(p, -depth), radius)
+        (self.posture.place(p, -depth), radius)
     }
 }
 

@@ -13,6 +13,7 @@ pub(super) mod sources;
 mod trees;
 
 use crate::blade::BladeForm;
+use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
@@ -264,6 +265,7 @@ impl LeafTraits {
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,
             },
+            stance: Stance::default(),
             pigments: Pigments::default(),
             map_size: 1600,
         }

@@ -210,13 +210,13 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
         assert_eq!(tube.validate(), Ok(()), "{form:?} {plan:?}");
         let blade = BladeMesh::build(&outline, &network, &form).expect("a blade");
         let way = Midrib::new(&outline, &network, 12.0);
-        let bending = Bending::new(&form, &outline, network.map());
+        let bending = Posture::new(&form, &outline, network.map(), None);
         let veins: Vec<VeinSegment> = network.segments().collect();
         let joint = Joint::new(
             radius_mm.unwrap_or(way.radius),
             &way,
             Relief::new(&form, &veins),
-            Bending::new(&form, &outline, network.map()),
+            Posture::new(&form, &outline, network.map(), None),
             60.0,
         );
         // How far the tube stands out from the blade, seen from 5 mm above or below it, at a
