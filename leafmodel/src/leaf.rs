@@ -21,6 +21,7 @@ mod holders;
 mod lamina;
 pub mod outline_plan;
 mod painting;
+mod settling;
 mod stages;
 pub mod venation_plan;
 
@@ -39,12 +40,12 @@ use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
-use crate::blade::stance::{Settled, Stance};
+use crate::blade::stance::Stance;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
-use crate::optics::{Constituent, Pigments};
+use crate::optics::Pigments;
 use crate::transport::TransportError;
 use crate::venation::VenationError;
 use crate::venation::arcuate::ArcuateError;
@@ -162,37 +163,6 @@ impl LeafPlan {
     }
 }
 
-impl LeafPlan {
-    /// Where the blade of a lamina has come to lie.
-    fn settled(&self, lamina: &Lamina) -> Option<Settled> {
-        let (outline, network) = (&lamina.outline, &lamina.network);
-        let stalk = self.petiole.map(|petiole| {
-            let length = petiole.length * outline.length();
-            [length, petiole.radius_on(outline, network)]
-        });
-        let held = &self.tissue.lamina;
-        Settled::of(
-            &self.stance,
-            &self.form,
-            (outline, network),
-            [held[Constituent::Water], held[Constituent::DryMatter]],
-            stalk,
-            self.seed,
-        )
-    }
-}
-
-/// Lifts a leaf so that its lowest point touches the plane z = 0.
-fn put_on_ground(mesh: &mut BladeMesh, mut petiole: Option<&mut StalkMesh>) {
-    let stalk = petiole.iter().flat_map(|stalk| &stalk.positions);
-    let all = mesh.positions.iter().chain(stalk);
-    let lowest = all.map(|p| p.z).fold(f64::INFINITY, f64::min);
-    let stalk = petiole.iter_mut().flat_map(|stalk| &mut stalk.positions);
-    for p in mesh.positions.iter_mut().chain(stalk) {
-        p.z -= lowest;
-    }
-}
-
 impl Leaf {
     /// Grows the leaf of a plan.
     ///
@@ -247,7 +217,7 @@ impl Leaf {
             .map(|petiole| petiole.settled(outline, network, &plan.form, settled))
             .transpose()?;
         if plan.stance.on_ground {
-            put_on_ground(&mut mesh, petiole.as_mut());
+            settling::put_on_ground(&mut mesh, petiole.as_mut());
         }
         let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
@@ -267,7 +237,7 @@ mod tests {
 
     use super::*;
     use crate::leaf::outline_plan::Contour;
-    use crate::optics::{Contents, VeinFactors};
+    use crate::optics::{Constituent, Contents, VeinFactors};
     use crate::shape::growth_form::{Axis, GrowthForm, HalfForm, VeinRow};
     use crate::testing::fixed;
     use crate::transport::VeinStyle;
@@ -305,7 +275,7 @@ mod tests {
     }
 
     /// A small broad leaf with everything that a leaf can have.
-    fn plan() -> LeafPlan {
+    pub(super) fn plan() -> LeafPlan {
         LeafPlan {
             length_mm: 50.0,
             seed: 3,

@@ -18,8 +18,10 @@
 
 mod envelope;
 mod equilibrium;
+mod forms;
 mod grid;
 mod sheet;
+mod tensor;
 #[cfg(test)]
 mod tests;
 

@@ -95,8 +95,6 @@ pub enum MeshDefect {
 /// Share by which the areas of triangles and outline may differ: the mesh keeps the margin except
 /// for points nearer together than a thousandth of an edge.
 const SAME_AREA: f64 = 1e-6;
-/// How often corners of triangles that are turned over are moved.
-const SMOOTHINGS: usize = 40;
 
 impl BladeMesh {
     /// Makes the blade of a leaf: cuts the lamina within `outline` into triangles with the major
@@ -192,38 +190,8 @@ impl BladeMesh {
     }
 
     /// The triangles that face away from a normal of their corners.
-    fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
+    pub(super) fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
         self.triangles.iter().filter(|t| !self.faces_out(t))
-    }
-
-    /// Draws the corners of triangles that are turned over towards their neighbours. In a crumpled
-    /// blade a ridge of relief may fold over itself.
-    fn smooth_turned_over(&mut self) {
-        for _ in 0..SMOOTHINGS {
-            let mut moved = vec![false; self.positions.len()];
-            for &v in self.turned_over().flatten() {
-                moved[v as usize] = true;
-            }
-            if !moved.contains(&true) {
-                return;
-            }
-            let mut means = vec![(DVec3::ZERO, 0.0); self.positions.len()];
-            for &[a, b, c] in &self.triangles {
-                for [v, from, to] in [[a, b, c], [b, c, a], [c, a, b]] {
-                    if moved[v as usize] {
-                        let (sum, count) = &mut means[v as usize];
-                        *sum += self.positions[from as usize] + self.positions[to as usize];
-                        *count += 2.0;
-                    }
-                }
-            }
-            for (position, (sum, count)) in self.positions.iter_mut().zip(means) {
-                if count > 0.0 {
-                    *position = sum / count;
-                }
-            }
-            self.normals = vertex_normals(&self.positions, &self.triangles);
-        }
     }
 
     /// Whether a triangle faces the same way as its vertices' normals.
@@ -356,7 +324,7 @@ fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
 
 /// Mean of the normals of the faces at each vertex, weighted by their angles there: independent of
 /// how a flat part is cut into triangles.
-fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+pub(super) fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {
         let corners = triangle.map(|v| positions[v as usize]);

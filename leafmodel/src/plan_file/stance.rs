@@ -41,8 +41,8 @@ pub(super) fn stance(stance: &mut Stance, keys: &mut Keys<'_>) {
     let about = "A leaf without turgor, which its weight bends.";
     keys.optional_block("wilting", &mut stance.wilting, usual, about, wilting);
     if keys.is_sound() && stance.on_ground && stance.wilting.is_some_and(|w| w.pitch != 0.0) {
-        let problem = "`pitch_deg` is the rise of a leaf that its stalk holds, and this one lies \
-            on the ground";
+        let problem = "it says how a leaf that is held by its stalk rises, and this one lies on \
+            the ground";
         let help = "leave out `pitch_deg`, or `rest`";
         keys.refuse(&["wilting", "pitch_deg"], problem.to_owned(), help);
     }

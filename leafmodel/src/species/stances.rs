@@ -4,7 +4,7 @@
 //! everything else is by eye. The figures of Runions et al. 2005 keep their blades: they only get a
 //! petiole.
 
-use crate::blade::petiole::PetiolePlan;
+use crate::blade::petiole::{PetiolePlan, Section};
 use crate::blade::stance::{Drying, MarginGrowth};
 use crate::leaf::LeafPlan;
 
@@ -18,7 +18,30 @@ struct Lie {
     margin: Option<[f64; 2]>,
     /// How dry it is; only litter lies on the ground.
     drying: Option<f64>,
+    section: Section,
 }
+
+/// A petiole with a shallow groove, as most have.
+const GROOVED: Section = Section {
+    groove: 0.35,
+    flatness: 0.0,
+    foot: 0.5,
+    head: 0.0,
+};
+/// Flattened from side to side, so that it flutters.
+const FLATTENED: Section = Section {
+    groove: 0.0,
+    flatness: 0.55,
+    foot: 0.4,
+    head: 0.0,
+};
+/// Round, with a swollen foot.
+const TERETE: Section = Section {
+    groove: 0.1,
+    flatness: 0.0,
+    foot: 0.6,
+    head: 0.2,
+};
 
 const fn lie(preset: &'static str, petiole: [f64; 2]) -> Lie {
     Lie {
@@ -26,6 +49,7 @@ const fn lie(preset: &'static str, petiole: [f64; 2]) -> Lie {
         petiole: Some(petiole),
         margin: None,
         drying: None,
+        section: GROOVED,
     }
 }
 
@@ -40,6 +64,11 @@ impl Lie {
         self
     }
 
+    const fn with(mut self, section: Section) -> Self {
+        self.section = section;
+        self
+    }
+
     const fn sessile(preset: &'static str) -> Self {
         Self {
             petiole: None,
@@ -50,9 +79,11 @@ impl Lie {
 
 /// All of them, in the order of the book.
 static LIES: [Lie; 26] = [
-    lie("poplar", [0.75, 25.0]),
-    lie("cottonwood", [0.85, 25.0]).undulate(0.03, 0.06),
-    lie("maple", [0.9, 30.0]).undulate(0.02, 0.04),
+    lie("poplar", [0.75, 25.0]).with(FLATTENED),
+    lie("cottonwood", [0.85, 25.0])
+        .with(FLATTENED)
+        .undulate(0.03, 0.06),
+    lie("maple", [0.9, 30.0]).with(TERETE).undulate(0.02, 0.04),
     lie("white-oak", [0.13, 20.0]).undulate(0.04, 0.05),
     lie("red-oak", [0.25, 20.0]).undulate(0.03, 0.05),
     lie("ginkgo", [0.9, 25.0]),
@@ -61,20 +92,28 @@ static LIES: [Lie; 26] = [
     lie("cherry", [0.15, 20.0]),
     lie("sweetgum", [0.85, 25.0]),
     lie("alchemilla", [1.4, 30.0]),
-    lie("ivy", [0.7, 30.0]).undulate(0.02, 0.05),
-    lie("magnolia", [0.12, 15.0]).undulate(0.015, 0.06),
-    lie("croton", [0.2, 20.0]).undulate(0.05, 0.05),
+    lie("ivy", [0.7, 30.0]).with(TERETE).undulate(0.02, 0.05),
+    lie("magnolia", [0.12, 15.0])
+        .with(TERETE)
+        .undulate(0.015, 0.06),
+    lie("croton", [0.2, 20.0]).with(TERETE).undulate(0.05, 0.05),
     lie("ginkgo-autumn", [0.9, 25.0]).undulate(0.03, 0.06),
     lie("birch-autumn", [0.35, 20.0]).dry(0.15),
-    lie("poplar-autumn", [0.85, 25.0]).dry(0.15),
-    lie("sugar-maple-autumn", [0.8, 30.0]).dry(0.15),
-    lie("red-maple-autumn", [0.8, 30.0]).dry(0.15),
+    lie("poplar-autumn", [0.85, 25.0]).with(FLATTENED).dry(0.15),
+    lie("sugar-maple-autumn", [0.8, 30.0])
+        .with(TERETE)
+        .dry(0.15),
+    lie("red-maple-autumn", [0.8, 30.0]).with(TERETE).dry(0.15),
     lie("sweetgum-autumn", [0.85, 25.0]).dry(0.15),
     lie("oak-litter", [0.13, 20.0]).dry(1.0),
     lie("cotinus", [0.45, 20.0]).undulate(0.02, 0.05),
     Lie::sessile("acer-variegated").undulate(0.03, 0.05),
-    lie("ivy-variegated", [0.7, 30.0]).undulate(0.02, 0.05),
-    lie("croton-variegated", [0.2, 20.0]).undulate(0.05, 0.05),
+    lie("ivy-variegated", [0.7, 30.0])
+        .with(TERETE)
+        .undulate(0.02, 0.05),
+    lie("croton-variegated", [0.2, 20.0])
+        .with(TERETE)
+        .undulate(0.05, 0.05),
     lie("amaranth", [0.45, 20.0]).undulate(0.05, 0.06),
 ];
 
@@ -88,6 +127,7 @@ pub(super) fn apply(preset: &str, plan: &mut LeafPlan) {
             length,
             radius_mm: None,
             curl: curl.to_radians(),
+            section: lie.section,
         });
     }
     plan.stance.margin_growth = lie

@@ -12,14 +12,14 @@ use crate::shell::{Clamp, Effort, Grid, Ground, Sheet, relaxed};
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Cells of the first search, and of the second, which begins where the first has ended.
-const CELLS: [f64; 2] = [260.0, 900.0];
+const CELLS: [f64; 2] = [240.0, 700.0];
 const EFFORTS: [Effort; 2] = [
     Effort {
-        steps: 120,
-        tolerance: 1e-4,
+        steps: 50,
+        tolerance: 5e-4,
     },
     Effort {
-        steps: 12,
+        steps: 7,
         tolerance: 1e-3,
     },
 ];

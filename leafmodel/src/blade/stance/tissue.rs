@@ -13,7 +13,7 @@ use crate::venation::chance::{Use, bits};
 use crate::venation::network::VeinSegment;
 
 /// Young's modulus of a turgid lamina, N/mm², and that of veins over it. Laminae lie between some 5
-/// and 100 N/mm², veins at several hundred (\[niklas1999\]); both by eye within that.
+/// and 100 N/mm², veins at several hundred; both by eye within that.
 const LAMINA: f64 = 30.0;
 const VEINS: f64 = 8.0;
 /// Share of a turgid blade's stiffness that remains without turgor, and factor of an air-dry one.
