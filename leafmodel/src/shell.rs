@@ -20,6 +20,7 @@ mod envelope;
 mod equilibrium;
 mod forms;
 mod grid;
+mod patch;
 mod sheet;
 mod tensor;
 #[cfg(test)]
@@ -27,4 +28,5 @@ mod tests;
 
 pub(crate) use equilibrium::{Effort, relaxed};
 pub(crate) use grid::Grid;
-pub(crate) use sheet::{Clamp, Ground, Patch, Sheet};
+pub(crate) use patch::Patch;
+pub(crate) use sheet::{Clamp, Ground, Sheet};

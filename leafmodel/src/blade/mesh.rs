@@ -1,5 +1,7 @@
 //! The blade as triangles.
 
+mod smoothing;
+
 pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
@@ -190,7 +192,7 @@ impl BladeMesh {
     }
 
     /// The triangles that face away from a normal of their corners.
-    pub(super) fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
+    fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
         self.triangles.iter().filter(|t| !self.faces_out(t))
     }
 

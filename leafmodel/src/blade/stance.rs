@@ -13,7 +13,6 @@
 
 mod posture;
 mod settled;
-mod smoothing;
 mod tissue;
 
 pub(super) use posture::Posture;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::grid::Basis;
-use super::sheet::Patch;
+use super::patch::Patch;
 use super::tensor::{
     Stiffness, Tensor, added, applied, between, determinant, inverse, isotropic, less, scaled,
     solved, sum,

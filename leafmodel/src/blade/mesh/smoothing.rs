@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::blade::mesh::{BladeMesh, vertex_normals};
+use super::{BladeMesh, vertex_normals};
 
 /// How often corners of triangles that are turned over are moved.
 const SMOOTHINGS: usize = 40;
@@ -12,7 +12,7 @@ const WIDENED_AFTER: usize = 4;
 impl BladeMesh {
     /// Draws the corners of triangles that are turned over towards their neighbours. In a crumpled
     /// blade a ridge of relief may fold over itself.
-    pub(in crate::blade) fn smooth_turned_over(&mut self) {
+    pub(super) fn smooth_turned_over(&mut self) {
         for round in 0..SMOOTHINGS {
             let mut moved = vec![false; self.positions.len()];
             for &v in self.turned_over().flatten() {
