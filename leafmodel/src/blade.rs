@@ -44,6 +44,7 @@ mod sheet;
 mod size_field;
 mod skeleton;
 pub mod stalk;
+pub mod stance;
 pub mod tissue;
 mod triangulate;
 pub mod vein_body;

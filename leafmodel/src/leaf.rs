@@ -21,6 +21,7 @@ mod holders;
 mod lamina;
 pub mod outline_plan;
 mod painting;
+mod settling;
 mod stages;
 pub mod venation_plan;
 
@@ -39,6 +40,7 @@ use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
+use crate::blade::stance::Stance;
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
@@ -70,6 +72,8 @@ pub struct LeafPlan {
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
     pub form: BladeForm,
+    /// What has happened to the blade since.
+    pub stance: Stance,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
     pub petiole: Option<PetiolePlan>,
     /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`]
@@ -182,6 +186,7 @@ impl Leaf {
             mosaic.validate()?;
         }
         plan.form.validate()?;
+        plan.stance.validate()?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
@@ -204,11 +209,16 @@ impl Leaf {
         let Lamina {
             outline, network, ..
         } = &lamina;
-        let mesh = BladeMesh::build(outline, network, &plan.form)?;
-        let petiole = plan
+        let settled = plan.settled(&lamina);
+        let settled = settled.as_ref();
+        let mut mesh = BladeMesh::settled(outline, network, &plan.form, settled)?;
+        let mut petiole = plan
             .petiole
-            .map(|petiole| petiole.build(outline, network, &plan.form))
+            .map(|petiole| petiole.settled(outline, network, &plan.form, settled))
             .transpose()?;
+        if plan.stance.on_ground {
+            settling::put_on_ground(&mut mesh, petiole.as_mut());
+        }
         let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
         Ok(Self {
@@ -265,7 +275,7 @@ mod tests {
     }
 
     /// A small broad leaf with everything that a leaf can have.
-    fn plan() -> LeafPlan {
+    pub(super) fn plan() -> LeafPlan {
         LeafPlan {
             length_mm: 50.0,
             seed: 3,
@@ -307,6 +317,7 @@ mod tests {
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },
+            stance: Stance::default(),
             petiole: None,
             compound: None,
             pigments: Pigments::default(),

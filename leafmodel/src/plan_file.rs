@@ -39,6 +39,7 @@ mod presets;
 mod rates;
 mod senescence;
 mod solid;
+mod stance;
 #[cfg(test)]
 mod tests;
 mod venation;

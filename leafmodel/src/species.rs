@@ -37,6 +37,7 @@ pub mod leaf_traits;
 mod list;
 pub mod maple;
 mod runions;
+mod stances;
 pub mod table_1;
 mod trees;
 mod trees_contours;
@@ -44,6 +45,7 @@ mod xia;
 pub mod young;
 
 use crate::blade::BladeForm;
+use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
@@ -87,11 +89,13 @@ enum PlanOf {
 impl Preset {
     /// The whole plan of the leaf.
     pub fn plan(&self) -> LeafPlan {
-        match self.plan {
+        let mut plan = match self.plan {
             PlanOf::Function(plan) => plan(),
             PlanOf::Form(form) => form.plan(),
             PlanOf::Coloured(leaf) => leaf.plan(),
-        }
+        };
+        stances::apply(self.name, &mut plan);
+        plan
     }
 }
 
@@ -139,6 +143,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },
+        stance: Stance::default(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),

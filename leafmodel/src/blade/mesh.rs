@@ -1,15 +1,17 @@
 //! The blade as triangles.
 
+mod smoothing;
+
 pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 use super::BladeForm;
-use super::form::Bending;
 use super::frame::UvFrame;
 use super::relief::Relief;
 use super::size_field::SizeField;
 use super::skeleton::Skeleton;
+use super::stance::{Posture, Settled};
 use super::triangulate::{Triangulation, triangulate};
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
@@ -109,8 +111,7 @@ impl BladeMesh {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
-        let veins: Vec<VeinSegment> = network.segments().collect();
-        Self::from_veins(outline, &veins, network.map(), form)
+        Self::settled(outline, network, form, None)
     }
 
     /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
@@ -125,6 +126,31 @@ impl BladeMesh {
         map: ConformalMap,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
+        Self::within(outline, veins, map, form, None)
+    }
+
+    /// As [`BladeMesh::build`], of a blade that has come to lie as `settled` says.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub fn settled(
+        outline: &Outline,
+        network: &VenationNetwork,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<Self, BladeError> {
+        let veins: Vec<VeinSegment> = network.segments().collect();
+        Self::within(outline, &veins, network.map(), form, settled)
+    }
+
+    fn within(
+        outline: &Outline,
+        veins: &[VeinSegment],
+        map: ConformalMap,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<Self, BladeError> {
         form.validate()?;
         let major: Vec<VeinSegment> = veins
             .iter()
@@ -135,35 +161,39 @@ impl BladeMesh {
         let skeleton = Skeleton::new(outline, &size, &major);
         let flat = triangulate(outline, &size, &skeleton, MOST_TRIANGLES)?;
         let relief = Relief::new(form, &major);
-        let bending = Bending::new(form, outline, map);
-        Self::raised(flat, &UvFrame::around(outline.points()), |p| {
+        let posture = Posture::new(form, outline, map, settled);
+        let mut mesh = Self::raised(flat, &UvFrame::around(outline.points()), |p| {
             let height = relief.height(p);
-            (bending.place(p, -height), form.thickness_mm + height)
-        })
+            (posture.place(p, -height), form.thickness_mm + height)
+        });
+        if settled.is_some() {
+            mesh.smooth_turned_over();
+        }
+        let faces = mesh.turned_over().count();
+        if faces > 0 {
+            return Err(BladeError::TurnedOver { faces });
+        }
+        Ok(mesh)
     }
 
     /// A flat triangulation brought into space by `place`, which gives position and thickness.
-    fn raised(
-        flat: Triangulation,
-        frame: &UvFrame,
-        place: impl Fn(DVec2) -> (DVec3, f64),
-    ) -> Result<Self, BladeError> {
+    fn raised(flat: Triangulation, frame: &UvFrame, place: impl Fn(DVec2) -> (DVec3, f64)) -> Self {
         let (positions, thickness_mm): (Vec<DVec3>, Vec<f64>) =
             flat.points.iter().map(|&p| place(p)).unzip();
         let normals = vertex_normals(&positions, &flat.triangles);
-        let mesh = Self {
+        Self {
             normals,
             positions,
             thickness_mm,
             uvs: flat.points.iter().map(|&p| frame.uv(p)).collect(),
             lamina: flat.points,
             triangles: flat.triangles,
-        };
-        let faces = mesh.triangles.iter().filter(|t| !mesh.faces_out(t)).count();
-        if faces > 0 {
-            return Err(BladeError::TurnedOver { faces });
         }
-        Ok(mesh)
+    }
+
+    /// The triangles that face away from a normal of their corners.
+    fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
+        self.triangles.iter().filter(|t| !self.faces_out(t))
     }
 
     /// Whether a triangle faces the same way as its vertices' normals.
@@ -296,7 +326,7 @@ fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
 
 /// Mean of the normals of the faces at each vertex, weighted by their angles there: independent of
 /// how a flat part is cut into triangles.
-fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+pub(super) fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {
         let corners = triangle.map(|v| positions[v as usize]);

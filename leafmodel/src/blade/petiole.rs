@@ -7,17 +7,19 @@
 //! midrib. The proportions are by eye.
 
 mod midrib;
+mod section;
 
 use glam::{DVec2, DVec3};
 
 use super::BladeForm;
 use super::error::BladeError;
-use super::form::Bending;
 use super::relief::{Relief, smooth_step};
 use super::stalk::StalkMesh;
+use super::stance::{Posture, Settled};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
 use midrib::Midrib;
+pub use section::Section;
 
 /// Length of the joint in radii of the petiole, and its least and greatest share of the leaf's
 /// length.
@@ -42,8 +44,7 @@ const SUNK: f64 = 1.02;
 const READY_RADII: f64 = 7.0;
 /// Number of places on each side across the tube at which the relief is looked up.
 const ACROSS: i32 = 4;
-/// Relative thickening of the foot, and its length in radii.
-const FOOT: f64 = 0.3;
+/// Length of the foot in radii.
 const FOOT_RADII: f64 = 5.0;
 /// Least number of pieces of a petiole, and the greatest angle between two of them, radians.
 const PIECES: f64 = 12.0;
@@ -59,6 +60,33 @@ pub struct PetiolePlan {
     /// Angle through which it bends towards the abaxial side from the base to its foot, radians, −3
     /// to 3; 0 is straight.
     pub curl: f64,
+    /// Its form between both ends.
+    pub section: Section,
+}
+
+/// A point of the tube before the base, in the frame of the base.
+struct Station {
+    at: DVec3,
+    radius: f64,
+    /// How much of the section applies.
+    share: f64,
+}
+
+/// How a tube goes.
+#[derive(Clone, Copy)]
+enum Way {
+    /// Where the ground and the blade let it.
+    Whole,
+    /// Into the ground, out of which the leaf is then lifted.
+    OverGround,
+    /// Straight on.
+    Rigid,
+}
+
+/// A mound before the base, over the distance from it in lengths of the tube's end: 0 at the base,
+/// 1 at once that length, 0 from two and a half on.
+fn swelling(back: f64) -> f64 {
+    smooth_step(back / 0.8) * (1.0 - smooth_step((back - 1.2) / 1.3))
 }
 
 impl PetiolePlan {
@@ -78,6 +106,15 @@ impl PetiolePlan {
                 "0.001 to 100 (millimetres)",
             ),
             ("petiole.curl", self.curl, -3.0..=3.0, "-3 to 3 (radians)"),
+            ("petiole.groove", self.section.groove, 0.0..=0.8, "0 to 0.8"),
+            (
+                "petiole.flatness",
+                self.section.flatness,
+                0.0..=0.7,
+                "0 to 0.7",
+            ),
+            ("petiole.foot", self.section.foot, 0.0..=2.0, "0 to 2"),
+            ("petiole.head", self.section.head, 0.0..=2.0, "0 to 2"),
         ] {
             if !allowed.contains(&value) {
                 return Err(BladeError::OutOfRange {
@@ -107,6 +144,21 @@ impl PetiolePlan {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<StalkMesh, BladeError> {
+        self.settled(outline, network, form, None)
+    }
+
+    /// As [`PetiolePlan::build`], of a blade that has come to lie as `settled` says.
+    ///
+    /// # Errors
+    ///
+    /// As [`PetiolePlan::build`].
+    pub fn settled(
+        &self,
+        outline: &Outline,
+        network: &VenationNetwork,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<StalkMesh, BladeError> {
         self.validate()?;
         form.validate()?;
         let leaf = outline.length();
@@ -120,73 +172,130 @@ impl PetiolePlan {
             radius,
             &midrib,
             Relief::new(form, &veins),
-            Bending::new(form, outline, network.map()),
+            Posture::new(form, outline, network.map(), settled),
             leaf,
         );
-        let (mut points, mut radii) = (Vec::new(), Vec::new());
-        let length = self.length * leaf;
-        if length > 1e-6 * leaf {
-            let foot = (FOOT_RADII * radius).min(length);
-            let ready = (READY_RADII * joint.radius).min(0.5 * length);
-            for back in self.places(length, foot, ready) {
-                let near = smooth_step(1.0 - back / ready);
-                points.push(self.behind(back, length) - DVec3::Z * (near * joint.depth));
-                let from_foot = (length - back) / foot;
-                let own = radius * (1.0 + FOOT * (1.0 - smooth_step(from_foot)));
-                radii.push(own + (joint.radius - radius) * near);
-            }
-        }
-        let with_joint = |midrib: &Midrib| {
-            let (mut points, mut radii) = (points.clone(), radii.clone());
-            for i in 0..=JOINT_PIECES {
-                let (point, radius) = joint.at(midrib, i as f64 / JOINT_PIECES as f64);
-                points.push(point);
-                radii.push(radius);
-            }
-            StalkMesh::tube(&points, &radii)
+        let stem = self.stem(&joint, radius, leaf);
+        // A vein may have a kink, above all in a crumpled blade. Then the tube follows a straight
+        // line instead; if that does not help, it leaves the ground; in the end it is straight.
+        let straight = Midrib {
+            nodes: Vec::new(),
+            ..midrib
         };
-        // If the vein has a kink, the tube follows a straight line instead.
-        let straight = || {
-            let nodes = Vec::new();
-            with_joint(&Midrib { nodes, ..midrib })
-        };
-        Ok(with_joint(&midrib)
-            .or_else(|_| straight())
+        let attempts = [
+            (&midrib, Way::Whole),
+            (&straight, Way::Whole),
+            (&midrib, Way::OverGround),
+            (&straight, Way::OverGround),
+        ];
+        let found = attempts
+            .into_iter()
+            .find_map(|(midrib, way)| self.tube(&stem, &joint, midrib, way));
+        Ok(found
+            .or_else(|| self.tube(&stem, &joint, &straight, Way::Rigid))
             .expect("a smooth bend of a straight line has no kinks, and radii are above 0"))
+    }
+
+    /// The tube up to the base, from its foot on.
+    fn stem(&self, joint: &Joint<'_>, radius: f64, leaf: f64) -> Vec<Station> {
+        let length = self.length * leaf;
+        if length <= 1e-6 * leaf {
+            return Vec::new();
+        }
+        let curl = self.curl + joint.posture.sag();
+        let foot = (FOOT_RADII * radius).min(length);
+        let ready = (READY_RADII * joint.radius).min(0.5 * length);
+        self.places(curl, length, foot, ready)
+            .into_iter()
+            .map(|back| {
+                let near = smooth_step(1.0 - back / ready);
+                let from_foot = (length - back) / foot;
+                let swollen = self.section.foot * (1.0 - smooth_step(from_foot))
+                    + self.section.head * swelling(back / ready);
+                let own = radius * (1.0 + swollen);
+                Station {
+                    at: behind(curl, back, length) - DVec3::Z * (near * joint.depth),
+                    radius: own + (joint.radius - radius) * near,
+                    share: 1.0 - near,
+                }
+            })
+            .collect()
+    }
+
+    /// The tube along stem and joint, unless it has a kink.
+    fn tube(
+        &self,
+        stem: &[Station],
+        joint: &Joint<'_>,
+        midrib: &Midrib,
+        way: Way,
+    ) -> Option<StalkMesh> {
+        let (base, frame) = joint.posture.base();
+        let lies = joint.posture.on_ground() && matches!(way, Way::Whole);
+        let (mut points, mut radii, mut shares) = (Vec::new(), Vec::new(), Vec::new());
+        for station in stem {
+            let mut at = base + frame * station.at;
+            if lies {
+                at.z = at.z.max(station.radius);
+            }
+            points.push(at);
+            radii.push(station.radius);
+            shares.push(station.share);
+        }
+        for i in 0..=JOINT_PIECES {
+            let t = i as f64 / JOINT_PIECES as f64;
+            let (mut point, radius) = joint.at(midrib, t);
+            if matches!(way, Way::Rigid) {
+                point = base + frame * DVec3::new(0.0, joint.length * t, -joint.depth);
+            }
+            points.push(point);
+            radii.push(radius);
+            shares.push(0.0);
+        }
+        let mut tube = StalkMesh::tube(&points, &radii).ok()?;
+        self.section.shape(&mut tube, &points, &shares, &frame);
+        Some(tube)
     }
 
     /// Distances from the base of the points of the tube before the joint, from the foot on: evenly
     /// spaced, and denser where the radius changes.
-    fn places(&self, length: f64, foot: f64, ready: f64) -> Vec<f64> {
-        let pieces = PIECES.max((self.curl.abs() / PIECE_ANGLE).ceil());
+    fn places(&self, curl: f64, length: f64, foot: f64, ready: f64) -> Vec<f64> {
+        let pieces = PIECES.max((curl.abs() / PIECE_ANGLE).ceil());
         let mut backs: Vec<f64> = (1..=pieces as u32)
             .map(|i| length * f64::from(i) / pieces)
             .collect();
         let closer = |share: f64| [length - foot * share, ready * share];
         backs.extend((1..=6).flat_map(|i| closer(f64::from(i) / 6.0)));
+        if self.section.head > 0.0 {
+            backs.extend(
+                (7..=15)
+                    .map(|i| ready * f64::from(i) / 6.0)
+                    .filter(|&back| back < length),
+            );
+        }
         backs.sort_by(|a, b| b.total_cmp(a));
         // Points at the base itself belong to the joint.
         backs.retain(|&back| back > 0.01 * ready);
         backs.dedup_by(|next, kept| *kept - *next < 0.02 * ready.min(foot));
         backs
     }
+}
 
-    /// The point of the petiole's axis at the distance `back` from the base.
-    fn behind(&self, back: f64, length: f64) -> DVec3 {
-        let curvature = self.curl / length;
-        let angle = curvature * back;
-        let (y, z) = if angle.abs() < 1e-6 {
-            (back, 0.5 * angle * back)
-        } else {
-            let half = libm::sin(0.5 * angle);
-            (libm::sin(angle) / curvature, 2.0 * half * half / curvature)
-        };
-        DVec3::new(0.0, -y, -z)
-    }
+/// The point, at the distance `back` from the base, of the axis of a petiole that bends by `curl`.
+fn behind(curl: f64, back: f64, length: f64) -> DVec3 {
+    let curvature = curl / length;
+    let angle = curvature * back;
+    let (y, z) = if angle.abs() < 1e-6 {
+        (back, 0.5 * angle * back)
+    } else {
+        let half = libm::sin(0.5 * angle);
+        (libm::sin(angle) / curvature, 2.0 * half * half / curvature)
+    };
+    DVec3::new(0.0, -y, -z)
 }
 
 /// The joint: the part of the tube beyond the base.
-struct Joint {
+struct Joint<'s> {
     /// Radius at the base.
     radius: f64,
     /// Depth of the axis at the base, towards the abaxial side.
@@ -196,12 +305,12 @@ struct Joint {
     end: f64,
     length: f64,
     relief: Relief,
-    bending: Bending,
+    posture: Posture<'s>,
 }
 
-impl Joint {
+impl<'s> Joint<'s> {
     /// The joint of a petiole with this radius.
-    fn new(radius: f64, midrib: &Midrib, relief: Relief, bending: Bending, leaf: f64) -> Self {
+    fn new(radius: f64, midrib: &Midrib, relief: Relief, posture: Posture<'s>, leaf: f64) -> Self {
         let [least, most] = JOINT_SHARE;
         let ridge = ridge(&relief, midrib.at(0.0).0, radius.max(midrib.radius));
         let wide = radius.max(HOLDS * ridge);
@@ -213,7 +322,7 @@ impl Joint {
             end: END_RADIUS * radius.min(midrib.radius.max(1e-3)),
             length: (JOINT_RADII * wide).clamp(least * leaf, most * leaf),
             relief,
-            bending,
+            posture,
         }
     }
 
@@ -227,7 +336,7 @@ impl Joint {
         } else {
             self.depth
         };
-        (self.bending.place(p, -depth), radius)
+        (self.posture.place(p, -depth), radius)
     }
 }
 

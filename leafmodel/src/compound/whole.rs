@@ -47,6 +47,7 @@ pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
         length: form.petiolule,
         radius_mm: Some(form.stalk_radius_mm),
         curl: 0.0,
+        section: crate::blade::petiole::Section::default(),
     };
     let variant = |number: u32| LeafPlan {
         seed: bits(leaflet.seed, Use::Leaflet, number.into()),

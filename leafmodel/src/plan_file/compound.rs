@@ -1,6 +1,6 @@
 //! `petiole` and `compound`: stalks, and leaflets on them.
 
-use crate::blade::petiole::PetiolePlan;
+use crate::blade::petiole::{PetiolePlan, Section};
 use crate::compound::{Arrangement, CompoundError, CompoundForm, Feather};
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
@@ -20,6 +20,7 @@ pub(super) fn usual_petiole() -> PetiolePlan {
         length: 0.0,
         radius_mm: None,
         curl: 0.0,
+        section: Section::default(),
     }
 }
 
@@ -32,7 +33,7 @@ pub(super) fn petiole(plan: &mut PetiolePlan, keys: &mut Keys<'_>) {
         length,
         "Length over the leaf's.",
     );
-    let about = "Radius; the foot is a third thicker.";
+    let about = "Radius between its ends.";
     keys.optional("radius_mm", &mut plan.radius_mm, RADII_MM, about);
     let limits = Degrees(Limits::closed(-170.0, 170.0));
     keys.key(
@@ -42,6 +43,19 @@ pub(super) fn petiole(plan: &mut PetiolePlan, keys: &mut Keys<'_>) {
         "Angle by which it has bent towards the abaxial \
         side at its foot.",
     );
+    let section = &mut plan.section;
+    let limits = Number(Limits::closed(0.0, 0.8));
+    let about = "Depth of the groove along its adaxial side, over the radius.";
+    keys.key("groove", &mut section.groove, limits, about);
+    let limits = Number(Limits::closed(0.0, 0.7));
+    let about = "How much narrower it is from side to side than if it were round, as an aspen's.";
+    keys.key("flatness", &mut section.flatness, limits, about);
+    let limits = Number(Limits::closed(0.0, 2.0));
+    let about = "Thickening of its foot, over the radius.";
+    keys.key("foot", &mut section.foot, limits, about);
+    let limits = Number(Limits::closed(0.0, 2.0));
+    let about = "Thickening below the blade (a pulvinus there), over the radius.";
+    keys.key("head", &mut section.head, limits, about);
 }
 
 /// A compound leaf of which nothing is said.

@@ -8,9 +8,11 @@ use super::outline::{self, outline};
 use super::pigments::pigments;
 use super::senescence::{self, senescence};
 use super::solid::MAP_SIZE;
+use super::stance::stance;
 use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::senescence::AgeSource;
+use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::blade::vein_body::VeinBody;
 use crate::document::keys::Keys;
@@ -33,6 +35,7 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         mosaic: None,
         senescence: None,
         form: BladeForm::nearly_flat(length_mm),
+        stance: Stance::default(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),
@@ -103,6 +106,7 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     let about = "How the blade lies in space.";
     keys.block("blade", about, |keys| {
         form_keys(&mut plan.form, keys, length_mm);
+        stance(&mut plan.stance, keys);
     });
     // Leaflets have stalks of their own.
     keys.exclude("compound", "petiole");

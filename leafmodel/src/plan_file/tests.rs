@@ -32,6 +32,7 @@ use self::veins::venation;
 use super::{Extent, leaf_to_toml, parse};
 use crate::blade::BladeForm;
 use crate::blade::senescence::{AgeSource, Senescence};
+use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
 use crate::leaf::venation_plan::VenationPlan;
@@ -71,6 +72,7 @@ fn plain() -> LeafPlan {
         mosaic: None,
         senescence: None,
         form: BladeForm::nearly_flat(80.0),
+        stance: Stance::default(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),
@@ -86,10 +88,11 @@ proptest! {
         contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
         seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(),
+        stance in bodies::stance(),
     ) {
         let outline = OutlinePlan { contour, teeth };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, petiole, compound, pigments, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, petiole, compound, pigments, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

@@ -13,6 +13,7 @@ pub(super) mod sources;
 mod trees;
 
 use crate::blade::BladeForm;
+use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::blade::vein_body::VeinBody;
 use crate::leaf::LeafPlan;
@@ -273,6 +274,7 @@ impl LeafTraits {
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,
             },
+            stance: Stance::default(),
             pigments: Pigments::default(),
             map_size: 1600,
         }

@@ -51,6 +51,8 @@ pub(crate) enum Use {
     Weathering = 41,
     /// Spots on dead tissue.
     WeatheringSpot = 42,
+    /// How unevenly a leaf dries, and how its margin grows.
+    Stance = 21,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -43,20 +43,21 @@ fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
             length: 0.5,
             radius_mm,
             curl,
+            section: Section::default(),
         };
         let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
         assert_eq!(mesh.validate(), Ok(()), "{curl}");
         let radius = radius_mm.unwrap_or(0.5);
         assert_eq!(plan.radius_on(&outline, &midrib()), radius);
         // The foot lies on an arc of 30 mm that leaves the base along −y and bends down.
-        let foot = plan.behind(30.0, 30.0);
+        let foot = behind(plan.curl, 30.0, 30.0);
         let least = mesh
             .positions
             .iter()
             .map(|p| p.distance(foot))
             .fold(f64::INFINITY, f64::min);
         assert!(
-            (least - radius * (1.0 + FOOT)).abs() < 0.02 * radius,
+            (least - radius * (1.0 + plan.section.foot)).abs() < 0.02 * radius,
             "{least}"
         );
         assert!((foot.z < 0.0) == (curl > 0.0) || curl == 0.0);
@@ -74,6 +75,7 @@ fn the_joint_ends_within_the_vein() {
         length: 0.3,
         radius_mm: Some(0.8),
         curl: 0.0,
+        section: Section::default(),
     };
     let form = BladeForm {
         relief: 0.5,
@@ -94,6 +96,7 @@ fn numbers_out_of_range_are_named() {
         length: 0.3,
         radius_mm: None,
         curl: 0.0,
+        section: Section::default(),
     };
     for (bad, name) in [
         (
@@ -205,18 +208,19 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
             length: 0.5,
             radius_mm,
             curl: 0.3,
+            section: Section::default(),
         };
         let tube = plan.build(&outline, &network, &form).expect("a petiole");
         assert_eq!(tube.validate(), Ok(()), "{form:?} {plan:?}");
         let blade = BladeMesh::build(&outline, &network, &form).expect("a blade");
         let way = Midrib::new(&outline, &network, 12.0);
-        let bending = Bending::new(&form, &outline, network.map());
+        let bending = Posture::new(&form, &outline, network.map(), None);
         let veins: Vec<VeinSegment> = network.segments().collect();
         let joint = Joint::new(
             radius_mm.unwrap_or(way.radius),
             &way,
             Relief::new(&form, &veins),
-            Bending::new(&form, &outline, network.map()),
+            Posture::new(&form, &outline, network.map(), None),
             60.0,
         );
         // How far the tube stands out from the blade, seen from 5 mm above or below it, at a

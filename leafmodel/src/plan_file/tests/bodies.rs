@@ -1,6 +1,8 @@
 //! Tissue, form and stalks by chance.
 
 use super::*;
+use crate::blade::petiole::Section;
+use crate::blade::stance::{Drying, MarginGrowth, Stance, Wilting};
 use crate::optics::{Constituent, Contents, VeinFactors};
 
 pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
@@ -73,11 +75,26 @@ pub(super) fn feather() -> impl Strategy<Value = Feather> {
 /// Nothing, a petiole, or the one or other compound leaf.
 pub(super) fn petiole_or_compound()
 -> impl Strategy<Value = (Option<PetiolePlan>, Option<CompoundForm>)> {
-    let petiole = (0.0..3.0, prop::option::of(0.01..2.0), -90.0..90.0_f64);
-    let petiole = petiole.prop_map(|(length, radius_mm, curl)| PetiolePlan {
+    let section =
+        (0.0..0.8, 0.0..0.7, 0.0..2.0, 0.0..2.0).prop_map(|(groove, flatness, foot, head)| {
+            Section {
+                groove,
+                flatness,
+                foot,
+                head,
+            }
+        });
+    let petiole = (
+        0.0..3.0,
+        prop::option::of(0.01..2.0),
+        -90.0..90.0_f64,
+        section,
+    );
+    let petiole = petiole.prop_map(|(length, radius_mm, curl, section)| PetiolePlan {
         length,
         radius_mm,
         curl: curl.to_radians(),
+        section,
     });
     let palmate = (
         2_u32..5,
@@ -128,4 +145,40 @@ pub(super) fn petiole_or_compound()
         petiole.prop_map(|petiole| (Some(petiole), None)),
         compound.prop_map(|compound| (None, Some(compound))),
     ]
+}
+
+/// What has happened to a blade.
+pub(super) fn stance() -> impl Strategy<Value = Stance> {
+    let growth = (-0.3..1.0, 0.005..1.0).prop_map(|(excess, width)| MarginGrowth { excess, width });
+    let drying = (
+        0.0..1.0,
+        0.0..0.4,
+        0.0..1.0,
+        -0.1..0.1,
+        0.0..1.0,
+        -170.0..170.0_f64,
+    );
+    let drying = drying.prop_map(|(share, shrinkage, along, faces, unevenness, bow)| Drying {
+        share,
+        shrinkage,
+        along,
+        faces,
+        unevenness,
+        bow: bow.to_radians(),
+    });
+    let wilting = (0.0..1.0, -90.0..90.0_f64);
+    let wilting = wilting.prop_map(|(share, pitch)| Wilting {
+        share,
+        pitch: pitch.to_radians(),
+    });
+    let (growth, drying) = (prop::option::of(growth), prop::option::of(drying));
+    (growth, drying, prop::option::of(wilting), any::<bool>()).prop_map(
+        |(margin_growth, drying, wilting, on_ground)| Stance {
+            margin_growth,
+            drying,
+            // A leaf on the ground is not held.
+            wilting: wilting.filter(|_| !on_ground),
+            on_ground,
+        },
+    )
 }

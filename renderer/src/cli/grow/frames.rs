@@ -182,6 +182,7 @@ mod tests {
             length: 0.5,
             radius_mm: Some(0.4),
             curl: 0.0,
+            section: leafmodel::blade::petiole::Section::default(),
         });
         let lamina = plan.grow_lamina().expect("a good plan");
         let last = plan.last_step(&lamina).expect("it grows");

@@ -1,0 +1,115 @@
+//! Leaves that have dried, wilted or fallen.
+
+use glam::DVec3;
+
+use super::super::tests::plan;
+use super::super::*;
+use crate::blade::petiole::{PetiolePlan, Section};
+use crate::blade::stance::{Drying, MarginGrowth, Wilting};
+
+fn grown(stance: Stance) -> Leaf {
+    let petiole = Some(PetiolePlan {
+        length: 0.4,
+        radius_mm: Some(0.5),
+        curl: 0.3,
+        section: Section {
+            groove: 0.4,
+            flatness: 0.2,
+            foot: 0.4,
+            head: 0.4,
+        },
+    });
+    let plan = LeafPlan {
+        stance,
+        petiole,
+        ..plan()
+    };
+    Leaf::grow(&plan).expect("a good plan")
+}
+
+fn lowest(leaf: &Leaf) -> f64 {
+    let stalk = leaf.petiole.iter().flat_map(|stalk| &stalk.positions);
+    let all = leaf.mesh.positions.iter().chain(stalk);
+    all.map(|p| p.z).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn fresh_tissue_that_dries_not_at_all_stays_where_it_is() {
+    let drying = Some(Drying {
+        share: 0.0,
+        ..Drying::USUAL
+    });
+    let leaf = grown(Stance {
+        drying,
+        ..Stance::default()
+    });
+    let fresh = grown(Stance::default());
+    for (a, b) in leaf.mesh.positions.iter().zip(&fresh.mesh.positions) {
+        assert!(a.distance(*b) < 1e-2, "{a} is not {b}");
+    }
+}
+
+#[test]
+fn litter_shrinks_curls_and_lies_on_the_ground() {
+    let stance = Stance {
+        drying: Some(Drying::USUAL),
+        on_ground: true,
+        ..Stance::default()
+    };
+    let (litter, fresh) = (grown(stance), grown(Stance::default()));
+    assert_eq!(litter.mesh.validate(litter.lamina.outline.area()), Ok(()));
+    assert_eq!(lowest(&litter), 0.0);
+    let width = |leaf: &Leaf| {
+        let x = leaf.mesh.positions.iter().map(|p| p.x);
+        x.clone().fold(f64::MIN, f64::max) - x.fold(f64::MAX, f64::min)
+    };
+    assert!(width(&litter) < 0.9 * width(&fresh), "{}", width(&litter));
+    assert_eq!(grown(stance), litter, "the same bits");
+}
+
+#[test]
+fn a_wilted_leaf_hangs_from_its_base() {
+    let wilted = |share: f64| {
+        grown(Stance {
+            wilting: Some(Wilting { share, pitch: 0.0 }),
+            ..Stance::default()
+        })
+    };
+    let base = |leaf: &Leaf| {
+        let all = leaf.mesh.positions.iter().zip(&leaf.mesh.lamina);
+        let near = all.min_by(|(_, p), (_, q)| p.length_squared().total_cmp(&q.length_squared()));
+        *near.expect("a mesh has vertices").0
+    };
+    let (fresh, whole) = (wilted(0.0), wilted(1.0));
+    assert!(
+        lowest(&whole) < lowest(&fresh) - 5.0,
+        "{} {}",
+        lowest(&whole),
+        lowest(&fresh)
+    );
+    assert!(base(&whole).distance(DVec3::ZERO) < 1.0, "{}", base(&whole));
+    assert_eq!(whole.mesh.validate(whole.lamina.outline.area()), Ok(()));
+}
+
+#[test]
+fn a_margin_that_grows_in_excess_is_longer_and_leaves_the_plane() {
+    let excess = |excess: f64| {
+        grown(Stance {
+            margin_growth: Some(MarginGrowth {
+                excess,
+                width: 0.05,
+            }),
+            ..Stance::default()
+        })
+    };
+    let area = |leaf: &Leaf| -> f64 {
+        let areas = leaf.mesh.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|v| leaf.mesh.positions[v as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        });
+        areas.sum()
+    };
+    let (little, much) = (excess(0.01), excess(0.4));
+    assert!(area(&much) > 1.15 * area(&little), "{}", area(&much));
+    assert_eq!(much.mesh.validate(much.lamina.outline.area()), Ok(()));
+}
