@@ -39,6 +39,7 @@ mod presets;
 mod rates;
 mod senescence;
 mod solid;
+mod specimen;
 #[cfg(test)]
 mod tests;
 mod venation;

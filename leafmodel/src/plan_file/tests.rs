@@ -16,7 +16,9 @@ use crate::shape::growth_form::{
     Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow,
 };
 use crate::shape::svg_path::SvgContour;
+use crate::shape::specimen::{ApexShape, Asymmetry, BaseShape, Specimen};
 use crate::shape::teeth::ToothWave;
+use crate::shape::tips::{Point, Tip};
 use crate::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
 use crate::venation::arcuate::{ArcuatePlan, PalmateVeins};
 use crate::venation::plan::{
@@ -25,7 +27,7 @@ use crate::venation::plan::{
 use proptest::prelude::*;
 
 use self::bodies::{petiole_or_compound, tissue_and_form};
-use self::outlines::{contour, teeth};
+use self::outlines::{contour, specimen, teeth};
 use self::palettes::pigments;
 use self::patterns::{layers_by_chance, mosaic_by_chance, senescence};
 use self::veins::venation;
@@ -83,11 +85,11 @@ proptest! {
 
     #[test]
     fn a_written_plan_reads_back_to_the_same(
-        contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
+        contour in contour(), teeth in teeth(), specimen in specimen(), venation in venation(), (tissue, form) in tissue_and_form(),
         seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(),
     ) {
-        let outline = OutlinePlan { contour, teeth };
+        let outline = OutlinePlan { contour, teeth, specimen };
         let (petiole, compound) = stalks;
         let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, petiole, compound, pigments, map_size };
         // Only cells that earn anything die when they do not.

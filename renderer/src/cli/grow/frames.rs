@@ -38,10 +38,10 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
         VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
             "arcuate veins are there all at once",
         ))),
-        VenationPlan::Cells(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+        VenationPlan::Cells(_) if !plan.outline.is_contour() => Err(no_stages(
             &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
         )),
-        VenationPlan::Development(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+        VenationPlan::Development(_) if !plan.outline.is_contour() => Err(no_stages(
             &LeafError::NoStages("teeth belong to the full-grown margin of a leaf that develops"),
         )),
         VenationPlan::Auxin(_)
@@ -163,6 +163,7 @@ mod tests {
             lean: 0.0,
             fade_base: 0.2,
             fade_apex: 0.2,
+            ..ToothWave::default()
         }];
         let mut refused = 0;
         for plan in [preset("poplar"), preset("xia-1"), splines, toothed] {
