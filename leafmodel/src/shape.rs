@@ -12,7 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod chance;
+pub(crate) mod chance;
 pub mod contour_curve;
 pub(crate) mod crossing;
 pub(crate) mod cubic;

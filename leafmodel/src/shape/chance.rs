@@ -1,9 +1,9 @@
-//! Random numbers that make a specimen's margin unlike its plan, as a function of seed, use and
+//! Random numbers that make a specimen unlike its plan, as a function of seed, use and
 //! counter.
 
 /// What a random number is used for. The discriminants separate the uses and must never change.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Use {
+pub(crate) enum Use {
     /// Lengths of teeth along the margin.
     ToothSpacing = 1,
     /// Heights of teeth.
@@ -14,24 +14,28 @@ pub(super) enum Use {
     Bow = 4,
     /// Direction, length and phase of the waves by which places of the margin wander.
     Wander = 5,
+    /// The seed of a leaf of a plant.
+    Individual = 6,
+    /// How a leaf of a plant differs from the others.
+    IndividualTrait = 7,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³: two rounds of the output function of
 /// `SplitMix64` (\[steele2014\]), the second keyed by the first.
-pub(super) fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
+pub(crate) fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
     let key = scramble(seed ^ (purpose as u64 + 0x5eed).wrapping_mul(0xd1b5_4a32_d192_ed03));
     let bits = scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// A random number of mean 0 and standard deviation 1, within ±√3: uniform.
-pub(super) fn even(seed: u64, purpose: Use, counter: u64) -> f64 {
+pub(crate) fn even(seed: u64, purpose: Use, counter: u64) -> f64 {
     3.0_f64.sqrt() * (2.0 * uniform(seed, purpose, counter) - 1.0)
 }
 
 /// A random number of mean 0 and standard deviation 1, within ±√12: nearly normal, the sum of four
 /// uniform ones.
-pub(super) fn bell(seed: u64, purpose: Use, counter: u64) -> f64 {
+pub(crate) fn bell(seed: u64, purpose: Use, counter: u64) -> f64 {
     let sum: f64 = (0..4)
         .map(|i| uniform(seed, purpose, 4 * counter + i))
         .sum();
