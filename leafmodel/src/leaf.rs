@@ -16,6 +16,7 @@
 
 #[cfg(test)]
 mod combinations;
+pub mod damage;
 mod fields;
 mod holders;
 mod lamina;
@@ -26,6 +27,7 @@ pub mod venation_plan;
 
 use thiserror::Error;
 
+use self::damage::{Damage, DamageError};
 pub use self::fields::Fields;
 pub use self::lamina::Lamina;
 use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
@@ -68,6 +70,8 @@ pub struct LeafPlan {
     pub mosaic: Option<MosaicPattern>,
     /// How far it has aged; a leaf in summer has not.
     pub senescence: Option<Senescence>,
+    /// What has eaten of it once it had grown.
+    pub damage: Option<Damage>,
     /// How the blade lies in space.
     pub form: BladeForm,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
@@ -128,6 +132,9 @@ pub enum LeafError {
         "senescence: revenue_share needs the cells of a transport leaf: outline.transport or venation.transport"
     )]
     NoRevenue,
+    /// Damage.
+    #[error("damage: {0}")]
+    Damage(#[from] DamageError),
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
@@ -204,12 +211,12 @@ impl Leaf {
         let Lamina {
             outline, network, ..
         } = &lamina;
-        let mesh = BladeMesh::build(outline, network, &plan.form)?;
+        let frame = UvFrame::around(lamina.intact().points());
+        let mesh = BladeMesh::build_holed(outline, lamina.holes(), &frame, network, &plan.form)?;
         let petiole = plan
             .petiole
             .map(|petiole| petiole.build(outline, network, &plan.form))
             .transpose()?;
-        let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
         Ok(Self {
             lamina,
@@ -296,6 +303,7 @@ mod tests {
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
+            damage: None,
             form: BladeForm {
                 fold: 0.3,
                 curl: 0.5,

@@ -27,6 +27,7 @@
 mod compound;
 mod contents;
 mod control;
+mod damage;
 mod development;
 mod growth_form;
 mod layers;

@@ -141,6 +141,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
         },
         petiole: None,
         compound: None,
+        damage: None,
         pigments: Pigments::default(),
         map_size: 1600,
     }

@@ -109,8 +109,25 @@ impl BladeMesh {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
+        let frame = UvFrame::around(outline.points());
+        Self::build_holed(outline, &[], &frame, network, form)
+    }
+
+    /// As [`BladeMesh::build`], with holes: simple counter-clockwise polygons inside the margin, mm,
+    /// that neither touch it nor each other. Texture coordinates are those of a frame.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub fn build_holed(
+        outline: &Outline,
+        holes: &[Vec<DVec2>],
+        frame: &UvFrame,
+        network: &VenationNetwork,
+        form: &BladeForm,
+    ) -> Result<Self, BladeError> {
         let veins: Vec<VeinSegment> = network.segments().collect();
-        Self::from_veins(outline, &veins, network.map(), form)
+        Self::holed(outline, holes, frame, &veins, network.map(), form)
     }
 
     /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
@@ -125,6 +142,18 @@ impl BladeMesh {
         map: ConformalMap,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
+        let frame = UvFrame::around(outline.points());
+        Self::holed(outline, &[], &frame, veins, map, form)
+    }
+
+    fn holed(
+        outline: &Outline,
+        holes: &[Vec<DVec2>],
+        frame: &UvFrame,
+        veins: &[VeinSegment],
+        map: ConformalMap,
+        form: &BladeForm,
+    ) -> Result<Self, BladeError> {
         form.validate()?;
         let major: Vec<VeinSegment> = veins
             .iter()
@@ -132,11 +161,16 @@ impl BladeMesh {
             .copied()
             .collect();
         let size = SizeField::new(form, &major);
-        let skeleton = Skeleton::new(outline, &size, &major);
-        let flat = triangulate(outline, &size, &skeleton, MOST_TRIANGLES)?;
+        let skeleton = if holes.is_empty() {
+            Skeleton::new(outline, &size, &major)
+        } else {
+            let clear = clear_of(holes, &major, &size);
+            Skeleton::new(outline, &size, &clear)
+        };
+        let flat = triangulate(outline, holes, &size, &skeleton, MOST_TRIANGLES)?;
         let relief = Relief::new(form, &major);
         let bending = Bending::new(form, outline, map);
-        Self::raised(flat, &UvFrame::around(outline.points()), |p| {
+        Self::raised(flat, frame, |p| {
             let height = relief.height(p);
             (bending.place(p, -height), form.thickness_mm + height)
         })
@@ -189,8 +223,18 @@ impl BladeMesh {
     ///
     /// The first [`MeshDefect`] found.
     pub fn validate(&self, outline_area: f64) -> Result<(), MeshDefect> {
+        self.validate_holed(outline_area, 0)
+    }
+
+    /// As [`BladeMesh::validate`], for a blade with so many holes, each with a border of its own;
+    /// the area is that without them.
+    ///
+    /// # Errors
+    ///
+    /// The first [`MeshDefect`] found.
+    pub fn validate_holed(&self, outline_area: f64, holes: usize) -> Result<(), MeshDefect> {
         self.check_vertices()?;
-        self.check_edges()?;
+        self.check_edges(1 + holes)?;
         for (triangle, corners) in self.triangles.iter().enumerate() {
             // The area is neither NaN nor negative.
             let has_area = self.flat_area(corners) > 0.0;
@@ -246,7 +290,7 @@ impl BladeMesh {
         Ok(())
     }
 
-    fn check_edges(&self) -> Result<(), MeshDefect> {
+    fn check_edges(&self, borders: usize) -> Result<(), MeshDefect> {
         let mut edges: Vec<[u32; 2]> = self
             .triangles
             .iter()
@@ -282,12 +326,31 @@ impl BladeMesh {
                     .map_err(|_| MeshDefect::Border { loops: 0 })?;
             }
         }
-        if loops == 1 {
+        if loops == borders {
             Ok(())
         } else {
             Err(MeshDefect::Border { loops })
         }
     }
+}
+
+/// Veins that keep clear of holes, so that the mesh has no slivers there.
+fn clear_of(holes: &[Vec<DVec2>], veins: &[VeinSegment], size: &SizeField) -> Vec<VeinSegment> {
+    let is_clear = |p: DVec2| {
+        let near = 0.8 * size.at(p);
+        holes.iter().all(|hole| {
+            let sides = hole.iter().zip(hole.iter().cycle().skip(1));
+            sides.into_iter().all(|(&a, &b)| {
+                let way = b - a;
+                let along = ((p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+                (a + way * along).distance(p) > near
+            })
+        })
+    };
+    let veins = veins.iter().copied();
+    veins
+        .filter(|vein| is_clear(vein.from) && is_clear(vein.to))
+        .collect()
 }
 
 fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {

@@ -1,5 +1,6 @@
 //! The flat leaf: margin and veins, and the cells of a transport leaf.
 
+use super::damage::Wounds;
 use super::outline_plan::Origin;
 use super::{LeafError, LeafPlan};
 use crate::development::{DevelopedLeaf, MainVeinStyle};
@@ -23,6 +24,8 @@ pub struct Lamina {
     pub developed: Option<DevelopedLeaf>,
     /// The cells that its veins supply, if they are the cheapest network that fills the margin.
     pub filled: Option<FilledBlade>,
+    /// What damage has left of it, if there is any.
+    pub wounds: Option<Wounds>,
 }
 
 impl LeafPlan {
@@ -74,6 +77,9 @@ impl LeafPlan {
     /// As [`LeafPlan::grow_lamina`], and
     /// [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
+        if let Some(damage) = &self.damage {
+            damage.validate()?;
+        }
         let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         let mut filled = None;
         let network = match &self.venation {
@@ -105,12 +111,17 @@ impl LeafPlan {
                 leaf.network(self.length_mm, *style)?
             }
         };
-        Ok(Lamina {
+        let mut lamina = Lamina {
             outline,
             network,
             developed: origin.developed().cloned(),
             cells: origin.cells(),
             filled,
-        })
+            wounds: None,
+        };
+        if let Some(damage) = &self.damage {
+            damage.done_to(&mut lamina, self.seed);
+        }
+        Ok(lamina)
     }
 }

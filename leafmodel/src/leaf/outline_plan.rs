@@ -88,7 +88,9 @@ pub enum OutlinePlanError {
     #[error(transparent)]
     Specimen(#[from] SpecimenError),
     /// Veins or cells have come with the contour and would not follow it.
-    #[error("the margin of a leaf that {grows} comes with what is inside it and cannot be bent: {key} is for other contours")]
+    #[error(
+        "the margin of a leaf that {grows} comes with what is inside it and cannot be bent: {key} is for other contours"
+    )]
     GrownInside {
         /// `develops` or `grows as a transport network`.
         grows: &'static str,

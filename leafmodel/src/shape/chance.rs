@@ -18,6 +18,10 @@ pub(crate) enum Use {
     Individual = 6,
     /// How a leaf of a plant differs from the others.
     IndividualTrait = 7,
+    /// Places of damage.
+    Damage = 8,
+    /// Sizes of damage.
+    DamageSize = 9,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³: two rounds of the output function of

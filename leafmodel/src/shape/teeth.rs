@@ -108,7 +108,9 @@ pub fn toothed(
         if p == outline.apex() {
             apex_tip
         } else {
-            tips.lobes.filter(|_| corners.contains(&p))
+            // A wedge at the petiole is no lobe.
+            tips.lobes
+                .filter(|_| p != outline.base() && corners.contains(&p))
         }
     };
     let Some(shortest) = waves.iter().map(|wave| wave.per_side).max() else {
@@ -151,7 +153,9 @@ pub fn toothed(
     }
     let points: Vec<DVec2> = margin.iter().map(|(p, _)| *p).collect();
     let found = margin.iter().enumerate();
-    let found: Vec<(usize, Tip)> = found.filter_map(|(i, (_, tip))| Some((i, (*tip)?))).collect();
+    let found: Vec<(usize, Tip)> = found
+        .filter_map(|(i, (_, tip))| Some((i, (*tip)?)))
+        .collect();
     let points = if found.is_empty() {
         points
     } else {
@@ -250,7 +254,9 @@ impl Side {
             }
         }
         let tip_at = |share: f64| {
-            let mut found = summits.iter().filter(|(summit, _)| (summit - share).abs() < 1e-9);
+            let mut found = summits
+                .iter()
+                .filter(|(summit, _)| (summit - share).abs() < 1e-9);
             found.next().map(|(_, tip)| *tip)
         };
         let mut margin = Vec::with_capacity(stops.len());
@@ -264,15 +270,9 @@ impl Side {
             let place = self.at(share);
             let tip = tip_at(share).or_else(|| end_tip(place));
             let stands_before = heights[0] >= heights[1];
-            margin.push((
-                place + outward * heights[0],
-                tip.filter(|_| stands_before),
-            ));
+            margin.push((place + outward * heights[0], tip.filter(|_| stands_before)));
             if heights[1] != heights[0] {
-                margin.push((
-                    place + outward * heights[1],
-                    tip.filter(|_| !stands_before),
-                ));
+                margin.push((place + outward * heights[1], tip.filter(|_| !stands_before)));
             }
         }
         margin

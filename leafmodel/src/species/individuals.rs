@@ -82,7 +82,15 @@ impl LeafPlan {
         if !is_grown_inside {
             let breadth = leaf.outline.specimen.breadth * factor(BREADTH_CV, Trait::Breadth);
             let breadth = self.allowed_breadth(breadth, ratio, traits);
-            leaf.outline.specimen.breadth = breadth.clamp(0.2, 5.0);
+            let breadth = breadth.clamp(0.2, 5.0);
+            let wider = breadth / leaf.outline.specimen.breadth;
+            leaf.outline.specimen.breadth = breadth;
+            // Veins that start side by side stay on the blade.
+            if let VenationPlan::Auxin(veins) = &mut leaf.venation {
+                for origin in &mut veins.origins {
+                    origin[0] *= wider;
+                }
+            }
         }
         if let Contour::Curve(curve) = &mut leaf.outline.contour {
             deepen(curve, factor(LOBE_CV, Trait::Lobes));
@@ -117,7 +125,10 @@ impl LeafPlan {
             }
         };
         vary(&mut leaf.tissue.lamina);
-        let cells = leaf.mosaic.iter_mut().flat_map(|mosaic| &mut mosaic.contents);
+        let cells = leaf
+            .mosaic
+            .iter_mut()
+            .flat_map(|mosaic| &mut mosaic.contents);
         cells.for_each(vary);
         if let Some(senescence) = &mut leaf.senescence
             && let AgeSource::Day { day, .. } = &mut senescence.source
@@ -231,8 +242,7 @@ mod tests {
         for name in ["birch", "maple", "red-oak", "willow", "birch-autumn"] {
             let plan = find(name).expect("a preset").plan();
             let traits = traits_of(name).expect("a species");
-            let leaves: Vec<LeafPlan> =
-                (1..=12).map(|i| plan.individual(Some(name), i)).collect();
+            let leaves: Vec<LeafPlan> = (1..=12).map(|i| plan.individual(Some(name), i)).collect();
             let [least, most] = traits.length_mm.range;
             let lengths: Vec<f64> = leaves.iter().map(|leaf| leaf.length_mm).collect();
             let mean = lengths.iter().sum::<f64>() / 12.0;
@@ -247,7 +257,10 @@ mod tests {
                 let (low, high) = outline.bounds();
                 let [narrow, wide] = traits.width_mm.range;
                 let width = high.x - low.x;
-                assert!((narrow..=wide).contains(&width), "{name} {i}: {width} mm wide");
+                assert!(
+                    (narrow..=wide).contains(&width),
+                    "{name} {i}: {width} mm wide"
+                );
             }
         }
     }

@@ -61,9 +61,9 @@ pub(super) fn entire(outline: OutlinePlan) -> OutlinePlan {
     with(outline, USUAL, Specimen::default())
 }
 
-/// Rounded lobes.
+/// Lobes without points.
 pub(super) fn lobed(outline: OutlinePlan) -> OutlinePlan {
-    with(outline, LOBED, Specimen::default())
+    with(outline, USUAL, Specimen::default())
 }
 
 /// A maple: lobes and their teeth are drawn out into fine points.
@@ -82,23 +82,23 @@ pub(super) fn maple(outline: OutlinePlan) -> OutlinePlan {
 /// Red oak: lobes and their teeth end in bristles.
 pub(super) fn red_oak(outline: OutlinePlan) -> OutlinePlan {
     let bristle = Point {
-        length: 0.022,
-        width: 0.006,
+        length: 0.009,
+        width: 0.004,
     };
     let bristled = Specimen {
         lobe_tip: Some(Tip::Awn(bristle)),
         ..Specimen::default()
     };
-    with(outline, LOBED, bristled)
+    with(outline, USUAL, bristled)
 }
 
 /// Silver birch: double teeth, the lesser on the greater, and a drawn-out apex.
 pub(super) fn birch(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |i, wave| ToothWave {
         nested: i > 0,
-        ..uneven(wave, 0.13, if i > 0 { 0.25 } else { 0.15 })
+        ..uneven(wave, 0.1, if i > 0 { 0.25 } else { 0.15 })
     });
-    with(outline, USUAL, drip_tip(0.13, 0.35))
+    with(outline, USUAL, drip_tip(0.17, 0.55))
 }
 
 /// Eastern cottonwood: coarse, rounded teeth that lean towards the apex, each with a gland.

@@ -103,7 +103,7 @@ pub(super) fn white_oak() -> LeafPlan {
 pub(super) fn red_oak() -> LeafPlan {
     leaf(
         &leaf_traits::RED_OAK,
-        1,
+        4,
         specimens::red_oak(contours::red_oak()),
         dense(&leaf_traits::RED_OAK, architectures::red_oak(), 3.2),
     )
@@ -136,7 +136,12 @@ pub(super) fn magnolia() -> LeafPlan {
         }),
         ..dense(&leaf_traits::MAGNOLIA, architectures::magnolia(), 3.0)
     };
-    leaf(&leaf_traits::MAGNOLIA, 2, specimens::entire(contours::magnolia()), venation)
+    leaf(
+        &leaf_traits::MAGNOLIA,
+        2,
+        specimens::entire(contours::magnolia()),
+        venation,
+    )
 }
 
 /// A green croton; its patterns are added by the coloured presets.

@@ -131,7 +131,7 @@ fn carry_out(
                 0 => name.to_owned(),
                 _ => format!("{name}-{}", number + 1),
             };
-            let (map, outline) = (&blade.contents, &blade.lamina.outline);
+            let (map, outline) = (&blade.contents, blade.lamina.intact());
             maps::write(folder, &name, map, outline, maps::day(plan), stop)?;
         }
     }

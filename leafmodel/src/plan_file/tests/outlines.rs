@@ -221,9 +221,8 @@ pub(super) fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
 
 pub(super) fn specimen() -> impl Strategy<Value = Specimen> {
     let tip = || {
-        let point = || {
-            (0.001..0.01, 0.001..0.01).prop_map(|(length, width)| Point { length, width })
-        };
+        let point =
+            || (0.001..0.01, 0.001..0.01).prop_map(|(length, width)| Point { length, width });
         prop_oneof![
             (0.001..0.01).prop_map(|diameter| Tip::Gland { diameter }),
             point().prop_map(Tip::Mucro),
@@ -263,13 +262,29 @@ pub(super) fn specimen() -> impl Strategy<Value = Specimen> {
         (usual(), usual(), usual()),
         prop::option::of(tip()),
     )
-        .prop_map(|(breadth, base, oblique, apex, (width, bow, wander), lobe_tip)| Specimen {
-            breadth,
-            base,
-            oblique,
-            apex,
-            asymmetry: Asymmetry { width, bow, wander },
-            lobe_tip,
-        });
+        .prop_map(
+            |(breadth, base, oblique, apex, (width, bow, wander), lobe_tip)| Specimen {
+                breadth,
+                base,
+                oblique,
+                apex,
+                asymmetry: Asymmetry { width, bow, wander },
+                lobe_tip,
+            },
+        );
     prop_oneof![Just(Specimen::default()), any]
+}
+
+pub(super) fn damage() -> impl Strategy<Value = Option<Damage>> {
+    let damage = (0_u32..200, 0.1..100.0, 0_u32..50, 0.2..20.0, 0.0..10.0).prop_map(
+        |(holes, hole_mm, mines, mine_mm, rim_mm)| Damage {
+            holes,
+            hole_mm,
+            mines,
+            mine_mm,
+            rim_mm,
+            ..Damage::default()
+        },
+    );
+    prop::option::of(damage)
 }

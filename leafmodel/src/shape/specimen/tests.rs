@@ -10,11 +10,19 @@ fn blunt() -> Outline {
         let t = f64::from(i) / 60.0;
         let y = t * t * (3.0 - 2.0 * t);
         // Round at both ends.
-        DVec2::new(15.0 * (1.0 - (2.0 * y - 1.0).powi(4)).max(0.0).sqrt(), 50.0 * y)
+        DVec2::new(
+            15.0 * (1.0 - (2.0 * y - 1.0).powi(4)).max(0.0).sqrt(),
+            50.0 * y,
+        )
     };
     let right = (0..=60).map(half);
     let left = (1..60).rev().map(half).map(|p| DVec2::new(-p.x, p.y));
-    Outline::new(right.chain(left).collect(), DVec2::ZERO, DVec2::new(0.0, 50.0)).expect("a blade")
+    Outline::new(
+        right.chain(left).collect(),
+        DVec2::ZERO,
+        DVec2::new(0.0, 50.0),
+    )
+    .expect("a blade")
 }
 
 fn with(specimen: Specimen, seed: u64) -> Outline {
@@ -100,7 +108,10 @@ fn a_bowed_blade_lies_beside_its_chord_in_the_middle_and_wandering_moves_the_mar
     let plain = blunt();
     for seed in 0..20 {
         let outline = with(wander, seed);
-        let moved = outline.points().iter().map(|&p| plain.distance_to_margin(p));
+        let moved = outline
+            .points()
+            .iter()
+            .map(|&p| plain.distance_to_margin(p));
         let farthest = moved.fold(0.0, f64::max);
         assert!((0.1..2.5).contains(&farthest), "{farthest} mm");
     }
@@ -198,8 +209,14 @@ fn what_does_not_fit_is_refused() {
         }),
         ..Specimen::default()
     };
-    let message = notch.applied(kite(), 0).expect_err("too pointed").to_string();
-    assert!(message.contains("an emarginate apex of depth 0.2 does not fit"), "{message}");
+    let message = notch
+        .applied(kite(), 0)
+        .expect_err("too pointed")
+        .to_string();
+    assert!(
+        message.contains("an emarginate apex of depth 0.2 does not fit"),
+        "{message}"
+    );
     let sinus = |depth| Specimen {
         base: Some(BaseShape::Cordate { depth, width: 0.25 }),
         ..Specimen::default()

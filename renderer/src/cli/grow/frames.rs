@@ -34,6 +34,11 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
             "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
         ));
     }
+    if plan.damage.is_some() {
+        return Err(no_stages(&LeafError::NoStages(
+            "damage comes to a full-grown leaf; take the block `damage` out of the plan",
+        )));
+    }
     match &plan.venation {
         VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
             "arcuate veins are there all at once",
@@ -75,6 +80,7 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
         developed: None,
         cells: None,
         filled: None,
+        wounds: None,
     };
     let network = FlatLeaf::with_petiole(&young, &lamina).map(|flat| flat.network);
     LeafStage {

@@ -173,7 +173,12 @@ impl Sheet {
                 let whole = [size[0] * self.columns, size[1] * self.rows()];
                 (whole, vec![255; 3 * whole[0] * whole[1]])
             });
-            for (line, pixels) in drawn.rgb.chunks_exact(3 * size[0]).enumerate().take(size[1]) {
+            for (line, pixels) in drawn
+                .rgb
+                .chunks_exact(3 * size[0])
+                .enumerate()
+                .take(size[1])
+            {
                 let y = row * size[1] + line;
                 let start = 3 * (y * whole[0] + column * size[0]);
                 if let Some(place) = rgb.get_mut(start..start + pixels.len()) {
