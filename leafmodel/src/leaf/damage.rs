@@ -18,7 +18,6 @@ use thiserror::Error;
 
 use self::places::Places;
 pub(crate) use self::stains::Stain;
-use super::lamina::Lamina;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -120,10 +119,14 @@ impl Damage {
         Ok(())
     }
 
-    /// The lamina after the damage.
-    pub(super) fn done_to(&self, lamina: &mut Lamina, seed: u64) {
-        let intact = lamina.outline.clone();
-        let mut places = Places::new(&lamina.outline, &lamina.network, seed);
+    /// The margin after the damage, with veins cut off, and what has been done.
+    pub(super) fn done_to(
+        &self,
+        intact: &Outline,
+        network: &mut VenationNetwork,
+        seed: u64,
+    ) -> (Outline, Wounds) {
+        let mut places = Places::new(intact, network, seed);
         let (bitten, bites) = places.bites(self.bites, self.bite_mm);
         let holes = places.holes(self.holes, self.hole_mm);
         let mut stains = places.mines(self.mines, self.mine_mm, self.mine_length_mm);
@@ -136,19 +139,18 @@ impl Damage {
             }));
             stains.extend(edges.map(|edge| Stain::rim(edge, self.rim_mm)));
         }
-        lamina.outline = bitten;
-        let margin = &lamina.outline;
         // Veins begin and may end on the margin itself, after rounding on either side of it.
-        let is_left = |p: DVec2| margin.contains(p) || margin.distance_to_margin(p) < 1e-6;
-        lamina.network.cut(|from, to| {
+        let is_left = |p: DVec2| bitten.contains(p) || bitten.distance_to_margin(p) < 1e-6;
+        network.cut(|from, to| {
             [from, to, (from + to) * 0.5].into_iter().all(is_left)
                 && !holes.iter().any(|hole| touches(hole, from, to))
         });
-        lamina.wounds = Some(Wounds {
-            intact,
+        let wounds = Wounds {
+            intact: intact.clone(),
             holes,
             stains,
-        });
+        };
+        (bitten, wounds)
     }
 }
 
@@ -205,25 +207,14 @@ fn sides(polygon: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
     polygon.iter().zip(next).map(|(a, b)| (*a, *b))
 }
 
-impl Lamina {
-    /// The margin before any damage: what texture coordinates and patterns are measured from.
-    pub fn intact(&self) -> &Outline {
-        let wounds = self.wounds.as_ref();
-        wounds.map_or(&self.outline, |wounds| &wounds.intact)
-    }
-
-    /// The margins of its holes, mm.
-    pub fn holes(&self) -> &[Vec<DVec2>] {
-        self.wounds.as_ref().map_or(&[], |wounds| &wounds.holes)
-    }
-
-    /// Area of the blade without its holes, mm².
-    pub fn area(&self) -> f64 {
-        let holes = self.holes().iter().map(|hole| {
+impl Wounds {
+    /// Area of the holes, mm².
+    pub fn holes_area(&self) -> f64 {
+        let holes = self.holes.iter().map(|hole| {
             let twice = sides(hole).map(|(a, b)| (a - hole[0]).perp_dot(b - hole[0]));
             0.5 * twice.sum::<f64>()
         });
-        self.outline.area() - holes.sum::<f64>()
+        holes.sum()
     }
 }
 

@@ -1,5 +1,7 @@
 //! The flat leaf: margin and veins, and the cells of a transport leaf.
 
+use glam::DVec2;
+
 use super::damage::Wounds;
 use super::outline_plan::Origin;
 use super::{LeafError, LeafPlan};
@@ -120,8 +122,29 @@ impl LeafPlan {
             wounds: None,
         };
         if let Some(damage) = &self.damage {
-            damage.done_to(&mut lamina, self.seed);
+            let (bitten, wounds) = damage.done_to(&lamina.outline, &mut lamina.network, self.seed);
+            lamina.outline = bitten;
+            lamina.wounds = Some(wounds);
         }
         Ok(lamina)
+    }
+}
+
+impl Lamina {
+    /// The margin before any damage: what texture coordinates and patterns are measured from.
+    pub fn intact(&self) -> &Outline {
+        let wounds = self.wounds.as_ref();
+        wounds.map_or(&self.outline, |wounds| &wounds.intact)
+    }
+
+    /// The margins of its holes, mm.
+    pub fn holes(&self) -> &[Vec<DVec2>] {
+        self.wounds.as_ref().map_or(&[], |wounds| &wounds.holes)
+    }
+
+    /// Area of the blade without its holes, mm².
+    pub fn area(&self) -> f64 {
+        let wounds = self.wounds.as_ref();
+        self.outline.area() - wounds.map_or(0.0, Wounds::holes_area)
     }
 }
