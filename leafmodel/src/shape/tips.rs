@@ -158,8 +158,7 @@ pub(super) fn with_tips(polygon: &[DVec2], tips: &[(usize, Tip)], length: f64) -
         cuts.push(([here - reach, here + reach], instead));
     }
     let mut points = Vec::with_capacity(n + 4 * cuts.len());
-    for i in 0..n {
-        let here = along[i];
+    for (i, &here) in along[..n].iter().enumerate() {
         for ([from, to], instead) in &cuts {
             let middle = 0.5 * (from + to);
             if (middle - here).abs() < 1e-12 * round {

@@ -164,7 +164,7 @@ impl<'a> Places<'a> {
                 heading += turning;
                 let from = path[path.len() - 1].0;
                 // Away from what is in the way, by the least turn.
-                let ahead = (0..16).find_map(|k| {
+                let ahead = (0..8).find_map(|k| {
                     let side = if k % 2 == 0 { 1.0 } else { -1.0 };
                     let angle = heading + side * f64::from((k + 1) / 2) * PI / 9.0;
                     let (sin, cos) = libm::sincos(angle);
@@ -195,13 +195,13 @@ impl<'a> Places<'a> {
                 (self.room(p) > 0.7 * radius).then_some(p)
             });
             let Some(middle) = found else { continue };
-            let mut path = vec![(middle, 0.6 * radius)];
+            let mut path = vec![(middle, 0.75 * radius)];
             for i in 0..7 {
                 let (sin, cos) = libm::sincos(TAU * (f64::from(i) + self.number()) / 7.0);
                 let away = radius * (0.35 + 0.3 * self.number());
                 let p = middle + DVec2::new(cos, sin) * away;
-                path.push((p, 0.3 * radius));
-                path.push((middle, 0.6 * radius));
+                path.push((p, 0.5 * radius));
+                path.push((middle, 0.75 * radius));
             }
             blotches.push(Stain::mine(path));
         }

@@ -42,14 +42,13 @@ impl Stain {
         for (constituent, value) in dead.iter_mut() {
             *value *= match (constituent, self.is_mine) {
                 (Constituent::Chlorophyll, _) => 0.04,
-                (Constituent::Carotenoids, _) => 0.2,
-                (Constituent::Anthocyanins, _) => 0.3,
-                (Constituent::Water, _) => 0.3,
+                (Constituent::Carotenoids, _) => 0.06,
+                (Constituent::Anthocyanins | Constituent::Water, _) => 0.3,
                 (Constituent::DryMatter, true) => 0.5,
                 _ => 1.0,
             };
         }
-        let brown = if self.is_mine { 0.12 } else { 1.2 };
+        let brown = if self.is_mine { 0.3 } else { 1.2 };
         dead[Constituent::Brown] = dead[Constituent::Brown].max(brown);
         dead
     }
