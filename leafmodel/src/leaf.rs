@@ -16,6 +16,7 @@
 
 #[cfg(test)]
 mod combinations;
+pub mod damage;
 mod fields;
 mod holders;
 mod lamina;
@@ -27,6 +28,7 @@ pub mod venation_plan;
 
 use thiserror::Error;
 
+use self::damage::{Damage, DamageError};
 pub use self::fields::Fields;
 pub use self::lamina::Lamina;
 use self::outline_plan::{Contour, OutlinePlan, OutlinePlanError};
@@ -70,6 +72,8 @@ pub struct LeafPlan {
     pub mosaic: Option<MosaicPattern>,
     /// How far it has aged; a leaf in summer has not.
     pub senescence: Option<Senescence>,
+    /// What has eaten of it once it had grown.
+    pub damage: Option<Damage>,
     /// How the blade lies in space.
     pub form: BladeForm,
     /// What has happened to the blade since.
@@ -132,6 +136,9 @@ pub enum LeafError {
         "senescence: revenue_share needs the cells of a transport leaf: outline.transport or venation.transport"
     )]
     NoRevenue,
+    /// Damage.
+    #[error("damage: {0}")]
+    Damage(#[from] DamageError),
     /// The blade.
     #[error("blade: {0}")]
     Blade(#[from] BladeError),
@@ -211,7 +218,10 @@ impl Leaf {
         } = &lamina;
         let settled = plan.settled(&lamina);
         let settled = settled.as_ref();
-        let mut mesh = BladeMesh::settled(outline, network, &plan.form, settled)?;
+        let frame = UvFrame::around(lamina.intact().points());
+        let holes = lamina.holes();
+        let mut mesh =
+            BladeMesh::build_holed(outline, holes, &frame, network, &plan.form, settled)?;
         let mut petiole = plan
             .petiole
             .map(|petiole| petiole.settled(outline, network, &plan.form, settled))
@@ -219,7 +229,6 @@ impl Leaf {
         if plan.stance.on_ground {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
         }
-        let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
         Ok(Self {
             lamina,
@@ -307,6 +316,7 @@ mod tests {
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
+            damage: None,
             form: BladeForm {
                 fold: 0.3,
                 curl: 0.5,

@@ -27,6 +27,7 @@
 mod compound;
 mod contents;
 mod control;
+mod damage;
 mod development;
 mod growth_form;
 mod layers;
@@ -39,6 +40,7 @@ mod presets;
 mod rates;
 mod senescence;
 mod solid;
+mod specimen;
 mod stance;
 #[cfg(test)]
 mod tests;
@@ -258,6 +260,36 @@ pub fn leaf_beside_preset(name: &str, plan: &LeafPlan, preset: &str) -> String {
     block.value("preset", true, Value::Text(preset.to_owned()));
     block.extend(beside);
     file_of("leaves", name, block)
+}
+
+/// A file with leaves of one plant. Those of a preset are named by their numbers; other plans are
+/// written out.
+pub fn individuals_to_toml(
+    name: &str,
+    plan: &LeafPlan,
+    preset: Option<&str>,
+    numbers: std::ops::RangeInclusive<u64>,
+) -> String {
+    let is_preset = preset
+        .and_then(species::find)
+        .is_some_and(|found| found.plan() == *plan);
+    let mut leaves = Written::default();
+    for number in numbers {
+        let block = match preset.filter(|_| is_preset) {
+            Some(preset) => {
+                let mut block = Written::default();
+                block.value("preset", true, Value::Text(preset.to_owned()));
+                block.value("individual", true, Value::Integer(number.into()));
+                block
+            }
+            None => written(&plan.individual(preset, number), Extent::Changed),
+        };
+        leaves.block(&format!("{name}-{number}"), true, block);
+    }
+    let mut file = Written::default();
+    file.value("format", true, Value::Integer(1));
+    file.block("leaves", true, leaves);
+    to_toml(&file.into_table())
 }
 
 /// A plan as a block.

@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chance;
 pub mod contour_curve;
 pub(crate) mod crossing;
 pub(crate) mod cubic;
@@ -23,5 +24,7 @@ pub(crate) mod outer_boundary;
 pub mod outline;
 pub(crate) mod segments;
 mod slabs;
+pub mod specimen;
 pub mod svg_path;
 pub mod teeth;
+pub mod tips;

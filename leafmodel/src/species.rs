@@ -33,10 +33,12 @@ mod compound_leaves;
 mod contours;
 mod developed;
 mod extended;
+mod individuals;
 pub mod leaf_traits;
 mod list;
 pub mod maple;
 mod runions;
+mod specimens;
 mod stances;
 pub mod table_1;
 mod trees;
@@ -146,6 +148,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
         stance: Stance::default(),
         petiole: None,
         compound: None,
+        damage: None,
         pigments: Pigments::default(),
         map_size: 1600,
     }

@@ -111,7 +111,28 @@ impl BladeMesh {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
-        Self::settled(outline, network, form, None)
+        let frame = UvFrame::around(outline.points());
+        Self::build_holed(outline, &[], &frame, network, form, None)
+    }
+
+    /// As [`BladeMesh::build`], with holes: simple counter-clockwise polygons inside the margin, mm,
+    /// that neither touch it nor each other. Texture coordinates are those of a frame, and the blade
+    /// has come to lie as `settled` says.
+    ///
+    /// # Errors
+    ///
+    /// As [`BladeMesh::build`].
+    pub fn build_holed(
+        outline: &Outline,
+        holes: &[Vec<DVec2>],
+        frame: &UvFrame,
+        network: &VenationNetwork,
+        form: &BladeForm,
+        settled: Option<&Settled>,
+    ) -> Result<Self, BladeError> {
+        let veins: Vec<VeinSegment> = network.segments().collect();
+        let posture = Posture::new(form, outline, network.map(), settled);
+        Self::within((outline, holes, frame), &veins, form, &posture, settled.is_some())
     }
 
     /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected
@@ -126,30 +147,17 @@ impl BladeMesh {
         map: ConformalMap,
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
-        Self::within(outline, veins, map, form, None)
-    }
-
-    /// As [`BladeMesh::build`], of a blade that has come to lie as `settled` says.
-    ///
-    /// # Errors
-    ///
-    /// As [`BladeMesh::build`].
-    pub fn settled(
-        outline: &Outline,
-        network: &VenationNetwork,
-        form: &BladeForm,
-        settled: Option<&Settled>,
-    ) -> Result<Self, BladeError> {
-        let veins: Vec<VeinSegment> = network.segments().collect();
-        Self::within(outline, &veins, network.map(), form, settled)
+        let frame = UvFrame::around(outline.points());
+        let posture = Posture::new(form, outline, map, None);
+        Self::within((outline, &[], &frame), veins, form, &posture, false)
     }
 
     fn within(
-        outline: &Outline,
+        (outline, holes, frame): (&Outline, &[Vec<DVec2>], &UvFrame),
         veins: &[VeinSegment],
-        map: ConformalMap,
         form: &BladeForm,
-        settled: Option<&Settled>,
+        posture: &Posture<'_>,
+        is_settled: bool,
     ) -> Result<Self, BladeError> {
         form.validate()?;
         let major: Vec<VeinSegment> = veins
@@ -158,15 +166,19 @@ impl BladeMesh {
             .copied()
             .collect();
         let size = SizeField::new(form, &major);
-        let skeleton = Skeleton::new(outline, &size, &major);
-        let flat = triangulate(outline, &size, &skeleton, MOST_TRIANGLES)?;
+        let skeleton = if holes.is_empty() {
+            Skeleton::new(outline, &size, &major)
+        } else {
+            let clear = clear_of(holes, &major, &size);
+            Skeleton::new(outline, &size, &clear)
+        };
+        let flat = triangulate(outline, holes, &size, &skeleton, MOST_TRIANGLES)?;
         let relief = Relief::new(form, &major);
-        let posture = Posture::new(form, outline, map, settled);
-        let mut mesh = Self::raised(flat, &UvFrame::around(outline.points()), |p| {
+        let mut mesh = Self::raised(flat, frame, |p| {
             let height = relief.height(p);
             (posture.place(p, -height), form.thickness_mm + height)
         });
-        if settled.is_some() {
+        if is_settled {
             mesh.smooth_turned_over();
         }
         let faces = mesh.turned_over().count();
@@ -219,8 +231,18 @@ impl BladeMesh {
     ///
     /// The first [`MeshDefect`] found.
     pub fn validate(&self, outline_area: f64) -> Result<(), MeshDefect> {
+        self.validate_holed(outline_area, 0)
+    }
+
+    /// As [`BladeMesh::validate`], for a blade with so many holes, each with a border of its own;
+    /// the area is that without them.
+    ///
+    /// # Errors
+    ///
+    /// The first [`MeshDefect`] found.
+    pub fn validate_holed(&self, outline_area: f64, holes: usize) -> Result<(), MeshDefect> {
         self.check_vertices()?;
-        self.check_edges()?;
+        self.check_edges(1 + holes)?;
         for (triangle, corners) in self.triangles.iter().enumerate() {
             // The area is neither NaN nor negative.
             let has_area = self.flat_area(corners) > 0.0;
@@ -276,7 +298,7 @@ impl BladeMesh {
         Ok(())
     }
 
-    fn check_edges(&self) -> Result<(), MeshDefect> {
+    fn check_edges(&self, borders: usize) -> Result<(), MeshDefect> {
         let mut edges: Vec<[u32; 2]> = self
             .triangles
             .iter()
@@ -312,12 +334,31 @@ impl BladeMesh {
                     .map_err(|_| MeshDefect::Border { loops: 0 })?;
             }
         }
-        if loops == 1 {
+        if loops == borders {
             Ok(())
         } else {
             Err(MeshDefect::Border { loops })
         }
     }
+}
+
+/// Veins that keep clear of holes, so that the mesh has no slivers there.
+fn clear_of(holes: &[Vec<DVec2>], veins: &[VeinSegment], size: &SizeField) -> Vec<VeinSegment> {
+    let is_clear = |p: DVec2| {
+        let near = 0.8 * size.at(p);
+        holes.iter().all(|hole| {
+            let sides = hole.iter().zip(hole.iter().cycle().skip(1));
+            sides.into_iter().all(|(&a, &b)| {
+                let way = b - a;
+                let along = ((p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+                (a + way * along).distance(p) > near
+            })
+        })
+    };
+    let veins = veins.iter().copied();
+    veins
+        .filter(|vein| is_clear(vein.from) && is_clear(vein.to))
+        .collect()
 }
 
 fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {

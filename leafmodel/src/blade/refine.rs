@@ -54,6 +54,7 @@ impl<'a> Refinement<'a> {
     /// The triangulation of margin and skeleton alone.
     pub(super) fn new(
         margin: &[DVec2],
+        holes: &[Vec<DVec2>],
         skeleton: &Skeleton,
         outline: &'a Outline,
         size: &'a SizeField,
@@ -70,13 +71,20 @@ impl<'a> Refinement<'a> {
         let points: Vec<DVec2> = frame
             .iter()
             .chain(margin)
+            .chain(holes.iter().flatten())
             .chain(&skeleton.points)
             .copied()
             .collect();
-        let count = margin.len();
-        let margin_edges = (0..count)
-            .map(|i| [FRAME + i, FRAME + (i + 1) % count])
-            .collect();
+        // Vertices of the margin, then those of each hole.
+        let mut count = 0;
+        let mut margin_edges = Vec::new();
+        let lengths = std::iter::once(margin.len()).chain(holes.iter().map(Vec::len));
+        for length in lengths {
+            let first = FRAME + count;
+            margin_edges.extend((0..length).map(|i| [first + i, first + (i + 1) % length]));
+            count += length;
+        }
+        let forced = margin_edges.clone();
         let vertices = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
         let mut cdt = Cdt::bulk_load_cdt(vertices, margin_edges).expect(
             "coordinates are finite, an outline does not cross itself, and no point repeats another",
@@ -91,8 +99,8 @@ impl<'a> Refinement<'a> {
             }
         }
         let mut next = vec![NONE; points.len()];
-        for i in 0..count {
-            next[FRAME + i] = (FRAME + (i + 1) % count) as u32;
+        for [from, to] in forced {
+            next[from] = to as u32;
         }
         let mut refinement = Self {
             sharp: (0..points.len()).map(|v| is_sharp(&cdt, v)).collect(),

@@ -32,6 +32,6 @@ pub(crate) fn even_sheet(
     };
     form.validate()?;
     let size = SizeField::new(&form, &[]);
-    let sheet = triangulate(outline, &size, &Skeleton::default(), MOST_TRIANGLES)?;
+    let sheet = triangulate(outline, &[], &size, &Skeleton::default(), MOST_TRIANGLES)?;
     Ok((sheet.points, sheet.triangles))
 }

@@ -35,6 +35,7 @@ pub(super) struct Triangulation {
 /// [`BladeError::TooFine`] if that would take more than `limit` triangles.
 pub(super) fn triangulate(
     outline: &Outline,
+    holes: &[Vec<DVec2>],
     size: &SizeField,
     skeleton: &Skeleton,
     limit: usize,
@@ -44,9 +45,14 @@ pub(super) fn triangulate(
         return Err(BladeError::TooFine { limit });
     }
     let margin = margin_points(outline, SHORTEST_MARGIN_EDGE * size.longest());
-    let mut refinement = Refinement::new(&margin, skeleton, outline, size);
+    let mut refinement = Refinement::new(&margin, holes, skeleton, outline, size);
     refinement.run(limit)?;
-    Ok(inside(&refinement))
+    let whole = inside(&refinement);
+    Ok(if holes.is_empty() {
+        whole
+    } else {
+        pierced(whole, holes)
+    })
 }
 
 /// The margin without points that nearly coincide with the one before.
@@ -67,6 +73,43 @@ fn margin_points(outline: &Outline, shortest: f64) -> Vec<DVec2> {
     } else {
         outline.points().to_vec()
     }
+}
+
+/// A triangulation without the triangles inside holes, along whose margins it has edges.
+fn pierced(whole: Triangulation, holes: &[Vec<DVec2>]) -> Triangulation {
+    let Triangulation { points, triangles } = whole;
+    let is_left = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|v| points[v as usize]);
+        let middle = (a + b + c) / 3.0;
+        !holes.iter().any(|hole| is_within(hole, middle))
+    };
+    let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(is_left).collect();
+    let mut used = vec![false; points.len()];
+    for &v in triangles.iter().flatten() {
+        used[v as usize] = true;
+    }
+    let mut number = Vec::with_capacity(points.len());
+    let mut kept = Vec::with_capacity(points.len());
+    for (p, used) in points.into_iter().zip(used) {
+        number.push(kept.len() as u32);
+        if used {
+            kept.push(p);
+        }
+    }
+    let renumbered = |corners: [u32; 3]| corners.map(|v| number[v as usize]);
+    Triangulation {
+        triangles: triangles.into_iter().map(renumbered).collect(),
+        points: kept,
+    }
+}
+
+/// Whether a place lies within a polygon.
+fn is_within(polygon: &[DVec2], p: DVec2) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let crossings = sides.filter(|(a, b)| {
+        (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
+    });
+    crossings.count() % 2 == 1
 }
 
 /// The faces inside the margin, found by walking from the outside without crossing it.

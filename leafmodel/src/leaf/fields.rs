@@ -29,7 +29,7 @@ impl LeafPlan {
             VenationPlan::Arcuate(plan) => {
                 let veins = match self.outline.plain_cubic() {
                     Some(margin) => plan.veins_within(margin, self.length_mm)?,
-                    None => plan.veins_on(&lamina.outline)?,
+                    None => plan.veins_on(lamina.intact())?,
                 };
                 Ok(Some(Fields::Arcuate(veins)))
             }

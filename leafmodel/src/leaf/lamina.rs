@@ -1,5 +1,8 @@
 //! The flat leaf: margin and veins, and the cells of a transport leaf.
 
+use glam::DVec2;
+
+use super::damage::Wounds;
 use super::outline_plan::Origin;
 use super::{LeafError, LeafPlan};
 use crate::development::{DevelopedLeaf, MainVeinStyle};
@@ -23,6 +26,8 @@ pub struct Lamina {
     pub developed: Option<DevelopedLeaf>,
     /// The cells that its veins supply, if they are the cheapest network that fills the margin.
     pub filled: Option<FilledBlade>,
+    /// What damage has left of it, if there is any.
+    pub wounds: Option<Wounds>,
 }
 
 impl LeafPlan {
@@ -74,6 +79,9 @@ impl LeafPlan {
     /// As [`LeafPlan::grow_lamina`], and
     /// [`VenationError::Stopped`](crate::venation::VenationError::Stopped).
     pub fn grow_lamina_unless(&self, is_stopped: &dyn Fn() -> bool) -> Result<Lamina, LeafError> {
+        if let Some(damage) = &self.damage {
+            damage.validate()?;
+        }
         let (outline, origin) = self.outline.grow_with_origin(self.length_mm, self.seed)?;
         let mut filled = None;
         let network = match &self.venation {
@@ -105,12 +113,38 @@ impl LeafPlan {
                 leaf.network(self.length_mm, *style)?
             }
         };
-        Ok(Lamina {
+        let mut lamina = Lamina {
             outline,
             network,
             developed: origin.developed().cloned(),
             cells: origin.cells(),
             filled,
-        })
+            wounds: None,
+        };
+        if let Some(damage) = &self.damage {
+            let (bitten, wounds) = damage.done_to(&lamina.outline, &mut lamina.network, self.seed);
+            lamina.outline = bitten;
+            lamina.wounds = Some(wounds);
+        }
+        Ok(lamina)
+    }
+}
+
+impl Lamina {
+    /// The margin before any damage: what texture coordinates and patterns are measured from.
+    pub fn intact(&self) -> &Outline {
+        let wounds = self.wounds.as_ref();
+        wounds.map_or(&self.outline, |wounds| &wounds.intact)
+    }
+
+    /// The margins of its holes, mm.
+    pub fn holes(&self) -> &[Vec<DVec2>] {
+        self.wounds.as_ref().map_or(&[], |wounds| &wounds.holes)
+    }
+
+    /// Area of the blade without its holes, mm².
+    pub fn area(&self) -> f64 {
+        let wounds = self.wounds.as_ref();
+        self.outline.area() - wounds.map_or(0.0, Wounds::holes_area)
     }
 }

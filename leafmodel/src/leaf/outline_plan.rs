@@ -7,6 +7,7 @@ use crate::shape::contour_curve::{ContourCurve, ContourCurveError};
 use crate::shape::cubic_margin::{CubicMargin, CubicMarginError};
 use crate::shape::growth_form::{GrowthForm, GrowthFormError};
 use crate::shape::outline::{Outline, OutlineError};
+use crate::shape::specimen::{Specimen, SpecimenError};
 use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::{TeethError, ToothWave, toothed};
 use crate::transport::{TransportError, TransportLeaf, TransportPlan};
@@ -35,6 +36,8 @@ pub struct OutlinePlan {
     pub contour: Contour,
     /// Waves of teeth along it, at most 20; none is an entire margin.
     pub teeth: Vec<ToothWave>,
+    /// How the contour of a specimen departs from it: base, apex, unlike sides.
+    pub specimen: Specimen,
 }
 
 /// Why a plan gives no outline.
@@ -81,6 +84,19 @@ pub enum OutlinePlanError {
     /// The leaf that develops from its margin.
     #[error(transparent)]
     Development(#[from] DevelopmentError),
+    /// Base, apex or asymmetry.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// Veins or cells have come with the contour and would not follow it.
+    #[error(
+        "the margin of a leaf that {grows} comes with what is inside it and cannot be bent: {key} is for other contours"
+    )]
+    GrownInside {
+        /// `develops` or `grows as a transport network`.
+        grows: &'static str,
+        /// The first key that would bend it.
+        key: &'static str,
+    },
     /// Teeth.
     #[error(transparent)]
     Teeth(#[from] TeethError),
@@ -121,6 +137,7 @@ impl From<Contour> for OutlinePlan {
         Self {
             contour,
             teeth: Vec::new(),
+            specimen: Specimen::default(),
         }
     }
 }
@@ -129,7 +146,7 @@ impl OutlinePlan {
     /// The two splines that are the whole margin, if they are.
     pub(super) fn plain_cubic(&self) -> Option<&CubicMargin> {
         match &self.contour {
-            Contour::Cubic(margin) if self.teeth.is_empty() => Some(margin),
+            Contour::Cubic(margin) if self.is_contour() => Some(margin),
             Contour::Cubic(_)
             | Contour::Curve(_)
             | Contour::GrowthAlgorithm(_)
@@ -139,8 +156,46 @@ impl OutlinePlan {
         }
     }
 
+    /// Whether the contour is the whole margin.
+    pub fn is_contour(&self) -> bool {
+        self.teeth.is_empty() && self.specimen.is_none()
+    }
+
+    /// Refuses to bend a contour that has brought forth what is inside it.
+    fn check_inside(&self) -> Result<(), OutlinePlanError> {
+        let grows = match &self.contour {
+            Contour::Transport(_) => "grows as a transport network",
+            Contour::Development(_) => "develops",
+            Contour::GrowthAlgorithm(_)
+            | Contour::Curve(_)
+            | Contour::Svg(_)
+            | Contour::Cubic(_) => return Ok(()),
+        };
+        let Specimen {
+            breadth,
+            base,
+            oblique,
+            ..
+        } = self.specimen;
+        let key = if self.specimen.keeps_contour() {
+            return Ok(());
+        } else if breadth != 1.0 {
+            "breadth"
+        } else if base.is_some() {
+            "base"
+        } else if oblique != 0.0 {
+            "oblique"
+        } else if !self.specimen.asymmetry.is_none() {
+            "asymmetry"
+        } else {
+            "apex"
+        };
+        Err(OutlinePlanError::GrownInside { grows, key })
+    }
+
     /// The outline of a leaf whose midrib goes from the origin to (0, `length_mm`). `seed` matters
-    /// to transport leaves in uneven light and to leaves that develop from their margin.
+    /// to transport leaves in uneven light, to leaves that develop from their margin, to teeth that
+    /// differ by chance and to asymmetry.
     ///
     /// # Errors
     ///
@@ -158,6 +213,7 @@ impl OutlinePlan {
         if !(1e-3..=1e5).contains(&length_mm) {
             return Err(OutlinePlanError::Length { value: length_mm });
         }
+        self.check_inside()?;
         let mut origin = Origin::Curve;
         let smooth = match &self.contour {
             Contour::GrowthAlgorithm(form) => form.grow(length_mm)?,
@@ -179,7 +235,9 @@ impl OutlinePlan {
                 outline
             }
         };
-        Ok((toothed(&smooth, &self.teeth)?, origin))
+        let bent = self.specimen.applied(smooth, seed)?;
+        let tips = self.specimen.tips();
+        Ok((toothed(&bent, &self.teeth, tips, seed)?, origin))
     }
 }
 

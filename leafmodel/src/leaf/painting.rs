@@ -40,7 +40,7 @@ impl LeafPlan {
     ) -> Result<Option<LaminaPattern>, LeafError> {
         let pattern = self.mosaic.as_ref();
         let pattern =
-            pattern.map(|pattern| pattern.on_lamina(&lamina.outline, self.seed, is_stopped));
+            pattern.map(|pattern| pattern.on_lamina(lamina.intact(), self.seed, is_stopped));
         Ok(pattern.transpose()?)
     }
 
@@ -55,7 +55,7 @@ impl LeafPlan {
         lamina: &Lamina,
         pattern: Option<&LaminaPattern>,
     ) -> Result<ContentsMap, LeafError> {
-        let frame = UvFrame::around(lamina.outline.points());
+        let frame = UvFrame::around(lamina.intact().points());
         let veins: Vec<VeinSegment> = lamina.network.segments().collect();
         let place = lamina.place(&frame, &veins);
         let withering = self.withering(lamina, &place)?;
@@ -63,7 +63,7 @@ impl LeafPlan {
         if let Some(body) = &mut tissue.vein_body {
             body.blade_mm = self.form.thickness_mm;
         }
-        Ok(ContentsMap::paint_layered(
+        let mut map = ContentsMap::paint_layered(
             &place,
             &tissue,
             pattern,
@@ -71,7 +71,11 @@ impl LeafPlan {
             withering.as_ref(),
             self.map_size,
             self.seed,
-        )?)
+        )?;
+        for stain in lamina.wounds.iter().flat_map(|wounds| &wounds.stains) {
+            stain.paint(&mut map, &frame);
+        }
+        Ok(map)
     }
 
     /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of
@@ -100,7 +104,7 @@ impl Lamina {
     pub(crate) fn place<'a>(&'a self, frame: &'a UvFrame, veins: &'a [VeinSegment]) -> Place<'a> {
         Place {
             frame,
-            margin: self.outline.points(),
+            margin: self.intact().points(),
             veins,
             base: self.outline.base(),
             apex: self.outline.apex(),

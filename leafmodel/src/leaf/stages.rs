@@ -132,17 +132,20 @@ impl LeafPlan {
     }
 
     fn growing<'a>(&'a self, lamina: &'a Lamina) -> Result<Growing<'a>, LeafError> {
+        if self.damage.is_some() {
+            return Err(LeafError::NoStages(
+                "damage comes to a full-grown leaf; take the block `damage` out of the plan",
+            ));
+        }
         match &self.venation {
             VenationPlan::Auxin(plan) => Ok(match &lamina.developed {
-                Some(leaf) if self.outline.teeth.is_empty() => {
-                    Growing::DevelopedThenAuxin(leaf, plan)
-                }
+                Some(leaf) if self.outline.is_contour() => Growing::DevelopedThenAuxin(leaf, plan),
                 Some(_) | None => Growing::Auxin(plan),
             }),
             VenationPlan::Arcuate(_) => {
                 Err(LeafError::NoStages("arcuate veins are there all at once"))
             }
-            VenationPlan::Cells(_) if !self.outline.teeth.is_empty() => Err(LeafError::NoStages(
+            VenationPlan::Cells(_) if !self.outline.is_contour() => Err(LeafError::NoStages(
                 "teeth belong to the full-grown margin of a transport leaf",
             )),
             VenationPlan::Cells(style) => {
@@ -153,11 +156,9 @@ impl LeafPlan {
                 let blade = lamina.filled.as_ref().ok_or(LeafError::NoCells)?;
                 Ok(Growing::Filled(blade, plan.style))
             }
-            VenationPlan::Development(_) if !self.outline.teeth.is_empty() => {
-                Err(LeafError::NoStages(
-                    "teeth belong to the full-grown margin of a leaf that develops",
-                ))
-            }
+            VenationPlan::Development(_) if !self.outline.is_contour() => Err(LeafError::NoStages(
+                "teeth belong to the full-grown margin of a leaf that develops",
+            )),
             VenationPlan::Development(style) => {
                 let leaf = lamina.developed.as_ref().ok_or(LeafError::NotDeveloped)?;
                 Ok(Growing::Developed(leaf, *style))
@@ -316,6 +317,7 @@ mod tests {
             lean: 0.0,
             fade_base: 0.2,
             fade_apex: 0.2,
+            ..ToothWave::default()
         }];
         assert!(refused(&toothed).contains("teeth belong to the full-grown margin"));
     }

@@ -2,6 +2,7 @@
 
 use super::compound::{self, compound, petiole, usual_compound, usual_petiole};
 use super::contents::{NEVER_TOGETHER, contents};
+use super::damage::damage;
 use super::layers::layers;
 use super::mosaic::{self, mosaic};
 use super::outline::{self, outline};
@@ -19,6 +20,7 @@ use crate::document::keys::Keys;
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Degrees, Integer, Number};
 use crate::leaf::LeafPlan;
+use crate::leaf::damage::Damage;
 use crate::leaf::outline_plan::Contour;
 use crate::optics::{Contents, Pigments, VeinFactors};
 use crate::venation::plan::AuxinPlan;
@@ -38,6 +40,7 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         stance: Stance::default(),
         petiole: None,
         compound: None,
+        damage: None,
         pigments: Pigments::default(),
         map_size: MAP_SIZE,
     }
@@ -102,6 +105,8 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     let about = "How far it has aged; left out, it is in summer.";
     let aged = &mut plan.senescence;
     keys.optional_block("senescence", aged, senescence::usual, about, senescence);
+    let about = "What has eaten of it once it had grown.";
+    keys.optional_block("damage", &mut plan.damage, Damage::default, about, damage);
     let length_mm = plan.length_mm;
     let about = "How the blade lies in space.";
     keys.block("blade", about, |keys| {

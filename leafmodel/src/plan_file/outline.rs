@@ -4,6 +4,7 @@ use std::fs;
 
 use super::development::{self, development};
 use super::growth_form::{self, growth_form};
+use super::specimen::{self, specimen, teeth};
 use crate::document::context::{Context, QUOTED};
 use crate::document::error::DocumentError;
 use crate::document::keys::{BlockList, Keys, Variant};
@@ -93,48 +94,16 @@ pub(super) const KINDS: [Variant<Contour>; 6] = [
 
 /// The keys of `outline`.
 pub(super) fn outline(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
-    let wave = || ToothWave {
-        per_side: 1,
-        height: 0.01,
-        lean: 0.0,
-        fade_base: 0.0,
-        fade_apex: 0.0,
-    };
     let waves = BlockList {
         most: 20,
-        new: &wave,
+        new: &ToothWave::default,
         wanted: "a list of at most 20 waves, such as { per_side = 20, height = 0.02 }",
         is_inside_itself: false,
     };
     let about = "Waves of teeth along the margin.";
     keys.blocks("teeth", &mut plan.outline.teeth, &waves, about, teeth);
+    specimen(&mut plan.outline.specimen, keys);
     keys.kind(&mut plan.outline.contour, &KINDS);
-}
-
-fn teeth(wave: &mut ToothWave, keys: &mut Keys<'_>) {
-    let share = Number(Limits::closed(0.0, 1.0));
-    let count = Integer::within(1, 1000);
-    keys.required(
-        "per_side",
-        &mut wave.per_side,
-        count,
-        "Teeth between base and apex, equally \
-        long along the margin.",
-    );
-    let limits = Number(Limits::closed(1e-6, 0.5));
-    keys.required(
-        "height",
-        &mut wave.height,
-        limits,
-        "How far they stand out, as a share of the leaf's length.",
-    );
-    let limits = Number(Limits::closed(-1.0, 1.0));
-    let about = "0 even triangles, 1 saw teeth that point to the apex, −1 to the base.";
-    keys.key("lean", &mut wave.lean, limits, about);
-    let about = "Share of the side from the base over which teeth rise to their height.";
-    keys.key("fade_base", &mut wave.fade_base, share, about);
-    let about = "Share of the side up to the apex over which they fall off.";
-    keys.key("fade_apex", &mut wave.fade_apex, share, about);
 }
 
 fn cubic(margin: &mut CubicMargin, keys: &mut Keys<'_>) {
@@ -370,7 +339,16 @@ pub(super) fn tried(plan: &LeafPlan, keys: &Keys<'_>) -> Option<Outline> {
 /// change.
 fn report(keys: &Keys<'_>, error: &OutlinePlanError) {
     let (path, help): (&[&str], _) = match error {
-        OutlinePlanError::Teeth(_) => (&["outline", "teeth"], "make the teeth lower, or fewer"),
+        OutlinePlanError::Teeth(error) => (&["outline", "teeth"], specimen::teeth_help(error)),
+        OutlinePlanError::Specimen(error) => specimen::help(error),
+        OutlinePlanError::GrownInside { key, .. } => {
+            keys.refuse(
+                &["outline", key],
+                error.to_string(),
+                "leave it out, or take another contour, such as [leaves.NAME.outline.curve]",
+            );
+            return;
+        }
         OutlinePlanError::Curve(_) => (
             &["outline", "curve", "points"],
             "give the points in order, so that the curve goes around the blade once",

@@ -7,7 +7,7 @@ use crate::document::nearest::nearest;
 use crate::document::schema::Type;
 use crate::document::source::escaped;
 use crate::document::tree::{Node, Value};
-use crate::document::value_kind::Kind;
+use crate::document::value_kind::{Integer, Kind};
 use crate::document::values::{listed, text_at};
 use crate::leaf::LeafPlan;
 use crate::optics::{Contents, presets};
@@ -49,7 +49,7 @@ impl<T> Kind for Chosen<T> {
     }
 }
 
-/// The key `preset` of a leaf. Where it is there the plan is that of the species, and no other key
+/// The keys `preset` and `individual` of a leaf. Where `preset` is there the plan is that of the species, and no other key
 /// is required.
 pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     let chosen = Chosen {
@@ -60,9 +60,25 @@ pub fn leaf_preset(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     let mut preset = None;
     let about = "A leaf whose numbers hold where nothing else is said: see `lamina grow --list`.";
     keys.optional("preset", &mut preset, chosen, about);
-    if let Some(preset) = preset {
-        *plan = preset.plan();
-        keys.set_base(preset.name);
+    let mut individual = None;
+    let count = Integer::within(1, 1_000_000);
+    let about = "Which leaf of the preset's plant it is: each number is another one, the same \
+        wherever it is asked for. Left out, it is the preset itself.";
+    keys.optional("individual", &mut individual, count, about);
+    match (preset, individual) {
+        (Some(preset), individual) => {
+            *plan = preset.plan();
+            if let Some(number) = individual {
+                *plan = plan.individual(Some(preset.name), number);
+            }
+            keys.set_base(preset.name);
+        }
+        (None, Some(_)) => keys.refuse(
+            &["individual"],
+            "a leaf without a preset is of no plant".to_owned(),
+            "write `preset` beside it, or take it out",
+        ),
+        (None, None) => {}
     }
 }
 

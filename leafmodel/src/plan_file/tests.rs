@@ -15,8 +15,10 @@ use crate::shape::growth::RateCurve;
 use crate::shape::growth_form::{
     Axis, GrowthForm, HalfForm, LateralGrowth, SecondaryAxis, VeinRow,
 };
+use crate::shape::specimen::{ApexShape, Asymmetry, BaseShape, Specimen};
 use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::ToothWave;
+use crate::shape::tips::{Point, Tip};
 use crate::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
 use crate::venation::arcuate::{ArcuatePlan, PalmateVeins};
 use crate::venation::plan::{
@@ -25,7 +27,7 @@ use crate::venation::plan::{
 use proptest::prelude::*;
 
 use self::bodies::{petiole_or_compound, tissue_and_form};
-use self::outlines::{contour, teeth};
+use self::outlines::{contour, damage, specimen, teeth};
 use self::palettes::pigments;
 use self::patterns::{layers_by_chance, mosaic_by_chance, senescence};
 use self::veins::venation;
@@ -35,6 +37,7 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
+use crate::leaf::damage::Damage;
 use crate::leaf::venation_plan::VenationPlan;
 use crate::testing::fixed;
 
@@ -75,6 +78,7 @@ fn plain() -> LeafPlan {
         stance: Stance::default(),
         petiole: None,
         compound: None,
+        damage: None,
         pigments: Pigments::default(),
         map_size: 1024,
     }
@@ -85,14 +89,14 @@ proptest! {
 
     #[test]
     fn a_written_plan_reads_back_to_the_same(
-        contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
+        contour in contour(), teeth in teeth(), specimen in specimen(), venation in venation(), (tissue, form) in tissue_and_form(),
         seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
-        layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(),
+        layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(), damage in damage(),
         stance in bodies::stance(),
     ) {
-        let outline = OutlinePlan { contour, teeth };
+        let outline = OutlinePlan { contour, teeth, specimen };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, petiole, compound, pigments, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, petiole, compound, pigments, map_size, damage };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

@@ -1,37 +1,29 @@
-//! Toothed margins: triangular waves along an outline, added up.
+//! Toothed margins: waves along an outline, added up.
 //!
 //! - **In**: an [`Outline`] and waves, each with a number of teeth per side.
-//! - **Out**: the outline with its margin moved outward by the sum of the waves.
-//! - **Always true**: base and apex stay where they are; a mirror symmetric outline stays one.
+//! - **Out**: the outline with its margin moved outward by the sum of the waves, and tips on teeth
+//!   and lobes.
+//! - **Always true**: base and apex stay where they are; without chance in the waves a mirror
+//!   symmetric outline stays one; the margin does not cross itself.
 //!
 //! # Source
 //!
 //! \[runions2005\], section 3.2: a toothed contour is a curve plus triangular waves of several
-//! amplitudes and frequencies. Lean and fade of the waves are our additions.
+//! amplitudes and frequencies. Forms, lean, fade, chance and tips of the waves are our additions.
+
+mod layout;
+mod wave;
 
 use glam::DVec2;
 use thiserror::Error;
 
+use self::layout::Layout;
+pub use self::wave::{ToothForm, ToothWave};
 use super::outline::{Outline, OutlineError};
+use super::tips::{Tip, lobe_corners, with_tips};
 
 /// Greatest number of waves of a margin.
 const MOST_WAVES: usize = 20;
-
-/// One triangular wave along each side of a margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToothWave {
-    /// Teeth on each side, 1 to 1000, of equal length along the margin.
-    pub per_side: u32,
-    /// Height of a tooth, as a share of the midrib's length, > 0 up to 0.5.
-    pub height: f64,
-    /// Where the tip of a tooth points, −1 to 1: 0 gives symmetric triangles; 1 gives saw teeth
-    /// whose upright side faces the apex, −1 the base.
-    pub lean: f64,
-    /// Share of the side, from the base, over which teeth rise to their full height, 0 to 1.
-    pub fade_base: f64,
-    /// Share of the side, up to the apex, over which their height falls to 0 again, 0 to 1.
-    pub fade_apex: f64,
-}
 
 /// Why a margin cannot be toothed.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -54,6 +46,19 @@ pub enum TeethError {
         /// How many.
         waves: usize,
     },
+    /// Nested teeth do not fill those of the wave before.
+    #[error(
+        "teeth {index}: {teeth} nested teeth a side do not share out evenly over {}",
+        below.map_or_else(|| "a wave before, for there is none".to_owned(), |below| format!("the {below} of the wave before"))
+    )]
+    NotNested {
+        /// Which wave, from 0.
+        index: usize,
+        /// How many teeth it has.
+        teeth: u32,
+        /// How many the wave before has, if there is one.
+        below: Option<u32>,
+    },
     /// One side, from base to apex, has no length.
     #[error(
         "base and apex are nearest to the same place of the margin, so it has no sides to bear teeth"
@@ -64,109 +69,13 @@ pub enum TeethError {
     NoMargin(#[from] OutlineError),
 }
 
-impl ToothWave {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`TeethError::OutOfRange`] with the wave's number `index`.
-    pub fn validate(&self, index: usize) -> Result<(), TeethError> {
-        let checks = [
-            (
-                "per_side",
-                f64::from(self.per_side),
-                1.0,
-                1000.0,
-                "1 to 1000",
-            ),
-            (
-                "height",
-                self.height,
-                1e-6,
-                0.5,
-                "0 (excluded) to 0.5 (of the length)",
-            ),
-            ("lean", self.lean, -1.0, 1.0, "-1 to 1"),
-            (
-                "fade_base",
-                self.fade_base,
-                0.0,
-                1.0,
-                "0 to 1 (of the side)",
-            ),
-            (
-                "fade_apex",
-                self.fade_apex,
-                0.0,
-                1.0,
-                "0 to 1 (of the side)",
-            ),
-        ];
-        for (key, value, low, high, range) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(TeethError::OutOfRange {
-                    index,
-                    key,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// Height at a share of the side, in shares of the midrib's length. Where a side of a tooth is
-    /// upright, the height just before the place if `before`, else that just after it.
-    fn at(&self, share: f64, before: bool) -> f64 {
-        let teeth = f64::from(self.per_side);
-        let along = share * teeth;
-        // Break points from `breaks` are rounded, so a place next to one is snapped to the tooth it
-        // belongs to.
-        let nearest = along.round();
-        let (tooth, within) = if (along - nearest).abs() < 1e-9 {
-            if before {
-                (nearest - 1.0, 1.0)
-            } else {
-                (nearest, 0.0)
-            }
-        } else {
-            (along.floor(), along - along.floor())
-        };
-        if !(0.0..teeth).contains(&tooth) {
-            return 0.0;
-        }
-        let tip = f64::midpoint(1.0, self.lean);
-        let rise = if within <= tip && tip > 0.0 {
-            within / tip
-        } else {
-            1.0
-        };
-        let fall = if within >= tip && tip < 1.0 {
-            (1.0 - within) / (1.0 - tip)
-        } else {
-            1.0
-        };
-        let fade = |from_end: f64, over: f64| {
-            if from_end < over {
-                from_end / over
-            } else {
-                1.0
-            }
-        };
-        self.height
-            * rise.min(fall)
-            * fade(share, self.fade_base)
-            * fade(1.0 - share, self.fade_apex)
-    }
-
-    /// Shares of the side at which the wave bends: notches and tips.
-    fn breaks(&self) -> impl Iterator<Item = f64> {
-        let teeth = f64::from(self.per_side);
-        let tip = f64::midpoint(1.0, self.lean);
-        (0..self.per_side)
-            .flat_map(move |i| [f64::from(i), f64::from(i) + tip])
-            .map(move |along| along / teeth)
-    }
+/// Tips that do not stand on teeth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LobeTips {
+    /// On the ends of pointed lobes, and on the apex if nothing else is there.
+    pub lobes: Option<Tip>,
+    /// On the apex.
+    pub apex: Option<Tip>,
 }
 
 /// The outline with teeth: every place of the margin moved outward by the sum of `waves` there.
@@ -177,18 +86,42 @@ impl ToothWave {
 /// along a polygonal margin, and slowly enough that neighbouring teeth do not cross in a bay.
 /// Notches and tips are corners of the result, as are those of the outline.
 ///
+/// `seed` decides how teeth differ that do; each side has teeth of its own then.
+///
 /// # Errors
 ///
 /// [`TeethError`] if a number is out of range, or if the new margin crosses itself.
-pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethError> {
-    if waves.len() > MOST_WAVES {
-        return Err(TeethError::TooManyWaves { waves: waves.len() });
-    }
-    for (index, wave) in waves.iter().enumerate() {
-        wave.validate(index)?;
-    }
+pub fn toothed(
+    outline: &Outline,
+    waves: &[ToothWave],
+    tips: LobeTips,
+    seed: u64,
+) -> Result<Outline, TeethError> {
+    check(waves)?;
+    let corners = match tips.lobes {
+        Some(_) => lobe_corners(outline.points()),
+        None => Vec::new(),
+    };
+    let corners: Vec<DVec2> = corners.into_iter().map(|i| outline.points()[i]).collect();
+    let apex_tip = tips.apex.or(tips.lobes);
+    let end_tip = |p: DVec2| {
+        if p == outline.apex() {
+            apex_tip
+        } else {
+            // A wedge at the petiole is no lobe.
+            tips.lobes
+                .filter(|_| p != outline.base() && corners.contains(&p))
+        }
+    };
     let Some(shortest) = waves.iter().map(|wave| wave.per_side).max() else {
-        return Ok(outline.clone());
+        if apex_tip.is_none() {
+            return Ok(outline.clone());
+        }
+        let points = outline.points();
+        let found = points.iter().enumerate();
+        let found = found.filter_map(|(i, &p)| Some((i, end_tip(p)?)));
+        let margin = with_tips(points, &found.collect::<Vec<_>>(), outline.length());
+        return Ok(Outline::new(margin, outline.base(), outline.apex())?);
     };
     let [right, left] = sides(outline).map(Side::new);
     let (Some(right), Some(left)) = (right, left) else {
@@ -201,14 +134,56 @@ pub fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethE
         .sum();
     let shape = |side: Side, sign: f64| {
         let reach = quarter.max(highest / side.length).min(0.25);
-        side.toothed(waves, outline.length(), reach, sign)
+        let mut layouts: Vec<Layout<'_>> = Vec::with_capacity(waves.len());
+        for (index, wave) in waves.iter().enumerate() {
+            let stream = 2 * index as u64 + u64::from(sign < 0.0);
+            let layout = Layout::new(wave, layouts.last(), seed, stream);
+            layouts.push(layout);
+        }
+        side.toothed(&layouts, outline.length(), reach, sign, &end_tip)
     };
     let mut margin = shape(right, 1.0);
     let mut back = shape(left, -1.0);
     // Both sides include base and apex, which must not be repeated.
     back.reverse();
     margin.extend(back);
-    Ok(Outline::new(margin, outline.base(), outline.apex())?)
+    margin.dedup_by(|next, kept| next.0 == kept.0);
+    if margin.len() > 1 && margin.first().map(|end| end.0) == margin.last().map(|end| end.0) {
+        margin.pop();
+    }
+    let points: Vec<DVec2> = margin.iter().map(|(p, _)| *p).collect();
+    let found = margin.iter().enumerate();
+    let found: Vec<(usize, Tip)> = found
+        .filter_map(|(i, (_, tip))| Some((i, (*tip)?)))
+        .collect();
+    let points = if found.is_empty() {
+        points
+    } else {
+        with_tips(&points, &found, outline.length())
+    };
+    Ok(Outline::new(points, outline.base(), outline.apex())?)
+}
+
+/// Checks the numbers of all waves, and that nested ones have something to stand on.
+fn check(waves: &[ToothWave]) -> Result<(), TeethError> {
+    if waves.len() > MOST_WAVES {
+        return Err(TeethError::TooManyWaves { waves: waves.len() });
+    }
+    for (index, wave) in waves.iter().enumerate() {
+        wave.validate(index)?;
+        if !wave.nested {
+            continue;
+        }
+        let below = index.checked_sub(1).map(|below| waves[below].per_side);
+        if !below.is_some_and(|below| wave.per_side.is_multiple_of(below)) {
+            return Err(TeethError::NotNested {
+                index,
+                teeth: wave.per_side,
+                below,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A side of a margin, from base to apex.
@@ -251,26 +226,53 @@ impl Side {
         self.points[i - 1] + (self.points[i] - self.points[i - 1]) * along
     }
 
-    /// The side with teeth; outward is to the right for `sign` 1, to the left for −1.
-    fn toothed(&self, waves: &[ToothWave], length: f64, reach: f64, sign: f64) -> Vec<DVec2> {
+    /// The side with teeth, each place with the tip that stands on it; outward is to the right for
+    /// `sign` 1, to the left for −1.
+    fn toothed(
+        &self,
+        layouts: &[Layout<'_>],
+        length: f64,
+        reach: f64,
+        sign: f64,
+        end_tip: &dyn Fn(DVec2) -> Option<Tip>,
+    ) -> Vec<(DVec2, Option<Tip>)> {
         let mut stops: Vec<f64> = self.shares.clone();
-        stops.extend(waves.iter().flat_map(ToothWave::breaks));
+        stops.extend(layouts.iter().flat_map(Layout::breaks));
         stops.retain(|share| (0.0..=1.0).contains(share));
         stops.sort_unstable_by(f64::total_cmp);
         // A corner of a tooth at a corner of the margin would give an edge without length.
         stops.dedup_by(|next, kept| *next - *kept < 1e-9);
+        let mut summits: Vec<(f64, Tip)> = Vec::new();
+        for layout in layouts {
+            if let Some(tip) = layout.wave.tip {
+                // A tooth that has faded away bears none.
+                let is_tooth = |share: &f64| {
+                    let height = layout.at(*share, true).max(layout.at(*share, false));
+                    height > 0.3 * layout.wave.height
+                };
+                summits.extend(layout.summits().filter(is_tooth).map(|share| (share, tip)));
+            }
+        }
+        let tip_at = |share: f64| {
+            let mut found = summits
+                .iter()
+                .filter(|(summit, _)| (summit - share).abs() < 1e-9);
+            found.next().map(|(_, tip)| *tip)
+        };
         let mut margin = Vec::with_capacity(stops.len());
         for share in stops {
             let chord = self.at((share + reach).min(1.0)) - self.at((share - reach).max(0.0));
             let outward = DVec2::new(chord.y * sign, -chord.x * sign).normalize_or_zero();
             let heights = [true, false].map(|before| -> f64 {
-                let sum: f64 = waves.iter().map(|wave| wave.at(share, before)).sum();
+                let sum: f64 = layouts.iter().map(|wave| wave.at(share, before)).sum();
                 sum * length
             });
             let place = self.at(share);
-            margin.push(place + outward * heights[0]);
+            let tip = tip_at(share).or_else(|| end_tip(place));
+            let stands_before = heights[0] >= heights[1];
+            margin.push((place + outward * heights[0], tip.filter(|_| stands_before)));
             if heights[1] != heights[0] {
-                margin.push(place + outward * heights[1]);
+                margin.push((place + outward * heights[1], tip.filter(|_| !stands_before)));
             }
         }
         margin

@@ -10,6 +10,7 @@ use crate::compound::{Arrangement, CompoundForm, Feather};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::optics::Constituent::{Carotenoids, Chlorophyll, DryMatter, Structure, Water};
+use crate::shape::specimen::Specimen;
 use crate::shape::teeth::ToothWave;
 use crate::venation::plan::{AuxinPlan, Growth};
 
@@ -61,6 +62,7 @@ fn leaf(leaflet: Leaflet, compound: CompoundForm) -> LeafPlan {
 fn toothed(contour: Contour, wave: ToothWave) -> OutlinePlan {
     OutlinePlan {
         contour,
+        specimen: Specimen::default(),
         teeth: vec![wave],
     }
 }
@@ -73,6 +75,7 @@ fn wave(per_side: u32, height: f64, lean: f64, [fade_base, fade_apex]: [f64; 2])
         lean,
         fade_base,
         fade_apex,
+        ..ToothWave::default()
     }
 }
 

@@ -3,6 +3,7 @@
 
 use crate::leaf::outline_plan::{Contour, OutlinePlan};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
+use crate::shape::specimen::Specimen;
 use crate::shape::teeth::ToothWave;
 
 /// A point of a contour: across and along, in shares of the midrib's length.
@@ -105,6 +106,7 @@ pub(super) fn lobed_round() -> OutlinePlan {
     places.extend([polar(6.0, 0.99), (0.0, 1.0)]);
     OutlinePlan {
         contour: curve(&places, &corners, true),
+        specimen: Specimen::default(),
         teeth: vec![teeth(36, 0.02, 0.6)],
     }
 }
@@ -131,6 +133,7 @@ pub(super) fn star() -> OutlinePlan {
     places.push((0.0, 1.0));
     OutlinePlan {
         contour: curve(&places, &[0, 3, 8, places.len() - 1], true),
+        specimen: Specimen::default(),
         teeth: vec![teeth(60, 0.008, 0.5)],
     }
 }
@@ -162,6 +165,7 @@ pub(super) fn one_lobe() -> OutlinePlan {
     ];
     OutlinePlan {
         contour: curve(&places, &[0, 4, 7, 9, 13], false),
+        specimen: Specimen::default(),
         teeth: vec![teeth(9, 0.018, 0.6)],
     }
 }
@@ -194,6 +198,7 @@ pub(super) fn obovate() -> OutlinePlan {
             (0.05, 0.945),
             (0.0, 1.0),
         ]),
+        specimen: Specimen::default(),
         teeth: vec![teeth(24, 0.012, 0.7)],
     }
 }
@@ -297,5 +302,6 @@ pub(super) fn teeth(per_side: u32, height: f64, lean: f64) -> ToothWave {
         lean,
         fade_base: 0.1,
         fade_apex: 0.1,
+        ..ToothWave::default()
     }
 }

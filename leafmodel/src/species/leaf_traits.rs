@@ -264,6 +264,7 @@ impl LeafTraits {
             senescence: None,
             petiole: None,
             compound: None,
+            damage: None,
             form: BladeForm {
                 fold: self.lie.fold.to_radians(),
                 curl: self.lie.curl.to_radians(),

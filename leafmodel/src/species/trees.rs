@@ -5,6 +5,7 @@
 
 use super::architectures;
 use super::leaf_traits::{self, LeafTraits};
+use super::specimens;
 use super::trees_contours as contours;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
@@ -71,7 +72,7 @@ pub(super) fn maple() -> LeafPlan {
     leaf(
         &leaf_traits::MAPLE,
         3,
-        contours::maple(),
+        specimens::maple(contours::maple()),
         dense(&leaf_traits::MAPLE, architectures::maple(), 3.2),
     )
 }
@@ -80,7 +81,7 @@ pub(super) fn cottonwood() -> LeafPlan {
     leaf(
         &leaf_traits::COTTONWOOD,
         2,
-        contours::cottonwood(),
+        specimens::cottonwood(contours::cottonwood()),
         dense(&leaf_traits::COTTONWOOD, architectures::cottonwood(), 3.5),
     )
 }
@@ -89,7 +90,7 @@ pub(super) fn ivy() -> LeafPlan {
     leaf(
         &leaf_traits::IVY,
         2,
-        contours::ivy(),
+        specimens::lobed(contours::ivy()),
         dense(&leaf_traits::IVY, architectures::ivy(), 3.5),
     )
 }
@@ -98,7 +99,7 @@ pub(super) fn white_oak() -> LeafPlan {
     leaf(
         &leaf_traits::WHITE_OAK,
         1,
-        contours::white_oak(),
+        specimens::lobed(contours::white_oak()),
         dense(&leaf_traits::WHITE_OAK, architectures::white_oak(), 3.4),
     )
 }
@@ -106,8 +107,8 @@ pub(super) fn white_oak() -> LeafPlan {
 pub(super) fn red_oak() -> LeafPlan {
     leaf(
         &leaf_traits::RED_OAK,
-        1,
-        contours::red_oak(),
+        4,
+        specimens::red_oak(contours::red_oak()),
         dense(&leaf_traits::RED_OAK, architectures::red_oak(), 3.4),
     )
 }
@@ -116,7 +117,7 @@ pub(super) fn birch() -> LeafPlan {
     leaf(
         &leaf_traits::BIRCH,
         4,
-        contours::birch(),
+        specimens::birch(contours::birch()),
         dense(&leaf_traits::BIRCH, architectures::birch(), 4.5),
     )
 }
@@ -125,7 +126,7 @@ pub(super) fn willow() -> LeafPlan {
     leaf(
         &leaf_traits::WILLOW,
         1,
-        contours::willow(),
+        specimens::willow(contours::willow()),
         dense(&leaf_traits::WILLOW, architectures::willow(), 4.2),
     )
 }
@@ -139,7 +140,12 @@ pub(super) fn magnolia() -> LeafPlan {
         }),
         ..dense(&leaf_traits::MAGNOLIA, architectures::magnolia(), 3.2)
     };
-    leaf(&leaf_traits::MAGNOLIA, 2, contours::magnolia(), venation)
+    leaf(
+        &leaf_traits::MAGNOLIA,
+        2,
+        specimens::entire(contours::magnolia()),
+        venation,
+    )
 }
 
 /// A green croton; its patterns are added by the coloured presets.
@@ -147,7 +153,7 @@ pub(super) fn croton() -> LeafPlan {
     leaf(
         &leaf_traits::CROTON,
         1,
-        contours::croton(),
+        specimens::entire(contours::croton()),
         dense(&leaf_traits::CROTON, architectures::croton(), 3.5),
     )
 }

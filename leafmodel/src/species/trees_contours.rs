@@ -2,6 +2,7 @@
 
 use super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;
+use crate::shape::specimen::Specimen;
 use crate::shape::teeth::ToothWave;
 
 /// A maple's: five lobes about the petiole, each with shoulders and pointed teeth (Norway and sugar
@@ -149,12 +150,14 @@ pub(super) fn cottonwood() -> OutlinePlan {
             (0.04, 0.91),
             (0.0, 1.0),
         ]),
+        specimen: Specimen::default(),
         teeth: vec![ToothWave {
             per_side: 24,
             height: 0.016,
             lean: 0.55,
             fade_base: 0.42,
             fade_apex: 0.25,
+            ..ToothWave::default()
         }],
     }
 }
@@ -168,6 +171,7 @@ pub(super) fn birch() -> OutlinePlan {
         lean,
         fade_base,
         fade_apex,
+        ..ToothWave::default()
     };
     OutlinePlan {
         contour: pointed(&[
@@ -182,6 +186,7 @@ pub(super) fn birch() -> OutlinePlan {
             (0.03, 0.94),
             (0.0, 1.0),
         ]),
+        specimen: Specimen::default(),
         teeth: vec![
             wave(10, 0.024, 0.15, 0.45, 0.35),
             wave(40, 0.01, 0.4, 0.4, 0.2),
@@ -202,6 +207,7 @@ pub(super) fn willow() -> OutlinePlan {
             (0.016, 0.92),
             (0.0, 1.0),
         ]),
+        specimen: Specimen::default(),
         teeth: vec![teeth(76, 0.0035, 0.7)],
     }
 }

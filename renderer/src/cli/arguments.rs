@@ -241,6 +241,10 @@ pub struct GrowArguments {
     /// green to litter, as STEM-0001.png and so on; for leaves that age by days
     #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub ages: Option<u32>,
+    /// Write N leaves of the plant of which this is one, numbered from 1: their plans into one file
+    /// (toml), their margins and veins side by side (svg, png)
+    #[arg(long, value_name = "N", conflicts_with_all = ["frames", "ages", "measure", "describe", "fields", "contents", "stats"], value_parser = clap::value_parser!(u16).range(1..=400))]
+    pub individuals: Option<u16>,
     /// Write measures of the veins as JSON, and print them as a table
     #[arg(long, value_name = "FILE.json")]
     pub measure: Option<PathBuf>,

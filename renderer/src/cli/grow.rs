@@ -7,6 +7,7 @@ mod choice;
 mod colours;
 mod fields;
 mod frames;
+mod individuals;
 mod maps;
 mod outputs;
 mod warnings;
@@ -61,6 +62,9 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.fields.is_some() {
         fields::check(&chosen.plan)?;
     }
+    if arguments.individuals.is_some() {
+        individuals::check(&outputs)?;
+    }
     if arguments.frames.is_some() {
         frames::check(&chosen.plan)?;
     }
@@ -87,6 +91,9 @@ fn carry_out(
     started: Instant,
 ) -> Result<(), Failure> {
     let (name, plan) = (chosen.name.as_str(), &chosen.plan);
+    if let Some(count) = arguments.individuals {
+        return individuals::write(chosen, outputs, count, arguments.size, stop);
+    }
     write_plans(arguments, chosen, outputs, stop)?;
     if !outputs.veins {
         return Ok(());
@@ -124,7 +131,7 @@ fn carry_out(
                 0 => name.to_owned(),
                 _ => format!("{name}-{}", number + 1),
             };
-            let (map, outline) = (&blade.contents, &blade.lamina.outline);
+            let (map, outline) = (&blade.contents, blade.lamina.intact());
             maps::write(folder, &name, map, outline, maps::day(plan), stop)?;
         }
     }

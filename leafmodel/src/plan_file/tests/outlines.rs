@@ -214,6 +214,77 @@ pub(super) fn teeth() -> impl Strategy<Value = Vec<ToothWave>> {
             lean,
             fade_base,
             fade_apex,
+            ..ToothWave::default()
         });
     prop::collection::vec(wave, 0..3)
+}
+
+pub(super) fn specimen() -> impl Strategy<Value = Specimen> {
+    let tip = || {
+        let point =
+            || (0.001..0.01, 0.001..0.01).prop_map(|(length, width)| Point { length, width });
+        prop_oneof![
+            (0.001..0.01).prop_map(|diameter| Tip::Gland { diameter }),
+            point().prop_map(Tip::Mucro),
+            point().prop_map(Tip::Awn),
+        ]
+    };
+    let base = (0.005..0.05, 0.1..1.0).prop_flat_map(|(depth, width)| {
+        prop_oneof![
+            Just(BaseShape::Cordate { depth, width }),
+            Just(BaseShape::Cuneate {
+                height: depth,
+                width
+            }),
+            Just(BaseShape::Peltate { inset: depth }),
+        ]
+    });
+    let apex = (0.05..0.3, 0.1..0.9).prop_flat_map(|(length, narrowing)| {
+        let depth = 0.1 * length;
+        prop_oneof![
+            Just(ApexShape::Acuminate { length, narrowing }),
+            Just(ApexShape::Retuse {
+                depth,
+                width: narrowing
+            }),
+            Just(ApexShape::Mucronate(Point {
+                length: depth,
+                width: depth
+            })),
+        ]
+    });
+    let usual = || prop_oneof![Just(0.0), 0.0..0.02];
+    let any = (
+        prop_oneof![Just(1.0), 0.5..2.0],
+        prop::option::of(base),
+        usual(),
+        prop::option::of(apex),
+        (usual(), usual(), usual()),
+        prop::option::of(tip()),
+    )
+        .prop_map(
+            |(breadth, base, oblique, apex, (width, bow, wander), lobe_tip)| Specimen {
+                breadth,
+                base,
+                oblique,
+                apex,
+                asymmetry: Asymmetry { width, bow, wander },
+                lobe_tip,
+            },
+        );
+    prop_oneof![Just(Specimen::default()), any]
+}
+
+pub(super) fn damage() -> impl Strategy<Value = Option<Damage>> {
+    let damage = (0_u32..200, 0.1..100.0, 0_u32..50, 0.2..20.0, 0.0..10.0).prop_map(
+        |(holes, hole_mm, mines, mine_mm, rim_mm)| Damage {
+            holes,
+            hole_mm,
+            mines,
+            mine_mm,
+            rim_mm,
+            ..Damage::default()
+        },
+    );
+    prop::option::of(damage)
 }

@@ -17,13 +17,19 @@ fn strip() -> Outline {
     Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 10.0)).expect("a strip")
 }
 
+fn at(wave: &ToothWave, share: f64, before: bool) -> f64 {
+    Layout::new(wave, None, 0, 0).at(share, before)
+}
+
+fn toothed(outline: &Outline, waves: &[ToothWave]) -> Result<Outline, TeethError> {
+    super::toothed(outline, waves, LobeTips::default(), 0)
+}
+
 fn even(per_side: u32, height: f64) -> ToothWave {
     ToothWave {
         per_side,
         height,
-        lean: 0.0,
-        fade_base: 0.0,
-        fade_apex: 0.0,
+        ..ToothWave::default()
     }
 }
 
@@ -33,7 +39,7 @@ fn a_wave_is_a_triangle_of_its_height_and_lean() {
         lean: 0.5,
         ..even(4, 0.1)
     };
-    let heights = [0.0, 0.75 / 8.0, 0.75 / 4.0, 0.875 / 4.0, 0.25].map(|s| wave.at(s, false));
+    let heights = [0.0, 0.75 / 8.0, 0.75 / 4.0, 0.875 / 4.0, 0.25].map(|s| at(&wave, s, false));
     for (height, expected) in heights.into_iter().zip([0.0, 0.05, 0.1, 0.05, 0.0]) {
         assert!(
             (height - expected).abs() < 1e-12,
@@ -45,28 +51,28 @@ fn a_wave_is_a_triangle_of_its_height_and_lean() {
         lean: 1.0,
         ..even(4, 0.1)
     };
-    assert_eq!((saw.at(0.25, true), saw.at(0.25, false)), (0.1, 0.0));
-    assert_eq!((saw.at(1.0, true), saw.at(1.0, false)), (0.1, 0.0));
-    assert_eq!((saw.at(0.0, true), saw.at(0.0, false)), (0.0, 0.0));
+    assert_eq!((at(&saw, 0.25, true), at(&saw, 0.25, false)), (0.1, 0.0));
+    assert_eq!((at(&saw, 1.0, true), at(&saw, 1.0, false)), (0.1, 0.0));
+    assert_eq!((at(&saw, 0.0, true), at(&saw, 0.0, false)), (0.0, 0.0));
     let back = ToothWave {
         lean: -1.0,
         ..even(4, 0.1)
     };
-    assert_eq!((back.at(0.25, true), back.at(0.25, false)), (0.0, 0.1));
+    assert_eq!((at(&back, 0.25, true), at(&back, 0.25, false)), (0.0, 0.1));
     let faded = ToothWave {
         fade_base: 0.5,
         fade_apex: 0.25,
         ..even(8, 0.1)
     };
     // Tips of the first and the last tooth lie a sixteenth from either end.
-    assert!((faded.at(1.0 / 16.0, false) - 0.1 / 8.0).abs() < 1e-12);
-    assert!((faded.at(15.0 / 16.0, false) - 0.1 / 4.0).abs() < 1e-12);
+    assert!((at(&faded, 1.0 / 16.0, false) - 0.1 / 8.0).abs() < 1e-12);
+    assert!((at(&faded, 15.0 / 16.0, false) - 0.1 / 4.0).abs() < 1e-12);
 }
 
 #[test]
 fn waves_add_up() {
     let waves = [even(1, 0.2), even(4, 0.1)];
-    let sum: f64 = waves.iter().map(|wave| wave.at(0.375, false)).sum();
+    let sum: f64 = waves.iter().map(|wave| at(wave, 0.375, false)).sum();
     assert!((sum - (0.15 + 0.1)).abs() < 1e-12);
 }
 
@@ -208,11 +214,138 @@ proptest! {
         per_side in 1_u32..60, height in 0.001..0.02, lean in -1.0..1.0_f64,
         fades in prop::array::uniform2(0.0..1.0_f64),
     ) {
-        let wave = ToothWave { per_side, height, lean, fade_base: fades[0], fade_apex: fades[1] };
+        let wave = ToothWave { per_side, height, lean, fade_base: fades[0], fade_apex: fades[1], ..ToothWave::default() };
         let outline = toothed(&strip(), &[wave, even(7, 0.01)]).expect("small teeth");
         for p in outline.points() {
             prop_assert!(outline.points().contains(&DVec2::new(-p.x, p.y)), "{} has no mirror image", p);
         }
         prop_assert!(outline.area() > strip().area());
+    }
+}
+
+#[test]
+fn crenate_teeth_bulge_and_spines_are_hollow() {
+    let areas = [
+        ToothForm::Spinose,
+        ToothForm::Triangular,
+        ToothForm::Crenate,
+    ]
+    .map(|form| {
+        let wave = ToothWave {
+            form,
+            ..even(20, 0.03)
+        };
+        let outline = toothed(&strip(), &[wave]).expect("small teeth");
+        let (low, high) = outline.bounds();
+        // All reach as far out.
+        assert!(
+            (high.x - 1.3).abs() < 0.01 && (low.x + 1.3).abs() < 0.01,
+            "{form:?}"
+        );
+        outline.area() - strip().area()
+    });
+    // Triangles fill half of what is between notches and tips, spines a quarter, crenations π/4.
+    let [spines, triangles, rounds] = areas;
+    assert!((spines / triangles - 0.5).abs() < 0.1, "{areas:?}");
+    assert!((rounds / triangles - 1.57).abs() < 0.1, "{areas:?}");
+}
+
+#[test]
+fn teeth_differ_on_the_two_sides_and_from_leaf_to_leaf() {
+    let wave = ToothWave {
+        spacing_cv: 0.25,
+        height_cv: 0.25,
+        ..even(20, 0.02)
+    };
+    let of = |seed| super::toothed(&strip(), &[wave], LobeTips::default(), seed);
+    let leaf = of(3).expect("small teeth");
+    assert_eq!(Ok(&leaf), of(3).as_ref());
+    assert_ne!(Ok(&leaf), of(4).as_ref());
+    let mirrored = |p: &DVec2| DVec2::new(-p.x, p.y);
+    let is_there = |p: DVec2| leaf.points().iter().any(|q| q.distance(p) < 1e-9);
+    let alike = leaf
+        .points()
+        .iter()
+        .filter(|p| is_there(mirrored(p)))
+        .count();
+    assert!(alike < leaf.points().len() / 3, "{alike}");
+}
+
+#[test]
+fn each_tooth_bears_its_tip() {
+    use crate::shape::tips::Point;
+
+    let point = Point {
+        length: 0.01,
+        width: 0.002,
+    };
+    for (tip, corners, reach) in [
+        (Tip::Awn(point), 5, 0.1),
+        (Tip::Mucro(point), 3, 0.1),
+        (Tip::Gland { diameter: 0.01 }, 11, 0.1),
+    ] {
+        let wave = ToothWave {
+            tip: Some(tip),
+            ..even(12, 0.02)
+        };
+        let plain = toothed(&strip(), &[even(12, 0.02)]).expect("teeth");
+        let tipped = toothed(&strip(), &[wave]).expect("teeth with tips");
+        let more = tipped.points().len() - plain.points().len();
+        assert_eq!(more, 24 * (corners - 1), "{tip:?}");
+        let out = tipped.bounds().1.x - plain.bounds().1.x;
+        assert!((out / reach - 1.0).abs() < 0.3, "{tip:?}: {out} mm");
+    }
+}
+
+#[test]
+fn lobes_end_in_bristles_where_they_are_pointed() {
+    use crate::shape::tips::Point;
+
+    let tips = LobeTips {
+        lobes: Some(Tip::Awn(Point {
+            length: 0.05,
+            width: 0.01,
+        })),
+        apex: None,
+    };
+    // A star of two points to either side, and the apex.
+    let corners = [
+        (0.0, 0.0),
+        (3.0, 2.0),
+        (1.0, 4.0),
+        (3.0, 6.0),
+        (1.0, 7.0),
+        (0.0, 10.0),
+        (-1.0, 7.0),
+        (-3.0, 6.0),
+        (-1.0, 4.0),
+        (-3.0, 2.0),
+    ];
+    let points = corners.map(DVec2::from).to_vec();
+    let plain = Outline::new(points, DVec2::ZERO, DVec2::new(0.0, 10.0)).expect("a star");
+    let leaf = super::toothed(&plain, &[], tips, 0).expect("room for bristles");
+    // Each has four corners more; the base, a corner too, bears none.
+    assert_eq!(leaf.points().len(), corners.len() + 5 * 4);
+    assert!((leaf.bounds().1.y - 10.5).abs() < 1e-9);
+    assert!(
+        (leaf.bounds().1.x - 3.4).abs() < 0.15,
+        "{}",
+        leaf.bounds().1
+    );
+}
+
+#[test]
+fn nested_teeth_need_teeth_to_stand_on() {
+    let nested = |per_side| ToothWave {
+        nested: true,
+        ..even(per_side, 0.004)
+    };
+    assert!(toothed(&strip(), &[even(6, 0.02), nested(18)]).is_ok());
+    for waves in [vec![nested(6)], vec![even(6, 0.02), nested(20)]] {
+        let refused = toothed(&strip(), &waves);
+        assert!(
+            matches!(refused, Err(TeethError::NotNested { .. })),
+            "{refused:?}"
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::super::leaf_traits::coloured::{
     RED_MAPLE as RED_MAPLE_TRAITS, SUGAR_MAPLE as SUGAR_MAPLE_TRAITS,
 };
-use super::super::{architectures, leaf_traits, runions, trees, trees_contours};
+use super::super::{architectures, leaf_traits, runions, specimens, trees, trees_contours};
 use super::contours as own;
 use super::numbers::{browned, days, fitted, last_carotenoids, last_chlorophyll, litter, red};
 use super::{Age, ColouredLeaf, Holding};
@@ -174,7 +174,7 @@ pub(super) const SUGAR_MAPLE: ColouredLeaf = ColouredLeaf {
             anthocyanin_days: 6.0,
             ..YELLOW
         };
-        let outline = trees_contours::maple();
+        let outline = specimens::maple(trees_contours::maple());
         let veins = trees::dense(leaf.green, architectures::maple(), 3.2);
         aged(leaf, trees::leaf(leaf.green, 5, outline, veins), &course)
     },
@@ -214,7 +214,7 @@ pub(super) fn red_maple(leaf: &ColouredLeaf) -> LeafPlan {
     trees::leaf(
         leaf.green,
         3,
-        own::red_maple(),
+        specimens::serrate(own::red_maple()),
         trees::net(80.0, 560.0, 4.0),
     )
 }

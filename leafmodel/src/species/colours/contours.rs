@@ -3,6 +3,7 @@
 
 use super::super::contours::{curve, pointed, polar, teeth};
 use crate::leaf::outline_plan::OutlinePlan;
+use crate::shape::specimen::Specimen;
 use crate::shape::teeth::ToothWave;
 
 /// A red maple's: three broad lobes and two small ones, shallow sharp sinuses, saw teeth.
@@ -36,6 +37,7 @@ pub(super) fn red_maple() -> OutlinePlan {
     places.push((0.0, 1.0));
     OutlinePlan {
         contour: curve(&places, &corners, true),
+        specimen: Specimen::default(),
         teeth: vec![ToothWave {
             fade_base: 0.2,
             fade_apex: 0.06,
@@ -77,6 +79,7 @@ pub(super) fn box_elder() -> OutlinePlan {
             (0.045, 0.93),
             (0.0, 1.0),
         ]),
+        specimen: Specimen::default(),
         teeth: vec![ToothWave {
             fade_base: 0.45,
             fade_apex: 0.15,

@@ -4,7 +4,7 @@
 use super::super::leaf_traits::coloured::{
     AMARANTH as AMARANTH_TRAITS, BOX_ELDER, RED_MAPLE, SMOKE_TREE,
 };
-use super::super::{architectures, leaf_traits, trees};
+use super::super::{architectures, leaf_traits, specimens, trees};
 use super::autumn::red_maple;
 use super::contours;
 use super::numbers::{angers, betacyanin, betaxanthin, one_leaf, red};
@@ -35,7 +35,7 @@ pub(super) const COTINUS: ColouredLeaf = ColouredLeaf {
     ],
     age: None,
     plan: |leaf| {
-        let outline = contours::smoke_tree();
+        let outline = specimens::smoke_tree(contours::smoke_tree());
         let veins = trees::dense(leaf.green, architectures::smoke_tree(), 3.5);
         let mut plan = trees::leaf(leaf.green, 2, outline, veins);
         plan.tissue.lamina = leaf.of("blade");
@@ -74,7 +74,7 @@ pub(super) const ACER_VARIEGATED: ColouredLeaf = ColouredLeaf {
     ],
     age: None,
     plan: |leaf| {
-        let outline = contours::box_elder();
+        let outline = specimens::serrate(contours::box_elder());
         let mut plan = trees::leaf(leaf.green, 6, outline, trees::net(70.0, 380.0, 4.0));
         plan.layers = sectors(leaf, "white", [0.58, 0.37], 9.0);
         plan.map_size = 1024;
@@ -208,7 +208,7 @@ pub(super) const AMARANTH: ColouredLeaf = ColouredLeaf {
     ],
     age: None,
     plan: |leaf| {
-        let outline = contours::amaranth();
+        let outline = specimens::amaranth(contours::amaranth());
         let veins = trees::dense(leaf.green, architectures::amaranth(), 3.2);
         let mut plan = trees::leaf(leaf.green, 2, outline, veins);
         // From base to tip red, yellow, green; red extends farther along the veins.

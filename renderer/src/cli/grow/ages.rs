@@ -102,7 +102,7 @@ pub(super) fn write(
     for (number, day) in days(last_day(plan)?, written.count).enumerate() {
         if !outputs.staged.is_empty() {
             let map = painted(day, written.pixels.clamp(16, 8192))?;
-            let picture = in_daylight(&map, &plan.pigments, &lamina.outline);
+            let picture = in_daylight(&map, &plan.pigments, lamina.intact());
             let png = portable_network::encoded(map.width, map.height, &picture);
             let png = png.map_err(Failure::bad)?;
             for (path, _) in &outputs.staged {
@@ -112,7 +112,7 @@ pub(super) fn write(
         if let Some(folder) = written.contents {
             let map = painted(day, plan.map_size)?;
             let file = format!("{}-{:04}", written.name, number + 1);
-            maps::write(folder, &file, &map, &lamina.outline, Some(day), stop)?;
+            maps::write(folder, &file, &map, lamina.intact(), Some(day), stop)?;
         }
         eprintln!("day {day:.1}");
     }

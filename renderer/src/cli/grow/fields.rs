@@ -48,7 +48,7 @@ pub(super) fn write(
     let Some(fields) = plan.fields(lamina).map_err(Failure::bad)? else {
         return Err(none());
     };
-    let frame = UvFrame::around(lamina.outline.points());
+    let frame = UvFrame::around(lamina.intact().points());
     let longer = frame.size.max_element();
     let texels_along = |side: f64| (f64::from(plan.map_size) * (side / longer)).ceil() as u32;
     let (width, height) = (texels_along(frame.size.x), texels_along(frame.size.y));

@@ -34,14 +34,19 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
             "--frames shows how one blade grows, and this is a compound leaf: take its block `compound` out of the plan",
         ));
     }
+    if plan.damage.is_some() {
+        return Err(no_stages(&LeafError::NoStages(
+            "damage comes to a full-grown leaf; take the block `damage` out of the plan",
+        )));
+    }
     match &plan.venation {
         VenationPlan::Arcuate(_) => Err(no_stages(&LeafError::NoStages(
             "arcuate veins are there all at once",
         ))),
-        VenationPlan::Cells(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+        VenationPlan::Cells(_) if !plan.outline.is_contour() => Err(no_stages(
             &LeafError::NoStages("teeth belong to the full-grown margin of a transport leaf"),
         )),
-        VenationPlan::Development(_) if !plan.outline.teeth.is_empty() => Err(no_stages(
+        VenationPlan::Development(_) if !plan.outline.is_contour() => Err(no_stages(
             &LeafError::NoStages("teeth belong to the full-grown margin of a leaf that develops"),
         )),
         VenationPlan::Auxin(_)
@@ -75,6 +80,7 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
         developed: None,
         cells: None,
         filled: None,
+        wounds: None,
     };
     let network = FlatLeaf::with_petiole(&young, &lamina).map(|flat| flat.network);
     LeafStage {
@@ -163,6 +169,7 @@ mod tests {
             lean: 0.0,
             fade_base: 0.2,
             fade_apex: 0.2,
+            ..ToothWave::default()
         }];
         let mut refused = 0;
         for plan in [preset("poplar"), preset("xia-1"), splines, toothed] {

@@ -1,0 +1,222 @@
+//! Damage to a grown leaf: holes, bites from the margin and mines, each with its dead tissue.
+//!
+//! Insects eat leaves that have grown, so damage comes after the veins. A hole is one of the mesh,
+//! too, and no vein leads through it.
+//!
+//! - **In**: a lamina with its veins, and how much of each kind of damage there is.
+//! - **Out**: the same lamina with bites in its margin, holes, veins cut off at both, and places
+//!   whose tissue is dead.
+//! - **Always true**: base, apex and midrib stay; the same plan and seed give the same damage.
+//! - **Left out**: growth after the damage, galls, and veins that are left standing in what has been
+//!   eaten.
+
+mod places;
+mod stains;
+
+use glam::DVec2;
+use thiserror::Error;
+
+use self::places::Places;
+pub(crate) use self::stains::Stain;
+use crate::shape::outline::Outline;
+use crate::venation::network::VenationNetwork;
+
+/// How much damage there is. Sizes are medians; single ones differ by about a third.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damage {
+    /// Holes between the larger veins, at most 200; fewer if there is no room.
+    pub holes: u32,
+    /// Their diameter, mm, 0.1 to 100.
+    pub hole_mm: f64,
+    /// Bites from the margin, at most 100.
+    pub bites: u32,
+    /// Their width, mm, 0.2 to 200.
+    pub bite_mm: f64,
+    /// Winding mines of larvae between the faces, at most 50.
+    pub mines: u32,
+    /// Their width at the end, mm, 0.1 to 20; they begin at a fifth of it.
+    pub mine_mm: f64,
+    /// Their length, mm, 1 to 1000; less where there is no room.
+    pub mine_length_mm: f64,
+    /// Blotch mines, at most 50.
+    pub blotches: u32,
+    /// Their diameter, mm, 0.2 to 100.
+    pub blotch_mm: f64,
+    /// Width of the brown rim about holes and bites, mm, 0 to 10.
+    pub rim_mm: f64,
+}
+
+impl Default for Damage {
+    fn default() -> Self {
+        Self {
+            holes: 0,
+            hole_mm: 3.0,
+            bites: 0,
+            bite_mm: 8.0,
+            mines: 0,
+            mine_mm: 1.2,
+            mine_length_mm: 40.0,
+            blotches: 0,
+            blotch_mm: 8.0,
+            rim_mm: 0.3,
+        }
+    }
+}
+
+/// A number of the damage that is out of range.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("{key} is {value}, outside {range}")]
+pub struct DamageError {
+    /// Which number.
+    pub key: &'static str,
+    /// What it was.
+    pub value: f64,
+    /// What it may be.
+    pub range: &'static str,
+}
+
+/// What damage has left of a lamina.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wounds {
+    /// The margin before.
+    pub intact: Outline,
+    /// The margins of holes, counter-clockwise, mm.
+    pub holes: Vec<Vec<DVec2>>,
+    /// Where tissue is dead.
+    pub(crate) stains: Vec<Stain>,
+}
+
+impl Damage {
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`DamageError`] for the first that is out of range.
+    pub fn validate(&self) -> Result<(), DamageError> {
+        let checks = [
+            ("holes", f64::from(self.holes), 0.0, 200.0, "0 to 200"),
+            ("hole_mm", self.hole_mm, 0.1, 100.0, "0.1 to 100"),
+            ("bites", f64::from(self.bites), 0.0, 100.0, "0 to 100"),
+            ("bite_mm", self.bite_mm, 0.2, 200.0, "0.2 to 200"),
+            ("mines", f64::from(self.mines), 0.0, 50.0, "0 to 50"),
+            ("mine_mm", self.mine_mm, 0.1, 20.0, "0.1 to 20"),
+            (
+                "mine_length_mm",
+                self.mine_length_mm,
+                1.0,
+                1000.0,
+                "1 to 1000",
+            ),
+            ("blotches", f64::from(self.blotches), 0.0, 50.0, "0 to 50"),
+            ("blotch_mm", self.blotch_mm, 0.2, 100.0, "0.2 to 100"),
+            ("rim_mm", self.rim_mm, 0.0, 10.0, "0 to 10"),
+        ];
+        for (key, value, least, most, range) in checks {
+            if !(least..=most).contains(&value) {
+                return Err(DamageError { key, value, range });
+            }
+        }
+        Ok(())
+    }
+
+    /// The margin after the damage, with veins cut off, and what has been done.
+    pub(super) fn done_to(
+        &self,
+        intact: &Outline,
+        network: &mut VenationNetwork,
+        seed: u64,
+    ) -> (Outline, Wounds) {
+        let mut places = Places::new(intact, network, seed);
+        let (bitten, bites) = places.bites(self.bites, self.bite_mm);
+        let holes = places.holes(self.holes, self.hole_mm);
+        let mut stains = places.mines(self.mines, self.mine_mm, self.mine_length_mm);
+        stains.extend(places.blotches(self.blotches, self.blotch_mm));
+        if self.rim_mm > 0.0 {
+            let edges = bites.into_iter().chain(holes.iter().map(|hole| {
+                let mut around = hole.clone();
+                around.push(hole[0]);
+                around
+            }));
+            stains.extend(edges.map(|edge| Stain::rim(edge, self.rim_mm)));
+        }
+        // Veins begin and may end on the margin itself, after rounding on either side of it.
+        let is_left = |p: DVec2| bitten.contains(p) || bitten.distance_to_margin(p) < 1e-6;
+        network.cut(|from, to| {
+            [from, to, (from + to) * 0.5].into_iter().all(is_left)
+                && !holes.iter().any(|hole| touches(hole, from, to))
+        });
+        let wounds = Wounds {
+            intact: intact.clone(),
+            holes,
+            stains,
+        };
+        (bitten, wounds)
+    }
+}
+
+impl VenationNetwork {
+    /// Keeps the edges between places for which `stays` says so, and the nodes that they join.
+    fn cut(&mut self, stays: impl Fn(DVec2, DVec2) -> bool) {
+        let place = |node: u32| self.nodes[node as usize].position;
+        let mut edges = std::mem::take(&mut self.edges);
+        edges.retain(|edge| stays(place(edge.from), place(edge.to)));
+        let mut used = vec![false; self.nodes.len()];
+        used[..self.origins as usize].fill(true);
+        for edge in &edges {
+            used[edge.from as usize] = true;
+            used[edge.to as usize] = true;
+        }
+        let mut number = vec![0; self.nodes.len()];
+        let mut count = 0;
+        for (node, used) in used.iter().enumerate() {
+            number[node] = count;
+            count += u32::from(*used);
+        }
+        let mut is_used = used.iter();
+        self.nodes
+            .retain(|_| is_used.next().copied().unwrap_or(false));
+        for edge in &mut edges {
+            edge.from = number[edge.from as usize];
+            edge.to = number[edge.to as usize];
+        }
+        self.edges = edges;
+    }
+}
+
+/// Whether a piece of vein reaches into a hole.
+fn touches(hole: &[DVec2], from: DVec2, to: DVec2) -> bool {
+    if is_within(hole, from) || is_within(hole, to) {
+        return true;
+    }
+    let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
+    sides(hole).any(|(a, b)| {
+        turn(a, b, from) * turn(a, b, to) < 0.0 && turn(from, to, a) * turn(from, to, b) < 0.0
+    })
+}
+
+/// Whether a place lies within a polygon.
+pub(crate) fn is_within(polygon: &[DVec2], p: DVec2) -> bool {
+    let crossings = sides(polygon).filter(|(a, b)| {
+        (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
+    });
+    crossings.count() % 2 == 1
+}
+
+fn sides(polygon: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+    let next = polygon.iter().cycle().skip(1);
+    polygon.iter().zip(next).map(|(a, b)| (*a, *b))
+}
+
+impl Wounds {
+    /// Area of the holes, mm².
+    pub fn holes_area(&self) -> f64 {
+        let holes = self.holes.iter().map(|hole| {
+            let twice = sides(hole).map(|(a, b)| (a - hole[0]).perp_dot(b - hole[0]));
+            0.5 * twice.sum::<f64>()
+        });
+        holes.sum()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,206 @@
+//! What makes a contour that of a specimen: its base, its apex, and sides that differ.
+//!
+//! Each of these is a continuous one-to-one map of the plane that keeps base and apex in place, so
+//! that it goes with every contour and a margin that did not cross itself does not do so after.
+//! They apply in this order: breadth, base, unequal halves at the base, apex, asymmetry.
+//!
+//! - **In**: an [`Outline`] whose base is the origin and whose midrib goes along +y.
+//! - **Out**: the outline of the specimen; its midrib is as long as before.
+//! - **Always true**: without any of them the outline is the same, bit for bit.
+
+mod asymmetry;
+mod ends;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+use thiserror::Error;
+
+pub use self::asymmetry::Asymmetry;
+pub use self::ends::{ApexShape, BaseShape};
+use super::outline::{Outline, OutlineError};
+use super::teeth::LobeTips;
+use super::tips::Tip;
+
+/// Longest edge of a margin that is to be bent, as a share of the midrib's length.
+const LONGEST_EDGE: f64 = 0.004;
+
+/// How the margin of a specimen departs from its contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Specimen {
+    /// Factor on the width, 0.2 to 5.
+    pub breadth: f64,
+    /// The base, where it is not the contour's.
+    pub base: Option<BaseShape>,
+    /// How much lower the right half of the blade begins than the left, as a share of the midrib's
+    /// length, −0.3 to 0.3.
+    pub oblique: f64,
+    /// The apex, where it is not the contour's.
+    pub apex: Option<ApexShape>,
+    /// How left and right differ by chance.
+    pub asymmetry: Asymmetry,
+    /// What ends pointed lobes.
+    pub lobe_tip: Option<Tip>,
+}
+
+impl Default for Specimen {
+    /// The contour as it is.
+    fn default() -> Self {
+        Self {
+            breadth: 1.0,
+            base: None,
+            oblique: 0.0,
+            apex: None,
+            asymmetry: Asymmetry::default(),
+            lobe_tip: None,
+        }
+    }
+}
+
+/// Why a contour cannot have this base or apex.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SpecimenError {
+    /// A number out of range.
+    #[error("{key} is {value}, outside {range}")]
+    OutOfRange {
+        /// The block's keys, down to the number.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// A sinus that is there already.
+    #[error(
+        "a cordate base of depth {depth} needs a contour that reaches less far below the petiole: this one goes {there:.3} below it"
+    )]
+    DeeperAlready {
+        /// The depth asked for.
+        depth: f64,
+        /// The contour's.
+        there: f64,
+    },
+    /// A contour that is too pointed for a sinus or a notch.
+    #[error("{what} of depth {depth} does not fit this contour, whose {end} is too pointed")]
+    TooPointed {
+        /// `a cordate base`, `an emarginate apex` or `a retuse apex`.
+        what: &'static str,
+        /// The depth asked for.
+        depth: f64,
+        /// `base` or `apex`.
+        end: &'static str,
+    },
+    /// The margin crosses itself.
+    #[error("the margin of the specimen is none: {0}")]
+    NoMargin(#[from] OutlineError),
+}
+
+impl Specimen {
+    /// Whether the contour stays as it is but for tips.
+    pub fn keeps_contour(&self) -> bool {
+        let Self {
+            breadth,
+            base,
+            oblique,
+            apex,
+            asymmetry,
+            lobe_tip: _,
+        } = *self;
+        let apex = apex.is_none_or(|apex| apex.tip().is_some());
+        breadth == 1.0 && base.is_none() && oblique == 0.0 && apex && asymmetry.is_none()
+    }
+
+    /// Whether nothing is changed at all.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The tips that do not stand on teeth.
+    pub fn tips(&self) -> LobeTips {
+        LobeTips {
+            lobes: self.lobe_tip,
+            apex: self.apex.and_then(ApexShape::tip),
+        }
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    ///
+    /// [`SpecimenError::OutOfRange`].
+    pub fn validate(&self) -> Result<(), SpecimenError> {
+        within("breadth", self.breadth, 0.2, 5.0, "0.2 to 5")?;
+        within("oblique", self.oblique, -0.3, 0.3, "-0.3 to 0.3")?;
+        self.base.map_or(Ok(()), BaseShape::validate)?;
+        self.apex.map_or(Ok(()), ApexShape::validate)?;
+        self.asymmetry.validate()?;
+        match self.lobe_tip.and_then(|tip| tip.fault()) {
+            Some((key, value, range)) => Err(SpecimenError::OutOfRange { key, value, range }),
+            None => Ok(()),
+        }
+    }
+
+    /// The outline of the specimen. `seed` decides how its sides differ.
+    ///
+    /// # Errors
+    ///
+    /// [`SpecimenError`].
+    pub fn applied(&self, outline: Outline, seed: u64) -> Result<Outline, SpecimenError> {
+        self.validate()?;
+        if self.keeps_contour() {
+            return Ok(outline);
+        }
+        let length = outline.length();
+        // In lengths of the midrib.
+        let mut points = finely(outline.points(), LONGEST_EDGE * length);
+        for p in &mut points {
+            *p /= length;
+            p.x *= self.breadth;
+        }
+        if let Some(base) = self.base {
+            base.shape(&mut points)?;
+        }
+        if self.oblique != 0.0 {
+            ends::lower_right(&mut points, self.oblique);
+        }
+        if let Some(apex) = self.apex {
+            apex.shape(&mut points)?;
+        }
+        self.asymmetry.shape(&mut points, seed);
+        for p in &mut points {
+            *p *= length;
+        }
+        Ok(Outline::new(points, outline.base(), outline.apex())?)
+    }
+}
+
+/// Refuses a number out of range by its key.
+fn within(
+    key: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+    range: &'static str,
+) -> Result<(), SpecimenError> {
+    if (least..=most).contains(&value) {
+        Ok(())
+    } else {
+        Err(SpecimenError::OutOfRange { key, value, range })
+    }
+}
+
+/// A closed polygon with corners added, so that no edge is longer than `longest`.
+fn finely(polygon: &[DVec2], longest: f64) -> Vec<DVec2> {
+    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    ends.flat_map(|(&from, &to)| {
+        let pieces = (from.distance(to) / longest).ceil().clamp(1.0, 1e4);
+        (0..pieces as u32).map(move |i| from.lerp(to, f64::from(i) / pieces))
+    })
+    .collect()
+}
+
+/// A smooth step from 0 at 0 to 1 at 1.
+fn step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}

@@ -1,0 +1,233 @@
+//! Base and apex of a blade.
+//!
+//! Places are in lengths of the midrib: the base is the origin, the apex (0, 1).
+
+use glam::DVec2;
+
+use super::{SpecimenError, step, within};
+use crate::shape::tips::{Point, Tip};
+
+/// The base of a blade.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BaseShape {
+    /// A sinus at the petiole: lobes reach below it.
+    Cordate {
+        /// How far they do, 0.005 to 0.5.
+        depth: f64,
+        /// Width of the sinus at the lobes' lower ends, 0.02 to 2.
+        width: f64,
+    },
+    /// A wedge: the margin rises from the petiole in nearly straight lines.
+    Cuneate {
+        /// How far it is raised at the ends of the wedge, 0.005 to 0.4.
+        height: f64,
+        /// Width of the wedge at its upper end, 0.02 to 2.
+        width: f64,
+    },
+    /// The petiole is attached inside the blade.
+    Peltate {
+        /// How far inside the margin below it, 0.005 to 0.5.
+        inset: f64,
+    },
+}
+
+/// The apex of a blade.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ApexShape {
+    /// Drawn out, between hollow sides, into a drip tip.
+    Acuminate {
+        /// Length of the tip, 0.02 to 0.6.
+        length: f64,
+        /// Share by which its end is narrower than the contour's, 0.05 to 0.95.
+        narrowing: f64,
+    },
+    /// A notch.
+    Emarginate {
+        /// Its depth, 0.05 to 0.4.
+        depth: f64,
+        /// Its width, 0.02 to 2.
+        width: f64,
+    },
+    /// A shallow notch.
+    Retuse {
+        /// Its depth, 0.002 to 0.05.
+        depth: f64,
+        /// Its width, 0.02 to 2.
+        width: f64,
+    },
+    /// A short point, in which the midrib ends.
+    Mucronate(Point),
+}
+
+/// Up to where along the midrib the lower part of a blade is stretched or compressed.
+const BASE_REACH: f64 = 0.4;
+
+impl BaseShape {
+    pub(super) fn validate(self) -> Result<(), SpecimenError> {
+        let wide = |key, width| within(key, width, 0.02, 2.0, "0.02 to 2");
+        match self {
+            Self::Cordate { depth, width } => {
+                within("base.cordate.depth", depth, 0.005, 0.5, "0.005 to 0.5")?;
+                wide("base.cordate.width", width)
+            }
+            Self::Cuneate { height, width } => {
+                within("base.cuneate.height", height, 0.005, 0.4, "0.005 to 0.4")?;
+                wide("base.cuneate.width", width)
+            }
+            Self::Peltate { inset } => {
+                within("base.peltate.inset", inset, 0.005, 0.5, "0.005 to 0.5")
+            }
+        }
+    }
+
+    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
+        match self {
+            Self::Cordate { depth, width } => {
+                let there = -points.iter().map(|p| p.y).fold(0.0, f64::min);
+                if there >= depth {
+                    return Err(SpecimenError::DeeperAlready { depth, there });
+                }
+                // Each place falls the farther the larger the amplitude; all stay in order.
+                let fall = |p: DVec2| step(2.0 * p.x.abs() / width) * low(p.y, BASE_REACH);
+                let amplitude = amplitude_for(depth, |amplitude| {
+                    let lowest = points.iter().map(|&p| p.y - amplitude * fall(p));
+                    -lowest.fold(0.0, f64::min)
+                });
+                let amplitude = amplitude.ok_or(SpecimenError::TooPointed {
+                    what: "a cordate base",
+                    depth,
+                    end: "base",
+                })?;
+                for p in points {
+                    p.y -= amplitude * fall(*p);
+                }
+            }
+            Self::Cuneate { height, width } => {
+                // What is above gives way by less than it is high, so all places stay in order.
+                let reach = BASE_REACH.max(2.2 * height).min(0.95);
+                for p in points {
+                    let aside = (2.0 * p.x.abs() / width).min(1.0);
+                    p.y += height * aside * low(p.y, reach);
+                }
+            }
+            Self::Peltate { inset } => {
+                for p in points {
+                    p.y -= inset * low(p.y, 0.8);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ApexShape {
+    /// The tip that it is, if it is one.
+    pub(super) fn tip(self) -> Option<Tip> {
+        match self {
+            Self::Mucronate(point) => Some(Tip::Mucro(point)),
+            Self::Acuminate { .. } | Self::Emarginate { .. } | Self::Retuse { .. } => None,
+        }
+    }
+
+    pub(super) fn validate(self) -> Result<(), SpecimenError> {
+        let wide = |key, width| within(key, width, 0.02, 2.0, "0.02 to 2");
+        match self {
+            Self::Acuminate { length, narrowing } => {
+                within("apex.acuminate.length", length, 0.02, 0.6, "0.02 to 0.6")?;
+                let range = "0.05 to 0.95";
+                within("apex.acuminate.narrowing", narrowing, 0.05, 0.95, range)
+            }
+            Self::Emarginate { depth, width } => {
+                within("apex.emarginate.depth", depth, 0.05, 0.4, "0.05 to 0.4")?;
+                wide("apex.emarginate.width", width)
+            }
+            Self::Retuse { depth, width } => {
+                within("apex.retuse.depth", depth, 0.002, 0.05, "0.002 to 0.05")?;
+                wide("apex.retuse.width", width)
+            }
+            Self::Mucronate(point) => match Tip::Mucro(point).fault() {
+                Some((key, value, range)) => Err(SpecimenError::OutOfRange { key, value, range }),
+                None => Ok(()),
+            },
+        }
+    }
+
+    pub(super) fn shape(self, points: &mut [DVec2]) -> Result<(), SpecimenError> {
+        match self {
+            Self::Acuminate { length, narrowing } => {
+                for p in points {
+                    let below = (1.0 - p.y) / length;
+                    if below >= 1.0 {
+                        continue;
+                    }
+                    // Lobes beside the apex stay where they are.
+                    let aside = (p.x / (3.0 * length)).abs().min(1.0);
+                    let near = (1.0 - aside * aside) * (1.0 - aside * aside);
+                    p.x *= 1.0 - narrowing * (1.0 - step(below)) * near;
+                }
+                Ok(())
+            }
+            Self::Emarginate { depth, width } => {
+                notched(points, depth, width, "an emarginate apex")
+            }
+            Self::Retuse { depth, width } => notched(points, depth, width, "a retuse apex"),
+            Self::Mucronate(_) => Ok(()),
+        }
+    }
+}
+
+/// Raises what is beside the apex, so that it lies in a notch.
+fn notched(
+    points: &mut [DVec2],
+    depth: f64,
+    width: f64,
+    what: &'static str,
+) -> Result<(), SpecimenError> {
+    let end = "apex";
+    let too_pointed = SpecimenError::TooPointed { what, depth, end };
+    let rise = |p: DVec2| step(2.0 * p.x.abs() / width) * low(1.0 - p.y, 0.4);
+    let there = points.iter().map(|p| p.y - 1.0).fold(0.0, f64::max);
+    if there >= depth {
+        return Err(too_pointed);
+    }
+    let amplitude = amplitude_for(depth, |amplitude| {
+        let highest = points.iter().map(|&p| p.y - 1.0 + amplitude * rise(p));
+        highest.fold(0.0, f64::max)
+    });
+    let amplitude = amplitude.ok_or(too_pointed)?;
+    for p in points {
+        p.y += amplitude * rise(*p);
+    }
+    Ok(())
+}
+
+/// Lowers the right half of the blade and raises the left, by `offset` together.
+pub(super) fn lower_right(points: &mut [DVec2], offset: f64) {
+    for p in points {
+        let aside = step(p.x.abs() / 0.15).copysign(p.x);
+        p.y -= 0.5 * offset * aside * low(p.y, 0.6);
+    }
+}
+
+/// 1 at and below the base, falling to 0 at `reach`.
+fn low(y: f64, reach: f64) -> f64 {
+    1.0 - step(y / reach)
+}
+
+/// The amplitude at which a depth that rises with it, and is 0 without, is the one wanted; none if
+/// it had to be so great that the contour would no longer be itself.
+fn amplitude_for(wanted: f64, depth: impl Fn(f64) -> f64) -> Option<f64> {
+    let (mut low, mut high) = (0.0, 2.0 * wanted + 0.15);
+    if depth(high) < wanted {
+        return None;
+    }
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if depth(middle) < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(high)
+}
