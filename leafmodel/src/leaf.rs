@@ -34,11 +34,13 @@ use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
+use crate::blade::hairs::{HairMesh, HairPlan};
 use crate::blade::layers::Layer;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
+use crate::blade::surface::{SurfaceMap, SurfacePlan};
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
@@ -70,6 +72,10 @@ pub struct LeafPlan {
     pub senescence: Option<Senescence>,
     /// How the blade lies in space.
     pub form: BladeForm,
+    /// What its faces have below the mesh; without it they are smooth.
+    pub surface: Option<SurfacePlan>,
+    /// Its hairs, by kind.
+    pub hairs: Vec<HairPlan>,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
     pub petiole: Option<PetiolePlan>,
     /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`]
@@ -94,6 +100,10 @@ pub struct Leaf {
     pub frame: UvFrame,
     /// Contents over them.
     pub contents: ContentsMap,
+    /// Slopes of its faces over them, if the plan has a surface.
+    pub surface: Option<SurfaceMap>,
+    /// Its hairs in space, by kind.
+    pub hairs: Vec<HairMesh>,
 }
 
 /// Why a plan cannot be carried out.
@@ -182,6 +192,10 @@ impl Leaf {
             mosaic.validate()?;
         }
         plan.form.validate()?;
+        if let Some(surface) = &plan.surface {
+            surface.validate()?;
+        }
+        plan.hairs.iter().try_for_each(HairPlan::validate)?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
@@ -211,12 +225,16 @@ impl Leaf {
             .transpose()?;
         let frame = UvFrame::around(outline.points());
         let contents = plan.paint(&lamina, is_stopped)?;
+        let surface = plan.surface_of(&lamina, &frame, [contents.width, contents.height])?;
+        let hairs = plan.hairs_of(&lamina, &mesh)?;
         Ok(Self {
             lamina,
             mesh,
             petiole,
             frame,
             contents,
+            surface,
+            hairs,
         })
     }
 }
@@ -306,6 +324,8 @@ mod tests {
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },
+            surface: None,
+            hairs: Vec::new(),
             petiole: None,
             compound: None,
             pigments: Pigments::default(),

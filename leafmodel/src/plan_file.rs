@@ -29,6 +29,7 @@ mod contents;
 mod control;
 mod development;
 mod growth_form;
+mod hairs;
 mod layers;
 mod leaf;
 mod mosaic;
@@ -39,6 +40,7 @@ mod presets;
 mod rates;
 mod senescence;
 mod solid;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod venation;

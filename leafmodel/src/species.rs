@@ -36,6 +36,7 @@ pub mod leaf_traits;
 mod list;
 pub mod maple;
 mod runions;
+pub mod surfaces;
 pub mod table_1;
 mod trees;
 mod trees_contours;
@@ -137,6 +138,8 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),

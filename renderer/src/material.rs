@@ -18,6 +18,7 @@ pub mod contents_texture;
 pub mod held;
 pub mod leaf;
 pub mod palette;
+pub mod relief;
 pub mod solid;
 
 use glam::Vec2;
@@ -29,6 +30,7 @@ use contents_texture::ContentsTexture;
 use held::Held;
 use leaf::{LeafMaterial, LeafTissue};
 use palette::Palette;
+use relief::Relief;
 use solid::SolidMaterial;
 
 /// The materials, a closed set.
@@ -121,6 +123,15 @@ impl Material {
             Self::Dielectric(_) => {}
             Self::Leaf(leaf) => leaf.tabulate(grid),
             Self::Solid(solid) => solid.tabulate(grid),
+        }
+    }
+
+    /// Its relief, if it has one.
+    #[inline]
+    pub fn relief(&self) -> Option<&Relief> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Solid(_) => None,
+            Self::Leaf(leaf) => leaf.relief.as_ref(),
         }
     }
 

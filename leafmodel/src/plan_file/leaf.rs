@@ -2,15 +2,18 @@
 
 use super::compound::{self, compound, petiole, usual_compound, usual_petiole};
 use super::contents::{NEVER_TOGETHER, contents};
+use super::hairs::hairs;
 use super::layers::layers;
 use super::mosaic::{self, mosaic};
 use super::outline::{self, outline};
 use super::pigments::pigments;
 use super::senescence::{self, senescence};
 use super::solid::MAP_SIZE;
+use super::surface::surface;
 use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::senescence::AgeSource;
+use crate::blade::surface::SurfacePlan;
 use crate::blade::tissue::Tissue;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
@@ -32,6 +35,8 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         mosaic: None,
         senescence: None,
         form: BladeForm::nearly_flat(length_mm),
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),
@@ -103,6 +108,10 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
     keys.block("blade", about, |keys| {
         form_keys(&mut plan.form, keys, length_mm);
     });
+    let about = "What its faces have below the mesh; left out, they are smooth.";
+    let smooth = || SurfacePlan::SMOOTH;
+    keys.optional_block("surface", &mut plan.surface, smooth, about, surface);
+    hairs(&mut plan.hairs, keys);
     // Leaflets have stalks of their own.
     keys.exclude("compound", "petiole");
     let about = "Its stalk, if it is a simple leaf.";

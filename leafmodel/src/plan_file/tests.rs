@@ -24,7 +24,7 @@ use crate::venation::plan::{
 };
 use proptest::prelude::*;
 
-use self::bodies::{petiole_or_compound, tissue_and_form};
+use self::bodies::{hairs, petiole_or_compound, surface, tissue_and_form};
 use self::outlines::{contour, teeth};
 use self::palettes::pigments;
 use self::patterns::{layers_by_chance, mosaic_by_chance, senescence};
@@ -71,6 +71,8 @@ fn plain() -> LeafPlan {
         mosaic: None,
         senescence: None,
         form: BladeForm::nearly_flat(80.0),
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         pigments: Pigments::default(),
@@ -84,12 +86,12 @@ proptest! {
     #[test]
     fn a_written_plan_reads_back_to_the_same(
         contour in contour(), teeth in teeth(), venation in venation(), (tissue, form) in tissue_and_form(),
-        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
+        seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(), surface in surface(), hairs in hairs(),
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(),
     ) {
         let outline = OutlinePlan { contour, teeth };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, petiole, compound, pigments, map_size };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, surface, hairs, petiole, compound, pigments, map_size };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

@@ -12,6 +12,7 @@ mod others;
 pub(super) mod sources;
 mod trees;
 
+use super::surfaces;
 use crate::blade::BladeForm;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
@@ -252,6 +253,8 @@ impl LeafTraits {
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
+            surface: surfaces::surface(self.preset),
+            hairs: surfaces::hairs(self.preset),
             petiole: None,
             compound: None,
             form: BladeForm {

@@ -45,6 +45,8 @@ pub(crate) enum Use {
     Layer = 19,
     /// How far the veins of an architecture stray.
     Architecture = 20,
+    /// Where hairs stand, and their shapes.
+    Hair = 41,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -100,6 +100,10 @@ pub fn trace<const N: usize>(
             },
             light_samples: 0,
         },
+        cone: Cone {
+            width: 0.0,
+            angle: world.camera.pixel_angle(),
+        },
         ray,
     };
     let paths = Paths {
@@ -111,9 +115,30 @@ pub fn trace<const N: usize>(
     result
 }
 
+/// Opening of the cone of directions that a scattered ray stands for.
+const SCATTERED_ANGLE: f32 = 0.2;
+/// Least cosine by which a ray's width grows on a surface that it meets at a slant.
+const LEAST_FACING: f32 = 0.1;
+
+/// The width of a ray along its way, for filters.
+#[derive(Clone, Copy)]
+struct Cone {
+    /// Where it starts, m.
+    width: f32,
+    /// By how much it grows, m per m.
+    angle: f32,
+}
+
+impl Cone {
+    fn width_at(&self, distance: f32) -> f32 {
+        self.width + self.angle * distance
+    }
+}
+
 /// A ray of a path and its origin.
 struct Leg<const N: usize> {
     ray: Ray,
+    cone: Cone,
     /// Factor on radiance along the ray, up to the camera.
     throughput: Lanes<N>,
     bounce: Bounce,
@@ -135,6 +160,7 @@ impl<const N: usize> Paths<'_, N> {
             result.rays += 1;
             let Leg {
                 ray,
+                cone,
                 throughput,
                 bounce,
             } = &leg;
@@ -148,13 +174,21 @@ impl<const N: usize> Paths<'_, N> {
                 let found = emission(world, number, ray, &surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
-            let bsdf = world
-                .material_of(surface.instance)
-                .bsdf(surface.uv, wavelengths);
+            let material = world.material_of(surface.instance);
+            let mut bsdf = material.bsdf(surface.uv, wavelengths);
+            let width = cone.width_at(hit.t);
+            if let Some(relief) = material.relief() {
+                let scale = world.geometry.texture_scale(&hit);
+                let facing = ray.direction.dot(surface.shading_normal).abs();
+                let footprint = width / facing.max(LEAST_FACING).sqrt();
+                bsdf = bsdf.with_relief(relief.at(surface.uv, scale, footprint));
+            }
             let frame = Frame::new(surface.shading_normal, surface.tangent);
             let wo = frame.to_local(-ray.direction);
             if depth == 0 {
-                let facing = if wo.z < 0.0 {
+                let facing = if material.relief().is_some() {
+                    frame.to_world(bsdf.normal(wo))
+                } else if wo.z < 0.0 {
                     -surface.shading_normal
                 } else {
                     surface.shading_normal
@@ -190,6 +224,7 @@ impl<const N: usize> Paths<'_, N> {
                     1
                 },
                 throughput: *throughput,
+                width,
                 gathered: result.radiance,
             };
             let specular = bsdf.is_specular();
@@ -239,6 +274,8 @@ struct Vertex<'a, const N: usize> {
     light_samples: u32,
     /// Factor on radiance from here, up to the camera.
     throughput: Lanes<N>,
+    /// Width of the ray that found it, m.
+    width: f32,
     /// Radiance that the path has found so far.
     gathered: Lanes<N>,
 }
@@ -272,6 +309,10 @@ impl<const N: usize> Vertex<'_, N> {
         Some(Leg {
             ray: self.surface.spawn(self.frame.to_world(sample.wi)),
             throughput,
+            cone: Cone {
+                width: self.width,
+                angle: SCATTERED_ANGLE,
+            },
             bounce: Bounce {
                 pdf,
                 from: self.receiver,

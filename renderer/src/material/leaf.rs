@@ -7,6 +7,7 @@ use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
 use crate::material::held::Held;
 use crate::material::palette::Palette;
+use crate::material::relief::{Relief, ReliefMap};
 use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
 /// A leaf's material.
@@ -22,6 +23,8 @@ pub struct LeafMaterial {
     coats: [Coat; 2],
     /// The tissue's optics, tabulated, if the leaf is uniform.
     uniform: Option<Table>,
+    /// The relief of its faces, if they are not smooth.
+    pub relief: Option<Relief>,
 }
 
 /// The tissue of a leaf, which determines its reflectance and transmittance.
@@ -54,7 +57,14 @@ impl LeafMaterial {
             abaxial_ratio: abaxial_ratio.map(Spectrum::from),
             coats,
             uniform: None,
+            relief: None,
         }
+    }
+
+    /// The same leaf with a relief.
+    pub fn with_relief(mut self, map: ReliefMap) -> Self {
+        self.relief = Some(Relief::new(map, &self.coats));
+        self
     }
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.
