@@ -53,6 +53,8 @@ pub struct SurfacePlan {
     pub cell_elongation: f64,
     /// Share of the coat's roughness, as a square, that the cells' own bulges make, 0 to 1.
     pub cell_share: f64,
+    /// Optical thickness of the wax bloom on the adaxial and the abaxial face, 0 to 10.
+    pub bloom: [f64; 2],
 }
 
 impl SurfacePlan {
@@ -66,6 +68,7 @@ impl SurfacePlan {
         cells_um: 0.0,
         cell_elongation: 1.0,
         cell_share: 0.2,
+        bloom: [0.0; 2],
     };
 
     /// Checks every field.
@@ -103,6 +106,8 @@ impl SurfacePlan {
                 "from 1 to 30",
             ),
             ("cell_share", self.cell_share, 0.0..=1.0, "from 0 to 1"),
+            ("adaxial_bloom", self.bloom[0], 0.0..=10.0, "from 0 to 10"),
+            ("abaxial_bloom", self.bloom[1], 0.0..=10.0, "from 0 to 10"),
         ];
         for (field, value, range, text) in fields {
             TissueError::unless(range.contains(&value), field, value, text)?;

@@ -33,11 +33,15 @@ pub(super) fn surface(value: &mut SurfacePlan, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(0.0, 1.0));
     let about = "Share of a coat's roughness, as a square, that the bulging of cells makes.";
     keys.key("cell_share", &mut value.cell_share, limits, about);
+    let limits = Number(Limits::closed(0.0, 10.0));
+    let [adaxial, abaxial] = &mut value.bloom;
+    let about = "Optical thickness of wax crystals on the adaxial face, which scatter all light: 0.1 \
+        is a breath, 1 a white bloom.";
+    keys.key("adaxial_bloom", adaxial, limits, about);
+    let about = "Optical thickness of wax crystals on the abaxial face.";
+    keys.key("abaxial_bloom", abaxial, limits, about);
     if keys.is_sound() && value.cells_um > 0.0 && value.cells_um < 5.0 {
-        let problem = format!(
-            "`cells_um` is {}, neither 0 nor from 5 to 500",
-            value.cells_um
-        );
+        let problem = format!("{} is neither 0 nor from 5 to 500", value.cells_um);
         let help = "cells of an epidermis are 10 to 200 µm wide; write 0 for none";
         keys.refuse(&["cells_um"], problem, help);
     }

@@ -83,7 +83,17 @@ pub(super) fn surface(preset: &str) -> Option<SurfacePlan> {
         cells_um: relief.cells[0],
         cell_elongation: relief.cells[1],
         cell_share: 0.2,
+        bloom: bloom(preset),
     })
+}
+
+/// Optical thickness of the wax on the faces: leaves that floras call glaucous beneath. By eye.
+fn bloom(preset: &str) -> [f64; 2] {
+    match preset {
+        "willow" => [0.0, 0.25],
+        "sweetgum" | "maple" | "white-oak" => [0.0, 0.05],
+        _ => [0.0, 0.0],
+    }
 }
 
 /// Roughness of the adaxial coat of a preset, if it is not the usual one.

@@ -1,6 +1,7 @@
 //! The directional albedo of coats of any roughness, for coats whose roughness changes from place
 //! to place.
 
+use std::f32::consts::FRAC_1_PI;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
@@ -27,7 +28,69 @@ pub struct CoatTable {
     means: Box<[f32]>,
 }
 
-/// The coat of one face at one place.
+/// Crystals of wax on a face, which scatter all light that they meet (glaucous bloom).
+///
+/// Of light at the cosine µ the share `E_w(µ) = ½ (1 − exp(−τ/µ))` is sent back and the rest goes
+/// on: a thin layer of optical thickness τ whose crystals send half of what they scatter to each
+/// side.
+#[derive(Clone, Debug)]
+pub struct Bloom {
+    tau: f32,
+    /// `Ē_w`.
+    mean: f32,
+    /// `1 − Ē` of bloom over coat, for each roughness of the table.
+    passed: Box<[f32]>,
+}
+
+impl Bloom {
+    /// Bloom of an optical thickness over the coats of a table.
+    pub fn new(tau: f32, table: &CoatTable) -> Self {
+        let mut bloom = Self {
+            tau,
+            mean: 0.0,
+            passed: table.means.iter().map(|mean| 1.0 - mean).collect(),
+        };
+        if tau > 0.0 {
+            bloom.mean = 1.0 - mean_over(|mu| 1.0 - bloom.sent_back(mu));
+            let rows = table.rows.iter();
+            bloom.passed = rows
+                .map(|row| mean_over(|mu| (1.0 - along(row, mu)) * (1.0 - bloom.sent_back(mu))))
+                .collect();
+        }
+        bloom
+    }
+
+    /// `E_w`.
+    #[inline]
+    fn sent_back(&self, mu: f32) -> f32 {
+        if self.tau == 0.0 {
+            return 0.0;
+        }
+        0.5 * (1.0 - libm::expf(-self.tau / mu.max(1e-4)))
+    }
+}
+
+/// `∫ 2 f µ dµ` by the midpoint rule in √µ.
+fn mean_over(f: impl Fn(f32) -> f32) -> f32 {
+    let steps = 400;
+    let term = |i: usize| {
+        let x = (i as f32 + 0.5) / steps as f32;
+        // µ = x², 2 µ dµ = 4 x³ dx.
+        f64::from(f(x * x) * 4.0 * x * x * x) / f64::from(steps as u32)
+    };
+    (0..steps).map(term).sum::<f64>() as f32
+}
+
+/// A row of the table at a cosine.
+#[inline]
+fn along(row: &[f32; MU_NODES], mu: f32) -> f32 {
+    let node = ((mu.sqrt() * (MU_NODES - 1) as f32) as usize).min(MU_NODES - 2);
+    let [low, high] = [mu_of(node), mu_of(node + 1)];
+    let share = ((mu - low) / (high - low)).clamp(0.0, 1.0);
+    row[node] * (1.0 - share) + row[node + 1] * share
+}
+
+/// The coat of one face at one place, and the bloom on it.
 #[derive(Clone, Debug)]
 pub struct LocalCoat<'a> {
     /// Its distribution of microfacets.
@@ -35,6 +98,7 @@ pub struct LocalCoat<'a> {
     /// Its refractive index.
     pub eta: f32,
     table: &'a CoatTable,
+    bloom: &'a Bloom,
     /// Row of the table and share of the next.
     row: usize,
     share: f32,
@@ -76,8 +140,13 @@ impl CoatTable {
         }
     }
 
-    /// The coat of this roughness; beyond the table's range that of its end.
-    pub fn coat(&self, eta: f32, alpha_x: f32, alpha_y: f32) -> LocalCoat<'_> {
+    /// The coat of this roughness under a bloom; beyond the table's range that of its end.
+    pub fn coat<'a>(
+        &'a self,
+        eta: f32,
+        [alpha_x, alpha_y]: [f32; 2],
+        bloom: &'a Bloom,
+    ) -> LocalCoat<'a> {
         let [least, most] = ALPHAS;
         let ggx = Ggx {
             alpha_x: alpha_x.clamp(least, most),
@@ -91,6 +160,7 @@ impl CoatTable {
             ggx,
             eta,
             table: self,
+            bloom,
             row,
             share: ((mean - low) / (high - low)).clamp(0.0, 1.0),
         }
@@ -104,23 +174,41 @@ impl LocalCoat<'_> {
         self.eta != 1.0
     }
 
-    /// `E` at a cosine.
+    /// `E` at a cosine: what coat and bloom send back.
     #[inline]
     pub fn reflected(&self, mu: f32) -> f32 {
-        let mu = mu.clamp(0.0, 1.0);
-        let node = ((mu.sqrt() * (MU_NODES - 1) as f32) as usize).min(MU_NODES - 2);
-        let [low, high] = [mu_of(node), mu_of(node + 1)];
-        let share = ((mu - low) / (high - low)).clamp(0.0, 1.0);
-        let along = |row: &[f32; MU_NODES]| row[node] * (1.0 - share) + row[node + 1] * share;
-        let rows = &self.table.rows;
-        along(&rows[self.row]) * (1.0 - self.share) + along(&rows[self.row + 1]) * self.share
+        1.0 - (1.0 - self.shone(mu)) * (1.0 - self.sent_back(mu))
     }
 
-    /// `1 − Ē`.
+    /// What the coat alone reflects.
+    #[inline]
+    fn shone(&self, mu: f32) -> f32 {
+        let mu = mu.clamp(0.0, 1.0);
+        let rows = &self.table.rows;
+        along(&rows[self.row], mu) * (1.0 - self.share)
+            + along(&rows[self.row + 1], mu) * self.share
+    }
+
+    /// What the bloom sends back.
+    #[inline]
+    pub fn sent_back(&self, mu: f32) -> f32 {
+        self.bloom.sent_back(mu)
+    }
+
+    /// The bloom's `f`, given what it sends back of light from either direction.
+    #[inline]
+    pub fn bloom(&self, from_wo: f32, from_wi: f32) -> f32 {
+        if self.bloom.mean == 0.0 {
+            return 0.0;
+        }
+        from_wo * from_wi * FRAC_1_PI / self.bloom.mean
+    }
+
+    /// `1 − Ē` of coat and bloom.
     #[inline]
     pub fn passed_mean(&self) -> f32 {
-        let means = &self.table.means;
-        1.0 - (means[self.row] * (1.0 - self.share) + means[self.row + 1] * self.share)
+        let passed = &self.bloom.passed;
+        passed[self.row] * (1.0 - self.share) + passed[self.row + 1] * self.share
     }
 
     /// The lobe's value and its sampling density for two directions on the side +z.
@@ -165,7 +253,8 @@ mod tests {
                 alpha_y: alpha,
             };
             let own = DirectionalAlbedo::new(ggx, 1.45);
-            let coat = table.coat(1.45, alpha, alpha);
+            let none = Bloom::new(0.0, &table);
+            let coat = table.coat(1.45, [alpha; 2], &none);
             assert!(
                 (1.0 - coat.passed_mean() - own.mean()).abs() < 1e-3,
                 "{alpha}"

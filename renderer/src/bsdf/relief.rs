@@ -52,6 +52,8 @@ pub struct ReliefView<'a, const N: usize> {
     other: Vec3,
     coats: [LocalCoat<'a>; 2],
     lambda: f32,
+    /// What the bloom sends back of light from `wo`.
+    sent_back: f32,
     reflecting: Lanes<N>,
     through: Lanes<N>,
     lobes: [f32; 3],
@@ -126,11 +128,8 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         let [own, other] = [&self.faces[side], &self.faces[1 - side]];
         let frame = Tilt::to(normal_of(self.seen_slope(wo)));
         let outward = above(frame.to_local(wo));
-        let albedo = if own.coat.shines() {
-            own.coat.reflected(outward.z)
-        } else {
-            0.0
-        };
+        let sent_back = own.coat.sent_back(outward.z);
+        let albedo = own.coat.reflected(outward.z);
         let passed = 1.0 - albedo;
         let [to_own, to_other] = [own.coat.passed_mean(), other.coat.passed_mean()];
         let (reflectance, [t_own, t_other]) = self.leaf.tissue().seen(side);
@@ -140,9 +139,11 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         for lane in 0..N {
             through.0[lane] = (t_own.0[lane] / to_other).min(t_other.0[lane] / to_own);
         }
-        let reflected = passed * reflectance.mean();
+        // Bloom is sampled as the tissue is.
+        let shining = albedo - sent_back;
+        let reflected = passed * reflectance.mean() + sent_back;
         let transmitted = passed * through.mean() * to_other;
-        let total = albedo + reflected + transmitted;
+        let total = shining + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         let other_normal = normal_of(other.slope);
         let back = [frame.normal.z, other_normal.z].map(given_back);
@@ -154,7 +155,8 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
             lambda: own.coat.ggx.lambda(outward),
             reflecting: reflectance * (passed * FRAC_1_PI * back[0] / to_own),
             through: through * (passed * FRAC_1_PI * back[1]),
-            lobes: [albedo, reflected, transmitted].map(|lobe| lobe * share),
+            sent_back,
+            lobes: [shining, reflected, transmitted].map(|lobe| lobe * share),
             coats: [own.coat.clone(), other.coat.clone()],
         })
     }
@@ -188,16 +190,20 @@ impl<const N: usize> ReliefView<'_, N> {
                 pdf: transmitted * cosine,
             };
         }
+        let sent_back = coat.sent_back(local.z.abs());
+        let bloom = coat.bloom(self.sent_back, sent_back);
+        let below = self.reflecting * (1.0 - coat.reflected(local.z.abs()));
         let diffuse = Scattered {
-            f: self.reflecting * ((1.0 - coat.reflected(local.z.abs())) * tilted),
+            f: (below + Lanes::splat(bloom)) * tilted,
             pdf: reflected * cosine,
         };
         if !coat.shines() {
             return diffuse;
         }
+        let unveiled = (1.0 - self.sent_back) * (1.0 - sent_back);
         let (lobe, pdf) = coat.lobe(self.outward, self.lambda, above(local));
         Scattered {
-            f: diffuse.f + Lanes::splat(lobe * tilted),
+            f: diffuse.f + Lanes::splat(lobe * unveiled * tilted),
             pdf: diffuse.pdf + shining * pdf,
         }
     }

@@ -11,10 +11,9 @@ mod cells;
 use std::sync::Arc;
 
 use glam::Vec2;
-use leafmodel::blade::surface::SlopeMoments;
 
 use self::cells::Cells;
-use crate::bsdf::coat_table::CoatTable;
+use crate::bsdf::coat_table::{Bloom, CoatTable};
 use crate::bsdf::leaf::Coat;
 use crate::bsdf::relief::ReliefFace;
 use crate::geometry::TextureScale;
@@ -26,8 +25,8 @@ use crate::geometry::TextureScale;
 /// coat's own and for 2.9 at `σ² = α²/2`.
 const SPREAD: f32 = 3.0;
 
-/// The moments of both faces.
-type Moments = [SlopeMoments; 2];
+/// The moments of both faces: for each the means of ∂z/∂x and ∂z/∂y and of their squares.
+type Moments = [[f32; 4]; 2];
 
 /// The relief of a leaf's faces.
 #[derive(Clone, Debug)]
@@ -45,6 +44,7 @@ struct FaceCoat {
     /// Roughness across and along.
     alphas: [f32; 2],
     table: Arc<CoatTable>,
+    bloom: Bloom,
 }
 
 #[derive(Clone, Debug)]
@@ -66,6 +66,8 @@ pub struct ReliefMap {
     /// Width of epidermal cells, µm, 0 for none; their length over it; and their share of the
     /// square of the coat's roughness.
     pub cells: [f32; 3],
+    /// Optical thickness of the bloom on the adaxial and the abaxial face.
+    pub bloom: [f32; 2],
 }
 
 impl Relief {
@@ -80,14 +82,17 @@ impl Relief {
         while let Some(next) = levels.last().and_then(Level::half) {
             levels.push(next);
         }
-        let faces = coats.each_ref().map(|coat| {
-            let (eta, alphas) = coat.numbers();
+        let face = |side: usize| {
+            let (eta, alphas) = coats[side].numbers();
+            let table = CoatTable::of(eta);
             FaceCoat {
                 eta,
                 alphas,
-                table: CoatTable::of(eta),
+                bloom: Bloom::new(map.bloom[side], &table),
+                table,
             }
-        });
+        };
+        let faces = [face(0), face(1)];
         Self {
             levels,
             faces,
@@ -124,10 +129,10 @@ impl Relief {
             if mirrored {
                 slope.x = -slope.x;
             }
-            let [alpha_x, alpha_y] = squares.map(|square| square.max(0.0).sqrt());
+            let alphas = squares.map(|square| square.max(0.0).sqrt());
             ReliefFace {
                 slope,
-                coat: coat.table.coat(coat.eta, alpha_x, alpha_y),
+                coat: coat.table.coat(coat.eta, alphas, &coat.bloom),
             }
         };
         [face(0), face(1)]

@@ -104,6 +104,7 @@ pub fn grow(
                 texels: parts.texels,
                 size_mm: parts.size_mm,
                 cells: [plan.cells_um, plan.cell_elongation, plan.cell_share].map(|n| n as f32),
+                bloom: plan.bloom.map(|tau| tau as f32),
             }),
             (_, _) => blade,
         }

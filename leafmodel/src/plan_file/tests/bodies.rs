@@ -146,6 +146,7 @@ pub(super) fn surface() -> impl Strategy<Value = Option<SurfacePlan>> {
         cells_um: cells.0,
         cell_elongation: cells.1,
         cell_share: cells.2,
+        bloom: [bulge.0, veins.2],
     });
     prop::option::of(any)
 }

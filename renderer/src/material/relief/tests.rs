@@ -25,6 +25,7 @@ fn waves(steep: f32) -> ReliefMap {
         texels: (0..SIZE * SIZE).map(texel).collect(),
         size_mm: [20.0; 2],
         cells: [0.0, 1.0, 0.5],
+        bloom: [0.0; 2],
     }
 }
 
