@@ -262,7 +262,7 @@ impl LeafTraits {
                 curl: self.lie.curl.to_radians(),
                 ruffle: self.lie.ruffle[0],
                 ruffle_waves: self.lie.ruffle[1],
-                relief: self.lie.relief,
+                relief: surfaces::meshed_relief(self.preset, self.lie.relief),
                 thickness_mm: self.thickness_mm.value,
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,

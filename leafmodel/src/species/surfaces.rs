@@ -96,6 +96,19 @@ fn bloom(preset: &str) -> [f64; 2] {
     }
 }
 
+/// Least relief of a mesh whose faces have a surface: a midrib is seen in outline.
+const LEAST_MESHED: f64 = 0.1;
+
+/// Height of veins over their diameter in the mesh of a species. The mesh is one sheet, so what it
+/// raises below it sinks above: it has no more than the adaxial face should, and the map of slopes
+/// has the rest.
+pub(super) fn meshed_relief(preset: &str, relief: f64) -> f64 {
+    match surface(preset) {
+        Some(surface) => relief.min(surface.impressed.max(LEAST_MESHED)),
+        None => relief,
+    }
+}
+
 /// Roughness of the adaxial coat of a preset, if it is not the usual one.
 pub fn adaxial_roughness(preset: &str) -> Option<f64> {
     let found = COATS.iter().find(|(name, _)| *name == preset);

@@ -6,6 +6,7 @@ use crate::bsdf::{Scattered, View};
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::cone::{self, Cone};
 use crate::integrator::effort::Effort;
 use crate::integrator::mis;
 use crate::light::selection::Choice;
@@ -100,10 +101,7 @@ pub fn trace<const N: usize>(
             },
             light_samples: 0,
         },
-        cone: Cone {
-            width: 0.0,
-            angle: world.camera.pixel_angle(),
-        },
+        cone: Cone::of_pixel(world.camera.pixel_angle()),
         ray,
     };
     let paths = Paths {
@@ -113,26 +111,6 @@ pub fn trace<const N: usize>(
     };
     paths.follow(from_camera, 0, stream, &mut result);
     result
-}
-
-/// Opening of the cone of directions that a scattered ray stands for.
-const SCATTERED_ANGLE: f32 = 0.2;
-/// Least cosine by which a ray's width grows on a surface that it meets at a slant.
-const LEAST_FACING: f32 = 0.1;
-
-/// The width of a ray along its way, for filters.
-#[derive(Clone, Copy)]
-struct Cone {
-    /// Where it starts, m.
-    width: f32,
-    /// By how much it grows, m per m.
-    angle: f32,
-}
-
-impl Cone {
-    fn width_at(&self, distance: f32) -> f32 {
-        self.width + self.angle * distance
-    }
 }
 
 /// A ray of a path and its origin.
@@ -179,8 +157,8 @@ impl<const N: usize> Paths<'_, N> {
             let width = cone.width_at(hit.t);
             if let Some(relief) = material.relief() {
                 let scale = world.geometry.texture_scale(&hit);
-                let facing = ray.direction.dot(surface.shading_normal).abs();
-                let footprint = width / facing.max(LEAST_FACING).sqrt();
+                let facing = ray.direction.dot(surface.shading_normal);
+                let footprint = cone::footprint(width, facing);
                 bsdf = bsdf.with_relief(relief.at(surface.uv, scale, footprint));
             }
             let frame = Frame::new(surface.shading_normal, surface.tangent);
@@ -309,10 +287,7 @@ impl<const N: usize> Vertex<'_, N> {
         Some(Leg {
             ray: self.surface.spawn(self.frame.to_world(sample.wi)),
             throughput,
-            cone: Cone {
-                width: self.width,
-                angle: SCATTERED_ANGLE,
-            },
+            cone: Cone::scattered(self.width),
             bounce: Bounce {
                 pdf,
                 from: self.receiver,

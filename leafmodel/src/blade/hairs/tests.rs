@@ -1,3 +1,4 @@
+use super::tube::SIDES;
 use super::*;
 use crate::blade::BladeForm;
 use crate::blade::tests::flat;
