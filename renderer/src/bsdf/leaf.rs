@@ -65,7 +65,7 @@ impl Coat {
     /// on the side +z.
     #[inline]
     fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
-        coat_lobe(&self.ggx, self.eta, wo, lambda, wi)
+        coat_lobe(self.ggx, self.eta, wo, lambda, wi)
     }
 
     /// `1 − Ē`.
@@ -77,7 +77,7 @@ impl Coat {
 /// The lobe of a coat of refractive index `eta`: its value and its sampling density from `wo`, whose
 /// Λ is `lambda`; for two directions on the side +z.
 #[inline]
-pub(super) fn coat_lobe(ggx: &Ggx, eta: f32, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
+pub(super) fn coat_lobe(ggx: Ggx, eta: f32, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
     let Some(h) = (wo + wi).try_normalize() else {
         return (0.0, 0.0);
     };

@@ -61,29 +61,28 @@ impl Cells {
             return None;
         }
         let seen = seen * seen * (3.0 - 2.0 * seen);
-        let from_middle = self.from_middle(uv * self.count);
+        let from_middle = way_from_middle(uv * self.count);
         Some(Resolved {
             // Outwards convex: the height falls away from the middle.
             slope: -seen * self.steepness * from_middle,
             resolved: self.shares.map(|share| seen * seen * share),
         })
     }
+}
 
-    /// The way from the nearest middle of a cell.
-    fn from_middle(&self, place: Vec2) -> Vec2 {
-        let home = place.floor().as_ivec2();
-        let mut nearest = Vec2::splat(f32::INFINITY);
-        for dy in -1..=1 {
-            for dx in -1..=1 {
-                let cell = home + IVec2::new(dx, dy);
-                let away = place - middle(cell);
-                if away.length_squared() < nearest.length_squared() {
-                    nearest = away;
-                }
+/// The way to a place from the nearest middle of a cell.
+fn way_from_middle(place: Vec2) -> Vec2 {
+    let home = place.floor().as_ivec2();
+    let mut nearest = Vec2::splat(f32::INFINITY);
+    for dy in -1..=1 {
+        for dx in -1..=1 {
+            let away = place - middle(home + IVec2::new(dx, dy));
+            if away.length_squared() < nearest.length_squared() {
+                nearest = away;
             }
         }
-        nearest
     }
+    nearest
 }
 
 /// The middle of the cell at a place of the grid. Rows are staggered, as bricks are.
