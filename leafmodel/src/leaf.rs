@@ -37,12 +37,14 @@ use self::venation_plan::VenationPlan;
 use crate::blade::BladeForm;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
+use crate::blade::hairs::{HairMesh, HairPlan};
 use crate::blade::layers::Layer;
 use crate::blade::mesh::{BladeError, BladeMesh};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
 use crate::blade::stance::Stance;
+use crate::blade::surface::{SurfaceMap, SurfacePlan};
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
@@ -78,6 +80,10 @@ pub struct LeafPlan {
     pub form: BladeForm,
     /// What has happened to the blade since.
     pub stance: Stance,
+    /// What its faces have below the mesh; without it they are smooth.
+    pub surface: Option<SurfacePlan>,
+    /// Its hairs, by kind.
+    pub hairs: Vec<HairPlan>,
     /// Its stalk, if it has one; leaflets of a compound leaf have those of [`CompoundForm`].
     pub petiole: Option<PetiolePlan>,
     /// If this is the largest leaflet of a compound leaf: how its leaflets stand. [`Leaf::grow`]
@@ -102,6 +108,10 @@ pub struct Leaf {
     pub frame: UvFrame,
     /// Contents over them.
     pub contents: ContentsMap,
+    /// Slopes of its faces over them, if the plan has a surface.
+    pub surface: Option<SurfaceMap>,
+    /// Its hairs in space, by kind.
+    pub hairs: Vec<HairMesh>,
 }
 
 /// Why a plan cannot be carried out.
@@ -194,6 +204,10 @@ impl Leaf {
         }
         plan.form.validate()?;
         plan.stance.validate()?;
+        if let Some(surface) = &plan.surface {
+            surface.validate()?;
+        }
+        plan.hairs.iter().try_for_each(HairPlan::validate)?;
         plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
@@ -230,12 +244,16 @@ impl Leaf {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
         }
         let contents = plan.paint(&lamina, is_stopped)?;
+        let surface = plan.surface_of(&lamina, &frame, [contents.width, contents.height])?;
+        let hairs = plan.hairs_of(&lamina, &mesh)?;
         Ok(Self {
             lamina,
             mesh,
             petiole,
             frame,
             contents,
+            surface,
+            hairs,
         })
     }
 }
@@ -328,6 +346,8 @@ mod tests {
                 meshed_vein_radius_mm: 0.1,
             },
             stance: Stance::default(),
+            surface: None,
+            hairs: Vec::new(),
             petiole: None,
             compound: None,
             pigments: Pigments::default(),

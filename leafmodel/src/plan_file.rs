@@ -30,6 +30,7 @@ mod control;
 mod damage;
 mod development;
 mod growth_form;
+mod hairs;
 mod layers;
 mod leaf;
 mod mosaic;
@@ -42,6 +43,7 @@ mod senescence;
 mod solid;
 mod specimen;
 mod stance;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod venation;

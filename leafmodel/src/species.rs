@@ -40,6 +40,7 @@ pub mod maple;
 mod runions;
 mod specimens;
 mod stances;
+pub mod surfaces;
 pub mod table_1;
 mod trees;
 mod trees_contours;
@@ -146,6 +147,8 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             meshed_vein_radius_mm: 0.12,
         },
         stance: Stance::default(),
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         damage: None,

@@ -27,15 +27,18 @@ use glam::{Vec2, Vec3};
 
 use crate::spectrum::Lanes;
 
+pub mod coat_table;
 pub mod dielectric;
 pub mod directional_albedo;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
+pub mod relief;
 
 use crate::sampling::warp;
 use dielectric::Dielectric;
 use leaf::{LeafBsdf, LeafView};
+use relief::{ReliefBsdf, ReliefFace, ReliefView};
 
 /// A sampled direction, with the weight of light from it.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +62,8 @@ pub enum Bsdf<'a, const N: usize> {
     Dielectric(Dielectric),
     /// A leaf.
     Leaf(LeafBsdf<'a, N>),
+    /// A leaf with a relief.
+    Relief(ReliefBsdf<'a, N>),
 }
 
 /// The value of a BSDF for a pair of directions, with its sampling density.
@@ -97,6 +102,8 @@ pub enum View<'a, const N: usize> {
     },
     /// A leaf.
     Leaf(LeafView<'a, N>),
+    /// A leaf with a relief.
+    Relief(ReliefView<'a, N>),
 }
 
 impl<const N: usize> View<'_, N> {
@@ -119,6 +126,7 @@ impl<const N: usize> View<'_, N> {
                 pdf: dielectric.pdf(*wo, wi),
             },
             Self::Leaf(leaf) => leaf.scatter(wi),
+            Self::Relief(relief) => relief.scatter(wi),
         }
     }
 
@@ -145,6 +153,7 @@ impl<const N: usize> View<'_, N> {
                 })
             }
             Self::Leaf(leaf) => leaf.sample(lobe, u),
+            Self::Relief(relief) => relief.sample(lobe, u),
         }
     }
 }
@@ -164,6 +173,15 @@ impl<'a, const N: usize> Bsdf<'a, N> {
                 dielectric: *dielectric,
             }),
             Self::Leaf(leaf) => leaf.seen_from(wo).map(View::Leaf),
+            Self::Relief(relief) => relief.seen_from(wo).map(View::Relief),
+        }
+    }
+
+    /// The same surface with the relief of its faces; a surface that is no leaf has none.
+    pub fn with_relief(self, faces: [ReliefFace<'a>; 2]) -> Self {
+        match self {
+            Self::Leaf(leaf) => Self::Relief(ReliefBsdf { leaf, faces }),
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Relief(_) => self,
         }
     }
 
@@ -186,7 +204,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
     /// Whether the BSDF is specular only, so that light samples contribute nothing.
     pub fn is_specular(&self) -> bool {
         match self {
-            Self::Diffuse(_) | Self::Leaf(_) => false,
+            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) => false,
             Self::Dielectric(dielectric) => dielectric.is_smooth(),
         }
     }
@@ -198,6 +216,17 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             Self::Diffuse(reflectance) => *reflectance,
             Self::Dielectric(_) => Lanes::ONE,
             Self::Leaf(leaf) => leaf.albedo(wo),
+            Self::Relief(relief) => relief.leaf.albedo(wo),
+        }
+    }
+
+    /// The normal of the face that `wo` sees, on its side.
+    pub fn normal(&self, wo: Vec3) -> Vec3 {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Leaf(_) => {
+                Vec3::new(0.0, 0.0, 1.0_f32.copysign(wo.z))
+            }
+            Self::Relief(relief) => relief.normal(wo),
         }
     }
 }

@@ -60,6 +60,11 @@ impl Camera {
         }
     }
 
+    /// Angle that a pixel in the middle of the picture spans, radians.
+    pub fn pixel_angle(&self) -> f32 {
+        2.0 * self.half_extent.y / self.size.y
+    }
+
     /// Whether rays start from more than one point.
     pub fn has_lens(&self) -> bool {
         self.lens_radius > 0.0

@@ -55,7 +55,7 @@ pub use import::{ImportError, import};
 pub use instance::Instance;
 pub use mesh::{DroppedFaces, MeshError, TriangleMesh};
 pub use ray::Ray;
-pub use surface::SurfacePoint;
+pub use surface::{SurfacePoint, TextureScale};
 
 #[cfg(test)]
 mod testing;

@@ -19,6 +19,7 @@ pub mod held;
 pub mod leaf;
 pub mod light_spread;
 pub mod palette;
+pub mod relief;
 pub mod solid;
 
 use glam::Vec2;
@@ -30,6 +31,7 @@ use contents_texture::ContentsTexture;
 use held::Held;
 use leaf::{LeafMaterial, LeafTissue};
 use palette::Palette;
+use relief::Relief;
 use solid::SolidMaterial;
 
 /// The materials, a closed set.
@@ -122,6 +124,15 @@ impl Material {
             Self::Dielectric(_) => {}
             Self::Leaf(leaf) => leaf.tabulate(grid),
             Self::Solid(solid) => solid.tabulate(grid),
+        }
+    }
+
+    /// Its relief, if it has one.
+    #[inline]
+    pub fn relief(&self) -> Option<&Relief> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Solid(_) => None,
+            Self::Leaf(leaf) => leaf.relief.as_ref(),
         }
     }
 

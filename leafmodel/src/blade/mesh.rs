@@ -132,7 +132,13 @@ impl BladeMesh {
     ) -> Result<Self, BladeError> {
         let veins: Vec<VeinSegment> = network.segments().collect();
         let posture = Posture::new(form, outline, network.map(), settled);
-        Self::within((outline, holes, frame), &veins, form, &posture, settled.is_some())
+        Self::within(
+            (outline, holes, frame),
+            &veins,
+            form,
+            &posture,
+            settled.is_some(),
+        )
     }
 
     /// As [`BladeMesh::build`], from pieces of vein in a map of the blade. Pieces are connected

@@ -13,7 +13,7 @@ use super::vein_grid::VeinGrid;
 use crate::venation::network::VeinSegment;
 
 /// Half-width of the mound in radii of the vein: the bundle sheath reaches beyond the vein itself.
-const HALF_WIDTH: f64 = 1.5;
+pub(super) const HALF_WIDTH: f64 = 1.5;
 /// Ratio of a vein's radius to the least meshed one at which it has its full height.
 const FULL_AT: f64 = 1.5;
 
@@ -48,13 +48,18 @@ impl Relief {
                 if away >= 1.0 {
                     return 0.0;
                 }
-                let developed =
-                    smooth_step((vein.radius / self.least_radius - 1.0) / (FULL_AT - 1.0));
+                let developed = developed(vein.radius, self.least_radius);
                 let mound = f64::midpoint(1.0, libm::cos(PI * away));
                 self.height * 2.0 * vein.radius * developed * mound
             })
             .fold(0.0, f64::max)
     }
+}
+
+/// Share of its height that the mound of a vein of this radius has in a mesh whose least meshed
+/// radius is `least`.
+pub(super) fn developed(radius: f64, least: f64) -> f64 {
+    smooth_step((radius / least - 1.0) / (FULL_AT - 1.0))
 }
 
 /// 0 below 0, 1 above 1, `3x² − 2x³` between.

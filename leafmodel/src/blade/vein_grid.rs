@@ -24,6 +24,8 @@ pub(super) struct NearVein {
     pub(super) distance: f64,
     /// Radius of the vein there, mm.
     pub(super) radius: f64,
+    /// That point, mm.
+    pub(super) foot: DVec2,
 }
 
 /// Greatest number of cells along a side.
@@ -124,9 +126,11 @@ fn nearest(segment: &VeinSegment, p: DVec2) -> NearVein {
     } else {
         0.0
     };
+    let foot = segment.from + along * share;
     NearVein {
-        distance: (segment.from + along * share - p).length(),
+        distance: (foot - p).length(),
         radius: segment.radius_from + (segment.radius_to - segment.radius_from) * share,
+        foot,
     }
 }
 

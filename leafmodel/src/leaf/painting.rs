@@ -4,7 +4,11 @@ use super::{Lamina, LeafError, LeafPlan};
 use crate::blade::ageing::Place;
 use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
+use crate::blade::hairs::HairMesh;
+use crate::blade::mesh::BladeMesh;
 use crate::blade::senescence::Withering;
+use crate::blade::surface::{SurfaceMap, SurfaceOf};
+use crate::blade::tissue::TissueError;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::venation::network::VeinSegment;
 
@@ -76,6 +80,45 @@ impl LeafPlan {
             stain.paint(&mut map, &frame);
         }
         Ok(map)
+    }
+
+    /// The slopes of the faces of a lamina over `frame`, with `size` texels, if the plan has a
+    /// surface.
+    pub(super) fn surface_of(
+        &self,
+        lamina: &Lamina,
+        frame: &UvFrame,
+        size: [u32; 2],
+    ) -> Result<Option<SurfaceMap>, TissueError> {
+        let Some(plan) = &self.surface else {
+            return Ok(None);
+        };
+        let veins: Vec<VeinSegment> = lamina.network.segments().collect();
+        let blade = SurfaceOf {
+            frame,
+            margin: lamina.outline.points(),
+            veins: &veins,
+            tissue: &self.tissue,
+            form: &self.form,
+        };
+        SurfaceMap::of(plan, &blade, size).map(Some)
+    }
+
+    /// The hairs of the blade made of a lamina, by kind.
+    pub(super) fn hairs_of(
+        &self,
+        lamina: &Lamina,
+        blade: &BladeMesh,
+    ) -> Result<Vec<HairMesh>, TissueError> {
+        if self.hairs.is_empty() {
+            return Ok(Vec::new());
+        }
+        let veins: Vec<VeinSegment> = lamina.network.segments().collect();
+        let least_vein_mm = self.form.meshed_vein_radius_mm;
+        let kinds = self.hairs.iter();
+        kinds
+            .map(|kind| kind.grow(blade, &veins, least_vein_mm, self.seed))
+            .collect()
     }
 
     /// How the tissue of a lamina has aged; the cells that its veins supply decide before those of

@@ -3,6 +3,7 @@
 use super::compound::{self, compound, petiole, usual_compound, usual_petiole};
 use super::contents::{NEVER_TOGETHER, contents};
 use super::damage::damage;
+use super::hairs::hairs;
 use super::layers::layers;
 use super::mosaic::{self, mosaic};
 use super::outline::{self, outline};
@@ -10,10 +11,12 @@ use super::pigments::pigments;
 use super::senescence::{self, senescence};
 use super::solid::MAP_SIZE;
 use super::stance::stance;
+use super::surface::surface;
 use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::senescence::AgeSource;
 use crate::blade::stance::Stance;
+use crate::blade::surface::SurfacePlan;
 use crate::blade::tissue::Tissue;
 use crate::blade::vein_body::VeinBody;
 use crate::document::keys::Keys;
@@ -38,6 +41,8 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         senescence: None,
         form: BladeForm::nearly_flat(length_mm),
         stance: Stance::default(),
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         damage: None,
@@ -113,6 +118,10 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
         form_keys(&mut plan.form, keys, length_mm);
         stance(&mut plan.stance, keys);
     });
+    let about = "What its faces have below the mesh; left out, they are smooth.";
+    let smooth = || SurfacePlan::SMOOTH;
+    keys.optional_block("surface", &mut plan.surface, smooth, about, surface);
+    hairs(&mut plan.hairs, keys);
     // Leaflets have stalks of their own.
     keys.exclude("compound", "petiole");
     let about = "Its stalk, if it is a simple leaf.";

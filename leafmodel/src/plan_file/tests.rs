@@ -26,7 +26,7 @@ use crate::venation::plan::{
 };
 use proptest::prelude::*;
 
-use self::bodies::{petiole_or_compound, tissue_and_form};
+use self::bodies::{hairs, petiole_or_compound, surface, tissue_and_form};
 use self::outlines::{contour, damage, specimen, teeth};
 use self::palettes::pigments;
 use self::patterns::{layers_by_chance, mosaic_by_chance, senescence};
@@ -76,6 +76,8 @@ fn plain() -> LeafPlan {
         senescence: None,
         form: BladeForm::nearly_flat(80.0),
         stance: Stance::default(),
+        surface: None,
+        hairs: Vec::new(),
         petiole: None,
         compound: None,
         damage: None,
@@ -92,11 +94,11 @@ proptest! {
         contour in contour(), teeth in teeth(), specimen in specimen(), venation in venation(), (tissue, form) in tissue_and_form(),
         seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(), damage in damage(),
-        stance in bodies::stance(),
+        (stance, surface, hairs) in (bodies::stance(), surface(), hairs()),
     ) {
         let outline = OutlinePlan { contour, teeth, specimen };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, petiole, compound, pigments, map_size, damage };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, surface, hairs, petiole, compound, pigments, map_size, damage };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

@@ -12,6 +12,7 @@ mod others;
 pub(super) mod sources;
 mod trees;
 
+use super::surfaces;
 use crate::blade::BladeForm;
 use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
@@ -262,6 +263,8 @@ impl LeafTraits {
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
+            surface: surfaces::surface(self.preset),
+            hairs: surfaces::hairs(self.preset),
             petiole: None,
             compound: None,
             damage: None,
@@ -270,7 +273,7 @@ impl LeafTraits {
                 curl: self.lie.curl.to_radians(),
                 ruffle: self.lie.ruffle[0],
                 ruffle_waves: self.lie.ruffle[1],
-                relief: self.lie.relief,
+                relief: surfaces::meshed_relief(self.preset, self.lie.relief),
                 thickness_mm: self.thickness_mm.value,
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,

@@ -53,6 +53,8 @@ pub(crate) enum Use {
     WeatheringSpot = 42,
     /// How unevenly a leaf dries, and how its margin grows.
     Stance = 21,
+    /// Where hairs stand, and their shapes.
+    Hair = 43,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -41,7 +41,9 @@ impl DirectionalAlbedo {
         let values: Box<[[f32; MU_NODES]]> = (0..azimuths)
             .map(|azimuth| {
                 let sin2 = azimuth as f32 / (azimuths.max(2) - 1) as f32;
-                std::array::from_fn(|node| albedo(ggx, eta, mu_of(node as f32), sin2))
+                std::array::from_fn(|node| {
+                    reflected_share(ggx, eta, mu_of(node as f32), sin2, LATTICE)
+                })
             })
             .collect();
         let mean = mean_of(&values);
@@ -87,25 +89,31 @@ fn mu_of(node: f32) -> f32 {
     x * x
 }
 
-/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is
-/// smooth.
-fn albedo(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32) -> f32 {
+/// `E` at one direction, by a rank-1 lattice (two consecutive Fibonacci numbers) over the visible
+/// normals: the integrand `F G₂ / G₁` is smooth.
+pub(super) fn reflected_share(
+    ggx: Ggx,
+    eta: f32,
+    mu: f32,
+    sin2_phi: f32,
+    lattice: (u32, u32),
+) -> f32 {
     // At exactly grazing incidence the limit is taken from close by.
     let mu = mu.max(0.25 * mu_of(1.0));
     let sin = (1.0 - mu * mu).max(0.0).sqrt();
     let wo = Vec3::new(sin * (1.0 - sin2_phi).sqrt(), sin * sin2_phi.sqrt(), mu);
     let mut sum = 0.0_f64;
-    for i in 0..LATTICE.0 {
-        let x = (i as f32 + 0.5) / LATTICE.0 as f32;
-        let y = ((u64::from(i) * u64::from(LATTICE.1)) % u64::from(LATTICE.0)) as f32 + 0.5;
-        let h = ggx.sample_visible(wo, Vec2::new(x, y / LATTICE.0 as f32));
+    for i in 0..lattice.0 {
+        let x = (i as f32 + 0.5) / lattice.0 as f32;
+        let y = ((u64::from(i) * u64::from(lattice.1)) % u64::from(lattice.0)) as f32 + 0.5;
+        let h = ggx.sample_visible(wo, Vec2::new(x, y / lattice.0 as f32));
         let cos = wo.dot(h);
         let wi = 2.0 * cos * h - wo;
         if cos > 0.0 && wi.z > 0.0 {
             sum += f64::from(fresnel::dielectric(cos, eta) * ggx.g2(wo, wi) / ggx.g1(wo));
         }
     }
-    (sum / f64::from(LATTICE.0)) as f32
+    (sum / f64::from(lattice.0)) as f32
 }
 
 /// `2/π ∫₀^{π/2} dφ ∫ 2 E µ dµ` of the table as interpolated.

@@ -51,6 +51,11 @@ impl Coat {
         }
     }
 
+    /// Its refractive index and its roughness across and along.
+    pub fn numbers(&self) -> (f32, [f32; 2]) {
+        (self.eta, [self.ggx.alpha_x, self.ggx.alpha_y])
+    }
+
     /// The directional albedo of the coat's lobe.
     pub fn albedo(&self) -> &DirectionalAlbedo {
         &self.albedo
@@ -60,19 +65,26 @@ impl Coat {
     /// on the side +z.
     #[inline]
     fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
-        let Some(h) = (wo + wi).try_normalize() else {
-            return (0.0, 0.0);
-        };
-        let fresnel = fresnel::dielectric(wo.dot(h), self.eta);
-        let shared = self.ggx.d(h) / (4.0 * wo.z);
-        let shadowed = 1.0 / (1.0 + lambda + self.ggx.lambda(wi));
-        (shared * shadowed * fresnel / wi.z, shared / (1.0 + lambda))
+        coat_lobe(self.ggx, self.eta, wo, lambda, wi)
     }
 
     /// `1 − Ē`.
     fn passed_mean(&self) -> f32 {
         1.0 - self.albedo.mean()
     }
+}
+
+/// The lobe of a coat of refractive index `eta`: its value and its sampling density from `wo`, whose
+/// Λ is `lambda`; for two directions on the side +z.
+#[inline]
+pub(super) fn coat_lobe(ggx: Ggx, eta: f32, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
+    let Some(h) = (wo + wi).try_normalize() else {
+        return (0.0, 0.0);
+    };
+    let fresnel = fresnel::dielectric(wo.dot(h), eta);
+    let shared = ggx.d(h) / (4.0 * wo.z);
+    let shadowed = 1.0 / (1.0 + lambda + ggx.lambda(wi));
+    (shared * shadowed * fresnel / wi.z, shared / (1.0 + lambda))
 }
 
 /// Reflectances and transmittances of the tissue for light that has passed the coats.
@@ -192,6 +204,12 @@ impl<const N: usize> Tissue<N> {
         [r_a, r_b, t_ab, t_ba]
     }
 
+    /// `r` of a face, and `t` of light that enters by it and by the other.
+    pub(super) fn seen(&self, side: usize) -> (Lanes<N>, [Lanes<N>; 2]) {
+        let t = [side, 1 - side].map(|face| self.transmittance[face]);
+        (self.reflectance[side], t)
+    }
+
     /// The inverse of [`Tissue::to_lanes`].
     #[inline]
     pub fn from_lanes([r_a, r_b, t_ab, t_ba]: [Lanes<N>; 4]) -> Self {
@@ -217,6 +235,11 @@ impl<'a, const N: usize> LeafBsdf<'a, N> {
     #[inline]
     pub fn new(coats: &'a [Coat; 2], tissue: Tissue<N>) -> Self {
         Self { coats, tissue }
+    }
+
+    /// Its tissue.
+    pub(super) fn tissue(&self) -> &Tissue<N> {
+        &self.tissue
     }
 
     /// The leaf seen from `wo`; `None` from within its plane.

@@ -11,7 +11,7 @@ use super::memory;
 use super::mesh::TriangleMesh;
 use super::placement::{Carrier, Placement};
 use super::ray::Ray;
-use super::surface::SurfacePoint;
+use super::surface::{SurfacePoint, TextureScale};
 use super::triangle::TriangleBlock;
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
@@ -270,6 +270,15 @@ impl Geometry {
         let block = &mesh.blocks[hit.place as usize / LANES];
         let corners = block.corners(hit.place as usize % LANES);
         SurfacePoint::at(hit, corners, &mesh.mesh, placement)
+    }
+
+    /// How texture coordinates lie on the surface at a hit; `None` if they do not span the triangle.
+    pub fn texture_scale(&self, hit: &Hit) -> Option<TextureScale> {
+        let placement = &self.placements[hit.instance as usize];
+        let mesh = &self.meshes[placement.instance.mesh as usize];
+        let block = &mesh.blocks[hit.place as usize / LANES];
+        let corners = block.corners(hit.place as usize % LANES);
+        TextureScale::at(hit, corners, &mesh.mesh, placement)
     }
 
     /// Smallest and largest coordinates of all instances' boxes, m; both the origin if there are

@@ -142,6 +142,43 @@ impl SurfacePoint {
     }
 }
 
+/// How texture coordinates lie on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureScale {
+    /// Length of ∂p/∂v in the world, m, > 0.
+    pub metres_per_v: f32,
+    /// Whether u runs against the x axis of the frame whose z axis is the normal and whose y axis
+    /// is ∂p/∂v, as on a mirrored leaf.
+    pub is_mirrored: bool,
+}
+
+impl TextureScale {
+    /// The scale at a hit of a triangle with these corners, in the frame in which the placement's
+    /// mesh is traced.
+    pub(super) fn at(
+        hit: &Hit,
+        [a, b, c]: [Vec3; 3],
+        mesh: &TriangleMesh,
+        placement: &Placement,
+    ) -> Option<Self> {
+        let vertices = mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
+        let uvs = mesh.uvs()?;
+        let [at_a, at_b, at_c] = vertices.map(|vertex| uvs[vertex]);
+        let (first, second) = (at_b - at_a, at_c - at_a);
+        let determinant = first.perp_dot(second);
+        if determinant == 0.0 {
+            return None;
+        }
+        let derivative = (c - a) * (first.x / determinant) - (b - a) * (second.x / determinant);
+        let length = (placement.linear * derivative.as_dvec3()).length() as f32;
+        let mirrors = placement.linear.determinant() < 0.0;
+        (length > 0.0 && length.is_finite()).then_some(Self {
+            metres_per_v: length,
+            is_mirrored: (determinant < 0.0) != mirrors,
+        })
+    }
+}
+
 /// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span
 /// the triangle.
 ///

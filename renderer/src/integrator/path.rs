@@ -6,6 +6,7 @@ use crate::bsdf::{Scattered, View};
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
+use crate::integrator::cone::{self, Cone};
 use crate::integrator::effort::Effort;
 use crate::integrator::mis;
 use crate::light::selection::Choice;
@@ -100,6 +101,7 @@ pub fn trace<const N: usize>(
             },
             light_samples: 0,
         },
+        cone: Cone::of_pixel(world.camera.pixel_angle()),
         ray,
     };
     let paths = Paths {
@@ -114,6 +116,7 @@ pub fn trace<const N: usize>(
 /// A ray of a path and its origin.
 struct Leg<const N: usize> {
     ray: Ray,
+    cone: Cone,
     /// Factor on radiance along the ray, up to the camera.
     throughput: Lanes<N>,
     bounce: Bounce,
@@ -135,6 +138,7 @@ impl<const N: usize> Paths<'_, N> {
             result.rays += 1;
             let Leg {
                 ray,
+                cone,
                 throughput,
                 bounce,
             } = &leg;
@@ -148,13 +152,21 @@ impl<const N: usize> Paths<'_, N> {
                 let found = emission(world, number, ray, &surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
-            let bsdf = world
-                .material_of(surface.instance)
-                .bsdf(surface.uv, wavelengths);
+            let material = world.material_of(surface.instance);
+            let mut bsdf = material.bsdf(surface.uv, wavelengths);
+            let width = cone.width_at(hit.t);
+            if let Some(relief) = material.relief() {
+                let scale = world.geometry.texture_scale(&hit);
+                let facing = ray.direction.dot(surface.shading_normal);
+                let footprint = cone::footprint(width, facing);
+                bsdf = bsdf.with_relief(relief.at(surface.uv, scale, footprint));
+            }
             let frame = Frame::new(surface.shading_normal, surface.tangent);
             let wo = frame.to_local(-ray.direction);
             if depth == 0 {
-                let facing = if wo.z < 0.0 {
+                let facing = if material.relief().is_some() {
+                    frame.to_world(bsdf.normal(wo))
+                } else if wo.z < 0.0 {
                     -surface.shading_normal
                 } else {
                     surface.shading_normal
@@ -190,6 +202,7 @@ impl<const N: usize> Paths<'_, N> {
                     1
                 },
                 throughput: *throughput,
+                width,
                 gathered: result.radiance,
             };
             let specular = bsdf.is_specular();
@@ -239,6 +252,8 @@ struct Vertex<'a, const N: usize> {
     light_samples: u32,
     /// Factor on radiance from here, up to the camera.
     throughput: Lanes<N>,
+    /// Width of the ray that found it, m.
+    width: f32,
     /// Radiance that the path has found so far.
     gathered: Lanes<N>,
 }
@@ -272,6 +287,7 @@ impl<const N: usize> Vertex<'_, N> {
         Some(Leg {
             ray: self.surface.spawn(self.frame.to_world(sample.wi)),
             throughput,
+            cone: Cone::scattered(self.width),
             bounce: Bounce {
                 pdf,
                 from: self.receiver,

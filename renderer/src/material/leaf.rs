@@ -8,6 +8,7 @@ use crate::material::coarse;
 use crate::material::held::Held;
 use crate::material::light_spread::LightSpread;
 use crate::material::palette::Palette;
+use crate::material::relief::{Relief, ReliefMap};
 use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
 
 /// A leaf's material.
@@ -25,6 +26,8 @@ pub struct LeafMaterial {
     uniform: Option<Table>,
     /// How far light that it lets through spreads sideways; not used without a map of contents.
     spread: Option<LightSpread>,
+    /// The relief of its faces, if they are not smooth.
+    pub relief: Option<Relief>,
 }
 
 /// The tissue of a leaf, which determines its reflectance and transmittance.
@@ -58,6 +61,7 @@ impl LeafMaterial {
             coats,
             uniform: None,
             spread: None,
+            relief: None,
         }
     }
 
@@ -74,6 +78,12 @@ impl LeafMaterial {
     /// How far light that it lets through spreads sideways.
     pub fn spread(&self) -> Option<&LightSpread> {
         self.spread.as_ref()
+    }
+
+    /// The same leaf with a relief.
+    pub fn with_relief(mut self, map: ReliefMap) -> Self {
+        self.relief = Some(Relief::new(map, &self.coats));
+        self
     }
 
     /// Evaluates everything that depends on wavelength alone, at every wavelength of a grid.

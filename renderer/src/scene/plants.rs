@@ -13,13 +13,14 @@ use leafmodel::optics::solid::ReflectanceTable;
 use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
 
-use self::parts::{LeafParts, MapParts, MeshParts};
+use self::parts::{LeafParts, MapParts, MeshParts, SurfaceParts};
 pub use self::parts::{Piece, PlantError};
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
+use crate::material::relief::ReliefMap;
 use crate::material::solid::SolidMaterial;
 use crate::scene::description;
 use crate::scene::plant_cache::PlantCache;
@@ -32,7 +33,7 @@ pub struct GrownLeaf {
     /// side +z.
     pub meshes: Vec<TriangleMesh>,
     /// Materials (maps of contents and coats) of the different blades, then the material of the
-    /// stalks, if there are any.
+    /// stalks, if there are any, then those of hairs by kind.
     pub materials: Vec<LeafMaterial>,
     /// The pieces with their places; at least one.
     pub pieces: Vec<Piece>,
@@ -93,25 +94,36 @@ pub fn grow(
     };
     let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &leaf.faces);
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
-    let blades = parts.maps.into_iter().map(|map| {
+    let surface = leaf.plan.surface.as_ref();
+    let blade = |map: MapParts| {
+        let size = [map.width, map.height];
         let spread_uv = map.size_mm.map(|side_mm| (spread_mm / side_mm) as f32);
         let texture = ContentsTexture::new(map.width, map.height, map.texels);
-        let blade = material(Held::Map(texture));
+        let mut blade = material(Held::Map(texture));
         if spread_mm > 0.0 {
-            blade.spreading(Vec2::from(spread_uv))
-        } else {
-            blade
+            blade = blade.spreading(Vec2::from(spread_uv));
         }
-    });
-    let stalk = parts
-        .stalk
-        .map(|contents| material(Held::Uniform(contents)));
+        match (map.surface, surface) {
+            (Some(parts), Some(plan)) => blade.with_relief(ReliefMap {
+                size,
+                texels: parts.texels,
+                size_mm: parts.size_mm,
+                cells: [plan.cells_um, plan.cell_elongation, plan.cell_share].map(|n| n as f32),
+                bloom: plan.bloom.map(|tau| tau as f32),
+            }),
+            (_, _) => blade,
+        }
+    };
+    let blades = parts.maps.into_iter().map(blade);
+    let uniform = |contents| material(Held::Uniform(contents));
+    let stalk = parts.stalk.map(uniform);
+    let hairs = parts.hairs.into_iter().map(uniform);
     let meshes = parts.meshes.into_iter().map(|mesh| {
         TriangleMesh::new(mesh.positions, Some(mesh.normals), mesh.uvs, mesh.triangles)
     });
     Ok(GrownLeaf {
         meshes: meshes.collect::<Result<_, _>>()?,
-        materials: blades.chain(stalk).collect(),
+        materials: blades.chain(stalk).chain(hairs).collect(),
         pieces: parts.pieces,
     })
 }
@@ -121,25 +133,38 @@ impl LeafParts {
         let whole = WholeLeaf::grow(plan)?;
         let stalk_contents = whole.stalk_contents(plan)?;
         let (mut meshes, mut maps) = (Vec::new(), Vec::new());
-        // The mesh of each blade, and that of its stalk.
+        // The mesh of each blade, whether its stalk's follows, and how many of hairs after it.
         let mut own = Vec::new();
         let stalk_material = whole.blades.len();
         for grown in whole.blades {
-            own.push((meshes.len(), grown.petiole.is_some()));
+            let hairy: Vec<bool> = grown.hairs.iter().map(|hairs| hairs.count() > 0).collect();
+            own.push((meshes.len(), grown.petiole.is_some(), hairy));
             meshes.push(blade(&grown));
             if let Some(petiole) = &grown.petiole {
                 meshes.push(stalk(petiole));
             }
+            let hairs = grown.hairs.iter().filter(|hairs| hairs.count() > 0);
+            meshes.extend(hairs.map(|hairs| MeshParts {
+                positions: metres(&hairs.positions),
+                normals: directions(&hairs.normals),
+                uvs: None,
+                triangles: hairs.triangles.clone(),
+            }));
             maps.push(MapParts {
                 width: grown.contents.width as usize,
                 height: grown.contents.height as usize,
                 size_mm: grown.frame.size.to_array(),
                 texels: grown.contents.texels,
+                surface: grown.surface.map(|map| SurfaceParts {
+                    texels: map.texels,
+                    size_mm: map.size_mm,
+                }),
             });
         }
         let mut pieces = Vec::new();
         for placement in &whole.placements {
-            let (mesh, has_stalk) = own[placement.blade];
+            let (mesh, has_stalk, hairy) = &own[placement.blade];
+            let (mesh, has_stalk) = (*mesh, *has_stalk);
             let to_leaf = DAffine3 {
                 translation: placement.to_leaf.translation * 1e-3,
                 ..placement.to_leaf
@@ -151,6 +176,12 @@ impl LeafParts {
             };
             pieces.push(piece(mesh, placement.blade));
             pieces.extend(has_stalk.then(|| piece(mesh + 1, stalk_material)));
+            let kinds = hairy.iter().enumerate().filter(|(_, there)| **there);
+            for (after, (kind, _)) in kinds.enumerate() {
+                let mesh = mesh + 1 + usize::from(has_stalk) + after;
+                // Their materials come after that of stalks, if there is one.
+                pieces.push(piece(mesh, stalk_material + 1 + kind));
+            }
         }
         if let Some(axes) = &whole.axes {
             pieces.push(Piece {
@@ -162,10 +193,17 @@ impl LeafParts {
         }
         // The wall of a stalk is rendered as leaf tissue with the stalk's contents.
         let has_stalks = pieces.iter().any(|piece| piece.material == stalk_material);
+        if !has_stalks {
+            let hairs = pieces
+                .iter_mut()
+                .filter(|piece| piece.material > stalk_material);
+            hairs.for_each(|piece| piece.material -= 1);
+        }
         Ok(Self {
             meshes,
             maps,
             stalk: has_stalks.then_some(stalk_contents),
+            hairs: plan.hairs.iter().map(|kind| kind.contents).collect(),
             pieces,
         })
     }

@@ -72,8 +72,8 @@ pub struct World {
 pub enum MaterialOwner {
     /// The scene's material with this number.
     Scene(usize),
-    /// A material of the leaf with the number `leaf`. Its different blades come first, its stalks
-    /// last.
+    /// A material of the leaf with the number `leaf`. Its different blades come first, then
+    /// its stalks, then its hairs by kind.
     Leaf {
         /// Index into [`Description::leaves`].
         leaf: usize,

@@ -1,8 +1,10 @@
 //! Tissue, form and stalks by chance.
 
 use super::*;
+use crate::blade::hairs::{HairPlace, HairPlan};
 use crate::blade::petiole::Section;
 use crate::blade::stance::{Drying, MarginGrowth, Stance, Wilting};
+use crate::blade::surface::SurfacePlan;
 use crate::optics::{Constituent, Contents, VeinFactors};
 
 pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
@@ -181,4 +183,56 @@ pub(super) fn stance() -> impl Strategy<Value = Stance> {
             on_ground,
         },
     )
+}
+
+/// Smooth faces, or any others.
+pub(super) fn surface() -> impl Strategy<Value = Option<SurfacePlan>> {
+    let veins = (-2.0..2.0, -2.0..2.0, 0.0..1.0);
+    let bulge = (0.0..5.0, 0.05..100.0);
+    let cells = (prop_oneof![Just(0.0), 5.0..500.0], 1.0..30.0, 0.0..1.0);
+    let any = (veins, bulge, cells).prop_map(|(veins, bulge, cells)| SurfacePlan {
+        impressed: veins.0,
+        raised: veins.1,
+        vein_roughness: veins.2,
+        bulge_mm: bulge.0,
+        bulge_width_mm: bulge.1,
+        cells_um: cells.0,
+        cell_elongation: cells.1,
+        cell_share: cells.2,
+        bloom: [bulge.0, veins.2],
+    });
+    prop::option::of(any)
+}
+
+/// No hairs, or one or two kinds.
+pub(super) fn hairs() -> impl Strategy<Value = Vec<HairPlan>> {
+    let places = [HairPlace::All, HairPlace::Veins, HairPlace::Between];
+    let densities = [0.0..1000.0, 0.0..1000.0, 0.0..1000.0];
+    let shape = (0.005..50.0, 0.0..1.0, 1.0..500.0);
+    let angles = [0.0..89.0_f64, 0.0..120.0, 0.0..180.0];
+    let one = (
+        densities,
+        prop::sample::select(places.to_vec()),
+        shape,
+        angles,
+    );
+    prop::collection::vec(one, 0..3).prop_map(|kinds| {
+        let kinds = kinds.into_iter().zip(["down", "fringe"]);
+        kinds
+            .map(|((densities, place, shape, angles), name)| HairPlan {
+                name: name.to_owned(),
+                adaxial_per_mm2: densities[0],
+                abaxial_per_mm2: densities[1],
+                fringe_per_mm: densities[2],
+                place,
+                length_mm: shape.0,
+                length_spread: shape.1,
+                diameter_um: shape.2,
+                lean: angles[0].to_radians(),
+                bend: angles[1].to_radians(),
+                stray: angles[2].to_radians(),
+                contents: Contents::of(&[(Constituent::Structure, 1.5)]),
+            })
+            .collect()
+    })
 }

@@ -5,6 +5,7 @@ use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::Number;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
+use leafmodel::species::surfaces::adaxial_roughness;
 
 use super::spectrum::SpectrumOf;
 use crate::scene::description::{Coat, Leaf, LeafFaces};
@@ -48,6 +49,10 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
         leaf.extrapolate = block.cx.extrapolate.get();
     }
     plan_file::leaf_preset(&mut leaf.plan, keys);
+    if let Some(alpha) = keys.base().and_then(adaxial_roughness) {
+        let [adaxial, _] = &mut leaf.faces.coats;
+        (adaxial.alpha_across, adaxial.alpha_along) = (alpha, alpha);
+    }
     plan_file::leaf(&mut leaf.plan, keys);
     faces(&mut leaf.faces, keys);
     keys.key(

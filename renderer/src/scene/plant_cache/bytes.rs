@@ -3,7 +3,7 @@
 use glam::{DAffine3, Vec2, Vec3};
 use leafmodel::optics::{Contents, PerConstituent};
 
-use crate::scene::plants::parts::{LeafParts, MapParts, MeshParts, Piece};
+use crate::scene::plants::parts::{LeafParts, MapParts, MeshParts, Piece, SurfaceParts};
 
 /// The leaf as bytes.
 pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {
@@ -32,10 +32,20 @@ pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {
             &mut out,
             map.texels.iter().flat_map(|texel| *texel.as_array()),
         );
+        count(&mut out, usize::from(map.surface.is_some()));
+        if let Some(surface) = &map.surface {
+            floats(&mut out, surface.size_mm.into_iter());
+            let moments = surface.texels.as_flattened().as_flattened();
+            floats(&mut out, moments.iter().copied());
+        }
     }
     count(&mut out, usize::from(parts.stalk.is_some()));
     if let Some(stalk) = &parts.stalk {
         doubles(&mut out, stalk.as_array());
+    }
+    count(&mut out, parts.hairs.len());
+    for hairs in &parts.hairs {
+        doubles(&mut out, hairs.as_array());
     }
     count(&mut out, parts.pieces.len());
     for piece in &parts.pieces {
@@ -77,11 +87,22 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
         let (width, height) = (rest.count()?, rest.count()?);
         let size_mm = rest.doubles()?;
         let texels = rest.floats(width.checked_mul(height)?, PerConstituent::new)?;
+        let surface = match rest.count()? {
+            0 => None,
+            1 => Some(SurfaceParts {
+                size_mm: rest.floats(1, |size: [f32; 2]| size)?.pop()?,
+                texels: rest.floats(width.checked_mul(height)?, |flat: [f32; 8]| {
+                    [0, 4].map(|face| std::array::from_fn(|i| flat[face + i]))
+                })?,
+            }),
+            _ => return None,
+        };
         (!texels.is_empty()).then_some(MapParts {
             width,
             height,
             size_mm,
             texels,
+            surface,
         })
     })?;
     let stalk = match rest.count()? {
@@ -89,7 +110,8 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
         1 => Some(Contents(PerConstituent::new(rest.doubles()?))),
         _ => return None,
     };
-    let materials = maps.len() + usize::from(stalk.is_some());
+    let hairs = rest.list(|rest| Some(Contents(PerConstituent::new(rest.doubles()?))))?;
+    let materials = maps.len() + usize::from(stalk.is_some()) + hairs.len();
     let pieces = rest.list(|rest| {
         let piece = Piece {
             mesh: rest.count()?,
@@ -103,6 +125,7 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
         meshes,
         maps,
         stalk,
+        hairs,
         pieces,
     })
 }

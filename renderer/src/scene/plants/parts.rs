@@ -1,6 +1,7 @@
 //! Grown leaves as plain data, which can be stored.
 
 use glam::{DAffine3, Vec2, Vec3};
+use leafmodel::blade::surface::SlopeMoments;
 use leafmodel::compound::CompoundError;
 use leafmodel::leaf::LeafError;
 use leafmodel::optics::{Contents, Texel};
@@ -42,6 +43,8 @@ pub(in crate::scene) struct LeafParts {
     pub(in crate::scene) maps: Vec<MapParts>,
     /// Contents of the stalks, if there are any.
     pub(in crate::scene) stalk: Option<Contents>,
+    /// Contents of the walls of hairs, by kind.
+    pub(in crate::scene) hairs: Vec<Contents>,
     /// As [`super::GrownLeaf::pieces`].
     pub(in crate::scene) pieces: Vec<Piece>,
 }
@@ -64,4 +67,13 @@ pub(in crate::scene) struct MapParts {
     /// Width and height, mm.
     pub(in crate::scene) size_mm: [f64; 2],
     pub(in crate::scene) texels: Vec<Texel>,
+    /// The relief, if the blade has one.
+    pub(in crate::scene) surface: Option<SurfaceParts>,
+}
+
+/// The data of a relief: slopes on a map of as many texels.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::scene) struct SurfaceParts {
+    pub(in crate::scene) texels: Vec<[SlopeMoments; 2]>,
+    pub(in crate::scene) size_mm: [f32; 2],
 }

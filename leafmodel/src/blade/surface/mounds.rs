@@ -1,0 +1,94 @@
+//! Grooves and ridges along veins.
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
+use super::super::relief::{HALF_WIDTH, developed};
+use super::super::vein_grid::VeinGrid;
+use super::super::vein_profile::strength;
+use super::{SurfaceOf, SurfacePlan};
+
+/// The mounds of all veins, as far as the mesh does not carry them.
+#[derive(Debug)]
+pub(super) struct Mounds {
+    /// Height over diameter towards −z, of the adaxial and the abaxial face.
+    heights: [f64; 2],
+    /// Height over diameter of the mesh's relief, and the least radius that it has.
+    meshed: f64,
+    least_radius: f64,
+    /// Variance of slope that the coat has more over a fully developed vein.
+    roughness: f64,
+    full_radius: f64,
+    veins: VeinGrid,
+}
+
+/// The mound at a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mound {
+    /// Slopes of the adaxial and the abaxial face.
+    pub(super) slopes: [DVec2; 2],
+    /// Variance of slope along each axis that the coat has here beside its own.
+    pub(super) roughness: f64,
+}
+
+impl Mounds {
+    pub(super) fn new(plan: &SurfacePlan, blade: &SurfaceOf<'_>, texel: f64) -> Self {
+        let heights = [plan.impressed, plan.raised];
+        let is_smooth = heights == [0.0; 2] && plan.vein_roughness == 0.0;
+        let veins = if is_smooth { &[] } else { blade.veins };
+        // A texel asks at its centre for all veins that reach into it.
+        let reach = |s: &crate::venation::network::VeinSegment| {
+            HALF_WIDTH * s.radius_from.max(s.radius_to) + texel
+        };
+        Self {
+            heights,
+            meshed: blade.form.relief,
+            least_radius: blade.form.meshed_vein_radius_mm,
+            // As the renderer has it, a variance σ² of slopes adds 3 σ² to the square of a roughness.
+            roughness: plan.vein_roughness * plan.vein_roughness / 3.0,
+            full_radius: blade.tissue.full_vein_radius_mm,
+            veins: VeinGrid::new(veins.to_vec(), reach),
+        }
+    }
+
+    /// The veins that may reach into the texel around a point.
+    pub(super) fn near(&self, centre: DVec2) -> &[u32] {
+        self.veins.members(centre)
+    }
+
+    /// The slopes at `p` of the highest of these veins' mounds, `2r (1 + cos(π d / 1.5 r)) / 2` at
+    /// the distance `d` from the axis of a vein of radius `r`, times its height on each face.
+    pub(super) fn slopes(&self, veins: &[u32], p: DVec2) -> Mound {
+        let mut highest = 0.0;
+        let mut mound = Mound {
+            slopes: [DVec2::ZERO; 2],
+            roughness: 0.0,
+        };
+        for &number in veins {
+            let near = self.veins.nearest(number, p);
+            let width = HALF_WIDTH * near.radius;
+            let away = near.distance / width;
+            if away >= 1.0 {
+                continue;
+            }
+            let profile = f64::midpoint(1.0, libm::cos(PI * away));
+            let height = 2.0 * near.radius * profile;
+            if height <= highest {
+                continue;
+            }
+            highest = height;
+            let carried = self.meshed * developed(near.radius, self.least_radius);
+            // Downwards over the distance; the mound itself points to −z.
+            let steepness = near.radius * PI / width * libm::sin(PI * away);
+            let outward = (p - near.foot).normalize_or_zero();
+            mound = Mound {
+                slopes: self
+                    .heights
+                    .map(|own| outward * ((own - carried) * steepness)),
+                roughness: self.roughness * profile * strength(near.radius, self.full_radius),
+            };
+        }
+        mound
+    }
+}

@@ -1,0 +1,248 @@
+//! A leaf at a point of its relief: each face has a normal of its own and a coat as rough as the
+//! slopes that the filter left out.
+//!
+//! Directions stay in the frame of the mesh's shading normal. It alone decides on which side of the
+//! leaf a direction lies, so that no light leaks from one face to the other. The face's own normal
+//! decides under which angle it is lit.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::coat_table::LocalCoat;
+use super::leaf::LeafBsdf;
+use super::{BsdfSample, Scattered};
+use crate::sampling::warp;
+use crate::spectrum::Lanes;
+
+/// Share of the light that the relief's own horizon would take from a diffuse lobe that is given
+/// back. All of it would be too much, as the coat passes less at grazing angles.
+const GIVEN_BACK: f32 = 0.5;
+/// Share of the cosine to the mesh's normal that the cosine to the relief's must have for the view:
+/// steeper slopes are lowered.
+const LEAST_FACING: f32 = 0.5;
+
+/// The slope and the coat of one face.
+#[derive(Clone, Debug)]
+pub struct ReliefFace<'a> {
+    /// ∂z/∂x and ∂z/∂y, z towards the adaxial side.
+    pub slope: Vec2,
+    /// The coat, with the roughness of slopes that are not resolved.
+    pub coat: LocalCoat<'a>,
+}
+
+/// A leaf at a point of its relief.
+#[derive(Clone, Debug)]
+pub struct ReliefBsdf<'a, const N: usize> {
+    /// The leaf, whose tissue this is.
+    pub leaf: LeafBsdf<'a, N>,
+    /// Adaxial and abaxial.
+    pub faces: [ReliefFace<'a>; 2],
+}
+
+/// The same, seen from one direction.
+#[derive(Clone, Debug)]
+pub struct ReliefView<'a, const N: usize> {
+    wo: Vec3,
+    /// `wo` in the frame of the face, mirrored to +z.
+    outward: Vec3,
+    /// Frame of the face on the side of the view, in the mesh's shading frame.
+    frame: Tilt,
+    /// Normal of the other face.
+    other: Vec3,
+    coats: [LocalCoat<'a>; 2],
+    lambda: f32,
+    /// What the bloom sends back of light from `wo`.
+    sent_back: f32,
+    reflecting: Lanes<N>,
+    through: Lanes<N>,
+    lobes: [f32; 3],
+}
+
+/// The adaxial unit normal of a slope.
+fn normal_of(slope: Vec2) -> Vec3 {
+    Vec3::new(-slope.x, -slope.y, 1.0).normalize()
+}
+
+/// The frame of a face in that of the mesh: +y stays as near to the mesh's as it can.
+#[derive(Clone, Copy, Debug)]
+struct Tilt {
+    across: Vec3,
+    along: Vec3,
+    normal: Vec3,
+}
+
+impl Tilt {
+    fn to(normal: Vec3) -> Self {
+        // Slopes are finite, so the normal is never +y.
+        let along = (Vec3::Y - normal * normal.y).normalize();
+        Self {
+            across: along.cross(normal),
+            along,
+            normal,
+        }
+    }
+
+    fn to_local(self, w: Vec3) -> Vec3 {
+        Vec3::new(w.dot(self.across), w.dot(self.along), w.dot(self.normal))
+    }
+
+    fn to_mesh(self, w: Vec3) -> Vec3 {
+        self.across * w.x + self.along * w.y + self.normal * w.z
+    }
+}
+
+/// What a diffuse lobe about a normal of this cosine to the mesh's is multiplied with, because
+/// light from below the mesh is left out: the cut takes `(1 − cos) / 2` of it.
+fn given_back(cosine: f32) -> f32 {
+    1.0 / (1.0 - GIVEN_BACK * 0.5 * (1.0 - cosine))
+}
+
+fn above(w: Vec3) -> Vec3 {
+    Vec3::new(w.x, w.y, w.z.abs())
+}
+
+impl<'a, const N: usize> ReliefBsdf<'a, N> {
+    /// The slope of the face that `wo` sees, lowered so that the face does not turn away.
+    fn seen_slope(&self, wo: Vec3) -> Vec2 {
+        let side = usize::from(wo.z < 0.0);
+        let slope = self.faces[side].slope;
+        let away = slope.dot(wo.truncate()) * 1.0_f32.copysign(wo.z);
+        if away <= 0.0 {
+            return slope;
+        }
+        slope * ((1.0 - LEAST_FACING) * wo.z.abs() / away).min(1.0)
+    }
+
+    /// The normal of the face that `wo` sees, on its side, in the mesh's shading frame.
+    pub fn normal(&self, wo: Vec3) -> Vec3 {
+        normal_of(self.seen_slope(wo)) * 1.0_f32.copysign(wo.z)
+    }
+
+    /// The leaf seen from `wo`; `None` from within its plane.
+    pub fn seen_from(&self, wo: Vec3) -> Option<ReliefView<'a, N>> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let side = usize::from(wo.z < 0.0);
+        let [own, other] = [&self.faces[side], &self.faces[1 - side]];
+        let frame = Tilt::to(normal_of(self.seen_slope(wo)));
+        let outward = above(frame.to_local(wo));
+        let sent_back = own.coat.sent_back(outward.z);
+        let albedo = own.coat.reflected(outward.z);
+        let passed = 1.0 - albedo;
+        let [to_own, to_other] = [own.coat.passed_mean(), other.coat.passed_mean()];
+        let (reflectance, [t_own, t_other]) = self.leaf.tissue().seen(side);
+        // The coats differ from those for which the tissue was made. The lesser of the two keeps
+        // light from either side within bounds, and both directions alike.
+        let mut through = t_own;
+        for lane in 0..N {
+            through.0[lane] = (t_own.0[lane] / to_other).min(t_other.0[lane] / to_own);
+        }
+        // Bloom is sampled as the tissue is.
+        let shining = albedo - sent_back;
+        let reflected = passed * reflectance.mean() + sent_back;
+        let transmitted = passed * through.mean() * to_other;
+        let total = shining + reflected + transmitted;
+        let share = if total > 0.0 { 1.0 / total } else { 0.0 };
+        let other_normal = normal_of(other.slope);
+        let back = [frame.normal.z, other_normal.z].map(given_back);
+        Some(ReliefView {
+            wo,
+            outward,
+            frame,
+            other: other_normal,
+            lambda: own.coat.ggx.lambda(outward),
+            reflecting: reflectance * (passed * FRAC_1_PI * back[0] / to_own),
+            through: through * (passed * FRAC_1_PI * back[1]),
+            sent_back,
+            lobes: [shining, reflected, transmitted].map(|lobe| lobe * share),
+            coats: [own.coat.clone(), other.coat.clone()],
+        })
+    }
+}
+
+impl<const N: usize> ReliefView<'_, N> {
+    /// The value for light from `wi`, cosine to the mesh's normal left out, and the density with
+    /// which `wi` is sampled.
+    #[inline]
+    pub fn scatter(&self, wi: Vec3) -> Scattered<N> {
+        if wi.z == 0.0 {
+            return Scattered::NOTHING;
+        }
+        let [coat, other] = &self.coats;
+        let [shining, reflected, transmitted] = self.lobes;
+        let through = self.wo.z * wi.z < 0.0;
+        let local = if through {
+            Vec3::new(0.0, 0.0, wi.dot(self.other))
+        } else {
+            self.frame.to_local(wi)
+        };
+        // A face that turns away from the light is in its own shadow.
+        if local.z * wi.z <= 0.0 {
+            return Scattered::NOTHING;
+        }
+        let tilted = local.z / wi.z;
+        let cosine = local.z.abs() * FRAC_1_PI;
+        if through {
+            return Scattered {
+                f: self.through * ((1.0 - other.reflected(local.z.abs())) * tilted),
+                pdf: transmitted * cosine,
+            };
+        }
+        let sent_back = coat.sent_back(local.z.abs());
+        let bloom = coat.bloom(self.sent_back, sent_back);
+        let below = self.reflecting * (1.0 - coat.reflected(local.z.abs()));
+        let diffuse = Scattered {
+            f: (below + Lanes::splat(bloom)) * tilted,
+            pdf: reflected * cosine,
+        };
+        if !coat.shines() {
+            return diffuse;
+        }
+        let unveiled = (1.0 - self.sent_back) * (1.0 - sent_back);
+        let (lobe, pdf) = coat.lobe(self.outward, self.lambda, above(local));
+        Scattered {
+            f: diffuse.f + Lanes::splat(lobe * unveiled * tilted),
+            pdf: diffuse.pdf + shining * pdf,
+        }
+    }
+
+    /// Samples a direction; lobes are chosen in proportion to the light that they scatter. `None`
+    /// too where the direction would leave by the other face.
+    #[inline]
+    pub fn sample(&self, lobe: f32, u: Vec2) -> Option<BsdfSample<N>> {
+        let [coat, reflected, transmitted] = self.lobes;
+        let up = if lobe < coat {
+            let h = self.coats[0].ggx.sample_visible(self.outward, u);
+            2.0 * self.outward.dot(h) * h - self.outward
+        } else {
+            warp::cosine_hemisphere(u)
+        };
+        if up.z <= 0.0 || reflected + transmitted + coat == 0.0 {
+            return None;
+        }
+        let through = lobe >= coat + reflected;
+        let side = 1.0_f32.copysign(self.wo.z);
+        let wi = if through {
+            let down = Vec3::new(up.x, up.y, -side * up.z);
+            Tilt::to(self.other).to_mesh(down)
+        } else {
+            let local = Vec3::new(up.x, up.y, side * up.z);
+            self.frame.to_mesh(local)
+        };
+        if (wi.z * self.wo.z < 0.0) != through {
+            return None;
+        }
+        let Scattered { f, pdf } = self.scatter(wi);
+        (pdf > 0.0).then(|| BsdfSample {
+            wi,
+            weight: f * (wi.z.abs() / pdf),
+            pdf,
+            specular: false,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
