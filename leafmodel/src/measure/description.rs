@@ -40,6 +40,12 @@ const STRAIGHT: f64 = 0.05;
 /// An intersecondary strays less from its chord, share of the chord.
 const WINDING: f64 = 0.12;
 
+/// A lateral primary is at least so long, share of the midrib.
+const STUB: f64 = 0.12;
+
+/// A vein so much longer than its chord goes round.
+const ROUND: f64 = 1.25;
+
 /// So many lateral primaries are many.
 const MANY: usize = 6;
 
@@ -98,6 +104,12 @@ pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
     let Some((midrib, laterals)) = primaries.split_first() else {
         return description;
     };
+    // Where primaries come together, ends of some are left over.
+    let laterals: Vec<&Vein> = laterals
+        .iter()
+        .filter(|vein| vein.length() > STUB * midrib.length())
+        .collect();
+    let laterals = &laterals[..];
     description.midrib_over_chord = Some(midrib.length() / midrib.chord().max(1e-12));
     description.primaries = Some(pattern(laterals, midrib, outline));
     description.lateral_primaries = laterals.len();
@@ -145,7 +157,7 @@ pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
 }
 
 /// How lateral primaries run.
-fn pattern(laterals: &[Vein], midrib: &Vein, outline: &Outline) -> PrimaryPattern {
+fn pattern(laterals: &[&Vein], midrib: &Vein, outline: &Outline) -> PrimaryPattern {
     let length = outline.length();
     let most = |count: usize| 2 * count > laterals.len();
     let count = |holds: &dyn Fn(&Vein) -> bool| laterals.iter().filter(|v| holds(v)).count();
@@ -199,7 +211,8 @@ fn ending(
         return Some(SecondaryEnding::Semicraspedodromous);
     }
     // Loops leave an arch and come back to a vein of its order, on a long way round.
-    let is_loop = |vein: &Vein| vein.joined_order == Some(2) && vein.length() > 1.25 * vein.chord();
+    let is_loop =
+        |vein: &Vein| vein.joined_order == Some(2) && vein.length() > ROUND * vein.chord();
     let loops = |vein: &&&Vein| tracer.leaving(vein, 3).iter().any(is_loop);
     if 2 * joined.iter().filter(loops).count() > joined.len() {
         Some(SecondaryEnding::Festooned)
@@ -280,6 +293,9 @@ impl Description {
         };
         let all: Vec<f64> = gaps.iter().map(|&(_, gap)| gap).collect();
         self.spacing_cv = variation(&all);
+        if gaps.len() < 4 {
+            return;
+        }
         self.spacing = match (widths(&|at| at < middle), widths(&|at| at > middle)) {
             (Some(low), Some(high)) if low > UNEVEN * high => {
                 Some(SecondarySpacing::IncreasingProximally)
@@ -297,7 +313,9 @@ impl Description {
         for vein in coarse {
             for tertiary in tracer.leaving(vein, 3) {
                 count += 1;
-                let reaches = tertiary.joined_order.is_some_and(|order| order <= 2);
+                // A loop outside an arch comes back to it.
+                let is_loop = tertiary.length() > ROUND * tertiary.chord();
+                let reaches = tertiary.joined_order.is_some_and(|order| order <= 2) && !is_loop;
                 if !reaches {
                     continue;
                 }

@@ -21,6 +21,7 @@ use crate::leaf::outline_plan::{Contour, OutlinePlanError};
 use crate::shape::contour_curve::{ContourCurve, ControlPoint};
 use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::outline::Outline;
+use crate::shape::specimen::Specimen;
 use crate::shape::svg_path::{SvgContour, SvgError};
 use crate::shape::teeth::ToothWave;
 use crate::transport::{Ladder, TransportError, TransportPlan};
@@ -102,6 +103,12 @@ pub(super) fn outline(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
     };
     let about = "Waves of teeth along the margin.";
     keys.blocks("teeth", &mut plan.outline.teeth, &waves, about, teeth);
+    // A contour of another kind than the preset's is not bent as that was.
+    let is_other =
+        |kind: &Variant<Contour>| keys.has(kind.name) && !(kind.is)(&plan.outline.contour);
+    if KINDS.iter().any(is_other) {
+        plan.outline.specimen = Specimen::default();
+    }
     specimen(&mut plan.outline.specimen, keys);
     keys.kind(&mut plan.outline.contour, &KINDS);
 }

@@ -193,7 +193,7 @@ pub(super) fn willow() -> Architecture {
             inset: 0.02,
             intersecondaries: 0.0,
         },
-        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.012, 95.0),
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.016, 95.0),
         irregularity: 0.4,
         is_fimbrial: false,
     }
@@ -299,7 +299,7 @@ pub(super) fn sweetgum() -> Architecture {
         primaries: actinodromous(&[53.0, 107.0]),
         secondaries: Secondaries {
             pairs: 9,
-            angles_deg: [55.0, 50.0, 42.0],
+            angles_deg: [57.0, 52.0, 46.0],
             ending: SecondaryEnding::Festooned,
             span: [0.16, 0.9],
             inset: 0.025,
@@ -376,7 +376,7 @@ pub(super) fn trillium() -> Architecture {
 /// Red maple: as the maple, with three great lobes and two small ones.
 pub(super) fn red_maple() -> Architecture {
     Architecture {
-        primaries: actinodromous(&[48.0, 95.0]),
+        primaries: actinodromous(&[46.0, 88.0]),
         ..maple()
     }
 }

@@ -6,6 +6,7 @@
 use super::architectures;
 use super::contours;
 use super::leaf_traits;
+use super::specimens;
 use super::trees::{dense, leaf};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
@@ -45,25 +46,30 @@ pub(super) fn ginkgo() -> LeafPlan {
 pub(super) fn alchemilla() -> LeafPlan {
     let traits = &leaf_traits::ALCHEMILLA;
     let venation = dense(traits, architectures::alchemilla(), 4.0);
-    leaf(traits, 1, contours::lobed_round(), venation)
+    leaf(
+        traits,
+        1,
+        specimens::serrate(contours::lobed_round()),
+        venation,
+    )
 }
 
 pub(super) fn sweetgum() -> LeafPlan {
     let traits = &leaf_traits::SWEETGUM;
     let venation = dense(traits, architectures::sweetgum(), 3.6);
-    leaf(traits, 1, contours::star(), venation)
+    leaf(traits, 1, specimens::serrate(contours::star()), venation)
 }
 
 pub(super) fn cherry() -> LeafPlan {
     let traits = &leaf_traits::CHERRY;
     let venation = dense(traits, architectures::cherry(), 4.2);
-    leaf(traits, 2, contours::obovate(), venation)
+    leaf(traits, 2, specimens::cherry(contours::obovate()), venation)
 }
 
 pub(super) fn orchid() -> LeafPlan {
     let traits = &leaf_traits::ORCHID;
-    let venation = dense(traits, architectures::orchid(), 3.0);
-    leaf(traits, 1, contours::elliptic(), venation)
+    let venation = dense(traits, architectures::orchid(), 3.4);
+    leaf(traits, 1, specimens::entire(contours::elliptic()), venation)
 }
 
 /// A whole blade, where the row is a piece of one.
@@ -82,7 +88,7 @@ pub(super) fn trillium() -> LeafPlan {
         final_length: 400.0,
         ..dense(traits, architectures::trillium(), 1.2)
     };
-    leaf(traits, 1, contours::petal(), venation)
+    leaf(traits, 1, specimens::entire(contours::petal()), venation)
 }
 
 /// Finest veins of this radius, mm: a segment says nothing of it where there is no net.

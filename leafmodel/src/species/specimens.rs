@@ -120,6 +120,15 @@ pub(super) fn willow(outline: OutlinePlan) -> OutlinePlan {
     with(outline, USUAL, drip_tip(0.12, 0.3))
 }
 
+/// Nankin cherry: fine teeth, each with a gland, and a short drawn-out apex.
+pub(super) fn cherry(outline: OutlinePlan) -> OutlinePlan {
+    let outline = toothed(outline, |_, wave| ToothWave {
+        tip: Some(Tip::Gland { diameter: 0.004 }),
+        ..uneven(wave, 0.16, 0.2)
+    });
+    with(outline, USUAL, drip_tip(0.09, 0.2))
+}
+
 /// Teeth of unequal length and height on any contour: red maple, box elder.
 pub(super) fn serrate(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |_, wave| uneven(wave, 0.18, 0.22));

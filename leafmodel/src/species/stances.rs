@@ -1,7 +1,6 @@
 //! How the leaves of species lie: undulation of their margin, drying, and their stalks.
 //!
-//! Lengths of petioles lie within what the floras of [`super::leaf_traits`] say of the species;
-//! everything else is by eye. The figures of Runions et al. 2005 keep their blades: they only get a
+//! All of it is by eye. The figures of Runions et al. 2005 keep their blades: they only get a
 //! petiole.
 
 use crate::blade::petiole::{PetiolePlan, Section};
@@ -78,7 +77,7 @@ impl Lie {
 }
 
 /// All of them, in the order of the book.
-static LIES: [Lie; 26] = [
+static LIES: &[Lie] = &[
     lie("poplar", [0.75, 25.0]).with(FLATTENED),
     lie("cottonwood", [0.85, 25.0])
         .with(FLATTENED)
@@ -92,6 +91,11 @@ static LIES: [Lie; 26] = [
     lie("cherry", [0.15, 20.0]),
     lie("sweetgum", [0.85, 25.0]),
     lie("alchemilla", [1.4, 30.0]),
+    lie("ginkgo-leaf", [0.9, 25.0]).undulate(0.03, 0.06),
+    lie("cherry-leaf", [0.15, 20.0]).undulate(0.02, 0.05),
+    lie("sweetgum-leaf", [0.85, 25.0]).undulate(0.02, 0.05),
+    lie("alchemilla-leaf", [1.4, 30.0]).undulate(0.03, 0.05),
+    Lie::sessile("orchid-leaf").undulate(0.02, 0.06),
     lie("ivy", [0.7, 30.0]).with(TERETE).undulate(0.02, 0.05),
     lie("magnolia", [0.12, 15.0])
         .with(TERETE)

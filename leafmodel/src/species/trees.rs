@@ -52,7 +52,7 @@ pub(super) fn dense(traits: &LeafTraits, architecture: Architecture, density: f6
         final_length,
         pattern: Pattern::Closed(Neighbourhood::Bipolar),
         axis_along_vein: 0.15,
-        tension_rounds: 20,
+        tension_rounds: 40,
         kill_distance: 0.75,
         source_birth_distance: 2.0,
         vein_birth_distance: 2.0,

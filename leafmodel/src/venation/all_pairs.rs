@@ -187,6 +187,7 @@ impl Oracle<'_> {
             positions: scaled(&self.nodes, veins),
             births: self.births.clone(),
             laid_orders: Vec::new(),
+            is_held: vec![false; self.nodes.len()],
             edges,
             origins: self.origins,
             steps: self.step,

@@ -23,6 +23,7 @@ pub(crate) mod course;
 pub(crate) mod ends;
 mod fan;
 pub(crate) mod festoons;
+pub(crate) mod ground;
 pub(crate) mod margin;
 pub(crate) mod primaries;
 pub(crate) mod secondaries;

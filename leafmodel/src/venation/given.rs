@@ -7,6 +7,9 @@ use super::network::VenationNetwork;
 use super::simulation::Simulation;
 use super::topology::Topology;
 
+/// Rank of nodes that were there: they stay in their places.
+const GIVEN: u8 = u8::MAX;
+
 /// Veins without loops, in segments of the full-grown leaf, base at the origin.
 pub(crate) struct GivenVeins {
     /// From one branching to the next or to a tip: the first place of a way is the last of an
@@ -57,7 +60,7 @@ impl<I: Influence> Simulation<'_, I> {
             let mut node = way.after.map_or(0, |after| ends[after]);
             for place in in_pieces(&way.places, unit) {
                 let here = self.lamina.now_of_full_grown(place);
-                let next = self.veins.add_node(here, 0, &self.lamina);
+                let next = self.veins.add_ranked_node(here, GIVEN, 0, &self.lamina);
                 self.veins.add_edge(node, next, &self.lamina);
                 node = next;
             }

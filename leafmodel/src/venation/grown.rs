@@ -15,6 +15,8 @@ pub(crate) struct Grown {
     pub(super) births: Vec<u32>,
     /// The order as which each node was laid out, 0 for none; empty without an architecture.
     pub(super) laid_orders: Vec<u8>,
+    /// Whether tension leaves a node in its place: it was laid out or given.
+    pub(super) is_held: Vec<bool>,
     pub(super) edges: Vec<[u32; 2]>,
     pub(super) origins: u32,
     pub(super) steps: u32,
@@ -35,6 +37,7 @@ impl Grown {
         if !self.laid_orders.is_empty() {
             self.laid_orders.insert(0, 0);
         }
+        self.is_held.insert(0, true);
         let grown = self.edges.iter().map(|&[from, to]| [from + 1, to + 1]);
         let joints = (1..=self.origins).map(|origin| [0, origin]);
         self.edges = joints.chain(grown).collect();
@@ -110,7 +113,7 @@ impl Grown {
         let positions = if plan.tension_rounds == 0 {
             self.positions
         } else {
-            let is_free = |node: usize| self.laid_orders.get(node).is_none_or(|&order| order == 0);
+            let is_free = |node: usize| !self.is_held[node];
             tension::relaxed(&self.positions, &edges, is_free, plan.tension_rounds)
         };
         let nodes = positions

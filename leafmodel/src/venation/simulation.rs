@@ -170,6 +170,12 @@ impl<'a, I: Influence> Simulation<'a, I> {
             positions: scaled(&self.veins.positions, veins),
             births: self.veins.births.clone(),
             laid_orders,
+            is_held: self
+                .veins
+                .laid_orders
+                .iter()
+                .map(|&rank| rank > 0)
+                .collect(),
             edges,
             origins: self.origins,
             steps: self.step,

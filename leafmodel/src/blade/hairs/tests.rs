@@ -159,7 +159,7 @@ fn too_many_hairs_are_refused_and_so_are_bad_numbers() {
         .grow(&blade, &[], 0.1, 7)
         .expect_err("too many")
         .to_string();
-    assert!(message.starts_with("number of hairs is 4000"), "{message}");
+    assert!(message.starts_with("number of hairs is 400"), "{message}");
     let bad = HairPlan {
         length_mm: f64::NAN,
         ..plan()

@@ -24,16 +24,10 @@ fn disagreements(asked: &Architecture, found: &Description) -> Vec<String> {
         found.primaries == Some(primaries.pattern),
         format!("primaries {:?}", found.primaries),
     );
-    // A flabellate leaf has as many as its forks give. Among many, an end may pass for one.
+    // A flabellate leaf has as many as its forks give.
     let wanted = 2 * (primaries.lateral_angles_deg.len() + primaries.laterals as usize);
-    let most = if primaries.laterals > 0 {
-        wanted + 2
-    } else {
-        wanted
-    };
     hold(
-        primaries.pattern == PrimaryPattern::Flabellate
-            || (wanted..=most).contains(&found.lateral_primaries),
+        primaries.pattern == PrimaryPattern::Flabellate || found.lateral_primaries == wanted,
         format!("{} lateral primaries", found.lateral_primaries),
     );
     let bent = found.midrib_over_chord.unwrap_or(9.0);
@@ -64,7 +58,9 @@ fn disagreements(asked: &Architecture, found: &Description) -> Vec<String> {
         format!("straight: {:?}", found.are_straight),
     );
     hold(
-        found.spacing == Some(secondaries.spacing),
+        found
+            .spacing
+            .is_none_or(|found| found == secondaries.spacing),
         format!("spacing {:?}", found.spacing),
     );
     if secondaries.ending == SecondaryEnding::Craspedodromous {

@@ -3,7 +3,7 @@
 use super::super::leaf_traits::coloured::{
     RED_MAPLE as RED_MAPLE_TRAITS, SUGAR_MAPLE as SUGAR_MAPLE_TRAITS,
 };
-use super::super::{architectures, leaf_traits, runions, specimens, trees, trees_contours};
+use super::super::{architectures, as_grown, leaf_traits, specimens, trees, trees_contours};
 use super::contours as own;
 use super::numbers::{browned, days, fitted, last_carotenoids, last_chlorophyll, litter, red};
 use super::{Age, ColouredLeaf, Holding};
@@ -72,7 +72,7 @@ pub(super) const GINKGO: ColouredLeaf = ColouredLeaf {
             },
             ..YELLOW
         };
-        let mut plan = aged(leaf, runions::ginkgo(), &course);
+        let mut plan = aged(leaf, as_grown::ginkgo(), &course);
         plan.tissue.vein_factors = VeinFactors::of(&[
             (Structure, 1.25),
             (Chlorophyll, 1.6),
@@ -215,7 +215,7 @@ pub(super) fn red_maple(leaf: &ColouredLeaf) -> LeafPlan {
         leaf.green,
         3,
         specimens::serrate(own::red_maple()),
-        trees::net(80.0, 560.0, 4.0),
+        trees::dense(leaf.green, architectures::red_maple(), 3.4),
     )
 }
 
@@ -226,7 +226,7 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
     tissues: &[Holding::new("turned")
         .chlorophyll(last_chlorophyll(8.0))
         .carotenoids(last_carotenoids(6.0))
-        .anthocyanins(red(30.0, [5.0, 60.0]))
+        .anthocyanins(red(34.0, [5.0, 60.0]))
         .brown(browned(0.1))],
     age: Some(age(25.0, 8.0, 17.0)),
     plan: |leaf| {
@@ -243,7 +243,7 @@ pub(super) const SWEETGUM: ColouredLeaf = ColouredLeaf {
             death: EDGE,
             ..YELLOW
         };
-        let mut plan = aged(leaf, runions::sweetgum(), &course);
+        let mut plan = aged(leaf, as_grown::sweetgum(), &course);
         plan.tissue.vein_factors[Anthocyanins] = 0.6;
         plan
     },

@@ -75,7 +75,12 @@ pub(super) const ACER_VARIEGATED: ColouredLeaf = ColouredLeaf {
     age: None,
     plan: |leaf| {
         let outline = specimens::serrate(contours::box_elder());
-        let mut plan = trees::leaf(leaf.green, 6, outline, trees::net(70.0, 380.0, 4.0));
+        let mut plan = trees::leaf(
+            leaf.green,
+            6,
+            outline,
+            trees::dense(leaf.green, architectures::box_elder(), 3.6),
+        );
         plan.layers = sectors(leaf, "white", [0.58, 0.37], 9.0);
         plan.map_size = 1024;
         let rows = Feather {

@@ -78,7 +78,7 @@ fn every_tooth_and_lobe_of_a_preset_has_its_vein_and_the_fine_net_holds_all_of_t
             let mut nodes = network.nodes().iter();
             assert!(
                 nodes.any(|node| (node.position - tip).length() < near),
-                "{name}"
+                "{name}: no node at {tip}"
             );
         }
         for node in network.nodes() {

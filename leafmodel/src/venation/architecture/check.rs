@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
+use super::ground::Ground;
 use super::margin::Margin;
-use super::primaries::{self, Ground};
+use super::primaries;
 use super::secondaries;
 use super::{Architecture, Lots, PrimaryPattern, SecondaryEnding, TertiaryCourse};
 use crate::shape::outline::Outline;

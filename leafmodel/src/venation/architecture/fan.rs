@@ -11,7 +11,7 @@ use super::Primaries;
 use super::axis::Axis;
 use super::course::Course;
 use super::ends::aside;
-use super::primaries::Ground;
+use super::ground::Ground;
 use crate::shape::outline::Outline;
 
 /// How far the place of a fork strays, share of its distance from the base.

@@ -6,28 +6,11 @@ use glam::DVec2;
 
 use super::axis::Axis;
 use super::course::Course;
-use super::margin::Margin;
-use super::{Architecture, Lots, PrimaryPattern, ends, fan};
-use crate::shape::outline::Outline;
+use super::ground::Ground;
+use super::{Architecture, PrimaryPattern, ends, fan};
 
 /// Where along the innermost lateral primary the others of a palinactinodromous leaf leave it.
 const RADIATES_AT: f64 = 0.16;
-
-/// A blade whose base is the origin, its margin and chance.
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'g> {
-    pub(crate) blade: &'g Outline,
-    pub(crate) margin: &'g Margin,
-    pub(crate) lots: Lots,
-}
-
-impl Ground<'_> {
-    /// How far the margin is from a place of the midrib, on one side.
-    fn half_width(self, on: DVec2, across: DVec2) -> f64 {
-        let hit = self.margin.hit(on, across);
-        hit.map_or(0.0, |hit| (hit.place - on).length())
-    }
-}
 
 /// The primaries of an architecture, the midrib first, each after the one that it leaves. None for
 /// an axis that does not fit.

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use super::{Simulation, turned};
 use crate::venation::architecture::course::Course;
+use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::margin::Margin;
 use crate::venation::architecture::{
     Architecture, Lots, festoons, primaries, secondaries, tertiaries,
@@ -66,7 +67,7 @@ impl<I: Influence> Simulation<'_, I> {
         let lots = Lots::new(self.seed, plan.irregularity);
         let blade = self.lamina.blade;
         let margin = Margin::new(blade);
-        let ground = primaries::Ground {
+        let ground = Ground {
             blade,
             margin: &margin,
             lots,
