@@ -1,7 +1,7 @@
 //! How a blade comes to lie: growth in excess at its margin, drying, wilting, rest on the ground.
 //!
 //! [`BladeForm`](super::BladeForm) says how the blade of a turgid leaf is bent. A [`Stance`] says
-//! what has happened to it since. The blade is then an elastic shell ([`crate::shell`]) in
+//! what has happened to it since. The blade is then an elastic shell (`crate::shell`) in
 //! equilibrium: every undulation, curl and crumple follows from what the tissue wants and from its
 //! weight.
 //!

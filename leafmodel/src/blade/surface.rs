@@ -8,7 +8,7 @@
 //!
 //! The mound across a vein is that of the mesh's relief, which carries part of it on the major
 //! veins: what the mesh carries is subtracted here. The bulge is that of a sheet that swells and
-//! that veins hold down ([`bulge`]).
+//! that veins hold down (`bulge`).
 //!
 //! - **In**: a [`SurfacePlan`], the veins, the frame of the contents map.
 //! - **Out**: a [`SurfaceMap`]: for each texel and face the mean slopes and the mean squares of

@@ -157,11 +157,12 @@ impl Sheet {
         for &cell in cells {
             let wanted = Wanted::new(&form, &patches[cell]);
             let share = scaled(&wanted.stretch, 0.25 * AT_CORNERS * cell_area(cell));
-            for row in 0..3 {
-                place.wanted[row] += wanted.metric[row] / cells.len() as f64;
-                for column in 0..3 {
-                    place.stiffness[row][column] += share[row][column];
-                }
+            for (sum, metric) in place.wanted.iter_mut().zip(wanted.metric) {
+                *sum += metric / cells.len() as f64;
+            }
+            let sums = place.stiffness.iter_mut().flatten();
+            for (sum, share) in sums.zip(share.as_flattened()) {
+                *sum += share;
             }
         }
         self.stretching.push(place);
@@ -297,7 +298,7 @@ impl Sheet {
     pub(super) fn stiffness(&self, x: &[DVec3], damping: f64, matrix: &mut Envelope) {
         matrix.clear();
         for place in &self.stretching {
-            self.add_stretching(place, x, matrix);
+            Self::add_stretching(place, x, matrix);
         }
         for place in &self.bending {
             let form = Forms::of(&place.basis, x);
@@ -340,7 +341,7 @@ impl Sheet {
         }
     }
 
-    fn add_stretching(&self, place: &Place, x: &[DVec3], matrix: &mut Envelope) {
+    fn add_stretching(place: &Place, x: &[DVec3], matrix: &mut Envelope) {
         let tangents = tangents(&place.basis, x);
         let strain = less(metric(&tangents), place.wanted).map(|e| 0.5 * e);
         let [u, v] = tangents;
@@ -366,14 +367,14 @@ impl Sheet {
             let stressed = tension[0] * f[0] * g[0]
                 + tension[1] * f[1] * g[1]
                 + 0.5 * tension[2] * (f[0] * g[1] + f[1] * g[0]);
-            for row in 0..3 {
-                for column in 0..3 {
-                    let mut value = if row == column { stressed } else { 0.0 };
-                    for part in 0..3 {
-                        value += forces[i][part][row] * rates[j][part][column];
-                    }
-                    put(matrix, (a, row), (b, column), value);
-                }
+            let (force, rate) = (&forces[i], &rates[j]);
+            let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
+            for (row, column) in places {
+                let straight = if row == column { stressed } else { 0.0 };
+                let value = force.iter().zip(rate).fold(straight, |sum, (force, rate)| {
+                    sum + force[row] * rate[column]
+                });
+                put(matrix, (a, row), (b, column), value);
             }
         });
     }

@@ -23,7 +23,12 @@ impl Description {
     fn primaries_text(&self) -> Option<String> {
         let pattern = match self.primaries? {
             PrimaryPattern::Pinnate => "pinnate".to_owned(),
-            kind => {
+            kind @ (PrimaryPattern::Actinodromous
+            | PrimaryPattern::Palinactinodromous
+            | PrimaryPattern::Acrodromous
+            | PrimaryPattern::Parallelodromous
+            | PrimaryPattern::Campylodromous
+            | PrimaryPattern::Flabellate) => {
                 let place = match self.part_at {
                     Some(at) if at > 0.02 => "suprabasal",
                     Some(_) | None => "basal",

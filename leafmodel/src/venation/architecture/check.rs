@@ -302,13 +302,13 @@ impl Architecture {
             return Err(ArchitectureError::TertiariesTooClose { apart, least });
         }
         let (low, high) = blade.bounds();
-        let apart = match self.primaries.pattern {
-            PrimaryPattern::Flabellate => self.primaries.fork_spacing * length,
-            _ if self.primaries.laterals > 0 => {
-                let width = young * (high.x - low.x);
-                0.5 * width / f64::from(self.primaries.laterals + 1)
-            }
-            _ => f64::INFINITY,
+        let apart = if self.primaries.pattern == PrimaryPattern::Flabellate {
+            self.primaries.fork_spacing * length
+        } else if self.primaries.laterals > 0 {
+            let width = young * (high.x - low.x);
+            0.5 * width / f64::from(self.primaries.laterals + 1)
+        } else {
+            f64::INFINITY
         };
         if apart < 3.0 {
             return Err(ArchitectureError::PrimariesTooClose { apart });

@@ -33,7 +33,7 @@ const DEGREES: u32 = 150;
 struct Side {
     up: DVec2,
     /// 1 the right, −1 the left.
-    side: f64,
+    sign: f64,
     /// Distance from one radius to the next.
     step: f64,
     /// Angle of the lower margin at each radius, radians.
@@ -64,7 +64,7 @@ impl Side {
         let widest = (0..RADII).max_by(most).unwrap_or(0);
         Self {
             up,
-            side,
+            sign: side,
             step,
             widths,
             widest,
@@ -82,7 +82,7 @@ impl Side {
 
     /// A place by its share of the fan and its distance from the base.
     fn at(&self, share: f64, radius: f64) -> DVec2 {
-        aside(self.up, share * self.width(radius), self.side) * radius
+        aside(self.up, share * self.width(radius), self.sign) * radius
     }
 
     /// How far a vein at a share of the fan can run.
@@ -140,7 +140,7 @@ pub(super) fn lay_out(plan: &Primaries, ground: Ground<'_>, axes: &mut Vec<Axis>
         while let Some(branch) = branches.pop() {
             let vein = axes.len() as u64;
             let generation = branch.generation;
-            let points = one(branch, &fan, ground, spacing, vein, &mut branches);
+            let points = one(&branch, &fan, ground, spacing, vein, &mut branches);
             if points.len() > 1 {
                 let course = Course::curve(points[0], &points[1..], ground.lots, 1, vein, 0.05);
                 axes.push(Axis::new(course.crowded(), side, generation));
@@ -151,7 +151,7 @@ pub(super) fn lay_out(plan: &Primaries, ground: Ground<'_>, axes: &mut Vec<Axis>
 
 /// The start and the bends of a vein; branches that leave it are added.
 fn one(
-    branch: Branch,
+    branch: &Branch,
     fan: &Side,
     ground: Ground<'_>,
     spacing: f64,
@@ -173,7 +173,7 @@ fn one(
         let pieces = ((next - turned) / (4.0 * TURNING * spacing))
             .ceil()
             .max(1.0) as u32;
-        let first = if from > 0.0 { 0 } else { 1 };
+        let first = u32::from(from <= 0.0);
         for piece in first..=pieces {
             let radius = turned + (next - turned) * f64::from(piece) / f64::from(pieces);
             if radius > from + 0.3 * spacing {

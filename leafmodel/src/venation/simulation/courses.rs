@@ -47,7 +47,8 @@ struct Tip {
     sources: Vec<DVec2>,
     next: usize,
     joins: bool,
-    is_crowded: bool,
+    /// The length that it needs to get away from the others, segments.
+    away: Option<f64>,
     length: f64,
     /// Steps in which it had to turn aside at the margin.
     turns: u32,
@@ -199,7 +200,7 @@ impl<I: Influence> Simulation<'_, I> {
             sources,
             next: 0,
             joins: course.joins,
-            is_crowded: course.is_crowded,
+            away: course.is_crowded.then_some(CROWDED),
             length: 0.0,
             turns: 0,
             is_done: false,
@@ -242,11 +243,7 @@ impl<I: Influence> Simulation<'_, I> {
         };
         let place = from + step;
         // It ends where it would touch another vein, so that none of its nodes lies upon that.
-        let away = if tip.is_crowded {
-            CROWDED
-        } else {
-            AWAY[usize::from(order > 2)]
-        };
+        let away = tip.away.unwrap_or(AWAY[usize::from(order > 2)]);
         let is_away = tip.length > away * unit;
         if is_away && self.join(tip, order, place, TOUCH * unit, unit) {
             return;
