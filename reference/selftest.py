@@ -544,13 +544,13 @@ def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
 BEYOND_A_SCHEMA = """
     area_light bands camera_at_itself camera_upside compound_bipinnate compound_overlap
     compound_pair compound_palmate compound_palmate_round coverage dark_light energy
-    file_missing growth_arrival growth_steps instances_flood instances_rows matrix
+    file_missing growth_arrival growth_steps instances_flood instances_rows leaf_individual matrix
     mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
-    outline_growth_crossing outline_growth_crossing_axis outline_svg_crossing
-    outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
-    path_outside senescence_auxin solid_mesh solid_mosaic table_file unknown_name unsorted
+    outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
+    outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
+    path_outside senescence_auxin solid_mesh solid_mosaic surface_cells table_file unknown_name unsorted
     venation_cells venation_origin venation_origins_meet venation_transport_fine
-    venation_young wrong_file
+    venation_young wilting_on_ground wrong_file
 """.split()
 
 

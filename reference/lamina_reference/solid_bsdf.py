@@ -45,6 +45,8 @@ class SolidBSDF(LeafBSDF):
         extrapolate = bool(props.get("extrapolate", False))
         table = Path(str(resolve(str(props.get("prospect")))))
         self.prospect = Prospect(table, Double, extrapolate)
+        # A half-space lets nothing through that could spread.
+        self.spread = None
         self.kind = str(props.get("tissue"))
         if self.kind == "map":
             self.map = ContentsMap(Path(str(resolve(str(props.get("map"))))))

@@ -23,8 +23,7 @@ const LENGTH_CV: f64 = 0.14;
 /// Standard deviations that a flora's range is wide to either side of the preset's length.
 const DEVIATIONS: f64 = 2.2;
 
-/// Coefficients of variation, by eye but for those of the contents, which are about half of what
-/// ANGERS has over leaves of one species.
+/// Coefficients of variation, by eye.
 const BREADTH_CV: f64 = 0.05;
 const TOOTH_HEIGHT_CV: f64 = 0.12;
 const TOOTH_COUNT_CV: f64 = 0.06;

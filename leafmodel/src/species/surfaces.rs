@@ -1,9 +1,8 @@
 //! Surfaces of species: relief of the faces, hairs, and roughness of the coats.
 //!
 //! Whether a species has hairs, where and of what direction, and whether its veins are impressed or
-//! prominent, is what floras say (Flora of North America, Flora Europaea: "silky on both faces",
-//! "hairy on the veins below", "ciliate", "glabrous"). They give no heights and few densities:
-//! those, and all roughness, are estimates by eye, in the range of micrographs of leaves.
+//! prominent, is told from memory of floras and was not looked up; heights, densities and all
+//! roughness are by eye.
 
 use crate::blade::hairs::{HairPlace, HairPlan};
 use crate::blade::surface::SurfacePlan;
@@ -119,7 +118,7 @@ pub fn adaxial_roughness(preset: &str) -> Option<f64> {
 /// glabrous.
 pub(super) fn hairs(preset: &str) -> Vec<HairPlan> {
     match preset {
-        // "Silky-hairy on both faces, more so below", long and flat on the face.
+        // Silky on both faces, more so below; long and flat on the face.
         "willow" => vec![HairPlan {
             adaxial_per_mm2: 8.0,
             abaxial_per_mm2: 30.0,
@@ -130,7 +129,7 @@ pub(super) fn hairs(preset: &str) -> Vec<HairPlan> {
             stray: 14_f64.to_radians(),
             ..kind("silk")
         }],
-        // "Hairs on margins and veins beneath"; the leaf of A. mollis is softly hairy all over.
+        // On the margin and on veins below; the leaf of A. mollis is softly hairy all over.
         "alchemilla" => vec![
             HairPlan {
                 adaxial_per_mm2: 1.2,
@@ -152,7 +151,7 @@ pub(super) fn hairs(preset: &str) -> Vec<HairPlan> {
                 ..kind("fringe")
             },
         ],
-        // "Softly hairy below, at least on the veins".
+        // Softly hairy below, at least on the veins.
         "cherry" => vec![HairPlan {
             abaxial_per_mm2: 12.0,
             place: HairPlace::Veins,

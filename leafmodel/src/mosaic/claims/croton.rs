@@ -64,6 +64,10 @@ fn nearness_of_the_turned(places: &[DVec3], first: &[u32], later: &[u32]) -> f64
     mean(&turned) / mean(&all)
 }
 
+/// Distance of what turns yellow from what was yellow, over that of any place: noise has at least
+/// this.
+const NOISE_BELOW: f64 = 0.93;
+
 #[test]
 #[ignore = "slow: 10 s"]
 fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
@@ -82,7 +86,8 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
         let kept = contained(&two[0], &two[1], FOREGROUND);
         assert!(kept > 0.95, "{kept} of the old blotches");
         let near = nearness_of_the_turned(&places, &two[0], &two[1]);
-        assert!(near < 0.9, "what turns yellow is as far as {near}");
+        // Nearer than noise ever is, below.
+        assert!(near < NOISE_BELOW, "what turns yellow is as far as {near}");
     }
     // Noise with the same shares, at rising scale, as in Fig. 6.
     for seed in 1..4 {
@@ -97,7 +102,10 @@ fn a_croton_yellows_by_the_borders_of_its_blotches_and_noise_does_not() {
             let kept = contained(&two[0], &two[1], FOREGROUND);
             assert!((kept - share).abs() < 0.1, "{kept} against {share}");
             let near = nearness_of_the_turned(&places, &two[0], &two[1]);
-            assert!((near - 1.0).abs() < 0.07, "noise: {near}");
+            assert!(
+                (NOISE_BELOW..2.0 - NOISE_BELOW).contains(&near),
+                "noise: {near}"
+            );
         }
     }
 }
