@@ -24,11 +24,22 @@ pub(crate) enum Use {
     DamageSize = 9,
 }
 
-/// A uniform random number in [0, 1), a multiple of 2⁻⁵³: two rounds of the output function of
-/// `SplitMix64` (\[steele2014\]), the second keyed by the first.
+/// A uniform random number in [0, 1), a multiple of 2⁻⁵³.
 pub(crate) fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
-    let key = scramble(seed ^ (purpose as u64 + 0x5eed).wrapping_mul(0xd1b5_4a32_d192_ed03));
-    let bits = scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
+    share(bits(seed, purpose as u64 + 0x5eed, counter))
+}
+
+/// 64 random bits for the use with this number, number `counter` of their kind.
+///
+/// Two rounds of the output function of `SplitMix64` (\[steele2014\]), the second keyed by the
+/// first. The counter's increment is that of the generator.
+pub(crate) fn bits(seed: u64, purpose: u64, counter: u64) -> u64 {
+    let key = scramble(seed ^ purpose.wrapping_mul(0xd1b5_4a32_d192_ed03));
+    scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+}
+
+/// A number in [0, 1) from random bits, a multiple of 2⁻⁵³.
+pub(crate) fn share(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 

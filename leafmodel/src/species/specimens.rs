@@ -56,13 +56,8 @@ fn drip_tip(length: f64, narrowing: f64) -> Specimen {
     }
 }
 
-/// Entire and alike but for chance.
+/// Alike on both sides but for chance: entire leaves, and lobes without points.
 pub(super) fn entire(outline: OutlinePlan) -> OutlinePlan {
-    with(outline, USUAL, Specimen::default())
-}
-
-/// Lobes without points.
-pub(super) fn lobed(outline: OutlinePlan) -> OutlinePlan {
     with(outline, USUAL, Specimen::default())
 }
 

@@ -90,7 +90,7 @@ pub(super) fn ivy() -> LeafPlan {
     leaf(
         &leaf_traits::IVY,
         2,
-        specimens::lobed(contours::ivy()),
+        specimens::entire(contours::ivy()),
         dense(&leaf_traits::IVY, architectures::ivy(), 3.5),
     )
 }
@@ -99,7 +99,7 @@ pub(super) fn white_oak() -> LeafPlan {
     leaf(
         &leaf_traits::WHITE_OAK,
         1,
-        specimens::lobed(contours::white_oak()),
+        specimens::entire(contours::white_oak()),
         dense(&leaf_traits::WHITE_OAK, architectures::white_oak(), 3.4),
     )
 }

@@ -2,6 +2,8 @@
 //!
 //! There is no generator state, so results cannot depend on the order of work.
 
+use crate::shape::chance;
+
 /// What a random number is used for. The discriminants separate the uses and must never change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Use {
@@ -62,23 +64,13 @@ pub(crate) enum Use {
 }
 
 /// 64 random bits for one use, number `counter` of its kind.
-///
-/// Two rounds of the output function of `SplitMix64` (\[steele2014\]), the second keyed by the
-/// first. The counter's increment is that of the generator.
 pub(crate) fn bits(seed: u64, purpose: Use, counter: u64) -> u64 {
-    let key = scramble(seed ^ (purpose as u64).wrapping_mul(0xd1b5_4a32_d192_ed03));
-    scramble(key.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+    chance::bits(seed, purpose as u64, counter)
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.
 pub(crate) fn uniform(seed: u64, purpose: Use, counter: u64) -> f64 {
-    (bits(seed, purpose, counter) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-fn scramble(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    chance::share(bits(seed, purpose, counter))
 }
 
 #[cfg(test)]
