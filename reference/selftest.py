@@ -18,9 +18,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
-import traceback
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -46,6 +44,7 @@ from lamina_reference import (
 )
 from lamina_reference.coat import Coat, albedo
 from lamina_reference.program import program
+from lamina_reference.testing import run_tests
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "leafmodel" / "src" / "optics" / "prospect_d.csv"
@@ -549,8 +548,8 @@ BEYOND_A_SCHEMA = """
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
     path_outside senescence_auxin solid_mesh solid_mosaic surface_cells table_file unknown_name unsorted
-    venation_cells venation_origin venation_origins_meet venation_transport_fine
-    venation_young wilting_on_ground wrong_file
+    venation_agrophic venation_cells venation_origin venation_origins_meet venation_quaternaries
+    venation_transport_fine venation_young wilting_on_ground wrong_file
 """.split()
 
 
@@ -587,23 +586,7 @@ def test_broken_scenes_are_refused_by_the_schema_as_far_as_one_can_tell() -> Non
 def main() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
     solid_bsdf.register()
-    passed, failed = 0, 0
-    for name, test in list(globals().items()):
-        if not name.startswith("test_") or (
-            sys.argv[1:] and not any(word in name for word in sys.argv[1:])
-        ):
-            continue
-        began = perf_counter()
-        try:
-            test()
-            passed += 1
-            seconds = perf_counter() - began
-            print(f"ok    {name[5:].replace('_', ' ')} ({seconds:.1f} s)", file=sys.stderr)
-        except Exception:  # A test must not keep the others from being run.
-            failed += 1
-            print(f"FAIL  {name[5:].replace('_', ' ')}\n{traceback.format_exc()}", file=sys.stderr)
-    print(f"reference ({VARIANT}): {passed} passed, {failed} failed")
-    return 1 if failed else 0
+    return run_tests(globals(), f"reference ({VARIANT})")
 
 
 if __name__ == "__main__":

@@ -4,9 +4,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use renderer::image::openexr;
+use renderer::integrator::caption::Caption;
 use renderer::integrator::develop::develop;
 use renderer::integrator::effort::Effort;
-use renderer::integrator::render::{Ended, Halt, Job, Rendered, render_until};
+use renderer::integrator::render::{Ended, Halt, Job, Rendered, begin, render_until};
 use renderer::simd::Level;
 use support::picture::world_of;
 
@@ -50,16 +51,12 @@ radiance_w_m2_sr_nm = { d65 = 0.05 }
 
 /// A picture of the scene on so many threads, and its file.
 fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
-    rendered_of(SCENE, threads, spp, halt)
-}
-
-fn rendered_of(scene: &str, threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("threads");
     pool.install(|| {
-        let (scene, world) = world_of(scene);
+        let (scene, world) = world_of(SCENE);
         let job = Job {
             width: 40,
             height: 30,
@@ -70,7 +67,8 @@ fn rendered_of(scene: &str, threads: usize, spp: u32, halt: Halt) -> (Rendered, 
         let rendered = render_until(&world, &job, &halt, &go_on, &|_| ()).expect("it fits");
         let folder = tempfile::tempdir().expect("a place for temporary files");
         let path = folder.path().join("picture.exr");
-        openexr::write(&develop(&scene, &world, &job, &rendered), &path).expect("it is written");
+        openexr::write(&develop(&Caption::of(&scene), &job, &rendered), &path)
+            .expect("it is written");
         let bytes = std::fs::read(&path).expect("it was just written");
         (rendered, bytes)
     })
@@ -86,34 +84,40 @@ fn a_picture_has_the_same_bytes_on_any_number_of_threads() {
 }
 
 #[test]
-fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_a_given_one_is_kept() {
-    // One sample: only the trial counts.
-    let first_pass = Halt {
-        noise: None,
-        time: Some(Duration::ZERO),
+fn the_effort_is_tried_out_alike_on_any_number_of_threads_and_samples_and_a_given_one_is_kept() {
+    // Large enough for a trial.
+    let of = |threads: usize, spp: u32, text: &str| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("threads");
+        let (_, world) = world_of(text);
+        let job = Job {
+            width: 80,
+            height: 60,
+            spp,
+            seed: 5,
+        };
+        let go_on = AtomicBool::new(false);
+        pool.install(|| begin(&world, &job, None, &go_on))
+            .expect("it fits")
+            .effort
     };
-    let (one, bytes) = rendered(1, 600, first_pass);
-    for threads in [2, 3] {
-        let (other, same) = rendered(threads, 600, first_pass);
-        assert_eq!(other.effort, one.effort, "{threads} threads");
-        assert!(bytes == same, "{threads} threads");
+    let one = of(1, 600, SCENE);
+    for (threads, spp) in [(2, 600), (3, 600), (2, 4), (2, 1 << 20)] {
+        assert_eq!(
+            of(threads, spp, SCENE),
+            one,
+            "{threads} threads, {spp} samples"
+        );
     }
     let text =
         SCENE.to_owned() + "[integrator]\nroulette_below = 0.3\nbranches = 7\nlight_samples = 3\n";
-    let (_, world) = world_of(&text);
-    let job = Job {
-        width: 40,
-        height: 30,
-        spp: 600,
-        seed: 5,
-    };
-    let go_on = AtomicBool::new(false);
-    let given = render_until(&world, &job, &first_pass, &go_on, &|_| ()).expect("it fits");
     let Effort {
         roulette_below,
         branches,
         light_samples,
-    } = given.effort;
+    } = of(2, 600, &text);
     assert_eq!((roulette_below, branches, light_samples), (0.3, 7, 3));
 }
 
@@ -199,16 +203,14 @@ fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
             noise,
             time: Some(Duration::from_millis(300)),
         };
-        let text = SCENE.to_owned()
-            + "[integrator]\nroulette_below = 0.1\nbranches = 2\nlight_samples = 2\n";
-        let (stopped, bytes) = rendered_of(&text, 2, 1 << 20, halt);
+        let (stopped, bytes) = rendered(2, 1 << 20, halt);
         // A picture of 1,200 pixels takes hours for a million samples, and some blocks are not done
         // for 0.2 at once.
         let [_, most] = stopped.film.drawn_range();
         if noise.is_none() {
             assert_eq!(stopped.ended, Ended::Time);
         }
-        let (_, again) = rendered_of(&text, 1, most, Halt { noise, time: None });
+        let (_, again) = rendered(1, most, Halt { noise, time: None });
         assert!(bytes == again, "{most} samples, noise {noise:?}");
     }
 }

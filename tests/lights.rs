@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use glam::{DVec3, Vec2, Vec3};
 use renderer::integrator::render::{Job, render};
 use renderer::light::Receiver;
+use renderer::light::daylight::spctrl2::Atmosphere;
 use renderer::light::patch::{Patch, patches};
 use renderer::sampling::stream::Stream;
 use renderer::sampling::warp;
@@ -282,6 +283,34 @@ fn a_shining_ball_of_many_triangles_has_the_irradiance_of_a_sphere() {
     let found = mean_and_error(&floor_under(&blocks, 64), 0, 16);
     // Triangles between points of the sphere lie inside it, by at most 1 − cos(π / 128).
     assert_agrees("ball", found, 0.5 / PI * irradiance, 1.5e-3);
+}
+
+#[test]
+fn a_floor_in_daylight_gets_the_irradiance_of_sun_and_sky_beside_other_lights_too() {
+    let lamp = "[meshes.lamp.rectangle]\nwidth_m = 0.06\nheight_m = 0.03\n[objects.lamp]\n\
+        mesh = \"lamp\"\nmaterial = \"black\"\nposition_m = [0, 0, 1]\nrotate_deg = [180, 0, 0]\n\
+        [lights.lamp.area]\nobject = \"lamp\"\nradiance_w_m2_sr_nm = 500\n";
+    let corners = [
+        (-0.03, -0.015),
+        (0.03, -0.015),
+        (0.03, 0.015),
+        (-0.03, 0.015),
+    ];
+    let by_lamp = 500.0 * lambert(&corners.map(|(x, y)| DVec3::new(x, y, 1.0)));
+    for (elevation, blocks, beside) in [(25.0_f64, "", 0.0), (60.0, lamp, by_lamp)] {
+        let day = format!(
+            "[lights.day.daylight]\nelevation_deg = {elevation}\nazimuth_deg = 70\n{blocks}"
+        );
+        let air = Atmosphere::default();
+        let rows = air.irradiance(elevation.to_radians());
+        let row = rows.iter().find(|row| row.nm == 550.0);
+        let row = row.expect("it is one of the rows of SPCTRL2");
+        let up = elevation.to_radians().sin();
+        let irradiance = row.direct * up + row.diffuse + beside;
+        let found = mean_and_error(&floor_under(&day, 256), 0, 8);
+        // The lamp hides less than a thousandth of the sky.
+        assert_agrees(&day, found, 0.5 / PI * irradiance, 1e-3);
+    }
 }
 
 #[test]

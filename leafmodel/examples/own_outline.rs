@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Value::Count(count) => count.to_string(),
             Value::Number(Some(number)) => number.to_string(),
             // What the leaf does not have, and series of numbers, which need a table of their own.
-            Value::Number(None) | Value::List(_) => continue,
+            Value::Number(None) | Value::List(_) | Value::Orders(_) => continue,
         };
         writeln!(out, "{},{value},{}", entry.key, entry.unit)?;
     }

@@ -28,16 +28,18 @@ pub mod ageing;
 pub mod ageing_courses;
 pub mod contents_map;
 mod coverage;
-mod distances;
+pub(crate) mod distances;
 mod error;
 mod form;
 pub mod frame;
 pub mod hairs;
 pub mod layers;
+pub(crate) mod margin_thickness;
 pub mod masks;
 pub mod mesh;
 pub mod mottle;
 pub mod petiole;
+mod pleats;
 mod refine;
 mod relief;
 pub mod senescence;
@@ -49,6 +51,7 @@ pub mod stance;
 pub mod surface;
 pub mod tissue;
 mod triangulate;
+pub mod unevenness;
 pub mod vein_body;
 pub mod vein_cover;
 pub mod vein_field;
@@ -57,6 +60,7 @@ pub mod vein_profile;
 pub mod weathering;
 
 pub use frame::UvFrame;
+pub use margin_thickness::MarginThickness;
 pub use mesh::{BladeError, BladeMesh, MeshDefect};
 pub(crate) use sheet::even_sheet;
 
@@ -73,10 +77,14 @@ pub struct BladeForm {
     pub ruffle: f64,
     /// Waves along each side of the margin, 0 to 100.
     pub ruffle_waves: f64,
+    /// Slope of the folds along primary and secondary veins, radians, 0 (none) to 1.
+    pub pleat: f64,
     /// Height of vein relief on the abaxial side over the vein's diameter, 0 (none) to 5.
     pub relief: f64,
     /// Thickness of the lamina between veins, mm, 0.001 to 10.
     pub thickness_mm: f64,
+    /// How it falls towards the margin.
+    pub margin: MarginThickness,
     /// Longest edge of the mesh, mm, 0.001 to 10000.
     pub max_edge_mm: f64,
     /// Veins of at least this radius, mm, are edges of the mesh and have relief, 0.0001 to 1000.
@@ -91,8 +99,10 @@ impl BladeForm {
             curl: 0.0,
             ruffle: 0.0,
             ruffle_waves: 3.0,
+            pleat: 0.0,
             relief: 0.5,
             thickness_mm: 0.2,
+            margin: MarginThickness::EVEN,
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.1,
         }
@@ -109,6 +119,7 @@ impl BladeForm {
             ("curl", self.curl, -6.2..=6.2, "-6.2 to 6.2 (radians)"),
             ("ruffle", self.ruffle, 0.0..=0.5, "0 to 0.5"),
             ("ruffle_waves", self.ruffle_waves, 0.0..=100.0, "0 to 100"),
+            ("pleat", self.pleat, 0.0..=1.0, "0 to 1 (radians)"),
             ("relief", self.relief, 0.0..=5.0, "0 to 5"),
             (
                 "thickness_mm",
@@ -129,16 +140,7 @@ impl BladeForm {
                 "0.0001 to 1000 (millimetres)",
             ),
         ];
-        for (field, value, allowed, range) in fields {
-            if !allowed.contains(&value) {
-                return Err(BladeError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
+        BladeError::unless_within(fields.into_iter().chain(self.margin.fields()))
     }
 }
 

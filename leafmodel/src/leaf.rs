@@ -46,6 +46,7 @@ use crate::blade::stalk::StalkMesh;
 use crate::blade::stance::Stance;
 use crate::blade::surface::{SurfaceMap, SurfacePlan};
 use crate::blade::tissue::{Tissue, TissueError};
+use crate::blade::unevenness::Unevenness;
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
@@ -67,6 +68,8 @@ pub struct LeafPlan {
     pub venation: VenationPlan,
     /// What the tissue holds, and how veins change it.
     pub tissue: Tissue,
+    /// How its greens differ from place to place.
+    pub unevenness: Option<Unevenness>,
     /// What lies on the tissue between veins, the later on top.
     pub layers: Vec<Layer>,
     /// Cells of several types, each with contents of its own, in place of the tissue's lamina;
@@ -161,6 +164,41 @@ pub enum LeafError {
 }
 
 impl LeafPlan {
+    /// The plan of the same leaf in space, whose contents and faces cost no time: they are those of
+    /// plain tissue on the smallest map.
+    ///
+    /// # Errors
+    ///
+    /// [`LeafError`] for a number out of range in what is left out.
+    pub fn form_alone(&self) -> Result<Self, LeafError> {
+        self.validate_tissue()?;
+        Ok(Self {
+            layers: Vec::new(),
+            mosaic: None,
+            senescence: None,
+            surface: None,
+            unevenness: None,
+            map_size: 16,
+            ..self.clone()
+        })
+    }
+
+    /// Checks the numbers of contents and faces.
+    fn validate_tissue(&self) -> Result<(), LeafError> {
+        self.tissue.validate()?;
+        if let Some(unevenness) = &self.unevenness {
+            unevenness.validate()?;
+        }
+        self.layers.iter().try_for_each(Layer::validate)?;
+        if let Some(mosaic) = &self.mosaic {
+            mosaic.validate()?;
+        }
+        if let Some(surface) = &self.surface {
+            surface.validate()?;
+        }
+        self.check_senescence()
+    }
+
     /// Whether the leaf can age as it should, as far as can be told without growing it.
     ///
     /// # Errors
@@ -197,18 +235,10 @@ impl Leaf {
     /// As [`Leaf::grow`], and [`VenationError::Stopped`].
     pub fn grow_unless(plan: &LeafPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, LeafError> {
         // Cheap checks first: a bad number should not cost the time of growing the veins.
-        plan.tissue.validate()?;
-        plan.layers.iter().try_for_each(Layer::validate)?;
-        if let Some(mosaic) = &plan.mosaic {
-            mosaic.validate()?;
-        }
+        plan.validate_tissue()?;
         plan.form.validate()?;
         plan.stance.validate()?;
-        if let Some(surface) = &plan.surface {
-            surface.validate()?;
-        }
         plan.hairs.iter().try_for_each(HairPlan::validate)?;
-        plan.check_senescence()?;
         if let Some(petiole) = &plan.petiole {
             petiole.validate()?;
         }
@@ -234,11 +264,17 @@ impl Leaf {
         let settled = settled.as_ref();
         let frame = UvFrame::around(lamina.intact().points());
         let holes = lamina.holes();
-        let mut mesh =
-            BladeMesh::build_holed(outline, holes, &frame, network, &plan.form, settled)?;
+        let lips = |p| {
+            lamina
+                .wounds
+                .as_ref()
+                .map_or(0.0, |wounds| wounds.height(p))
+        };
+        let cut = (outline, holes, &frame);
+        let mut mesh = BladeMesh::build_holed(cut, network, &plan.form, settled, &lips)?;
         let mut petiole = plan
             .petiole
-            .map(|petiole| petiole.settled(outline, network, &plan.form, settled))
+            .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
             .transpose()?;
         if plan.stance.on_ground {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
@@ -331,6 +367,7 @@ mod tests {
                 mottle: 0.1,
                 mottle_scale_mm: 2.0,
             },
+            unevenness: None,
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
@@ -340,8 +377,10 @@ mod tests {
                 curl: 0.5,
                 ruffle: 0.01,
                 ruffle_waves: 3.0,
+                pleat: 0.0,
                 relief: 0.5,
                 thickness_mm: 0.2,
+                margin: crate::blade::MarginThickness::EVEN,
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },
@@ -392,6 +431,23 @@ mod tests {
         assert_eq!(one, Leaf::grow(&plan()).expect("a good plan"));
         let other = LeafPlan { seed: 4, ..plan() };
         assert_ne!(one, Leaf::grow(&other).expect("a good plan"));
+    }
+
+    #[test]
+    fn the_form_alone_is_that_of_the_whole_leaf() {
+        let mut plan = crate::species::find("birch-autumn")
+            .expect("a preset")
+            .plan();
+        plan.length_mm = 20.0;
+        plan.venation = auxin().into();
+        plan.map_size = 300;
+        let whole = Leaf::grow(&plan).expect("a good plan");
+        let form = Leaf::grow(&plan.form_alone().expect("good numbers")).expect("a good plan");
+        assert_eq!(form.mesh, whole.mesh);
+        assert_eq!(form.petiole, whole.petiole);
+        assert!(form.contents.texels.len() <= 256 && form.surface.is_none());
+        plan.tissue.mottle = -1.0;
+        assert!(plan.form_alone().is_err());
     }
 
     #[test]

@@ -29,8 +29,10 @@ pub mod description;
 mod forks;
 mod fourier;
 mod hierarchy;
+mod junctions;
 mod margin;
 mod nesting;
+pub mod projections;
 #[cfg(test)]
 mod shape_tests;
 mod skeleton;
@@ -44,8 +46,9 @@ use serde_json::{Map, Value as Json};
 
 use self::forks::Forks;
 use self::hierarchy::Hierarchy;
+use self::junctions::Junctions;
 use self::skeleton::Skeleton;
-use self::statistics::{mean, median, mode, variation};
+use self::statistics::{mean, median, mode, quantile, variation};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areole, Areoles, areoles};
 use crate::venation::chance::{Use, uniform};
@@ -61,6 +64,9 @@ const PROBES: usize = 1 << 14;
 /// Veins from this order on are minor veins.
 const FIRST_MINOR_ORDER: usize = 4;
 
+/// Shares of a distribution that are told.
+const PERCENTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
 /// Greatest number of entries of a list that a table shows.
 const LONGEST_LIST: usize = 12;
 
@@ -74,6 +80,8 @@ pub enum Value {
     /// Several numbers that belong together: one per vein order, from order 1, or the coefficients
     /// of a series.
     List(Vec<f64>),
+    /// One number per vein order, from order 1; `None` where an order has nothing to measure.
+    Orders(Vec<Option<f64>>),
 }
 
 /// One measure of a leaf.
@@ -133,6 +141,7 @@ pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f6
     list.areoles(&found);
     list.free_endings(outline, network, &found);
     list.forks(&Forks::new(&skeleton, murray_exponent));
+    list.junctions(Junctions::new(&skeleton));
     let nesting = nesting::nesting(&found);
     list.number("loop_nesting", "", nesting.mean);
     list.number("loop_nesting_weighted", "", nesting.weighted);
@@ -160,6 +169,21 @@ impl List {
         self.entries.push(Entry { key, unit, value });
     }
 
+    fn list(&mut self, key: &'static str, unit: &'static str, value: Vec<f64>) {
+        let value = Value::List(value);
+        self.entries.push(Entry { key, unit, value });
+    }
+
+    /// The distribution of some values: 5th, 25th, 50th, 75th and 95th percentile, or nothing
+    /// without values.
+    fn percentiles(&mut self, key: &'static str, unit: &'static str, values: &mut [f64]) {
+        let all = PERCENTILES
+            .iter()
+            .filter_map(|&share| quantile(values, share));
+        let all = all.collect();
+        self.list(key, unit, all);
+    }
+
     fn shape(&mut self, outline: &Outline) {
         let (length, perimeter) = (outline.length(), outline.perimeter());
         let extent = margin::extent(outline);
@@ -175,11 +199,7 @@ impl List {
         self.number("circularity", "", Some(round));
         let solidity = self.area / margin::hull_area(outline);
         self.number("solidity", "", Some(solidity));
-        self.entries.push(Entry {
-            key: "elliptic_fourier",
-            unit: "",
-            value: Value::List(fourier::descriptors(outline)),
-        });
+        self.list("elliptic_fourier", "", fourier::descriptors(outline));
     }
 
     fn veins(&mut self, skeleton: &Skeleton) {
@@ -188,11 +208,8 @@ impl List {
         let minor: f64 = lengths.iter().skip(FIRST_MINOR_ORDER - 1).sum();
         self.number("vein_length_mm", "mm", Some(total));
         self.number("vein_density_mm_per_mm2", "mm/mm²", Some(total / self.area));
-        self.entries.push(Entry {
-            key: "vein_density_mm_per_mm2_by_order",
-            unit: "mm/mm²",
-            value: Value::List(lengths.iter().map(|length| length / self.area).collect()),
-        });
+        let by_order = lengths.iter().map(|length| length / self.area).collect();
+        self.list("vein_density_mm_per_mm2_by_order", "mm/mm²", by_order);
         self.number(
             "minor_vein_share",
             "",
@@ -234,6 +251,9 @@ impl List {
         self.number("areole_circularity_mean", "", mean(&round));
         self.number("areole_circularity_median", "", median(&mut round));
         self.number("areole_elongation_median", "", median(&mut long));
+        self.percentiles("areole_area_mm2_percentiles", "mm²", &mut areas);
+        self.percentiles("areole_circularity_percentiles", "", &mut round);
+        self.percentiles("areole_elongation_percentiles", "", &mut long);
     }
 
     fn free_endings(&mut self, outline: &Outline, network: &VenationNetwork, found: &Areoles) {
@@ -262,6 +282,18 @@ impl List {
         self.number("murray_exponent_median", "", forks.murray_exponent);
     }
 
+    fn junctions(&mut self, found: Junctions) {
+        self.list("junction_degree_shares", "", found.degree_shares);
+        self.number("junction_bent_share", "", found.bent_share);
+        let angle = found.largest_angle_deg;
+        self.number("junction_largest_angle_deg_median", "°", angle);
+        self.entries.push(Entry {
+            key: "murray_exponent_by_order",
+            unit: "",
+            value: Value::Orders(found.exponents),
+        });
+    }
+
     fn hierarchy(&mut self, veins: &Hierarchy) {
         self.number("midrib_length_mm", "mm", veins.midrib_mm);
         self.count("secondary_vein_count_left", veins.left);
@@ -285,7 +317,7 @@ impl Measures {
         match &entry.value {
             Value::Count(count) => Some(*count as f64),
             Value::Number(number) => *number,
-            Value::List(_) => None,
+            Value::List(_) | Value::Orders(_) => None,
         }
     }
 
@@ -295,6 +327,7 @@ impl Measures {
             Value::Count(count) => Json::from(*count),
             Value::Number(number) => Json::from(*number),
             Value::List(list) => Json::from(list.clone()),
+            Value::Orders(list) => Json::from(list.clone()),
         };
         let members = self
             .entries
@@ -306,20 +339,23 @@ impl Measures {
     /// Lines of key, value and unit, in columns. Values have four digits; a missing value is a
     /// dash; long lists are cut short.
     pub fn table(&self) -> String {
+        let listed = |list: &mut dyn Iterator<Item = Option<f64>>| {
+            let missing = || "–".to_owned();
+            let mut parts: Vec<String> = list
+                .take(LONGEST_LIST + 1)
+                .map(|number| number.map_or_else(missing, four_digits))
+                .collect();
+            if parts.len() > LONGEST_LIST {
+                "…".clone_into(&mut parts[LONGEST_LIST]);
+            }
+            parts.join(" ")
+        };
         let text = |value: &Value| match value {
             Value::Count(count) => count.to_string(),
             Value::Number(None) => "–".to_owned(),
             Value::Number(Some(number)) => four_digits(*number),
-            Value::List(list) => {
-                let shown = list.iter().take(LONGEST_LIST);
-                let parts: Vec<String> = shown.map(|&number| four_digits(number)).collect();
-                let rest = if list.len() > LONGEST_LIST {
-                    " …"
-                } else {
-                    ""
-                };
-                parts.join(" ") + rest
-            }
+            Value::List(list) => listed(&mut list.iter().copied().map(Some)),
+            Value::Orders(list) => listed(&mut list.iter().copied()),
         };
         let wide = self.entries.iter().map(|e| e.key.len()).max().unwrap_or(0);
         let lines = self.entries.iter().map(|entry| {

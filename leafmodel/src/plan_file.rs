@@ -46,6 +46,7 @@ mod stance;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod unevenness;
 mod venation;
 
 use std::path::Path;

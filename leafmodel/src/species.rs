@@ -32,6 +32,7 @@ pub mod colours;
 mod compound_leaves;
 mod contours;
 mod developed;
+pub mod diagnosis;
 mod extended;
 mod individuals;
 pub mod leaf_traits;
@@ -133,6 +134,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             mottle: 0.1,
             mottle_scale_mm: 1.5,
         },
+        unevenness: None,
         layers: Vec::new(),
         mosaic: None,
         senescence: None,
@@ -141,8 +143,10 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             curl: 20.0_f64.to_radians(),
             ruffle: 0.01,
             ruffle_waves: 2.5,
+            pleat: 0.0,
             relief: 0.6,
             thickness_mm: 0.2,
+            margin: crate::blade::MarginThickness::EVEN,
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },

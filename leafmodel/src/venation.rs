@@ -45,6 +45,7 @@ pub mod arcuate;
 pub mod areole;
 mod auxin;
 mod bipolar;
+mod carrying_out;
 pub(crate) mod chance;
 mod closed;
 pub mod conformal_map;
@@ -79,19 +80,15 @@ use glam::DVec2;
 use thiserror::Error;
 
 use self::auxin::waiting_darts;
-use self::bipolar::Bipolar;
-use self::closed::Anastomosis;
+#[cfg(test)]
+pub(crate) use self::carrying_out::carry_out;
+use self::carrying_out::{Watch, carry_out_from};
 use self::given::GivenVeins;
 use self::grown::Grown;
-use self::influence::Influence;
 use self::lamina::Lamina;
 use self::lamina_clock::LaminaClock;
-use self::network::{Ending, VenationNetwork};
-use self::open::NearestNode;
-use self::plan::{AuxinPlan, Growth, Neighbourhood, Pattern, PlanError};
-use self::relative_neighbourhood::RelativeNeighbourhood;
-use self::simulation::Simulation;
-use self::urquhart::UrquhartNeighbourhood;
+use self::network::VenationNetwork;
+use self::plan::{AuxinPlan, Growth, PlanError};
 use crate::shape::outline::Outline;
 
 /// Why no veins grow.
@@ -327,112 +324,4 @@ fn check_young(lamina: &Lamina, clock: &LaminaClock) -> Result<(), PlanError> {
     let mut young = lamina.clone();
     young.carry(first);
     AuxinPlan::validate_young(size(young.bounds_now()) / size(lamina.blade.bounds()))
-}
-
-/// Runs a checked plan; returns the full-grown state and those after `steps`.
-#[cfg(test)]
-pub(crate) fn carry_out(
-    plan: &AuxinPlan,
-    lamina: Lamina,
-    clock: LaminaClock,
-    seed: u64,
-    steps: &[u32],
-    is_stopped: &dyn Fn() -> bool,
-) -> (Grown, Vec<Grown>) {
-    let watch = Watch {
-        steps,
-        young: Vec::new(),
-        is_stopped,
-    };
-    carry_out_from(plan, lamina, clock, None, seed, watch)
-}
-
-/// As [`carry_out`], from veins that are there.
-fn carry_out_from(
-    plan: &AuxinPlan,
-    lamina: Lamina,
-    clock: LaminaClock,
-    given: Option<&GivenVeins>,
-    seed: u64,
-    watch: Watch<'_>,
-) -> (Grown, Vec<Grown>) {
-    match plan.pattern {
-        Pattern::Open => simulate::<NearestNode>(plan, lamina, clock, given, seed, watch),
-        Pattern::Closed(Neighbourhood::Relative) => {
-            simulate::<Anastomosis<RelativeNeighbourhood>>(plan, lamina, clock, given, seed, watch)
-        }
-        Pattern::Closed(Neighbourhood::Bipolar) => {
-            simulate::<Anastomosis<Bipolar>>(plan, lamina, clock, given, seed, watch)
-        }
-        Pattern::Closed(Neighbourhood::Urquhart) => {
-            simulate::<Anastomosis<UrquhartNeighbourhood>>(plan, lamina, clock, given, seed, watch)
-        }
-    }
-}
-
-/// Records states while veins grow, and stops the growth on request.
-struct Watch<'a> {
-    /// Steps whose states are to be kept.
-    steps: &'a [u32],
-    /// The states kept so far.
-    young: Vec<Grown>,
-    /// Returns whether to stop.
-    is_stopped: &'a dyn Fn() -> bool,
-}
-
-impl Watch<'_> {
-    /// Keeps the state if its step is wanted; returns whether to go on.
-    fn look<I: Influence>(&mut self, now: &Simulation<'_, I>) -> bool {
-        if self.steps.contains(&now.step) {
-            self.young.push(now.state(Ending::Growing));
-        }
-        !(self.is_stopped)()
-    }
-}
-
-fn simulate<I: Influence>(
-    plan: &AuxinPlan,
-    lamina: Lamina,
-    clock: LaminaClock,
-    given: Option<&GivenVeins>,
-    seed: u64,
-    mut watch: Watch<'_>,
-) -> (Grown, Vec<Grown>) {
-    let mut simulation = Simulation::<I>::new(plan, lamina, clock, seed);
-    if let Some(given) = given {
-        simulation.start_from(given);
-    }
-    watch.look(&simulation);
-    // Veins that are given take the place of those that would be laid out.
-    let mut rounds = if given.is_some() {
-        Vec::new()
-    } else {
-        if let Some(architecture) = &plan.architecture {
-            simulation.lay_out_architecture(architecture, |now| watch.look(now));
-        }
-        simulation.arch_rounds()
-    };
-    if let Some(arches) = rounds.pop() {
-        // Secondaries end freely at first and join later (\[scarpella2004\]).
-        let mut free = simulation.under::<NearestNode>();
-        for round in rounds {
-            free.lay_out(&round, |now| watch.look(now));
-        }
-        simulation = free.under();
-        simulation.lay_out(&arches, |now| watch.look(now));
-    }
-    let mut ending = simulation.run(|now| watch.look(now));
-    let grown = match &plan.free_endings {
-        None => simulation.state(ending),
-        Some(free) => {
-            let rest = free.as_plan(plan);
-            let mut veinlets = simulation.with_free_endings(&rest, free);
-            let last = veinlets.run(|now| watch.look(now));
-            if last != Ending::Settled {
-                ending = last;
-            }
-            veinlets.state(ending)
-        }
-    };
-    (grown, watch.young)
 }

@@ -12,13 +12,11 @@ import os
 import subprocess
 import sys
 import tempfile
-import traceback
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path[:0] = [str(folder) for folder in Path(__file__).resolve().parents[:2]]
 
 import numpy as np
 from lamina_bench import (
@@ -36,6 +34,7 @@ from lamina_bench import (
     svg,
     write,
 )
+from lamina_reference.testing import run_tests
 
 PROGRAM = Path(os.environ.get("LAMINA") or environments.ROOT / "target" / "release" / "lamina")
 ORDINARY = campaign.Plan((4, 16), 3, 1.0)
@@ -330,23 +329,7 @@ def test_charts_are_logarithmic_and_leave_empty_lines_out() -> None:
 
 def main() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
-    passed, failed = 0, 0
-    for name, test in list(globals().items()):
-        if not name.startswith("test_") or (
-            sys.argv[1:] and not any(word in name for word in sys.argv[1:])
-        ):
-            continue
-        began = perf_counter()
-        try:
-            test()
-            passed += 1
-            seconds = perf_counter() - began
-            print(f"ok    {name[5:].replace('_', ' ')} ({seconds:.1f} s)", file=sys.stderr)
-        except Exception:  # A test must not keep the others from being run.
-            failed += 1
-            print(f"FAIL  {name[5:].replace('_', ' ')}\n{traceback.format_exc()}", file=sys.stderr)
-    print(f"peers' harness: {passed} passed, {failed} failed")
-    return 1 if failed else 0
+    return run_tests(globals(), "peers' harness")
 
 
 if __name__ == "__main__":

@@ -10,29 +10,54 @@
 //! assert_eq!(renderer::cli::run(command), ExitCode::from(2));
 //! ```
 
+// These take the place of the standard ones in this module and below: a render must not end because
+// nobody reads its messages any more.
+
+/// Prints a message to stderr; one that cannot be printed is lost.
+macro_rules! eprint {
+    ($($message:tt)*) => {{
+        use std::io::Write as _;
+        let _ = write!(std::io::stderr(), $($message)*);
+    }};
+}
+/// Prints a line to stderr; one that cannot be printed is lost.
+macro_rules! eprintln {
+    ($($message:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($message)*);
+    }};
+}
+
 pub mod arguments;
 mod check;
 mod columns;
 mod export;
 mod grow;
-mod interrupt;
+mod merge;
+mod needs;
 mod optics;
+mod picture_files;
 mod pictures;
+mod places;
 mod progress;
 mod render;
 mod schema;
+mod signals;
 mod stats;
+mod tonemap;
 
 use std::ffi::OsString;
-use std::io::{IsTerminal, Write as _};
+use std::io::{self, ErrorKind, IsTerminal, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 
 use clap::Parser;
 
 use crate::scene::load::{self, Loaded};
 use arguments::{Arguments, Command, ExportCommand, GREETING, SceneArguments};
 use leafmodel::document::report::DocumentErrors;
+use places::check_writable;
 
 /// Why a command failed.
 #[derive(Debug)]
@@ -41,7 +66,7 @@ enum Failure {
     BadInput(String),
     /// The system failed: disk full, folder read-only, …
     System(String),
-    /// Interrupted by Ctrl-C; finished samples are saved.
+    /// Interrupted by a signal; finished samples are saved.
     Interrupted,
 }
 
@@ -69,29 +94,42 @@ impl From<DocumentErrors> for Failure {
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    signals::survive_file_limits();
+    let line: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&line) {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version are requests, not errors; clap chooses the stream for each.
             let code = if error.use_stderr() { 2 } else { 0 };
-            let _ = error.print();
-            return ExitCode::from(code);
+            note_output(error.print());
+            return if output_failure().is_some() {
+                ExitCode::from(1)
+            } else {
+                ExitCode::from(code)
+            };
         }
     };
     let Some(command) = arguments.command else {
         say(GREETING);
-        return ExitCode::SUCCESS;
+        return exit_code(Ok(()));
     };
-    let result = match &command {
-        Command::Render(render) => render::run(render),
+    exit_code(match &command {
+        Command::Render(render) => render::run(render, &line),
+        Command::Merge(merge) => merge::run(merge),
         Command::Check(scene) => check::run(scene),
+        Command::Tonemap(tonemap) => tonemap::run(tonemap),
         Command::Optics(optics) => optics::run(optics),
         Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
         Command::Schema(schema) => schema::run(schema),
-    };
+    })
+}
+
+/// Prints why a command failed; the exit code.
+fn exit_code(result: Result<(), Failure>) -> ExitCode {
+    let result = result.and_then(|()| output_failure().map_or(Ok(()), Err));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::BadInput(message)) => {
@@ -117,10 +155,29 @@ fn colour() -> bool {
     on_a_screen() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// Writes a result, such as a path or a table, to stdout.
+/// Writes a result, such as a path or a table, to stdout. If that fails, so does the command when
+/// its work is done.
 fn say(text: impl std::fmt::Display) {
+    note_output(writeln!(io::stdout(), "{text}"));
+}
+
+/// Why stdout could not be written, for the first time.
+static OUTPUT_ERROR: Mutex<Option<io::Error>> = Mutex::new(None);
+
+fn note_output(result: io::Result<()>) {
     // A pipe that is closed early (`lamina info x.exr | head`) is not an error.
-    let _ = writeln!(std::io::stdout(), "{text}");
+    if let Err(error) = result.and_then(|()| io::stdout().flush())
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let mut first = OUTPUT_ERROR.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert(error);
+    }
+}
+
+fn output_failure() -> Option<Failure> {
+    let mut first = OUTPUT_ERROR.lock().unwrap_or_else(PoisonError::into_inner);
+    let told = |error| Failure::system(format!("the results cannot be printed: {error}"));
+    first.take().map(told)
 }
 
 /// Loads a scene and prints its warnings.
@@ -131,32 +188,4 @@ fn load_scene(arguments: &SceneArguments) -> Result<Loaded, Failure> {
         eprint!("{}", warning.render(colour));
     }
     Ok(loaded)
-}
-
-/// Fails if `path` could not be written, before any work is done.
-fn check_writable(path: &Path) -> Result<(), Failure> {
-    if path.is_dir() {
-        return Err(Failure::bad(format!(
-            "{} is a folder: name a file",
-            path.display()
-        )));
-    }
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(Failure::bad(format!(
-            "the folder {} of {} does not exist: make it or write somewhere else",
-            folder.display(),
-            path.display()
-        )));
-    }
-    tempfile::NamedTempFile::new_in(folder).map_err(|error| {
-        Failure::system(format!(
-            "nothing can be written into {}: {error}",
-            folder.display()
-        ))
-    })?;
-    Ok(())
 }

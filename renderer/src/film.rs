@@ -32,6 +32,7 @@ mod block;
 mod features;
 mod fixed;
 mod moments;
+mod packed;
 mod pixel;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ use thiserror::Error;
 pub use block::{BLOCK_SIDE, Block, PixelSums};
 pub use features::{FEATURE_SAMPLES, Sum};
 pub use moments::Moments;
+pub use packed::{DamagedRow, RowSums};
 pub use pixel::Pixel;
 
 use block::Faults;
@@ -111,6 +113,29 @@ impl Film {
     ///
     /// [`FilmError`] if it has no pixels or channels, or would be too large.
     pub fn new(width: u32, height: u32, channels: usize, sums: &[Sum]) -> Result<Self, FilmError> {
+        Self::bytes(width, height, channels, sums)?;
+        let pixels = width as usize * height as usize;
+        let words = Words::new(sums);
+        let blocks = width.div_ceil(BLOCK_SIDE) as usize * height.div_ceil(BLOCK_SIDE) as usize;
+        Ok(Self {
+            width,
+            height,
+            channels,
+            drawn: vec![0; blocks],
+            moments: vec![Moments::default(); pixels * channels],
+            wide: vec![0; pixels * words.wide],
+            narrow: vec![0; pixels * words.narrow],
+            words,
+            faults: Faults::default(),
+        })
+    }
+
+    /// Memory of a film, bytes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Film::new`].
+    pub fn bytes(width: u32, height: u32, channels: usize, sums: &[Sum]) -> Result<u64, FilmError> {
         let pixels = u64::from(width) * u64::from(height);
         if pixels == 0 || channels == 0 {
             return Err(FilmError::Empty {
@@ -128,20 +153,7 @@ impl Film {
                 bytes,
             });
         }
-        let pixels = pixels as usize;
-        let words = Words::new(sums);
-        let blocks = width.div_ceil(BLOCK_SIDE) as usize * height.div_ceil(BLOCK_SIDE) as usize;
-        Ok(Self {
-            width,
-            height,
-            channels,
-            drawn: vec![0; blocks],
-            moments: vec![Moments::default(); pixels * channels],
-            wide: vec![0; pixels * words.wide],
-            narrow: vec![0; pixels * words.narrow],
-            words,
-            faults: Faults::default(),
-        })
+        Ok(bytes)
     }
 
     /// Memory of a pixel, bytes; each block needs four more.

@@ -1,4 +1,4 @@
-//! Pictures and their files: `OpenEXR` for data, PNG for looking at.
+//! Pictures and their files: `OpenEXR` for data, PNG and JPEG for looking at.
 //!
 //! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or untrusted bytes.
 //! - **Out**: complete files, with the same bytes for the same picture; or a [`Picture`].
@@ -24,7 +24,10 @@
 
 pub mod atomic;
 pub mod compare;
+pub mod display;
+pub mod jpeg;
 pub mod openexr;
+pub mod pixels;
 pub mod portable_network;
 pub mod tone;
 
@@ -40,6 +43,10 @@ pub const MOST_PIXELS: u64 = 1 << 28;
 
 /// Greatest memory of a picture, bytes.
 pub const MOST_BYTES: u64 = 4 << 30;
+
+/// Greatest memory of a picture that a scene reads, bytes: 13,377 × 13,377 pixels of colour. A file
+/// of a few kilobytes may claim as much.
+pub const MOST_TEXTURE_BYTES: u64 = 2 << 30;
 
 /// One channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +134,7 @@ pub enum ImageError {
     /// The picture has too many pixels or bytes.
     #[error(
         "a picture of {width} × {height} pixels with {channels} channels; \
-         the most is {MOST_PIXELS} pixels and {MOST_BYTES} bytes"
+         the most is {MOST_PIXELS} pixels and {most} bytes"
     )]
     TooLarge {
         /// Pixels across.
@@ -136,6 +143,8 @@ pub enum ImageError {
         height: u64,
         /// Number of channels.
         channels: u64,
+        /// Greatest memory that is allowed here, bytes.
+        most: u64,
     },
     /// The picture contradicts itself.
     #[error("the picture cannot be written: {what}")]
@@ -145,12 +154,13 @@ pub enum ImageError {
     },
 }
 
-/// Refuses sizes beyond [`MOST_PIXELS`] or [`MOST_BYTES`], and empty pictures.
+/// Refuses sizes beyond [`MOST_PIXELS`] or `most` bytes, and empty pictures.
 fn check_size(
     width: u64,
     height: u64,
     channels: u64,
     bytes_a_pixel: u64,
+    most: u64,
 ) -> Result<(), ImageError> {
     if width == 0 || height == 0 || channels == 0 {
         return Err(ImageError::Malformed {
@@ -158,11 +168,12 @@ fn check_size(
         });
     }
     let pixels = width.saturating_mul(height);
-    if pixels > MOST_PIXELS || pixels.saturating_mul(bytes_a_pixel) > MOST_BYTES {
+    if pixels > MOST_PIXELS || pixels.saturating_mul(bytes_a_pixel) > most {
         return Err(ImageError::TooLarge {
             width,
             height,
             channels,
+            most,
         });
     }
     Ok(())

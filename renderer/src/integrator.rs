@@ -43,6 +43,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod caption;
 pub mod cone;
 pub mod develop;
 pub mod effort;

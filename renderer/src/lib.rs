@@ -15,6 +15,7 @@
 //! use std::sync::atomic::AtomicBool;
 //!
 //! use renderer::image::openexr;
+//! use renderer::integrator::caption::Caption;
 //! use renderer::integrator::develop::develop;
 //! use renderer::integrator::render::{Job, render};
 //! use renderer::scene::load::parse;
@@ -54,7 +55,7 @@
 //! let rendered = render(&world, &job, &never_stop, &|_progress| ())?;
 //!
 //! // Layers of a picture: radiance, its variance, positions, normals, albedo and more.
-//! let picture = develop(&scene, &world, &job, &rendered);
+//! let picture = develop(&Caption::of(&scene), &job, &rendered);
 //! let middle = (job.height / 2 * job.width + job.width / 2) as usize;
 //! let [red, green, blue] = ["R", "G", "B"].map(|name| picture.layer(name).expect("a film of colours").data[middle]);
 //! assert!(green > red && red > blue, "a leaf is green: {red}, {green}, {blue}");
@@ -72,6 +73,7 @@
 
 pub mod bsdf;
 pub mod camera;
+pub mod checkpoint;
 pub mod cli;
 pub mod export;
 pub mod film;

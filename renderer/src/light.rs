@@ -26,6 +26,7 @@
 use glam::{Vec2, Vec3};
 
 pub mod area;
+pub mod daylight;
 pub mod distant;
 pub mod environment;
 pub mod patch;
@@ -37,6 +38,8 @@ use std::f32::consts::PI;
 
 use crate::spectrum::{Lanes, Spectrum, WavelengthGrid, Wavelengths};
 use area::AreaLight;
+use daylight::sky::SkyLight;
+use daylight::sun::SunLight;
 use distant::DistantLight;
 use environment::EnvironmentLight;
 use spot::SpotLight;
@@ -51,6 +54,10 @@ pub enum Light {
     Constant(Spectrum),
     /// A picture at infinity.
     Environment(EnvironmentLight),
+    /// The sun's disc, darker towards its limb.
+    Sun(SunLight),
+    /// A clear sky, and the ground below its horizon.
+    Sky(SkyLight),
     /// An emitting surface.
     Area(AreaLight),
     /// A point that emits into a cone (a spotlight).
@@ -103,7 +110,7 @@ impl Light {
     /// Whether and how this light is sampled, on a film with the given range of wavelengths.
     pub fn sampled(&self, range_nm: [f64; 2]) -> Sampled {
         match self {
-            Self::Distant(_) => Sampled::Always,
+            Self::Distant(_) | Self::Sun(_) => Sampled::Always,
             Self::Constant(_) => Sampled::Never,
             Self::Environment(light) => {
                 let radiance = light.mean_brightness() * light.white().mean_over(range_nm);
@@ -111,6 +118,9 @@ impl Light {
                     irradiance: PI * radiance,
                 }
             }
+            Self::Sky(light) => Sampled::Around {
+                irradiance: light.diffuse().mean_over(range_nm),
+            },
             Self::Area(light) => {
                 let radiance = light.radiance().mean_over(range_nm);
                 Sampled::ByParts(light.emitters(radiance).collect())
@@ -125,7 +135,11 @@ impl Light {
     /// Whether a ray that hits nothing may find it.
     pub fn is_at_infinity(&self) -> bool {
         match self {
-            Self::Distant(_) | Self::Constant(_) | Self::Environment(_) => true,
+            Self::Distant(_)
+            | Self::Constant(_)
+            | Self::Environment(_)
+            | Self::Sun(_)
+            | Self::Sky(_) => true,
             Self::Area(_) | Self::Spot(_) => false,
         }
     }
@@ -143,6 +157,8 @@ impl Light {
             Self::Distant(light) => Some(light.sample(wavelengths, u)),
             Self::Constant(_) => None,
             Self::Environment(light) => light.sample(wavelengths, u),
+            Self::Sun(light) => Some(light.sample(wavelengths, u)),
+            Self::Sky(light) => light.sample(wavelengths, u),
             Self::Area(light) => light.sample(part, receiver, wavelengths, u),
             Self::Spot(light) => light.sample(receiver, wavelengths),
         }
@@ -154,6 +170,8 @@ impl Light {
             Self::Distant(light) => light.tabulate(grid),
             Self::Constant(radiance) => radiance.tabulate(grid),
             Self::Environment(light) => light.tabulate(grid),
+            Self::Sun(light) => light.tabulate(grid),
+            Self::Sky(light) => light.tabulate(grid),
             Self::Area(light) => light.tabulate(grid),
             Self::Spot(light) => light.tabulate(grid),
         }
@@ -171,6 +189,8 @@ impl Light {
             Self::Distant(light) => light.towards(wi, wavelengths),
             Self::Constant(radiance) => Some((radiance.lanes(wavelengths), 0.0)),
             Self::Environment(light) => Some(light.towards(wi, wavelengths)),
+            Self::Sun(light) => light.towards(wi, wavelengths),
+            Self::Sky(light) => Some(light.towards(wi, wavelengths)),
             Self::Area(_) | Self::Spot(_) => None,
         }
     }

@@ -43,6 +43,7 @@ mod angle;
 pub mod assets;
 mod blocks;
 pub mod description;
+pub mod fingerprint;
 pub mod load;
 pub mod plant_cache;
 pub mod plants;

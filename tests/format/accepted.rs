@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 use renderer::scene::description::{
-    Band, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
+    Band, Depth, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
 };
 
 use super::{accept, folder, load, text_of};
@@ -47,7 +47,7 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
     assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [400.0, 780.0]));
     assert_eq!(
         (scene.picture.exposure_ev, scene.picture.tone),
-        (0.0, Tone::Linear)
+        (0.0, Tone::Standard)
     );
     assert_eq!(
         (scene.integrator.max_depth, scene.integrator.roulette_below),
@@ -69,6 +69,9 @@ fn film_and_camera_are_in_si_units() {
         (-1.5, Tone::Filmic)
     );
     assert_near(scene.camera.vertical_fov, std::f64::consts::FRAC_PI_2);
+    let picture = &scene.picture;
+    assert_eq!(picture.depth, Depth::Sixteen);
+    assert!(picture.alpha);
     assert_near(scene.camera.lens_radius, 0.01);
     assert_near(scene.camera.focus_distance, 2.0);
     assert_eq!(
@@ -253,6 +256,33 @@ fn spectra_are_read_in_every_form() {
     };
     assert_eq!(*position, DVec3::new(0.0, 0.0, 3.0));
     assert_near(cone_angle - penumbra_angle, std::f64::consts::PI / 9.0);
+}
+
+#[test]
+fn daylight_has_its_sun_by_place_and_time_or_by_two_angles() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Light::Daylight(noon) = &scene.lights[6].value else {
+        panic!("noon is {:?}", scene.lights[6].value);
+    };
+    // 10:00 UTC in Berlin on the longest day by Spencer's series of 1971: 58.2° high and 149.6°
+    // from north over east. North is +x, and azimuths in the scene run the other way.
+    let degrees = [noon.elevation, noon.azimuth].map(f64::to_degrees);
+    assert!((degrees[0] - 58.2).abs() < 0.3, "{degrees:?}");
+    assert!((degrees[1] + 149.6).abs() < 0.5, "{degrees:?}");
+    let air = noon.atmosphere;
+    assert_near(air.turbidity, 4.0);
+    assert_near(air.ozone_cm, 0.3);
+    assert_near(air.water_cm, 2.0);
+    assert_near(air.pressure_pa, 100_000.0);
+    assert_near(air.ground_albedo, 0.5);
+    // Farther from the sun in June.
+    assert!((0.96..0.97).contains(&air.distance_factor), "{air:?}");
+    let Light::Daylight(evening) = &scene.lights[7].value else {
+        panic!("the evening is {:?}", scene.lights[7].value);
+    };
+    assert_near(evening.elevation, std::f64::consts::PI / 18.0);
+    assert_near(evening.azimuth, std::f64::consts::PI);
+    assert_near(evening.atmosphere.distance_factor, 1.0);
 }
 
 #[test]

@@ -89,6 +89,18 @@ fn errors_of_overrides_point_into_the_override() {
     }
 }
 
+#[test]
+fn a_date_where_text_is_wanted_is_to_be_put_in_quotes() {
+    let text = format!("name = 2026-06-21\n{}", text_of("minimal.toml"));
+    let errors = refuse(&text, "dated.toml", &[]);
+    assert_eq!(codes(&errors), ["scene::wrong_type"]);
+    let report = errors.to_string();
+    assert!(
+        report.contains("put it in quotes: \"2026-06-21\""),
+        "{report}"
+    );
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_out_of_the_folder_is_refused_and_one_inside_is_not() {

@@ -14,7 +14,7 @@ use super::frame::UvFrame;
 /// one is there. The lists of the last squares are short, and the least distance to a segment of
 /// the list is the exact one at every point of the frame.
 #[derive(Clone, Debug)]
-pub(super) struct Distances {
+pub(crate) struct Distances {
     segments: Vec<[DVec2; 2]>,
     centre: DVec2,
     half_side: f64,
@@ -32,13 +32,13 @@ enum Square {
 }
 
 /// Lists of this length or shorter are not divided further.
-const SHORT: usize = 4;
+const SHORT: usize = 12;
 /// Greatest depth of division, since many segments may meet in one point.
 const DEEPEST: u32 = 11;
 
 impl Distances {
     /// Builds the quadtree over the frame, within which distances may be queried.
-    pub(super) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
+    pub(crate) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
         let all: Vec<u32> = (0..segments.len() as u32).collect();
         let (centre, half_side) = (frame.min + 0.5 * frame.size, 0.5 * frame.size.max_element());
         let mut field = Self {
@@ -107,7 +107,7 @@ impl Distances {
     }
 
     /// Distance of a point of the frame (mm) to the nearest segment; infinite if there are none.
-    pub(super) fn at(&self, p: DVec2) -> f64 {
+    pub(crate) fn at(&self, p: DVec2) -> f64 {
         let (mut centre, mut half_side) = (self.centre, self.half_side);
         let mut place = 0;
         loop {

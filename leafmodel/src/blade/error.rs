@@ -32,3 +32,31 @@ pub enum BladeError {
         faces: usize,
     },
 }
+
+/// A field with its value, the values that it may have, and how a message tells them.
+pub(super) type Field = (
+    &'static str,
+    f64,
+    std::ops::RangeInclusive<f64>,
+    &'static str,
+);
+
+impl BladeError {
+    /// Checks that each field lies within its range.
+    ///
+    /// # Errors
+    ///
+    /// [`BladeError::OutOfRange`] for the first that does not.
+    pub(super) fn unless_within(fields: impl IntoIterator<Item = Field>) -> Result<(), BladeError> {
+        for (field, value, allowed, range) in fields {
+            if !allowed.contains(&value) {
+                return Err(BladeError::OutOfRange {
+                    field,
+                    value,
+                    range,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,7 +1,7 @@
-//! The lamina bent in space: ruffle, fold and curl, as one smooth map.
+//! The lamina bent in space: ruffle, pleats, fold and curl, as one smooth map.
 //!
 //! A point of the flat lamina, given with its height above it, is displaced in four steps: by the
-//! ruffle, perpendicular to the lamina; onto the curved blade, if the lamina is the map of one; by
+//! ruffle and the folds along veins, perpendicular to the lamina; onto the curved blade, if the lamina is the map of one; by
 //! the fold about the midrib; and by the curl along it. Each step has continuous first derivatives,
 //! so the blade has no crease. The fold preserves lengths across the midrib, the curl lengths along
 //! it.
@@ -9,6 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::BladeForm;
+use super::pleats::Pleats;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
 
@@ -37,6 +38,7 @@ pub(super) struct Bending {
     /// Place of the base on the curved blade.
     base_in_space: DVec3,
     ruffle: Ruffle,
+    pleats: Option<Pleats>,
     fold: Fold,
     /// Curvature of the midrib, 1/mm.
     curvature: f64,
@@ -53,8 +55,17 @@ impl Bending {
             map,
             base_in_space: map.in_space(outline.base(), 0.0),
             ruffle: Ruffle::new(form, outline),
+            pleats: None,
             fold: Fold::new(form.fold, FOLD_ROUNDING * length, widest),
             curvature: form.curl / length,
+        }
+    }
+
+    /// The same with folds along veins.
+    pub(super) fn pleated(self, pleats: Pleats) -> Self {
+        Self {
+            pleats: Some(pleats),
+            ..self
         }
     }
 
@@ -62,7 +73,8 @@ impl Bending {
     /// flat point `p`.
     pub(super) fn place(&self, p: DVec2, height: f64) -> DVec3 {
         let q = p - self.base;
-        let height = height + self.ruffle.height(q);
+        let folded = self.pleats.as_ref().map_or(0.0, |pleats| pleats.height(p));
+        let height = height + self.ruffle.height(q) + folded;
         let (q, height) = if self.map.is_flat() {
             (q, height)
         } else {

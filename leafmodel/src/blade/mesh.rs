@@ -112,32 +112,33 @@ impl BladeMesh {
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
         let frame = UvFrame::around(outline.points());
-        Self::build_holed(outline, &[], &frame, network, form, None)
+        Self::build_holed((outline, &[], &frame), network, form, None, &|_| 0.0)
     }
 
     /// As [`BladeMesh::build`], with holes: simple counter-clockwise polygons inside the margin, mm,
-    /// that neither touch it nor each other. Texture coordinates are those of a frame, and the blade
-    /// has come to lie as `settled` says.
+    /// that neither touch it nor each other. Texture coordinates are those of a frame, the blade
+    /// has come to lie as `settled` says, and each flat point stands `lifted` mm above that place,
+    /// along the blade's normal: continuous but across cuts.
     ///
     /// # Errors
     ///
     /// As [`BladeMesh::build`].
     pub fn build_holed(
-        outline: &Outline,
-        holes: &[Vec<DVec2>],
-        frame: &UvFrame,
+        (outline, holes, frame): (&Outline, &[Vec<DVec2>], &UvFrame),
         network: &VenationNetwork,
         form: &BladeForm,
         settled: Option<&Settled>,
+        lifted: &dyn Fn(DVec2) -> f64,
     ) -> Result<Self, BladeError> {
         let veins: Vec<VeinSegment> = network.segments().collect();
-        let posture = Posture::new(form, outline, network.map(), settled);
+        let posture = Posture::new(form, outline, (network.map(), &veins), settled);
         Self::within(
             (outline, holes, frame),
             &veins,
             form,
             &posture,
             settled.is_some(),
+            lifted,
         )
     }
 
@@ -154,8 +155,9 @@ impl BladeMesh {
         form: &BladeForm,
     ) -> Result<Self, BladeError> {
         let frame = UvFrame::around(outline.points());
-        let posture = Posture::new(form, outline, map, None);
-        Self::within((outline, &[], &frame), veins, form, &posture, false)
+        let posture = Posture::new(form, outline, (map, veins), None);
+        let cut = (outline, &[][..], &frame);
+        Self::within(cut, veins, form, &posture, false, &|_| 0.0)
     }
 
     fn within(
@@ -164,6 +166,7 @@ impl BladeMesh {
         form: &BladeForm,
         posture: &Posture<'_>,
         is_settled: bool,
+        lifted: &dyn Fn(DVec2) -> f64,
     ) -> Result<Self, BladeError> {
         form.validate()?;
         let major: Vec<VeinSegment> = veins
@@ -182,7 +185,15 @@ impl BladeMesh {
         let relief = Relief::new(form, &major);
         let mut mesh = Self::raised(flat, frame, |p| {
             let height = relief.height(p);
-            (posture.place(p, -height), form.thickness_mm + height)
+            let thinner = if form.margin.is_even() {
+                1.0
+            } else {
+                form.margin.at(outline.distance_to_margin(p))
+            };
+            (
+                posture.place(p, lifted(p) - height),
+                form.thickness_mm * thinner + height,
+            )
         });
         if is_settled {
             mesh.smooth_turned_over();

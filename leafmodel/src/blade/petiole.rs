@@ -5,11 +5,16 @@
 //! thickest vein and tapers. Its abaxial side stays outside the relief, while its adaxial side
 //! sinks through the blade once, so that the tube ends as a fine point on the abaxial side of the
 //! midrib. The proportions are by eye.
+//!
+//! Between base and foot its axis takes a [`Course`]. The petiole of a peltate leaf comes from
+//! below instead.
 
+mod course;
 mod midrib;
+mod peltate;
 mod section;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::BladeForm;
 use super::error::BladeError;
@@ -18,6 +23,8 @@ use super::stalk::StalkMesh;
 use super::stance::{Posture, Settled};
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinSegment, VenationNetwork};
+pub use course::Course;
+use course::{Axis, Petiole};
 use midrib::Midrib;
 pub use section::Section;
 
@@ -49,6 +56,7 @@ const FOOT_RADII: f64 = 5.0;
 /// Least number of pieces of a petiole, and the greatest angle between two of them, radians.
 const PIECES: f64 = 12.0;
 const PIECE_ANGLE: f64 = 0.06;
+const MOST_PIECES: f64 = 240.0;
 
 /// The parameters of a petiole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,8 +66,10 @@ pub struct PetiolePlan {
     /// Radius, mm, 0.001 to 100; `None` means that of the midrib at its base.
     pub radius_mm: Option<f64>,
     /// Angle through which it bends towards the abaxial side from the base to its foot, radians, −3
-    /// to 3; 0 is straight.
+    /// to 3, evenly along it; 0 is straight.
     pub curl: f64,
+    /// How its axis runs beside that.
+    pub course: Course,
     /// Its form between both ends.
     pub section: Section,
 }
@@ -67,6 +77,8 @@ pub struct PetiolePlan {
 /// A point of the tube before the base, in the frame of the base.
 struct Station {
     at: DVec3,
+    /// Direction across it.
+    across: DVec3,
     radius: f64,
     /// How much of the section applies.
     share: f64,
@@ -97,7 +109,8 @@ impl PetiolePlan {
     /// [`BladeError::OutOfRange`] for the first field outside its range.
     pub fn validate(&self) -> Result<(), BladeError> {
         let radius = self.radius_mm.unwrap_or(1.0);
-        for (field, value, allowed, range) in [
+        let course = self.course;
+        BladeError::unless_within([
             ("petiole.length", self.length, 0.0..=10.0, "0 to 10"),
             (
                 "petiole.radius_mm",
@@ -106,6 +119,22 @@ impl PetiolePlan {
                 "0.001 to 100 (millimetres)",
             ),
             ("petiole.curl", self.curl, -3.0..=3.0, "-3 to 3 (radians)"),
+            ("petiole.sag", course.sag, -3.0..=3.0, "-3 to 3 (radians)"),
+            ("petiole.neck", course.neck, -2.0..=2.0, "-2 to 2 (radians)"),
+            (
+                "petiole.neck_length",
+                course.neck_length,
+                0.02..=1.0,
+                "0.02 to 1",
+            ),
+            ("petiole.sway", course.sway, -3.0..=3.0, "-3 to 3 (radians)"),
+            (
+                "petiole.twist",
+                course.twist,
+                -3.0..=3.0,
+                "-3 to 3 (radians)",
+            ),
+            ("petiole.stray", course.stray, 0.0..=1.0, "0 to 1 (radians)"),
             ("petiole.groove", self.section.groove, 0.0..=0.8, "0 to 0.8"),
             (
                 "petiole.flatness",
@@ -115,16 +144,7 @@ impl PetiolePlan {
             ),
             ("petiole.foot", self.section.foot, 0.0..=2.0, "0 to 2"),
             ("petiole.head", self.section.head, 0.0..=2.0, "0 to 2"),
-        ] {
-            if !allowed.contains(&value) {
-                return Err(BladeError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
+        ])
     }
 
     /// Its radius on a leaf with these veins, mm.
@@ -144,38 +164,39 @@ impl PetiolePlan {
         network: &VenationNetwork,
         form: &BladeForm,
     ) -> Result<StalkMesh, BladeError> {
-        self.settled(outline, network, form, None)
+        self.settled((outline, network), form, None, 0)
     }
 
-    /// As [`PetiolePlan::build`], of a blade that has come to lie as `settled` says.
+    /// As [`PetiolePlan::build`], of the leaf of this seed, whose blade has come to lie as
+    /// `settled` says.
     ///
     /// # Errors
     ///
     /// As [`PetiolePlan::build`].
     pub fn settled(
         &self,
-        outline: &Outline,
-        network: &VenationNetwork,
+        (outline, network): (&Outline, &VenationNetwork),
         form: &BladeForm,
         settled: Option<&Settled>,
+        seed: u64,
     ) -> Result<StalkMesh, BladeError> {
         self.validate()?;
         form.validate()?;
         let leaf = outline.length();
         let midrib = Midrib::new(outline, network, JOINT_SHARE[1] * leaf);
         let radius = self.radius_mm.unwrap_or(midrib.radius).max(1e-3);
-        let veins: Vec<VeinSegment> = network
-            .segments()
-            .filter(|vein| vein.radius_from.max(vein.radius_to) >= form.meshed_vein_radius_mm)
-            .collect();
-        let joint = Joint::new(
-            radius,
-            &midrib,
-            Relief::new(form, &veins),
-            Posture::new(form, outline, network.map(), settled),
-            leaf,
-        );
-        let stem = self.stem(&joint, radius, leaf);
+        let all: Vec<VeinSegment> = network.segments().collect();
+        let is_major = |vein: &&VeinSegment| {
+            vein.radius_from.max(vein.radius_to) >= form.meshed_vein_radius_mm
+        };
+        let veins: Vec<VeinSegment> = all.iter().filter(is_major).copied().collect();
+        let relief = Relief::new(form, &veins);
+        let posture = Posture::new(form, outline, (network.map(), &all), settled);
+        if peltate::is_inside(outline, radius) {
+            return Ok(self.peltate(outline, radius, &relief, &posture, seed));
+        }
+        let joint = Joint::new(radius, &midrib, relief, posture, leaf);
+        let stem = self.stem(&joint, radius, leaf, seed);
         // A vein may have a kink, above all in a crumpled blade. Then the tube follows a straight
         // line instead; if that does not help, it leaves the ground; in the end it is straight.
         let straight = Midrib {
@@ -196,30 +217,51 @@ impl PetiolePlan {
             .expect("a smooth bend of a straight line has no kinks, and radii are above 0"))
     }
 
+    /// The axis behind a base, from which it leads on against the second axis of `start`.
+    fn axis(&self, leaf: f64, radius: f64, wilted: f64, start: DMat3, seed: u64) -> Axis {
+        let thickest = 1.0 + self.section.foot.max(self.section.head);
+        let petiole = Petiole {
+            length: self.length * leaf,
+            radius: radius * thickest,
+            leaf,
+            curl: self.curl,
+            wilted,
+            start,
+            seed,
+        };
+        Axis::new(&self.course, &petiole)
+    }
+
     /// The tube up to the base, from its foot on.
-    fn stem(&self, joint: &Joint<'_>, radius: f64, leaf: f64) -> Vec<Station> {
+    fn stem(&self, joint: &Joint<'_>, radius: f64, leaf: f64, seed: u64) -> Vec<Station> {
         let length = self.length * leaf;
         if length <= 1e-6 * leaf {
             return Vec::new();
         }
-        let curl = self.curl + joint.posture.sag();
+        let axis = self.axis(leaf, radius, joint.posture.sag(), DMat3::IDENTITY, seed);
         let foot = (FOOT_RADII * radius).min(length);
         let ready = (READY_RADII * joint.radius).min(0.5 * length);
-        self.places(curl, length, foot, ready)
+        self.places(joint.posture.sag(), length, foot, ready)
             .into_iter()
             .map(|back| {
                 let near = smooth_step(1.0 - back / ready);
-                let from_foot = (length - back) / foot;
-                let swollen = self.section.foot * (1.0 - smooth_step(from_foot))
-                    + self.section.head * swelling(back / ready);
-                let own = radius * (1.0 + swollen);
+                let own = radius * (1.0 + self.swollen(length - back, foot, back / ready));
+                let (at, frame) = axis.at(back);
                 Station {
-                    at: behind(curl, back, length) - DVec3::Z * (near * joint.depth),
+                    at: at - DVec3::Z * (near * joint.depth),
+                    across: frame.x_axis,
                     radius: own + (joint.radius - radius) * near,
                     share: 1.0 - near,
                 }
             })
             .collect()
+    }
+
+    /// How much thicker it is, over its radius, at a distance from the foot, and from the base in
+    /// lengths of the tube's end.
+    fn swollen(&self, from_foot: f64, foot: f64, from_base: f64) -> f64 {
+        self.section.foot * (1.0 - smooth_step(from_foot / foot))
+            + self.section.head * swelling(from_base)
     }
 
     /// The tube along stem and joint, unless it has a kink.
@@ -232,7 +274,7 @@ impl PetiolePlan {
     ) -> Option<StalkMesh> {
         let (base, frame) = joint.posture.base();
         let lies = joint.posture.on_ground() && matches!(way, Way::Whole);
-        let (mut points, mut radii, mut shares) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut points, mut radii, mut sections) = (Vec::new(), Vec::new(), Vec::new());
         for station in stem {
             let mut at = base + frame * station.at;
             if lies {
@@ -240,7 +282,7 @@ impl PetiolePlan {
             }
             points.push(at);
             radii.push(station.radius);
-            shares.push(station.share);
+            sections.push((station.share, frame * station.across));
         }
         for i in 0..=JOINT_PIECES {
             let t = i as f64 / JOINT_PIECES as f64;
@@ -250,17 +292,29 @@ impl PetiolePlan {
             }
             points.push(point);
             radii.push(radius);
-            shares.push(0.0);
+            sections.push((0.0, frame.x_axis));
         }
         let mut tube = StalkMesh::tube(&points, &radii).ok()?;
-        self.section.shape(&mut tube, &points, &shares, &frame);
+        self.section.shape(&mut tube, &points, &sections);
         Some(tube)
     }
 
     /// Distances from the base of the points of the tube before the joint, from the foot on: evenly
     /// spaced, and denser where the radius changes.
-    fn places(&self, curl: f64, length: f64, foot: f64, ready: f64) -> Vec<f64> {
-        let pieces = PIECES.max((curl.abs() / PIECE_ANGLE).ceil());
+    fn places(&self, wilted: f64, length: f64, foot: f64, ready: f64) -> Vec<f64> {
+        let course = &self.course;
+        // A neck bends by its whole angle in a part of the length.
+        let bends = [
+            self.curl,
+            course.sag,
+            wilted,
+            course.sway,
+            course.twist,
+            course.neck / course.neck_length,
+            4.0 * course.stray,
+        ];
+        let bent: f64 = bends.iter().map(|angle| angle.abs()).sum();
+        let pieces = (bent / PIECE_ANGLE).ceil().clamp(PIECES, MOST_PIECES);
         let mut backs: Vec<f64> = (1..=pieces as u32)
             .map(|i| length * f64::from(i) / pieces)
             .collect();
@@ -279,19 +333,6 @@ impl PetiolePlan {
         backs.dedup_by(|next, kept| *kept - *next < 0.02 * ready.min(foot));
         backs
     }
-}
-
-/// The point, at the distance `back` from the base, of the axis of a petiole that bends by `curl`.
-fn behind(curl: f64, back: f64, length: f64) -> DVec3 {
-    let curvature = curl / length;
-    let angle = curvature * back;
-    let (y, z) = if angle.abs() < 1e-6 {
-        (back, 0.5 * angle * back)
-    } else {
-        let half = libm::sin(0.5 * angle);
-        (libm::sin(angle) / curvature, 2.0 * half * half / curvature)
-    };
-    DVec3::new(0.0, -y, -z)
 }
 
 /// The joint: the part of the tube beyond the base.

@@ -25,8 +25,10 @@ pub(crate) fn even_sheet(
         curl: 0.0,
         ruffle: 0.0,
         ruffle_waves: 0.0,
+        pleat: 0.0,
         relief: 0.0,
         thickness_mm: 0.2,
+        margin: super::MarginThickness::EVEN,
         max_edge_mm,
         meshed_vein_radius_mm: 1.0,
     };

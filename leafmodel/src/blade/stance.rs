@@ -73,7 +73,7 @@ impl Drying {
         along: 0.3,
         faces: 0.007,
         unevenness: 0.75,
-        bow: 0.5,
+        bow: 30_f64.to_radians(),
     };
 }
 
@@ -131,15 +131,6 @@ impl Stance {
                 "-1.6 to 1.6 (radians)",
             ));
         }
-        for (field, value, allowed, range) in fields {
-            if !allowed.contains(&value) {
-                return Err(BladeError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
+        BladeError::unless_within(fields)
     }
 }

@@ -16,8 +16,10 @@ pub(super) fn flat() -> BladeForm {
         curl: 0.0,
         ruffle: 0.0,
         ruffle_waves: 0.0,
+        pleat: 0.0,
         relief: 0.0,
         thickness_mm: 0.2,
+        margin: MarginThickness::EVEN,
         max_edge_mm: 1.0,
         meshed_vein_radius_mm: 0.05,
     }
@@ -94,6 +96,38 @@ fn longest_edge(mesh: &BladeMesh) -> f64 {
             a.distance(b)
         })
         .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_pleated_leaf_with_a_thin_margin_is_sound_and_has_the_slope_of_its_folds() {
+    let outline = ellipse(24.0, 60.0, 120);
+    let form = BladeForm {
+        pleat: 0.25,
+        relief: 0.5,
+        fold: 0.3,
+        curl: 0.5,
+        margin: MarginThickness {
+            share: 0.5,
+            width_mm: 1.0,
+        },
+        ..flat()
+    };
+    let veins = herringbone(60.0, 9, 0.5);
+    let mesh = |form: &BladeForm| {
+        BladeMesh::from_veins(&outline, &veins, ConformalMap::FLAT, form).expect("a leaf")
+    };
+    assert_eq!(mesh(&form).validate(outline.area()), Ok(()));
+    let least = mesh(&form).thickness_mm.iter().copied().fold(1.0, f64::min);
+    assert!((least - 0.1).abs() < 1e-9, "{least} at the margin");
+    // Laid flat but for its folds, the blade slopes by their angle between the rounded creases.
+    let folded = mesh(&BladeForm {
+        pleat: 0.25,
+        ..flat()
+    });
+    let mut slopes: Vec<f64> = folded.normals.iter().map(|n| n.z.acos()).collect();
+    slopes.sort_by(f64::total_cmp);
+    let steep = slopes[slopes.len() * 9 / 10];
+    assert!((steep - 0.25).abs() < 0.03, "{steep}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use super::{
     Arrangement, CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction,
 };
-use crate::blade::petiole::PetiolePlan;
+use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
 use crate::venation::chance::{Use, bits, uniform};
@@ -47,6 +47,7 @@ pub fn leaflet_plans(leaflet: &LeafPlan, form: &CompoundForm) -> Vec<LeafPlan> {
         length: form.petiolule,
         radius_mm: Some(form.stalk_radius_mm),
         curl: 0.0,
+        course: Course::STRAIGHT,
         section: crate::blade::petiole::Section::default(),
     };
     let variant = |number: u32| LeafPlan {

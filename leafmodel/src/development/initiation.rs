@@ -9,9 +9,18 @@ use super::skeleton::{NO_NODE, Skeleton, bowed, pieces};
 /// How near to the base a convergence point may appear, over the distance from another one.
 const BASE_CLEARANCE: f64 = 0.4;
 
-/// Where on the margin a convergence point appears, as a distance from the base along it.
+/// Growth held back by this share makes a sinus, in which no convergence point appears.
+const SINUS: f64 = 0.15;
+
+/// It begins where growth is held back by this share of what it is at its deepest.
+const RIM: f64 = 0.6;
+
+/// Where on the margin a convergence point appears, as a distance from the base along it. Auxin and
+/// CUC2, which marks sinuses, keep each other away (\[bilsborough2011\]): none appears at the bottom
+/// of a sinus, but on its flanks.
 pub(super) fn place_in(
     interval: Interval,
+    margin: &Margin,
     distances: &[f64],
     apex: usize,
     wave: &Wave,
@@ -39,6 +48,19 @@ pub(super) fn place_in(
         Sequence::Basipetal => most,
         Sequence::Acropetal => least,
         Sequence::Intercalary => 0.5 * (least + most),
+    };
+    let [first, last] = interval.ends;
+    let restraint = |i: usize| margin.points[i].restraint;
+    let deepest = (first..=last).map(restraint).fold(0.0, f64::max);
+    // Below the lowest point there is no sinus.
+    let place = if is_base || deepest < SINUS {
+        place
+    } else {
+        let is_flank = |&i: &usize| restraint(i) <= RIM * deepest;
+        let flanks = (first..=last).filter(is_flank).map(height);
+        flanks
+            .filter(|at| (least..=most).contains(at))
+            .min_by(|a, b| (a - place).abs().total_cmp(&(b - place).abs()))?
     };
     Some(if interval.is_right {
         place
@@ -130,4 +152,59 @@ pub(super) fn canal(
         side,
         angle,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::development::plan::Primordium;
+
+    #[test]
+    fn points_between_lobes_appear_on_the_flanks_of_the_sinus_and_not_at_its_bottom() {
+        let mut margin = Margin::new(&Primordium::default(), 200, 0);
+        for (tip, share) in [(1, 0.3), (2, 0.8)] {
+            let distances = margin.distances();
+            let apex = distances[margin.apex(0)];
+            margin.split(&distances, share * apex, tip);
+        }
+        let distances = margin.distances();
+        let apex = margin.apex(0);
+        let is_between = |part: &Interval| {
+            let tips = part.ends.map(|end| margin.points[end].tip);
+            tips == [1, 2]
+        };
+        let found = margin.intervals(0).into_iter().find(is_between);
+        let interval = found.expect("it lies on the right");
+        let wave = Wave {
+            sequence: Sequence::Intercalary,
+            zone: [0.0, 1.0],
+            ..Wave::default()
+        };
+        let spacing = 0.06 * distances[apex];
+        let place = |margin: &Margin| {
+            let place = place_in(interval, margin, &distances, apex, &wave, spacing);
+            place.expect("there is room")
+        };
+        let [from, to] = interval.ends.map(|end| distances[end]);
+        let middle = 0.5 * (from + to);
+        assert!((place(&margin) - middle).abs() < 1e-9, "an entire margin");
+        let mut lobed = margin.clone();
+        lobed.restrain(interval, 0, &wave, 0.35);
+        let at = place(&lobed);
+        let nearest = (interval.ends[0]..=interval.ends[1]).min_by(|&i, &j| {
+            (distances[i] - at)
+                .abs()
+                .total_cmp(&(distances[j] - at).abs())
+        });
+        let restraint = lobed.points[nearest.expect("it has points")].restraint;
+        assert!(restraint <= 0.35 * RIM, "{restraint} is held back there");
+        assert!(
+            (at - middle).abs() > 0.1 * (to - from),
+            "{at} is near {middle}"
+        );
+        // Slight indentations between teeth are no sinuses.
+        let mut toothed = margin.clone();
+        toothed.restrain(interval, 0, &wave, 0.1);
+        assert!((place(&toothed) - middle).abs() < 1e-9);
+    }
 }

@@ -114,7 +114,7 @@ impl Developing {
                     if !interval.continues(wave.sequence, is_its) {
                         return None;
                     }
-                    let place = place_in(interval, &distances, apex, wave, spacing)?;
+                    let place = place_in(interval, &self.margin, &distances, apex, wave, spacing)?;
                     Some((interval, place))
                 });
             let Some((interval, at)) = places.nth(skipped) else {

@@ -217,7 +217,7 @@ impl Type {
 
 /// The unit that the ending of a key tells.
 pub fn unit_of(key: &str) -> Option<&'static str> {
-    const UNITS: [(&str, &str); 20] = [
+    const UNITS: [(&str, &str); 21] = [
         ("_w_m2_sr_nm", "W m⁻² sr⁻¹ nm⁻¹"),
         ("_w_sr_nm", "W sr⁻¹ nm⁻¹"),
         ("_w_m2_nm", "W m⁻² nm⁻¹"),
@@ -230,6 +230,7 @@ pub fn unit_of(key: &str) -> Option<&'static str> {
         ("_days", "days"),
         ("_day", "days"),
         ("_deg", "°"),
+        ("_hpa", "hPa"),
         ("_mm", "mm"),
         ("_cm", "cm"),
         ("_nm", "nm"),

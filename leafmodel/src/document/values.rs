@@ -40,7 +40,9 @@ pub fn wrong_type(cx: &Context, node: &Node, key: &str, wanted: &str) {
         Value::Number(value) if wanted.contains("integer") => {
             format!("round it: {}", value.round())
         }
-        Value::Integer(_) | Value::Number(_) | Value::Flag(_) if wanted.contains("text") => {
+        Value::Integer(_) | Value::Number(_) | Value::Flag(_) | Value::Other(..)
+            if wanted.contains("text") =>
+        {
             format!("put it in quotes: \"{written}\"")
         }
         Value::Text(_)

@@ -1,23 +1,29 @@
-//! Damage to a grown leaf: holes, bites from the margin and mines, each with its dead tissue.
+//! Damage to a grown leaf: holes, bites from the margin, tears, mines and dieback, each with its
+//! dead tissue.
 //!
-//! Insects eat leaves that have grown, so damage comes after the veins. A hole is one of the mesh,
-//! too, and no vein leads through it.
+//! Insects and wind find leaves that have grown, so damage comes after the veins. A hole is one of
+//! the mesh, too, and no vein leads through it.
 //!
 //! - **In**: a lamina with its veins, and how much of each kind of damage there is.
-//! - **Out**: the same lamina with bites in its margin, holes, veins cut off at both, and places
-//!   whose tissue is dead.
+//! - **Out**: the same lamina with bites and tears in its margin, holes, veins cut off at all of
+//!   them, and places whose tissue is dead; and how far the lips of tears stand out of the plane.
 //! - **Always true**: base, apex and midrib stay; the same plan and seed give the same damage.
 //! - **Left out**: growth after the damage, galls, and veins that are left standing in what has been
 //!   eaten.
 
+mod dieback;
 mod places;
 mod stains;
+mod tears;
 
 use glam::DVec2;
 use thiserror::Error;
 
+pub use self::dieback::Dieback;
+pub(crate) use self::dieback::Front;
 use self::places::Places;
 pub(crate) use self::stains::Stain;
+use self::tears::Tear;
 use crate::shape::outline::Outline;
 use crate::venation::network::VenationNetwork;
 
@@ -42,8 +48,19 @@ pub struct Damage {
     pub blotches: u32,
     /// Their diameter, mm, 0.2 to 100.
     pub blotch_mm: f64,
-    /// Width of the brown rim about holes and bites, mm, 0 to 10.
+    /// Tears from the margin inwards, at most 100; fewer if there is no room.
+    pub tears: u32,
+    /// Their length, mm, 0.5 to 500; less where a thick vein stops them.
+    pub tear_mm: f64,
+    /// Width of their mouths over their length, 0.005 to 0.5.
+    pub tear_gape: f64,
+    /// Height by which one lip stands above the plane at the mouth, and the other below it, over
+    /// their length, 0 to 0.3.
+    pub tear_lift: f64,
+    /// Width of the brown rim about holes, bites and tears, mm, 0 to 10.
     pub rim_mm: f64,
+    /// Tissue that has died from the margin inwards.
+    pub dieback: Option<Dieback>,
 }
 
 impl Default for Damage {
@@ -58,7 +75,12 @@ impl Default for Damage {
             mine_length_mm: 40.0,
             blotches: 0,
             blotch_mm: 8.0,
+            tears: 0,
+            tear_mm: 20.0,
+            tear_gape: 0.06,
+            tear_lift: 0.05,
             rim_mm: 0.3,
+            dieback: None,
         }
     }
 }
@@ -84,6 +106,9 @@ pub struct Wounds {
     pub holes: Vec<Vec<DVec2>>,
     /// Where tissue is dead.
     pub(crate) stains: Vec<Stain>,
+    /// How far it has died from the margin.
+    pub(crate) front: Option<Front>,
+    tears: Vec<Tear>,
 }
 
 impl Damage {
@@ -109,9 +134,16 @@ impl Damage {
             ),
             ("blotches", f64::from(self.blotches), 0.0, 50.0, "0 to 50"),
             ("blotch_mm", self.blotch_mm, 0.2, 100.0, "0.2 to 100"),
+            ("tears", f64::from(self.tears), 0.0, 100.0, "0 to 100"),
+            ("tear_mm", self.tear_mm, 0.5, 500.0, "0.5 to 500"),
+            ("tear_gape", self.tear_gape, 0.005, 0.5, "0.005 to 0.5"),
+            ("tear_lift", self.tear_lift, 0.0, 0.3, "0 to 0.3"),
             ("rim_mm", self.rim_mm, 0.0, 10.0, "0 to 10"),
         ];
-        for (key, value, least, most, range) in checks {
+        let dieback = self.dieback.as_ref().map(Dieback::checks);
+        for (key, value, least, most, range) in
+            checks.into_iter().chain(dieback.into_iter().flatten())
+        {
             if !(least..=most).contains(&value) {
                 return Err(DamageError { key, value, range });
             }
@@ -128,27 +160,40 @@ impl Damage {
     ) -> (Outline, Wounds) {
         let mut places = Places::new(intact, network, seed);
         let (bitten, bites) = places.bites(self.bites, self.bite_mm);
+        let mut bitten = bitten;
+        let gape_and_lift = [self.tear_gape, self.tear_lift];
+        let (tears, rips) = places.tears(&mut bitten, self.tears, self.tear_mm, gape_and_lift);
         let holes = places.holes(self.holes, self.hole_mm);
         let mut stains = places.mines(self.mines, self.mine_mm, self.mine_length_mm);
         stains.extend(places.blotches(self.blotches, self.blotch_mm));
         if self.rim_mm > 0.0 {
-            let edges = bites.into_iter().chain(holes.iter().map(|hole| {
+            let margins = bites.into_iter().chain(rips.iter().cloned());
+            let edges = margins.chain(holes.iter().map(|hole| {
                 let mut around = hole.clone();
                 around.push(hole[0]);
                 around
             }));
             stains.extend(edges.map(|edge| Stain::rim(edge, self.rim_mm)));
         }
+        let front = self
+            .dieback
+            .as_ref()
+            .and_then(|plan| Front::of(plan, intact, network, seed));
         // Veins begin and may end on the margin itself, after rounding on either side of it.
         let is_left = |p: DVec2| bitten.contains(p) || bitten.distance_to_margin(p) < 1e-6;
         network.cut(|from, to| {
             [from, to, (from + to) * 0.5].into_iter().all(is_left)
-                && !holes.iter().any(|hole| touches(hole, from, to))
+                && !holes.iter().chain(&rips).any(|gap| touches(gap, from, to))
         });
+        let knobs = intact.knobs().iter().copied();
+        let knobs = knobs.filter(|knob| bitten.contains(knob.centre)).collect();
+        let bitten = bitten.with_knobs(knobs);
         let wounds = Wounds {
             intact: intact.clone(),
             holes,
             stains,
+            front,
+            tears,
         };
         (bitten, wounds)
     }
@@ -215,6 +260,12 @@ impl Wounds {
             0.5 * twice.sum::<f64>()
         });
         holes.sum()
+    }
+
+    /// How far the blade stands above the plane that it had, mm, at a flat point: at the lips of
+    /// tears.
+    pub(crate) fn height(&self, p: DVec2) -> f64 {
+        self.tears.iter().map(|tear| tear.height(p)).sum()
     }
 }
 

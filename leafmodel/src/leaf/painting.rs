@@ -1,5 +1,7 @@
 //! What the tissue of a grown lamina holds, painted over its box.
 
+use glam::DVec2;
+
 use super::{Lamina, LeafError, LeafPlan};
 use crate::blade::ageing::Place;
 use crate::blade::contents_map::ContentsMap;
@@ -10,6 +12,8 @@ use crate::blade::senescence::Withering;
 use crate::blade::surface::{SurfaceMap, SurfaceOf};
 use crate::blade::tissue::TissueError;
 use crate::mosaic::pattern::LaminaPattern;
+use crate::optics::Contents;
+use crate::shape::tips::Knob;
 use crate::venation::network::VeinSegment;
 
 impl LeafPlan {
@@ -76,6 +80,21 @@ impl LeafPlan {
             self.map_size,
             self.seed,
         )?;
+        self.form.margin.thin(&mut map, &frame, lamina.intact());
+        if let Some(unevenness) = &self.unevenness {
+            unevenness.validate()?;
+            unevenness.apply(&mut map, &frame, lamina.intact(), &veins, self.seed);
+        }
+        for knob in lamina.intact().knobs() {
+            paint_knob(knob, &mut map, &frame);
+        }
+        if let Some(front) = lamina
+            .wounds
+            .iter()
+            .find_map(|wounds| wounds.front.as_ref())
+        {
+            front.paint(&mut map, &frame);
+        }
         for stain in lamina.wounds.iter().flat_map(|wounds| &wounds.stains) {
             stain.paint(&mut map, &frame);
         }
@@ -142,6 +161,33 @@ impl LeafPlan {
     }
 }
 
+/// Paints a gland over a map. What it holds passes into what is beside it within a seventh of its
+/// radius, or a texel.
+fn paint_knob(knob: &Knob, map: &mut ContentsMap, frame: &UvFrame) {
+    let texel = frame.size / DVec2::new(f64::from(map.width), f64::from(map.height));
+    let edge = (knob.radius / 7.0).max(texel.max_element());
+    let reach = DVec2::splat(knob.radius + edge);
+    let place = |p: DVec2| (p - frame.min) / texel;
+    let (low, high) = (place(knob.centre - reach), place(knob.centre + reach));
+    let span = |low: f64, high: f64, count: u32| {
+        (low.max(0.0) as u32)..((high.max(0.0) as u32 + 1).min(count))
+    };
+    for row in span(low.y, high.y, map.height) {
+        for column in span(low.x, high.x, map.width) {
+            let p = frame.min + texel * (DVec2::new(f64::from(column), f64::from(row)) + 0.5);
+            let weight = ((knob.radius - p.distance(knob.centre)) / edge + 1.0).clamp(0.0, 1.0);
+            if weight > 0.0 {
+                let texel = &mut map.texels[(row * map.width + column) as usize];
+                let mut now = Contents::from_texel(*texel);
+                for (constituent, value) in now.iter_mut() {
+                    *value += (knob.contents[constituent] - *value) * weight;
+                }
+                *texel = now.to_texel();
+            }
+        }
+    }
+}
+
 impl Lamina {
     /// The lamina as ageing and masks see it; `veins` are its own.
     pub(crate) fn place<'a>(&'a self, frame: &'a UvFrame, veins: &'a [VeinSegment]) -> Place<'a> {
@@ -162,6 +208,33 @@ mod tests {
     use crate::mosaic::plan::MosaicPlan;
     use crate::optics::Constituent;
     use crate::species::find;
+
+    #[test]
+    fn a_gland_holds_what_it_should_and_the_tooth_below_it_does_not() {
+        let mut plan = find("cottonwood").expect("a preset").plan();
+        plan.venation = find("arcuate").expect("a preset").plan().venation;
+        plan.map_size = 1000;
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let map = plan.paint(&lamina, &|| false).expect("a good plan");
+        let frame = UvFrame::around(lamina.intact().points());
+        let at = |p: DVec2| {
+            let uv = frame.uv(p);
+            let column = (uv.x * f64::from(map.width)) as usize;
+            let row = (uv.y * f64::from(map.height)) as usize;
+            f64::from(map.texels[row * map.width as usize + column][Constituent::Anthocyanins])
+        };
+        let knobs = lamina.outline.knobs();
+        // 24 teeth a side, some too low at base and apex to bear one.
+        assert!((36..=48).contains(&knobs.len()), "{}", knobs.len());
+        let green = plan.tissue.lamina[Constituent::Anthocyanins];
+        for knob in knobs {
+            let held = knob.contents[Constituent::Anthocyanins];
+            assert!((at(knob.centre) / held - 1.0).abs() < 1e-6);
+            let foot = (knob.feet[0] + knob.feet[1]) * 0.5;
+            let inside = knob.centre + (foot - knob.centre).normalize() * 3.0 * knob.radius;
+            assert!(at(inside) < 2.0 * green, "{}", at(inside));
+        }
+    }
 
     #[test]
     fn a_mosaic_that_was_grown_once_is_that_of_every_day_and_map_size() {

@@ -1,27 +1,35 @@
 //! A leaf described in the terms of the Manual of Leaf Architecture, from its grown network alone.
 //!
-//! Nothing here knows what was asked for: primaries, secondaries and tertiaries are found by
-//! following veins of one order from where they leave a coarser one.
+//! Nothing here knows what was asked for: primaries, secondaries, tertiaries and quaternaries are
+//! found by following veins of one order from where they leave a coarser one.
 //!
 //! - **In**: an [`Outline`], a [`VenationNetwork`].
 //! - **Out**: a [`Description`], and its text.
 //! - **Always true**: no number is NaN or infinite; what is not there is missing.
-//! - **Left out**: veins of higher order one by one; of them only the net is described.
+//! - **Left out**: veins of order 5 and finer one by one; of them only the net is described.
 //!
 //! # Source
 //!
 //! \[ellis2009\] for terms and classes; the limits between classes are ours where it gives none.
 
+mod laterals;
+mod marginal;
+mod net;
+mod percurrent;
 mod text;
 mod tracing;
 
-use glam::DVec2;
-
+use self::laterals::Ends;
+pub use self::marginal::MarginalVenation;
+pub use self::net::{Areolation, Net, Veinlets};
+pub use self::percurrent::Percurrence;
 use self::tracing::{Tracer, Vein};
 use super::statistics::{mean, median, variation};
 use crate::shape::outline::Outline;
 use crate::venation::architecture::margin::Margin;
-use crate::venation::architecture::{PrimaryPattern, SecondaryEnding, SecondarySpacing};
+use crate::venation::architecture::{
+    Agrophic, Attachment, PrimaryPattern, SecondaryEnding, SecondarySpacing,
+};
 use crate::venation::areole::areoles;
 use crate::venation::network::VenationNetwork;
 
@@ -30,9 +38,6 @@ const AT_MARGIN: f64 = 0.025;
 
 /// A vein that ends so near to the tip of a tooth or lobe ends in it, likewise.
 const IN_TOOTH: f64 = 0.014;
-
-/// Share of a vein's length over which its departure is taken.
-const DEPARTURE: f64 = 0.12;
 
 /// A vein that strays less from its chord is straight, share of the chord.
 const STRAIGHT: f64 = 0.05;
@@ -79,65 +84,64 @@ pub struct Description {
     pub spacing_cv: Option<f64>,
     /// Shorter veins of order 3 that leave the midrib along them, for each space between two.
     pub intersecondaries: Option<f64>,
-    /// Share of the tertiaries that cross from one coarser vein to another.
-    pub percurrent: Option<f64>,
-    /// Median angle of those to the vein that they leave, degrees.
-    pub tertiary_angle_deg: Option<f64>,
-    /// Median of their length over their chord.
-    pub tertiary_over_chord: Option<f64>,
-    /// Areoles per mm².
-    pub areoles_per_mm2: f64,
-    /// Median of longer over shorter axis of areoles.
-    pub areole_elongation: Option<f64>,
-    /// Freely ending veinlets per areole.
-    pub veinlets_per_areole: Option<f64>,
-    /// Share of the freely ending veins that end at the margin.
-    pub free_at_margin: Option<f64>,
+    /// How most of them leave the midrib.
+    pub attachment: Option<Attachment>,
+    /// Which secondaries or lateral primaries bear combs of veins on their outer side.
+    pub agrophic: Agrophic,
+    /// The tertiaries.
+    pub tertiaries: Percurrence,
+    /// The quaternaries that leave tertiaries.
+    pub quaternaries: Percurrence,
+    /// The net of fine veins.
+    pub net: Net,
+    /// Share of the margin beside which a vein of order 3 or coarser runs.
+    pub accompanied_margin: f64,
+    /// How veins end at the margin.
+    pub marginal: Option<MarginalVenation>,
 }
 
 /// Describes a leaf.
 pub fn describe(outline: &Outline, network: &VenationNetwork) -> Description {
-    let tracer = Tracer::new(outline, network);
+    let edges = tracing::ends(network);
+    let tracer = Tracer::new(outline, network, &edges);
     let length = outline.length();
     let primaries = tracer.primaries();
-    let mut description = Description::of_net(outline, network);
-    let Some((midrib, laterals)) = primaries.split_first() else {
+    let margin = Margin::new(&outline.moved_and_scaled(outline.base(), 1.0));
+    let mut description = Description::without_coarse_veins(outline, network, &margin);
+    let Some((midrib, others)) = primaries.split_first() else {
         return description;
     };
     // Where primaries come together, ends of some are left over.
-    let laterals: Vec<&Vein> = laterals
+    let long: Vec<&Vein> = others
         .iter()
         .filter(|vein| vein.length() > STUB * midrib.length())
         .collect();
-    let laterals = &laterals[..];
+    let lateral_primaries = &long[..];
     description.midrib_over_chord = Some(midrib.length() / midrib.chord().max(1e-12));
-    description.primaries = Some(pattern(laterals, midrib, outline));
-    description.lateral_primaries = laterals.len();
-    let part = laterals.iter().map(|vein| midrib.share_near(vein.start()));
+    description.primaries = Some(pattern(lateral_primaries, midrib, outline));
+    description.lateral_primaries = lateral_primaries.len();
+    let starts = lateral_primaries.iter();
+    let part = starts.map(|vein| midrib.share_near(vein.start()));
     description.part_at = part.reduce(f64::min);
-    let margin = Margin::new(&outline.moved_and_scaled(outline.base(), 1.0));
-    let teeth: Vec<DVec2> = margin
-        .tips()
-        .iter()
-        .map(|tip| tip.place + outline.base())
-        .collect();
-    let in_tooth = |vein: &Vein| {
-        let near = |tip: &DVec2| (*tip - vein.end()).length() < IN_TOOTH * length;
-        outline.distance_to_margin(vein.end()) < AT_MARGIN * length && teeth.iter().any(near)
-    };
+    let ends = Ends::new(&margin, outline);
     let all: Vec<Vein> = primaries
         .iter()
         .flat_map(|primary| tracer.leaving(primary, 2))
         .collect();
     if !all.is_empty() {
-        let count = all.iter().filter(|vein| in_tooth(vein)).count();
+        let count = all.iter().filter(|vein| ends.in_tooth(vein)).count();
         description.in_teeth = Some(count as f64 / all.len() as f64);
     }
     let secondaries = tracer.leaving(midrib, 2);
-    description.secondaries(midrib, &secondaries);
-    description.ending = ending(&secondaries, &tracer, in_tooth);
+    description.secondaries(midrib, &secondaries, length);
+    description.ending = laterals::ending(&secondaries, &tracer, &ends);
+    let combs = laterals::combs(midrib, lateral_primaries, &secondaries, &tracer);
+    description.agrophic = laterals::agrophic(combs);
     let coarse: Vec<&Vein> = primaries.iter().chain(&all).collect();
-    description.tertiaries(&coarse, &tracer);
+    let (tertiaries, found) = Percurrence::new(&coarse, 3, &tracer);
+    let thirds: Vec<&Vein> = found.iter().collect();
+    description.tertiaries = tertiaries;
+    description.quaternaries = Percurrence::new(&thirds, 4, &tracer).0;
     let typical = mean(&secondaries.iter().map(Vein::length).collect::<Vec<f64>>());
     if let Some(typical) = typical
         && secondaries.len() > 2
@@ -189,51 +193,11 @@ fn pattern(laterals: &[&Vein], midrib: &Vein, outline: &Outline) -> PrimaryPatte
     }
 }
 
-/// How most secondaries end.
-fn ending(
-    secondaries: &[Vein],
-    tracer: &Tracer<'_>,
-    in_tooth: impl Fn(&Vein) -> bool,
-) -> Option<SecondaryEnding> {
-    if secondaries.is_empty() {
-        return None;
-    }
-    let most = |count: usize| 2 * count > secondaries.len();
-    if most(secondaries.iter().filter(|vein| in_tooth(vein)).count()) {
-        return Some(SecondaryEnding::Craspedodromous);
-    }
-    let joined: Vec<&Vein> = secondaries.iter().filter(|vein| vein.is_joined).collect();
-    if !most(joined.len()) {
-        return Some(SecondaryEnding::Eucamptodromous);
-    }
-    let branches = |vein: &&&Vein| tracer.leaving(vein, 3).iter().any(&in_tooth);
-    if 2 * joined.iter().filter(branches).count() > joined.len() {
-        return Some(SecondaryEnding::Semicraspedodromous);
-    }
-    // Loops leave an arch and come back to a vein of its order, on a long way round.
-    let is_loop =
-        |vein: &Vein| vein.joined_order == Some(2) && vein.length() > ROUND * vein.chord();
-    let loops = |vein: &&&Vein| tracer.leaving(vein, 3).iter().any(is_loop);
-    if 2 * joined.iter().filter(loops).count() > joined.len() {
-        Some(SecondaryEnding::Festooned)
-    } else {
-        Some(SecondaryEnding::Brochidodromous)
-    }
-}
-
 impl Description {
-    /// What the net alone tells.
-    fn of_net(outline: &Outline, network: &VenationNetwork) -> Self {
+    /// What the net and the margin alone tell.
+    fn without_coarse_veins(outline: &Outline, network: &VenationNetwork, margin: &Margin) -> Self {
         let found = areoles(network);
-        let mut long: Vec<f64> = found.iter().map(|areole| areole.elongation).collect();
-        let free: Vec<_> = found.free_endings().collect();
-        let near = AT_MARGIN * outline.length();
-        let at_margin = free
-            .iter()
-            .filter(|end| outline.distance_to_margin(end.tip) < near)
-            .count();
-        let inside = free.iter().filter(|end| end.areole.is_some()).count();
-        let share = |count: usize, of: usize| (of > 0).then(|| count as f64 / of as f64);
+        let accompanied_margin = marginal::accompanied(margin, outline, network);
         Self {
             primaries: None,
             lateral_primaries: 0,
@@ -247,30 +211,30 @@ impl Description {
             spacing: None,
             spacing_cv: None,
             intersecondaries: None,
-            percurrent: None,
-            tertiary_angle_deg: None,
-            tertiary_over_chord: None,
-            areoles_per_mm2: found.len() as f64 / outline.area(),
-            areole_elongation: median(&mut long),
-            veinlets_per_areole: share(inside, found.len()),
-            free_at_margin: share(at_margin, free.len()),
+            attachment: None,
+            agrophic: Agrophic::Absent,
+            tertiaries: Percurrence::default(),
+            quaternaries: Percurrence::default(),
+            net: Net::new(outline, &found),
+            accompanied_margin,
+            marginal: marginal::venation(accompanied_margin, outline, &found),
         }
     }
 
-    fn secondaries(&mut self, midrib: &Vein, secondaries: &[Vein]) {
+    fn secondaries(&mut self, midrib: &Vein, secondaries: &[Vein], length: f64) {
         let mut angles: [Vec<f64>; 3] = Default::default();
         let mut places: [Vec<f64>; 2] = Default::default();
         for vein in secondaries {
             let share = midrib.share_near(vein.start());
             let ahead = midrib.direction_at(share);
-            let way = vein.departure(DEPARTURE);
-            let side = usize::from(ahead.perp_dot(way) > 0.0);
+            let side = usize::from(ahead.perp_dot(vein.at(0.2) - vein.start()) > 0.0);
             places[side].push(share);
-            let angle = libm::atan2(ahead.perp_dot(way).abs(), ahead.dot(way)).to_degrees();
+            let (_, angle) = laterals::departure(midrib, vein, length);
             angles[((share * 3.0) as usize).min(2)].push(angle);
         }
         self.secondaries = [places[0].len(), places[1].len()];
         self.angles_deg = angles.map(|list| mean(&list));
+        self.attachment = laterals::attachment(midrib, secondaries, length);
         let straight = secondaries.iter().filter(|vein| vein.stray() < STRAIGHT);
         self.are_straight =
             (!secondaries.is_empty()).then(|| 2 * straight.count() > secondaries.len());
@@ -305,29 +269,5 @@ impl Description {
             }
             _ => Some(SecondarySpacing::Regular),
         };
-    }
-
-    fn tertiaries(&mut self, coarse: &[&Vein], tracer: &Tracer<'_>) {
-        let (mut across, mut count) = (0, 0);
-        let (mut angles, mut winding) = (Vec::new(), Vec::new());
-        for vein in coarse {
-            for tertiary in tracer.leaving(vein, 3) {
-                count += 1;
-                // A loop outside an arch comes back to it.
-                let is_loop = tertiary.length() > ROUND * tertiary.chord();
-                let reaches = tertiary.joined_order.is_some_and(|order| order <= 2) && !is_loop;
-                if !reaches {
-                    continue;
-                }
-                across += 1;
-                let ahead = vein.direction_at(vein.share_near(tertiary.start()));
-                let way = tertiary.departure(0.6);
-                angles.push(libm::atan2(ahead.perp_dot(way).abs(), ahead.dot(way)).to_degrees());
-                winding.push(tertiary.length() / tertiary.chord().max(1e-12));
-            }
-        }
-        self.percurrent = (count > 0).then(|| f64::from(across) / f64::from(count));
-        self.tertiary_angle_deg = median(&mut angles);
-        self.tertiary_over_chord = median(&mut winding);
     }
 }

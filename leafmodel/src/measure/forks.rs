@@ -80,7 +80,7 @@ impl Forks {
 
 /// The `n > 0` for which `Σ xᵢⁿ = 1`. It exists and is unique if there are several `xᵢ`, all
 /// below 1.
-fn fitted_exponent(shares: &(impl Iterator<Item = f64> + Clone)) -> Option<f64> {
+pub(super) fn fitted_exponent(shares: &(impl Iterator<Item = f64> + Clone)) -> Option<f64> {
     let least = shares.clone().fold(f64::INFINITY, f64::min);
     if shares.clone().any(|x| x >= 1.0) {
         return None;

@@ -68,18 +68,31 @@ pub(super) fn extent(outline: &Outline) -> Extent {
     }
 }
 
-/// Area of the smallest convex polygon around the margin, mm², > 0 (monotone chains).
+/// Area of the smallest convex polygon around the margin, mm², > 0.
 pub(super) fn hull_area(outline: &Outline) -> f64 {
-    let mut points = outline.points().to_vec();
-    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-    let mut hull = chain(points.iter().copied());
-    hull.extend(chain(points.iter().rev().copied()));
+    let hull = hull(outline);
     let origin = hull[0];
     let doubled: f64 = hull
         .windows(2)
         .map(|edge| (edge[0] - origin).perp_dot(edge[1] - origin))
         .sum();
     0.5 * doubled
+}
+
+/// Length around the smallest convex polygon around the margin, mm, > 0.
+pub(super) fn hull_perimeter(outline: &Outline) -> f64 {
+    let hull = hull(outline);
+    let closed = hull.iter().zip(hull.iter().cycle().skip(1));
+    closed.map(|(a, b)| a.distance(*b)).sum()
+}
+
+/// The smallest convex polygon around the margin, counter-clockwise (monotone chains).
+fn hull(outline: &Outline) -> Vec<DVec2> {
+    let mut points = outline.points().to_vec();
+    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    let mut hull = chain(points.iter().copied());
+    hull.extend(chain(points.iter().rev().copied()));
+    hull
 }
 
 /// Half of the hull of points sorted in one direction, without its last point, which starts the

@@ -23,6 +23,18 @@ pub(super) fn median(values: &mut [f64]) -> Option<f64> {
     lower.map(|lower| 0.5 * (lower + upper))
 }
 
+/// The value below which a share of the list lies, on straight lines between neighbours, of which
+/// the first is at 0 and the last at 1; `None` for an empty list. Reorders the values.
+pub(super) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
+    let last = values.len().checked_sub(1)?;
+    values.sort_unstable_by(f64::total_cmp);
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let below = (place.floor() as usize).min(last);
+    let above = (below + 1).min(last);
+    let part = place - below as f64;
+    Some(values[below] + (values[above] - values[below]) * part)
+}
+
 /// Standard deviation (of a sample, `n − 1`) over mean; `None` for fewer than two values or a mean
 /// of 0.
 pub(super) fn variation(values: &[f64]) -> Option<f64> {
@@ -60,6 +72,10 @@ mod tests {
         assert_eq!(variation(&[1.0]), None);
         assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), Some(2.5));
+        assert_eq!(quantile(&mut [], 0.5), None);
+        assert_eq!(quantile(&mut [7.0], 0.9), Some(7.0));
+        assert_eq!(quantile(&mut [4.0, 0.0, 3.0, 1.0, 2.0], 0.25), Some(1.0));
+        assert_eq!(quantile(&mut [2.0, 1.0], 0.75), Some(1.75));
         assert_eq!(variation(&[1.0, 3.0]), Some(2.0_f64.sqrt() / 2.0));
         assert_eq!(mode(&[0.1, 0.1, 0.1, 3.0, 6.4]), Some(0.15000000000000002));
     }

@@ -40,11 +40,34 @@ fn a_square_lattice_has_the_density_areoles_and_spanning_tree_of_one() {
     near(&measures, "areole_area_cv", 0.0);
     near(&measures, "areole_circularity_median", PI / 4.0);
     near(&measures, "freely_ending_veinlet_count", 0.0);
+    let list = |key: &str| {
+        let entry = measures.entries().iter().find(|entry| entry.key == key);
+        match entry.map(|entry| &entry.value) {
+            Some(Value::List(list)) => list.clone(),
+            other => panic!("{key} is {other:?}"),
+        }
+    };
+    for area in list("areole_area_mm2_percentiles") {
+        assert!((area - side * side).abs() < 1e-12, "{area}");
+    }
+    assert_eq!(list("areole_circularity_percentiles").len(), 5);
     // Corners of the lattice are not junctions; the other nodes on its rim have three edges, those
     // inside four.
     let (rim, inside) = (4.0 * (count - 1.0), (count - 1.0) * (count - 1.0));
     near(&measures, "junction_count", rim + inside);
     near(&measures, "junction_degree_3_share", rim / (rim + inside));
+    let degrees = list("junction_degree_shares");
+    let expected = [rim / (rim + inside), inside / (rim + inside), 0.0];
+    assert!(
+        degrees
+            .iter()
+            .zip(expected)
+            .all(|(a, b)| (a - b).abs() < 1e-12),
+        "{degrees:?}"
+    );
+    // On the rim two veins go straight on: 180° where 120° would be in balance.
+    near(&measures, "junction_bent_share", 1.0);
+    near(&measures, "junction_largest_angle_deg_median", 180.0);
     near(
         &measures,
         "spanning_tree_ratio",
@@ -322,6 +345,7 @@ proptest! {
             let fine = match &entry.value {
                 Value::Count(_) | Value::Number(None) => true,
                 Value::Number(Some(number)) => number.is_finite() && *number >= 0.0,
+                Value::Orders(list) => list.iter().flatten().all(|n| n.is_finite() && *n > 0.0),
                 Value::List(list) => {
                     let signed = entry.key == "elliptic_fourier";
                     list.iter().all(|number| number.is_finite() && (signed || *number >= 0.0))
@@ -342,6 +366,18 @@ fn a_grown_leaf_obeys_the_law_by_which_it_was_grown() {
     assert!(share > 0.999 && share < 1.0 + 1e-12, "{share}");
     near(&measures, "murray_ratio_median", 1.0);
     near(&measures, "murray_exponent_median", 2.5);
+    // In every order that has forks, too.
+    let orders = measures
+        .entries()
+        .iter()
+        .find(|e| e.key == "murray_exponent_by_order");
+    let Some(Value::Orders(exponents)) = orders.map(|entry| &entry.value) else {
+        panic!("the exponents of the orders are there");
+    };
+    assert!(exponents.len() >= 3, "{exponents:?}");
+    for exponent in exponents.iter().flatten() {
+        assert!((exponent - 2.5).abs() < 1e-9, "{exponents:?}");
+    }
     let crossings = number(&measures, "crossing_count");
     near(&measures, "areole_count", veins.loops() as f64 + crossings);
     for entry in measures.entries() {

@@ -1,6 +1,6 @@
 //! `petiole` and `compound`: stalks, and leaflets on them.
 
-use crate::blade::petiole::{PetiolePlan, Section};
+use crate::blade::petiole::{Course, PetiolePlan, Section};
 use crate::compound::{Arrangement, CompoundError, CompoundForm, Feather};
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
@@ -20,6 +20,7 @@ pub(super) fn usual_petiole() -> PetiolePlan {
         length: 0.0,
         radius_mm: None,
         curl: 0.0,
+        course: Course::STRAIGHT,
         section: Section::default(),
     }
 }
@@ -43,6 +44,7 @@ pub(super) fn petiole(plan: &mut PetiolePlan, keys: &mut Keys<'_>) {
         "Angle by which it has bent towards the abaxial \
         side at its foot.",
     );
+    course(&mut plan.course, keys);
     let section = &mut plan.section;
     let limits = Number(Limits::closed(0.0, 0.8));
     let about = "Depth of the groove along its adaxial side, over the radius.";
@@ -56,6 +58,30 @@ pub(super) fn petiole(plan: &mut PetiolePlan, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(0.0, 2.0));
     let about = "Thickening below the blade (a pulvinus there), over the radius.";
     keys.key("head", &mut section.head, limits, about);
+}
+
+/// The keys of a petiole's course.
+fn course(course: &mut Course, keys: &mut Keys<'_>) {
+    let bends = Degrees(Limits::closed(-170.0, 170.0));
+    let about = "Angle by which the blade's weight has bent it towards the abaxial side at its \
+        foot; the bend grows towards the foot.";
+    keys.key("sag_deg", &mut course.sag, bends, about);
+    let limits = Degrees(Limits::closed(-110.0, 110.0));
+    let about = "Angle by which it bends towards the abaxial side just before the blade; with an \
+        opposite sag it is an S.";
+    keys.key("neck_deg", &mut course.neck, limits, about);
+    let limits = Number(Limits::closed(0.02, 1.0));
+    let about = "Share of its length in which it does so.";
+    keys.key("neck_length", &mut course.neck_length, limits, about);
+    let about =
+        "Angle by which it has bent to the right at its foot, adaxial side up, blade ahead.";
+    keys.key("sway_deg", &mut course.sway, bends, about);
+    let about = "Angle by which it is twisted between blade and foot; bends turn with it.";
+    keys.key("twist_deg", &mut course.twist, bends, about);
+    let limits = Degrees(Limits::closed(0.0, 55.0));
+    let about = "Standard deviation, from leaf to leaf, of sag, sway, twist and of a wave in both \
+        bends.";
+    keys.key("stray_deg", &mut course.stray, limits, about);
 }
 
 /// A compound leaf of which nothing is said.

@@ -12,12 +12,14 @@ use super::senescence::{self, senescence};
 use super::solid::MAP_SIZE;
 use super::stance::stance;
 use super::surface::surface;
+use super::unevenness::unevenness;
 use super::venation;
 use crate::blade::BladeForm;
 use crate::blade::senescence::AgeSource;
 use crate::blade::stance::Stance;
 use crate::blade::surface::SurfacePlan;
 use crate::blade::tissue::Tissue;
+use crate::blade::unevenness::Unevenness;
 use crate::blade::vein_body::VeinBody;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
@@ -36,6 +38,7 @@ pub fn usual_leaf(length_mm: f64) -> LeafPlan {
         outline: Contour::GrowthAlgorithm(super::growth_form::usual()).into(),
         venation: AuxinPlan::default().into(),
         tissue: Tissue::of(Contents::NOTHING),
+        unevenness: None,
         layers: Vec::new(),
         mosaic: None,
         senescence: None,
@@ -107,6 +110,9 @@ fn whole_or_veins(plan: &mut LeafPlan, keys: &mut Keys<'_>, whole: bool) {
         },
     );
     layers(&mut plan.layers, keys);
+    let about = "How its greens differ from place to place; left out, only by the mottle.";
+    let uneven = &mut plan.unevenness;
+    keys.optional_block("unevenness", uneven, Unevenness::default, about, unevenness);
     let about = "How far it has aged; left out, it is in summer.";
     let aged = &mut plan.senescence;
     keys.optional_block("senescence", aged, senescence::usual, about, senescence);
@@ -258,12 +264,22 @@ fn form_keys(form: &mut BladeForm, keys: &mut Keys<'_>, length_mm: f64) {
     let limits = Number(Limits::closed(0.0, 100.0));
     let about = "Waves along each side.";
     keys.key("ruffle_waves", &mut form.ruffle_waves, limits, about);
+    let limits = Degrees(Limits::closed(0.0, 55.0));
+    let about = "Slope of the folds along primary and secondary veins (pleats), which lie in the \
+        valleys.";
+    keys.key("pleat_deg", &mut form.pleat, limits, about);
     let limits = Number(Limits::closed(0.0, 5.0));
     let about = "Height of veins on the abaxial side over their diameter.";
     keys.key("relief", &mut form.relief, limits, about);
     let limits = Number(Limits::closed(0.001, 10.0));
     let about = "Thickness between veins.";
     keys.key("thickness_mm", &mut form.thickness_mm, limits, about);
+    let limits = Number(Limits::closed(0.05, 1.0));
+    let about = "Thickness at the margin over that between veins; contents per area fall with it.";
+    keys.key("margin_thickness", &mut form.margin.share, limits, about);
+    let limits = Number(Limits::closed(0.01, 100.0));
+    let about = "Distance from the margin within which the thickness falls to that.";
+    keys.key("margin_width_mm", &mut form.margin.width_mm, limits, about);
     // A finer mesh than this has more than some ten million triangles.
     let edges = Number(Limits::closed((length_mm / 2000.0).max(0.001), length_mm));
     let about = "Longest edge of the mesh.";

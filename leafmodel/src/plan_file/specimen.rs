@@ -1,11 +1,12 @@
 //! What makes the margin of a leaf that of a specimen: teeth, base, apex, tips, unlike sides.
 
+use super::contents::changed_contents;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
 use crate::document::value_kind::{Flag, Integer, Number, Word};
 use crate::shape::specimen::{ApexShape, Asymmetry, BaseShape, Specimen, SpecimenError};
 use crate::shape::teeth::{TeethError, ToothForm, ToothWave};
-use crate::shape::tips::{Point, Tip};
+use crate::shape::tips::{Gland, Point, Tip};
 use crate::variant;
 
 const FORMS: [(&str, ToothForm); 3] = [
@@ -16,19 +17,7 @@ const FORMS: [(&str, ToothForm); 3] = [
 
 /// The kinds of tips.
 const TIPS: [Variant<Tip>; 3] = [
-    Variant {
-        name: "gland",
-        about: "A knob.",
-        new: || Tip::Gland { diameter: 0.004 },
-        is: |tip| matches!(tip, Tip::Gland { .. }),
-        declare: |tip, keys| {
-            if let Tip::Gland { diameter } = tip {
-                let limits = Number(Limits::closed(1e-4, 0.05));
-                let about = "Its diameter, as a share of the leaf's length.";
-                keys.key("diameter", diameter, limits, about);
-            }
-        },
-    },
+    variant!("gland", Tip::Gland, gland, "A knob."),
     variant!("mucro", Tip::Mucro, point, "A short point, set off."),
     variant!("awn", Tip::Awn, point, "A bristle."),
 ];
@@ -142,6 +131,15 @@ const APICES: [Variant<ApexShape>; 4] = [
         "A short point, in which the midrib ends."
     ),
 ];
+
+fn gland(gland: &mut Gland, keys: &mut Keys<'_>) {
+    let limits = Number(Limits::closed(1e-4, 0.05));
+    let about = "Its diameter, as a share of the leaf's length.";
+    keys.key("diameter", &mut gland.diameter, limits, about);
+    keys.block("contents", "What it holds.", |keys| {
+        changed_contents(&mut gland.contents, keys);
+    });
+}
 
 fn point(point: &mut Point, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(1e-4, 0.2));

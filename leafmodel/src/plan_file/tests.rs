@@ -18,7 +18,7 @@ use crate::shape::growth_form::{
 use crate::shape::specimen::{ApexShape, Asymmetry, BaseShape, Specimen};
 use crate::shape::svg_path::SvgContour;
 use crate::shape::teeth::ToothWave;
-use crate::shape::tips::{Point, Tip};
+use crate::shape::tips::{Gland, Point, Tip};
 use crate::transport::{FilledPlan, Ladder, TransportPlan, VeinStyle};
 use crate::venation::arcuate::{ArcuatePlan, PalmateVeins};
 use crate::venation::plan::{
@@ -37,7 +37,7 @@ use crate::blade::senescence::{AgeSource, Senescence};
 use crate::blade::stance::Stance;
 use crate::blade::tissue::Tissue;
 use crate::leaf::LeafPlan;
-use crate::leaf::damage::Damage;
+use crate::leaf::damage::{Damage, Dieback};
 use crate::leaf::venation_plan::VenationPlan;
 use crate::testing::fixed;
 
@@ -71,6 +71,7 @@ fn plain() -> LeafPlan {
             (Constituent::Water, 0.01),
             (Constituent::DryMatter, 0.006),
         ])),
+        unevenness: None,
         layers: Vec::new(),
         mosaic: None,
         senescence: None,
@@ -94,11 +95,11 @@ proptest! {
         contour in contour(), teeth in teeth(), specimen in specimen(), venation in venation(), (tissue, form) in tissue_and_form(),
         seed in any::<u64>(), map_size in 16_u32..8192, senescence in senescence(), stalks in petiole_or_compound(),
         layers in layers_by_chance(), mosaic in mosaic_by_chance(), pigments in pigments(), damage in damage(),
-        (stance, surface, hairs) in (bodies::stance(), surface(), hairs()),
+        (stance, surface, hairs, unevenness) in (bodies::stance(), surface(), hairs(), bodies::unevenness()),
     ) {
         let outline = OutlinePlan { contour, teeth, specimen };
         let (petiole, compound) = stalks;
-        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, layers, mosaic, senescence, form, stance, surface, hairs, petiole, compound, pigments, map_size, damage };
+        let plan = LeafPlan { length_mm: 80.0, seed, outline, venation, tissue, unevenness, layers, mosaic, senescence, form, stance, surface, hairs, petiole, compound, pigments, map_size, damage };
         // Only cells that earn anything die when they do not.
         let plan = LeafPlan { senescence: plan.senescence.filter(|_| plan.check_senescence().is_ok()), ..plan };
         // What cannot be grown is refused by the reader, as it should be.

@@ -15,6 +15,7 @@ use thiserror::Error;
 use super::crossing::first_crossing;
 use super::interior_grid::InteriorGrid;
 use super::slabs::Slabs;
+use super::tips::Knob;
 
 /// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding
 /// only.
@@ -32,6 +33,7 @@ pub struct Outline {
     apex: DVec2,
     slabs: Slabs,
     interior: InteriorGrid,
+    knobs: Vec<Knob>,
 }
 
 /// Why a polygon is not a valid margin.
@@ -118,6 +120,7 @@ impl Outline {
             base,
             apex,
             slabs,
+            knobs: Vec::new(),
         };
         for (end, p) in [("base", base), ("apex", apex)] {
             if !(p.is_finite() && outline.covers(p)) {
@@ -137,6 +140,16 @@ impl Outline {
     /// The corners of the margin, counter-clockwise, mm.
     pub fn points(&self) -> &[DVec2] {
         &self.points
+    }
+
+    /// The glands on its teeth and lobes.
+    pub fn knobs(&self) -> &[Knob] {
+        &self.knobs
+    }
+
+    /// The same margin, of which these are glands.
+    pub(crate) fn with_knobs(self, knobs: Vec<Knob>) -> Self {
+        Self { knobs, ..self }
     }
 
     /// Where the petiole is attached, mm.
@@ -211,13 +224,18 @@ impl Outline {
             points,
             base: image(self.base),
             apex: image(self.apex),
+            knobs: self
+                .knobs
+                .iter()
+                .map(|knob| knob.moved(image, factor))
+                .collect(),
         }
     }
 }
 
 impl Outline {
-    /// The same margin at another time, with corners and apex moved by growth. The caller
-    /// guarantees that the growth keeps every invariant.
+    /// The same margin at another time, with corners and apex moved by growth, and without its
+    /// glands. The caller guarantees that the growth keeps every invariant.
     pub(crate) fn with_points(&self, points: Vec<DVec2>, apex: DVec2) -> Self {
         let slabs = Slabs::new(&points);
         Self {
@@ -226,6 +244,7 @@ impl Outline {
             points,
             base: self.base,
             apex,
+            knobs: Vec::new(),
         }
     }
 }

@@ -120,8 +120,9 @@ pub fn toothed(
         let points = outline.points();
         let found = points.iter().enumerate();
         let found = found.filter_map(|(i, &p)| Some((i, end_tip(p)?)));
-        let margin = with_tips(points, &found.collect::<Vec<_>>(), outline.length());
-        return Ok(Outline::new(margin, outline.base(), outline.apex())?);
+        let found: Vec<(usize, Tip)> = found.collect();
+        let (margin, knobs) = with_tips(points, &found, outline.length());
+        return Ok(Outline::new(margin, outline.base(), outline.apex())?.with_knobs(knobs));
     };
     let [right, left] = sides(outline).map(Side::new);
     let (Some(right), Some(left)) = (right, left) else {
@@ -156,12 +157,12 @@ pub fn toothed(
     let found: Vec<(usize, Tip)> = found
         .filter_map(|(i, (_, tip))| Some((i, (*tip)?)))
         .collect();
-    let points = if found.is_empty() {
-        points
+    let (points, knobs) = if found.is_empty() {
+        (points, Vec::new())
     } else {
         with_tips(&points, &found, outline.length())
     };
-    Ok(Outline::new(points, outline.base(), outline.apex())?)
+    Ok(Outline::new(points, outline.base(), outline.apex())?.with_knobs(knobs))
 }
 
 /// Checks the numbers of all waves, and that nested ones have something to stand on.

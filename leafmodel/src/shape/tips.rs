@@ -1,23 +1,75 @@
 //! What ends a tooth, a lobe or a blade: a gland, a mucro or an awn.
 //!
 //! - **In**: a closed polygon and some of its corners.
-//! - **Out**: the polygon with those corners replaced by small ends of their own.
-//! - **Left out**: the colour of a gland.
+//! - **Out**: the polygon with those corners replaced by small ends of their own, and where the
+//!   glands among them are.
 
 use glam::DVec2;
+
+use crate::optics::{Constituent, Contents};
 
 /// The end of a tooth, a lobe or a blade. Lengths are shares of the midrib's length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tip {
     /// A knob, as that on the teeth of cherries and willows.
-    Gland {
-        /// Its diameter, 0.0001 to 0.05.
-        diameter: f64,
-    },
+    Gland(Gland),
     /// A short point, set off from what it ends.
     Mucro(Point),
     /// A bristle, as that on the lobes of red oaks: as wide as a hair but at its foot.
     Awn(Point),
+}
+
+/// A knob that stands on a corner, of tissue of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gland {
+    /// Its diameter, 0.0001 to 0.05.
+    pub diameter: f64,
+    /// What it holds.
+    pub contents: Contents,
+}
+
+impl Default for Gland {
+    /// A small dark one: dense tissue with little chlorophyll, anthocyanins in its epidermis and
+    /// some that has browned. By eye.
+    fn default() -> Self {
+        Self {
+            diameter: 0.004,
+            contents: Contents::of(&[
+                (Constituent::Structure, 2.0),
+                (Constituent::Chlorophyll, 6.0),
+                (Constituent::Carotenoids, 4.0),
+                (Constituent::Anthocyanins, 20.0),
+                (Constituent::Brown, 0.5),
+                (Constituent::Water, 0.02),
+                (Constituent::DryMatter, 0.012),
+            ]),
+        }
+    }
+}
+
+/// A gland on a margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knob {
+    /// Its middle, mm.
+    pub centre: DVec2,
+    /// mm.
+    pub radius: f64,
+    /// The two corners of the margin between which it stands.
+    pub feet: [DVec2; 2],
+    /// What it holds.
+    pub contents: Contents,
+}
+
+impl Knob {
+    /// The gland after its margin has been moved and scaled.
+    pub(super) fn moved(&self, image: impl Fn(DVec2) -> DVec2, factor: f64) -> Self {
+        Self {
+            centre: image(self.centre),
+            radius: self.radius * factor,
+            feet: self.feet.map(image),
+            contents: self.contents,
+        }
+    }
 }
 
 /// A point that stands on a corner.
@@ -47,7 +99,7 @@ impl Tip {
     pub(super) fn fault(&self) -> Option<(&'static str, f64, &'static str)> {
         let out = |value: f64, most: f64| !(1e-4..=most).contains(&value);
         match *self {
-            Self::Gland { diameter } => {
+            Self::Gland(Gland { diameter, .. }) => {
                 out(diameter, 0.05).then_some(("diameter", diameter, "0.0001 to 0.05"))
             }
             Self::Mucro(point) | Self::Awn(point) => {
@@ -64,7 +116,7 @@ impl Tip {
     /// Width of the foot, as a share.
     fn foot(&self) -> f64 {
         match *self {
-            Self::Gland { diameter } => 0.7 * diameter,
+            Self::Gland(gland) => 0.7 * gland.diameter,
             Self::Mucro(point) | Self::Awn(point) => point.width,
         }
     }
@@ -74,11 +126,10 @@ impl Tip {
         let middle = (feet[0] + feet[1]) * 0.5;
         let across = (feet[1] - feet[0]) * 0.5;
         match *self {
-            Self::Gland { diameter } => {
-                let radius = 0.5 * diameter * length;
+            Self::Gland(gland) => {
+                let Knob { centre, radius, .. } = gland.knob(feet, ahead, length);
                 let half = across.length().min(0.95 * radius);
                 let side = across.normalize_or_zero();
-                let centre = middle + ahead * (radius * radius - half * half).sqrt();
                 // From the foot all round to the foot.
                 let start = libm::asin(half / radius);
                 let sweep = std::f64::consts::TAU - 2.0 * start;
@@ -101,9 +152,28 @@ impl Tip {
     }
 }
 
+impl Gland {
+    /// The gland between two feet; it points `ahead`.
+    fn knob(&self, feet: [DVec2; 2], ahead: DVec2, length: f64) -> Knob {
+        let radius = 0.5 * self.diameter * length;
+        let half = (0.5 * feet[0].distance(feet[1])).min(0.95 * radius);
+        let middle = (feet[0] + feet[1]) * 0.5;
+        Knob {
+            centre: middle + ahead * (radius * radius - half * half).sqrt(),
+            radius,
+            feet,
+            contents: self.contents,
+        }
+    }
+}
+
 /// A closed counter-clockwise polygon with tips on some of its corners; `length` is that of the
-/// midrib. A foot takes no more than a third of the way to the next tip.
-pub(super) fn with_tips(polygon: &[DVec2], tips: &[(usize, Tip)], length: f64) -> Vec<DVec2> {
+/// midrib. A foot takes no more than a third of the way to the next tip. Gives the glands too.
+pub(super) fn with_tips(
+    polygon: &[DVec2],
+    tips: &[(usize, Tip)],
+    length: f64,
+) -> (Vec<DVec2>, Vec<Knob>) {
     let n = polygon.len();
     let at = |i: usize| polygon[i % n];
     // Lengths along the polygon, twice around.
@@ -117,6 +187,7 @@ pub(super) fn with_tips(polygon: &[DVec2], tips: &[(usize, Tip)], length: f64) -
     sorted.dedup_by_key(|(i, _)| *i);
     // What is cut out, as lengths from and to, and what comes instead.
     let mut cuts: Vec<([f64; 2], Vec<DVec2>)> = Vec::new();
+    let mut knobs = Vec::new();
     let place = |s: f64| {
         let s = s.rem_euclid(round);
         let i = along.partition_point(|&a| a <= s).clamp(1, n) - 1;
@@ -152,6 +223,9 @@ pub(super) fn with_tips(polygon: &[DVec2], tips: &[(usize, Tip)], length: f64) -
         } else {
             outward
         };
+        if let Tip::Gland(gland) = tip {
+            knobs.push(gland.knob(feet, ahead, length));
+        }
         let mut instead = vec![feet[0]];
         instead.extend(tip.corners(feet, at(i), ahead, length));
         instead.push(feet[1]);
@@ -174,7 +248,7 @@ pub(super) fn with_tips(polygon: &[DVec2], tips: &[(usize, Tip)], length: f64) -
             points.push(at(i));
         }
     }
-    points
+    (points, knobs)
 }
 
 /// Corners of a closed counter-clockwise polygon that stand out and turn by more than 50°: the ends

@@ -3,9 +3,12 @@
 //! Patterns, endings and numbers of veins are what is typical of the species; angles and spacings
 //! are by eye. None was counted on a specimen.
 
+mod table_1;
+
+pub(super) use self::table_1::{alchemilla, cherry, ginkgo, grass, orchid, sweetgum, trillium};
 use crate::venation::architecture::{
-    Architecture, Arrangement, Attachment, Primaries, PrimaryPattern, Secondaries, SecondaryCourse,
-    SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,
+    Agrophic, Architecture, Arrangement, Attachment, Primaries, PrimaryPattern, Secondaries,
+    SecondaryCourse, SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,
 };
 
 fn pinnate() -> Primaries {
@@ -47,10 +50,11 @@ pub(super) fn birch() -> Architecture {
             span: [0.04, 0.8],
             inset: 0.03,
             intersecondaries: 0.0,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 92.0),
         irregularity: 0.3,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -69,10 +73,11 @@ pub(super) fn cottonwood() -> Architecture {
             span: [0.2, 0.8],
             inset: 0.035,
             intersecondaries: 0.3,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 95.0),
         irregularity: 0.4,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -91,10 +96,11 @@ pub(super) fn magnolia() -> Architecture {
             span: [0.06, 0.88],
             inset: 0.035,
             intersecondaries: 0.8,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.5,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -113,10 +119,11 @@ pub(super) fn white_oak() -> Architecture {
             span: [0.08, 0.8],
             inset: 0.03,
             intersecondaries: 0.0,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.02, 95.0),
         irregularity: 0.3,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -148,10 +155,11 @@ pub(super) fn maple() -> Architecture {
             span: [0.42, 0.72],
             inset: 0.03,
             intersecondaries: 0.0,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::OppositePercurrent, 0.025, 95.0),
         irregularity: 0.3,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -170,10 +178,11 @@ pub(super) fn ivy() -> Architecture {
             span: [0.28, 0.8],
             inset: 0.04,
             intersecondaries: 0.0,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.5,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -192,10 +201,11 @@ pub(super) fn willow() -> Architecture {
             span: [0.06, 0.88],
             inset: 0.02,
             intersecondaries: 0.0,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.016, 95.0),
         irregularity: 0.4,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -214,10 +224,11 @@ pub(super) fn croton() -> Architecture {
             span: [0.05, 0.9],
             inset: 0.02,
             intersecondaries: 0.5,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.4,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -236,10 +247,11 @@ pub(super) fn smoke_tree() -> Architecture {
             span: [0.06, 0.88],
             inset: 0.025,
             intersecondaries: 0.5,
+            agrophic: Agrophic::Absent,
         },
         tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
         irregularity: 0.4,
-        is_fimbrial: false,
+        ..Architecture::default()
     }
 }
 
@@ -256,120 +268,6 @@ pub(super) fn amaranth() -> Architecture {
             ..smoke_tree().secondaries
         },
         ..smoke_tree()
-    }
-}
-
-/// Ginkgo: veins that fork again and again and never meet.
-pub(super) fn ginkgo() -> Architecture {
-    Architecture {
-        primaries: Primaries {
-            pattern: PrimaryPattern::Flabellate,
-            lateral_angles_deg: vec![15.0, 30.0, 45.0],
-            fork_spacing: 0.018,
-            ..pinnate()
-        },
-        secondaries: none(),
-        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
-        irregularity: 0.4,
-        ..Architecture::default()
-    }
-}
-
-/// Lady's mantle: nine primaries, one a lobe, secondaries into the teeth.
-pub(super) fn alchemilla() -> Architecture {
-    Architecture {
-        primaries: actinodromous(&[27.0, 55.0, 84.0, 118.0]),
-        secondaries: Secondaries {
-            pairs: 2,
-            angles_deg: [36.0, 34.0, 27.0],
-            course: SecondaryCourse::Straight,
-            ending: SecondaryEnding::Craspedodromous,
-            span: [0.6, 0.85],
-            ..birch().secondaries
-        },
-        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
-        irregularity: 0.4,
-        ..Architecture::default()
-    }
-}
-
-/// Sweetgum: five primaries into the lobes; their secondaries meet in arches inside the margin.
-pub(super) fn sweetgum() -> Architecture {
-    Architecture {
-        primaries: actinodromous(&[53.0, 107.0]),
-        secondaries: Secondaries {
-            pairs: 9,
-            angles_deg: [57.0, 52.0, 46.0],
-            ending: SecondaryEnding::Festooned,
-            span: [0.16, 0.9],
-            inset: 0.025,
-            ..smoke_tree().secondaries
-        },
-        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
-        irregularity: 0.4,
-        ..Architecture::default()
-    }
-}
-
-/// Nankin cherry: arches with branches into the teeth.
-pub(super) fn cherry() -> Architecture {
-    Architecture {
-        secondaries: Secondaries {
-            pairs: 6,
-            angles_deg: [48.0, 46.0, 40.0],
-            ending: SecondaryEnding::Semicraspedodromous,
-            span: [0.1, 0.86],
-            inset: 0.03,
-            ..cottonwood().secondaries
-        },
-        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.026, 95.0),
-        irregularity: 0.4,
-        ..Architecture::default()
-    }
-}
-
-/// An orchid: arches from base to apex, cross veins between them.
-pub(super) fn orchid() -> Architecture {
-    Architecture {
-        primaries: Primaries {
-            pattern: PrimaryPattern::Parallelodromous,
-            laterals: 4,
-            ..pinnate()
-        },
-        secondaries: none(),
-        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.022, 80.0),
-        irregularity: 0.3,
-        ..Architecture::default()
-    }
-}
-
-/// A grass: many veins side by side, short cross veins.
-pub(super) fn grass() -> Architecture {
-    Architecture {
-        primaries: Primaries {
-            pattern: PrimaryPattern::Parallelodromous,
-            laterals: 9,
-            ..pinnate()
-        },
-        secondaries: none(),
-        tertiaries: across(TertiaryCourse::OppositePercurrent, 0.012, 88.0),
-        irregularity: 0.3,
-        ..Architecture::default()
-    }
-}
-
-/// A trillium's petal: arches that converge, a loose net between them.
-pub(super) fn trillium() -> Architecture {
-    Architecture {
-        primaries: Primaries {
-            pattern: PrimaryPattern::Parallelodromous,
-            laterals: 3,
-            ..pinnate()
-        },
-        secondaries: none(),
-        tertiaries: across(TertiaryCourse::Reticulate, 0.03, 90.0),
-        irregularity: 0.4,
-        ..Architecture::default()
     }
 }
 

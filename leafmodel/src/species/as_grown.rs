@@ -36,7 +36,7 @@ pub(super) fn ginkgo() -> LeafPlan {
     let mut plan = leaf(
         traits,
         1,
-        contours::fan(),
+        specimens::entire(contours::notched_fan()),
         bare(1100.0, architectures::ginkgo()),
     );
     widen(&mut plan, 0.03);
@@ -57,7 +57,12 @@ pub(super) fn alchemilla() -> LeafPlan {
 pub(super) fn sweetgum() -> LeafPlan {
     let traits = &leaf_traits::SWEETGUM;
     let venation = dense(traits, architectures::sweetgum(), 3.6);
-    leaf(traits, 1, specimens::serrate(contours::star()), venation)
+    leaf(
+        traits,
+        1,
+        specimens::serrate(contours::sweetgum()),
+        venation,
+    )
 }
 
 pub(super) fn cherry() -> LeafPlan {
@@ -78,7 +83,7 @@ pub(super) fn grass() -> LeafPlan {
     let outline: OutlinePlan = contours::linear();
     let mut plan = leaf(traits, 1, outline, bare(1600.0, architectures::grass()));
     plan.length_mm = 240.0;
-    widen(&mut plan, 0.03);
+    widen(&mut plan, 0.012);
     plan
 }
 

@@ -12,6 +12,7 @@ use crate::venation::{Stage, grow_stages};
 
 mod architecture;
 mod beyond;
+mod junctions;
 mod open;
 
 /// A preset and the leaf that it grows.

@@ -138,6 +138,40 @@ pub(super) fn star() -> OutlinePlan {
     }
 }
 
+/// *Liquidambar styraciflua*: five broad, long-pointed lobes, parted by sinuses that reach a little
+/// more than half-way to the petiole, finely toothed.
+pub(super) fn sweetgum() -> OutlinePlan {
+    let right = [
+        (136.0, 0.12),
+        (127.0, 0.27),
+        (119.0, 0.46),
+        (108.0, 0.70),
+        (98.0, 0.57),
+        (89.0, 0.44),
+        (80.0, 0.375),
+        (73.0, 0.44),
+        (66.0, 0.58),
+        (59.0, 0.73),
+        (53.0, 0.91),
+        (46.5, 0.74),
+        (40.0, 0.60),
+        (33.5, 0.48),
+        (27.0, 0.41),
+        (22.5, 0.50),
+        (18.0, 0.63),
+        (11.5, 0.78),
+        (5.0, 0.91),
+    ];
+    let mut places = vec![(0.0, 0.0)];
+    places.extend(right.map(|(degrees, radius)| polar(degrees, radius)));
+    places.push((0.0, 1.0));
+    OutlinePlan {
+        contour: curve(&places, &[0, 4, 11, places.len() - 1], true),
+        specimen: Specimen::default(),
+        teeth: vec![teeth(70, 0.006, 0.5)],
+    }
+}
+
 /// A toothed leaf with a lobe on one side (Fig. 13a).
 pub(super) fn one_lobe() -> OutlinePlan {
     let places = [
@@ -213,20 +247,51 @@ pub(super) fn strip() -> OutlinePlan {
     .into()
 }
 
-/// A whole grass blade: widest near its base, drawn out to a long point.
+/// A whole grass blade: narrowed into the collar, where the sheath begins, parallel-sided, and
+/// drawn out to a long point.
 pub(super) fn linear() -> OutlinePlan {
     pointed(&[
         (0.0, 0.0),
-        (0.016, 0.004),
-        (0.032, 0.06),
-        (0.042, 0.2),
-        (0.042, 0.4),
-        (0.035, 0.62),
-        (0.022, 0.82),
-        (0.009, 0.95),
+        (0.0075, 0.003),
+        (0.012, 0.018),
+        (0.0205, 0.05),
+        (0.031, 0.11),
+        (0.0385, 0.2),
+        (0.042, 0.32),
+        (0.041, 0.46),
+        (0.0365, 0.59),
+        (0.0305, 0.69),
+        (0.0225, 0.795),
+        (0.013, 0.895),
+        (0.0055, 0.957),
         (0.0, 1.0),
     ])
     .into()
+}
+
+/// A ginkgo's as it grows: a fan with a wavy margin and a notch, at whose bottom the apex is.
+pub(super) fn notched_fan() -> OutlinePlan {
+    let mut places = vec![(0.0, 0.0)];
+    for radius in [0.28, 0.56, 0.84] {
+        let spread = (1.0 - radius) / 0.72;
+        places.push(polar(63.0 - 9.0 * spread * spread, radius));
+    }
+    let right = [
+        (62.5, 0.955),
+        (57.0, 1.005),
+        (50.0, 1.01),
+        (42.0, 1.04),
+        (33.0, 1.04),
+        (24.0, 1.075),
+        (15.0, 1.09),
+        (7.0, 1.095),
+        (2.5, 1.07),
+    ];
+    let corner = places.len();
+    places.extend(right.map(|(degrees, radius)| polar(degrees, radius)));
+    places.push((0.0, 1.0));
+    let last = places.len() - 1;
+    curve(&places, &[0, corner, last], true).into()
 }
 
 /// A trillium's petal.

@@ -8,7 +8,7 @@
 use crate::leaf::outline_plan::OutlinePlan;
 use crate::shape::specimen::{ApexShape, Asymmetry, Specimen};
 use crate::shape::teeth::{ToothForm, ToothWave};
-use crate::shape::tips::{Point, Tip};
+use crate::shape::tips::{Gland, Point, Tip};
 
 /// Sides that differ as those of most leaves do: 3 % of the width.
 const USUAL: Asymmetry = Asymmetry {
@@ -61,6 +61,14 @@ pub(super) fn entire(outline: OutlinePlan) -> OutlinePlan {
     with(outline, USUAL, Specimen::default())
 }
 
+/// A dark gland of this diameter over the leaf's length.
+fn gland(diameter: f64) -> Tip {
+    Tip::Gland(Gland {
+        diameter,
+        ..Gland::default()
+    })
+}
+
 /// A maple: lobes and their teeth are drawn out into fine points.
 pub(super) fn maple(outline: OutlinePlan) -> OutlinePlan {
     let point = Point {
@@ -100,7 +108,7 @@ pub(super) fn birch(outline: OutlinePlan) -> OutlinePlan {
 pub(super) fn cottonwood(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |_, wave| ToothWave {
         form: ToothForm::Crenate,
-        tip: Some(Tip::Gland { diameter: 0.004 }),
+        tip: Some(gland(0.004)),
         ..uneven(wave, 0.16, 0.2)
     });
     with(outline, USUAL, drip_tip(0.14, 0.3))
@@ -109,7 +117,7 @@ pub(super) fn cottonwood(outline: OutlinePlan) -> OutlinePlan {
 /// White willow: fine teeth, each with a gland, and a long point.
 pub(super) fn willow(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |_, wave| ToothWave {
-        tip: Some(Tip::Gland { diameter: 0.0022 }),
+        tip: Some(gland(0.0022)),
         ..uneven(wave, 0.2, 0.2)
     });
     with(outline, USUAL, drip_tip(0.12, 0.3))
@@ -118,7 +126,7 @@ pub(super) fn willow(outline: OutlinePlan) -> OutlinePlan {
 /// Nankin cherry: fine teeth, each with a gland, and a short drawn-out apex.
 pub(super) fn cherry(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |_, wave| ToothWave {
-        tip: Some(Tip::Gland { diameter: 0.004 }),
+        tip: Some(gland(0.004)),
         ..uneven(wave, 0.16, 0.2)
     });
     with(outline, USUAL, drip_tip(0.09, 0.2))

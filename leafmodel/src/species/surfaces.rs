@@ -6,6 +6,7 @@
 
 use crate::blade::hairs::{HairPlace, HairPlan};
 use crate::blade::surface::SurfacePlan;
+use crate::blade::unevenness::Unevenness;
 use crate::optics::{Constituent, Contents};
 
 /// Relief of the faces: groove above and ridge below over the diameter of a vein, bulge and its
@@ -93,6 +94,38 @@ fn bloom(preset: &str) -> [f64; 2] {
         "sweetgum" | "maple" | "white-oak" => [0.0, 0.05],
         _ => [0.0, 0.0],
     }
+}
+
+/// How uneven the greens of a species' leaf are: variation from field to field and from patch to
+/// patch, size of patches (mm), what tissue along primaries lacks and its reach (mm). By eye, and
+/// more for thin leaves of a crown's shade and light than for evergreen ones. The silver birch is
+/// left even, for the scenes in which it stands beside itself with other pigments.
+static UNEVEN: [(&str, [f64; 5]); 12] = [
+    ("poplar", [0.04, 0.04, 12.0, 0.06, 1.5]),
+    ("cottonwood", [0.03, 0.04, 14.0, 0.06, 1.5]),
+    ("maple", [0.06, 0.05, 16.0, 0.10, 2.0]),
+    ("white-oak", [0.05, 0.05, 18.0, 0.10, 2.0]),
+    ("red-oak", [0.05, 0.05, 18.0, 0.08, 2.0]),
+    ("willow", [0.03, 0.03, 10.0, 0.08, 0.8]),
+    ("cherry", [0.06, 0.04, 10.0, 0.10, 1.2]),
+    ("sweetgum", [0.04, 0.04, 16.0, 0.06, 1.5]),
+    ("alchemilla", [0.06, 0.04, 12.0, 0.08, 1.2]),
+    ("ivy", [0.03, 0.05, 10.0, 0.15, 1.5]),
+    ("magnolia", [0.03, 0.03, 25.0, 0.08, 2.0]),
+    ("trillium", [0.03, 0.04, 20.0, 0.06, 1.5]),
+];
+
+/// The unevenness of a species' leaf, by the name of its traits' preset.
+pub(super) fn unevenness(preset: &str) -> Option<Unevenness> {
+    let (_, numbers) = UNEVEN.iter().find(|(name, _)| *name == preset)?;
+    let [fields, patches, patch_mm, along_primaries, reach_mm] = *numbers;
+    Some(Unevenness {
+        fields,
+        patches,
+        patch_mm,
+        along_primaries,
+        reach_mm,
+    })
 }
 
 /// Least relief of a mesh whose faces have a surface: a midrib is seen in outline.
@@ -214,6 +247,18 @@ mod tests {
         }
         for (name, _) in COATS {
             assert!(PRESETS.iter().any(|preset| preset.name == name), "{name}");
+        }
+    }
+
+    #[test]
+    fn broad_leaves_are_uneven_by_a_few_hundredths() {
+        for (name, _) in UNEVEN {
+            let plan = find(name).expect("a preset").plan();
+            let unevenness = plan.unevenness.expect("it is uneven");
+            assert_eq!(unevenness.validate(), Ok(()));
+            for share in [unevenness.fields, unevenness.patches] {
+                assert!((0.03..=0.08).contains(&share), "{name}: {share}");
+            }
         }
     }
 

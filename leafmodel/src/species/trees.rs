@@ -52,7 +52,7 @@ pub(super) fn dense(traits: &LeafTraits, architecture: Architecture, density: f6
         final_length,
         pattern: Pattern::Closed(Neighbourhood::Bipolar),
         axis_along_vein: 0.15,
-        tension_rounds: 40,
+        tension_rounds: 120,
         kill_distance: 0.75,
         source_birth_distance: 2.0,
         vein_birth_distance: 2.0,
@@ -73,7 +73,7 @@ pub(super) fn maple() -> LeafPlan {
         &leaf_traits::MAPLE,
         3,
         specimens::maple(contours::maple()),
-        dense(&leaf_traits::MAPLE, architectures::maple(), 3.2),
+        dense(&leaf_traits::MAPLE, architectures::maple(), 3.4),
     )
 }
 

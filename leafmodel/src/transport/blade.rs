@@ -265,8 +265,10 @@ mod tests {
             curl: 0.4,
             ruffle: 0.01,
             ruffle_waves: 3.0,
+            pleat: 0.0,
             relief: 0.5,
             thickness_mm: 0.2,
+            margin: crate::blade::MarginThickness::EVEN,
             max_edge_mm: 3.0,
             meshed_vein_radius_mm: 0.1,
         };

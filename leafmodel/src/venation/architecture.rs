@@ -2,36 +2,38 @@
 //! Architecture.
 //!
 //! The architecture decides where sources of auxin appear and when; veins still grow towards them.
-//! Primaries come first, then secondaries, then tertiaries: the sources of a vein appear one after
-//! another along its course and draw the tip of that vein only. What is left of the blade is
-//! filled by the ordinary loop while the lamina grows, so that fine veins stay irregular.
+//! Primaries come first, then secondaries, their agrophic veins, tertiaries and quaternaries: the
+//! sources of a vein appear one after another along its course and draw the tip of that vein only.
+//! What is left of the blade is filled by the ordinary loop while the lamina grows, so that fine
+//! veins stay irregular.
 //!
 //! - **In**: an [`Architecture`], a blade in segments, base at the origin.
 //! - **Out**: the courses of its veins, order by order.
 //! - **Always true**: courses of one order start from a vein that was laid out before; the same
 //!   plan and seed give the same bits.
-//! - **Left out**: secondaries that end in a sinus; agrophic veins other than the outer secondaries
-//!   of lateral primaries; quaternaries, which the ordinary loop lays out.
+//! - **Left out**: veins of order 5 and finer, which the ordinary loop lays out.
 //!
 //! # Source
 //!
 //! \[ellis2009\] for terms and classes; the layout is ours.
 
 pub(crate) mod axis;
-pub mod check;
+mod check;
 pub(crate) mod course;
 pub(crate) mod ends;
+mod error;
 mod fan;
 pub(crate) mod festoons;
 pub(crate) mod ground;
 pub(crate) mod margin;
 pub(crate) mod primaries;
+pub(crate) mod quaternaries;
 pub(crate) mod secondaries;
 pub(crate) mod tertiaries;
 #[cfg(test)]
 mod tests;
 
-pub use self::check::ArchitectureError;
+pub use self::error::ArchitectureError;
 use super::chance::{Use, uniform};
 
 /// How primary veins run.
@@ -109,6 +111,8 @@ pub enum Attachment {
 pub enum SecondaryEnding {
     /// In a tooth or lobe.
     Craspedodromous,
+    /// In the sinus between two teeth or lobes.
+    Sinus,
     /// Joined to the next in an arch, from which a branch runs into a tooth.
     Semicraspedodromous,
     /// Inside the margin, upturned and dwindling, not joined to the next.
@@ -123,8 +127,42 @@ impl SecondaryEnding {
     /// Whether secondaries join in arches.
     pub(crate) fn has_arches(self) -> bool {
         match self {
-            Self::Craspedodromous | Self::Eucamptodromous => false,
+            Self::Craspedodromous | Self::Sinus | Self::Eucamptodromous => false,
             Self::Semicraspedodromous | Self::Brochidodromous | Self::Festooned => true,
+        }
+    }
+
+    /// Whether each secondary runs to a place of its own on the margin.
+    pub(crate) fn has_targets(self) -> bool {
+        match self {
+            Self::Craspedodromous | Self::Sinus => true,
+            Self::Semicraspedodromous
+            | Self::Eucamptodromous
+            | Self::Brochidodromous
+            | Self::Festooned => false,
+        }
+    }
+}
+
+/// Which secondaries bear agrophic veins: a comb of two or more veins that leave a basal secondary
+/// on its outer side and run beside each other towards the margin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Agrophic {
+    /// None of them.
+    Absent,
+    /// The lowest of each side.
+    Simple,
+    /// The two lowest of each side.
+    Compound,
+}
+
+impl Agrophic {
+    /// Combs a side.
+    pub(crate) fn combs(self) -> usize {
+        match self {
+            Self::Absent => 0,
+            Self::Simple => 1,
+            Self::Compound => 2,
         }
     }
 }
@@ -163,6 +201,8 @@ pub struct Secondaries {
     pub inset: f64,
     /// Intersecondary veins to an intercostal area, 0 to 3.
     pub intersecondaries: f64,
+    /// Which of them bear agrophic veins.
+    pub agrophic: Agrophic,
 }
 
 /// How tertiary veins run.
@@ -192,6 +232,28 @@ pub struct Tertiaries {
     pub angle_deg: f64,
 }
 
+/// How quaternary veins run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QuaternaryCourse {
+    /// They join in a net; chance lays them out.
+    Reticulate,
+    /// Straight across from tertiary to tertiary.
+    OppositePercurrent,
+    /// Across with an offset midway.
+    AlternatePercurrent,
+    /// They branch and end between the tertiaries, joined to neither.
+    FreelyRamified,
+}
+
+/// The quaternary veins. Unless reticulate, they lie between percurrent tertiaries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quaternaries {
+    /// How they run.
+    pub course: QuaternaryCourse,
+    /// Distance between neighbours, share of the leaf's length, 0.002 to 0.1. Unless reticulate.
+    pub spacing: f64,
+}
+
 /// The coarse veins of a species.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Architecture {
@@ -201,6 +263,8 @@ pub struct Architecture {
     pub secondaries: Secondaries,
     /// Order 3.
     pub tertiaries: Tertiaries,
+    /// Order 4.
+    pub quaternaries: Quaternaries,
     /// Whether a vein runs all along the margin.
     pub is_fimbrial: bool,
     /// How far chance moves places, angles and courses, 0 to 1.
@@ -229,11 +293,16 @@ impl Default for Architecture {
                 span: [0.06, 0.85],
                 inset: 0.03,
                 intersecondaries: 0.0,
+                agrophic: Agrophic::Absent,
             },
             tertiaries: Tertiaries {
                 course: TertiaryCourse::AlternatePercurrent,
                 spacing: 0.022,
                 angle_deg: 90.0,
+            },
+            quaternaries: Quaternaries {
+                course: QuaternaryCourse::Reticulate,
+                spacing: 0.012,
             },
             is_fimbrial: false,
             irregularity: 0.3,
@@ -256,6 +325,12 @@ impl Lots {
     /// Uniform in [−1, 1) times the plan's irregularity.
     pub(crate) fn jitter(self, order: u8, vein: u64, what: u64) -> f64 {
         self.strength * (2.0 * self.share(order, vein, what) - 1.0)
+    }
+
+    /// Uniform in [−1, 1) times the root of the plan's irregularity: fine veins are looser than
+    /// coarse ones.
+    pub(crate) fn loose(self, order: u8, vein: u64, what: u64) -> f64 {
+        self.strength.sqrt() * (2.0 * self.share(order, vein, what) - 1.0)
     }
 
     /// Uniform in [0, 1).

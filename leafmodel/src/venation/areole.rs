@@ -17,6 +17,7 @@ mod faces;
 mod islands;
 #[cfg(test)]
 mod tests;
+mod veinlets;
 
 use glam::DVec2;
 

@@ -57,6 +57,8 @@ pub(crate) enum Use {
     Stance = 21,
     /// Where hairs stand, and their shapes.
     Hair = 43,
+    /// How a petiole strays from its course.
+    Petiole = 51,
     /// Where the distance to the nearest vein is measured, across the leaf.
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.

@@ -5,55 +5,34 @@
 //! numbers. So results depend neither on the order of work nor on the number of threads.
 
 pub(crate) mod courses;
+mod growth;
 mod rounds;
 
 use glam::DVec2;
 
+use self::growth::Outcome;
+pub(crate) use self::growth::turned;
+#[cfg(test)]
+pub(crate) use self::growth::{NO_DIRECTION, TURNING};
 use super::Grown;
 use super::auxin::Darts;
 use super::fresh_nodes::FreshNodes;
-use super::influence::{Fate, Influence, Surroundings};
+use super::influence::{Influence, Surroundings};
 use super::lamina::Lamina;
 use super::lamina_clock::LaminaClock;
 use super::network::Ending;
 use super::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
 use super::point_tree::PointTree;
-use super::sources::{Known, Sources};
-use super::veins::{COINCIDENT, Veins};
+use super::sources::Sources;
+use super::veins::Veins;
 
 /// Number of steps after which a source is given up if none of its nodes can grow, and after which
 /// the simulation ends if the lamina is full-grown and no vein grows.
 pub(crate) const PATIENCE: u32 = 3;
 
-/// Below this length the sum of unit vectors is taken to cancel.
-pub(crate) const NO_DIRECTION: f64 = 1e-9;
-
 /// Sources can be lone if they are farther from all veins than the kill distance plus this, in
 /// segments.
 const CLEAR: f64 = 1.0;
-
-/// Distance from an origin, in segments, within which veins turn aside at the margin.
-pub(crate) const TURNING: f64 = 12.0;
-
-/// Directions beside one that leaves the blade, the smallest turns first, up to a right angle.
-pub(crate) fn turned(straight: DVec2) -> impl Iterator<Item = DVec2> {
-    (1..=6).flat_map(move |k| {
-        let (sin, cos) = libm::sincos(f64::from(k) * 15.0_f64.to_radians());
-        [sin, -sin].map(|sin| DVec2::new(cos, sin).rotate(straight))
-    })
-}
-
-/// The outcome of a driven node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Outcome {
-    /// It grew this child.
-    Child(u32),
-    /// No child: it would coincide with an existing node, or the pulls cancel.
-    Blocked,
-    /// No child: the new edge would leave the blade. Another vein may still reach the source, so it
-    /// is not given up for this.
-    OffBlade,
-}
 
 /// A running venation simulation, in the frame of [`super::lamina_clock`].
 pub(crate) struct Simulation<'a, I> {
@@ -359,143 +338,6 @@ impl<'a, I: Influence> Simulation<'a, I> {
                 rule.distance * self.plan.final_length
             }
             Some(_) | None => 0.0,
-        }
-    }
-
-    /// Adds up, for each driven node, the unit vectors to its sources (Eq. 1); returns the driven
-    /// nodes by number.
-    fn gather_pulls(&mut self) -> Vec<u32> {
-        let count = self.veins.positions.len();
-        self.pulls.resize(count, DVec2::ZERO);
-        self.is_driven.resize(count, false);
-        let mut driven = Vec::new();
-        let (pulls, is_driven) = (&mut self.pulls, &mut self.is_driven);
-        let positions = &self.veins.positions;
-        self.sources.each_driven(|place, node| {
-            let i = node as usize;
-            if !is_driven[i] {
-                is_driven[i] = true;
-                driven.push(node);
-            }
-            let way = place - positions[i];
-            let length = way.length();
-            if length > 0.0 {
-                pulls[i] += way / length;
-            }
-        });
-        driven.sort_unstable();
-        driven
-    }
-
-    /// Places a child for each driven node where possible, and records the outcome.
-    fn grow_veins(&mut self, driven: &[u32], unit: f64) {
-        self.outcomes
-            .resize(self.veins.positions.len(), Outcome::Blocked);
-        for &node in driven {
-            self.outcomes[node as usize] = self.grow_one(node, unit);
-        }
-    }
-
-    fn grow_one(&mut self, node: u32, unit: f64) -> Outcome {
-        let i = node as usize;
-        let pull = std::mem::take(&mut self.pulls[i]);
-        self.is_driven[i] = false;
-        let length = pull.length();
-        if length < NO_DIRECTION {
-            return Outcome::Blocked;
-        }
-        let from = self.veins.positions[i];
-        let unit = unit * self.lamina.enlargement(from);
-        let straight = pull / length * unit;
-        let reach = |way: &DVec2| self.lamina.can_reach(from, from + *way);
-        let way = if reach(&straight) {
-            Some(straight)
-        } else if self.turns(node, unit) {
-            turned(straight).find(reach)
-        } else {
-            None
-        };
-        let Some(way) = way else {
-            return Outcome::OffBlade;
-        };
-        let child = from + way;
-        if self.veins.tree.any_within(child, COINCIDENT * unit) {
-            return Outcome::Blocked;
-        }
-        // Only where an architecture asks for it: the rows of the paper let veins run side by side.
-        if self.veins.minds_crossings
-            && (self.veins.is_crowded(node, way, unit) || self.veins.crosses(node, child, unit))
-        {
-            return Outcome::Blocked;
-        }
-        let id = self.veins.add_node(child, self.step, &self.lamina);
-        self.veins.add_edge(node, id, &self.lamina);
-        Outcome::Child(id)
-    }
-
-    /// Whether a vein's tip that would leave the blade turns aside. It does so only near an origin:
-    /// the base of a blade whose halves hang down beside the petiole lies in a notch, and a midrib
-    /// drawn towards the mean of both halves would end there.
-    fn turns(&self, node: u32, unit: f64) -> bool {
-        let from = self.veins.positions[node as usize];
-        let origins = &self.veins.positions[..self.origins as usize];
-        let near = |origin: &DVec2| (*origin - from).length() < TURNING * unit;
-        self.veins.is_tip(node) && origins.iter().any(near)
-    }
-
-    /// Passes tags on to children and counts the steps in which no node of a source could grow;
-    /// returns the number of children.
-    fn tell_sources(&mut self, driven: &[u32]) -> usize {
-        let outcomes = &self.outcomes;
-        let outcome_of = |node: u32| outcomes[node as usize];
-        let is_blocked = |node: u32| outcome_of(node) == Outcome::Blocked;
-        let mut children = Vec::new();
-        let all_blocked = |influence: &mut I| {
-            let mut all_blocked = true;
-            children.clear();
-            influence.each_driven(|node| match outcome_of(node) {
-                Outcome::Child(child) => {
-                    all_blocked = false;
-                    children.push((node, child));
-                }
-                Outcome::OffBlade => all_blocked = false,
-                Outcome::Blocked => {}
-            });
-            for &(parent, child) in &children {
-                influence.inherit(parent, child);
-            }
-            all_blocked
-        };
-        let some_are_blocked = driven.iter().any(|&node| is_blocked(node));
-        self.sources
-            .count_blocked(all_blocked, is_blocked, some_are_blocked);
-        let has_child = |node: &&u32| matches!(outcome_of(**node), Outcome::Child(_));
-        driven.iter().filter(has_child).count()
-    }
-
-    /// Removes used-up sources and joins the veins that have met there.
-    fn judge_sources(&mut self, unit: f64) {
-        let mut used_up = Vec::new();
-        let source_tree = &mut self.source_tree;
-        let lamina = &self.lamina;
-        let kill_distance = self.plan.kill_distance;
-        self.sources
-            .give_up_lone(PATIENCE, |id, place| source_tree.remove(id, place));
-        let stays = |known: &mut Known<I>, id: u32, place: DVec2, blocked_steps: u32| {
-            let kill = kill_distance * (unit * lamina.enlargement(place));
-            let arrivals = match known.influence.judge(kill) {
-                Fate::UsedUp(arrivals) => arrivals,
-                Fate::Stays if blocked_steps >= PATIENCE => known.influence.give_up(),
-                Fate::Stays => return true,
-            };
-            source_tree.remove(id, place);
-            used_up.push((place, arrivals));
-            false
-        };
-        self.sources.retain_known(stays);
-        for (place, arrivals) in used_up {
-            self.veins
-                .weld(place, &arrivals, unit, &self.lamina, self.step);
         }
     }
 }

@@ -18,3 +18,28 @@ pub struct View {
     /// Distance of the sharp plane along the axis, m.
     pub focus_distance: f64,
 }
+
+/// Distance of a camera from the origin of its scene beyond which the world is traced around the
+/// camera, m. Single precision resolves 0.01 mm there.
+const FAR: f64 = 100.0;
+
+impl View {
+    /// The point of the scene around which rays are traced in single precision: the scene's own
+    /// origin, or for a camera far from it the camera's place in whole metres.
+    pub fn origin(&self) -> DVec3 {
+        if self.position.length() <= FAR {
+            DVec3::ZERO
+        } else {
+            self.position.round()
+        }
+    }
+
+    /// This view, moved by an offset.
+    pub fn moved(&self, by: DVec3) -> Self {
+        Self {
+            position: self.position + by,
+            look_at: self.look_at + by,
+            ..self.clone()
+        }
+    }
+}

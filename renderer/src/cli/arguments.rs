@@ -1,12 +1,16 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
 mod optics;
+mod samples;
+mod tonemap;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
 pub use optics::OpticsArguments;
+pub use samples::SampleRange;
+pub use tonemap::TonemapArguments;
 
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
 pub const GREETING: &str = "\
@@ -20,13 +24,25 @@ const RENDER_EXAMPLES: &str = "\
 Examples:
   lamina render scenes/first-leaf/scene.toml --spp 16 --out draft
   lamina render scenes/first-leaf/scene.toml -D picture.tone=linear -D leaves.aspen.seed=3
-  lamina render scenes/first-leaf/scene.toml --spp 4096 --noise 0.01 --time 600";
+  lamina render scenes/first-leaf/scene.toml --spp 4096 --noise 0.01 --time 600
+  lamina render scenes/first-leaf/scene.toml --spp 4096 --resume";
+
+const MERGE_EXAMPLES: &str = "\
+Examples:
+  lamina render scenes/first-leaf/scene.toml --spp 64 --samples 0..32 --out a
+  lamina render scenes/first-leaf/scene.toml --spp 64 --samples 32..64 --out b
+  lamina merge a.part b.part --out leaf";
 
 const CHECK_EXAMPLES: &str = "\
 Examples:
   lamina check scenes/first-leaf/scene.toml
   lamina check scenes/first-leaf/scene.toml -D leaves.aspen.length_mm=120
   lamina check scenes/fly-agaric/scene.toml --build";
+
+const TONEMAP_EXAMPLES: &str = "\
+Examples:
+  lamina tonemap leaf.exr --out leaf.jpg
+  lamina tonemap leaf.exr --out leaf.png --tone standard --exposure-ev -0.5 --sixteen-bits";
 
 const OPTICS_EXAMPLES: &str = "\
 Examples:
@@ -56,12 +72,18 @@ pub struct Arguments {
 /// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Render a scene to STEM.exr and STEM.png
+    /// Render a scene to STEM.exr and STEM.png, or STEM.jpg
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
+    /// Add up parts of a picture, rendered with --samples, to STEM.exr and STEM.png
+    #[command(after_help = MERGE_EXAMPLES)]
+    Merge(MergeArguments),
     /// Report every error of a scene file, or of a file of leaves
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
+    /// Make a picture to look at from an EXR, without rendering again
+    #[command(after_help = TONEMAP_EXAMPLES)]
+    Tonemap(TonemapArguments),
     /// Write reflectance and transmittance of a leaf by PROSPECT-D
     #[command(after_help = OPTICS_EXAMPLES)]
     Optics(OpticsArguments),
@@ -92,7 +114,7 @@ pub struct SceneArguments {
 }
 
 /// `lamina check`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, PartialEq)]
 pub struct CheckArguments {
     /// Scene and overrides.
     #[command(flatten)]
@@ -101,6 +123,9 @@ pub struct CheckArguments {
     /// only then shows
     #[arg(long)]
     pub build: bool,
+    /// Memory that a render may take; the default is what the machine has free
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    pub memory: Option<f64>,
 }
 
 /// `lamina render`.
@@ -109,8 +134,8 @@ pub struct RenderArguments {
     /// Scene and overrides.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Stem of the files that are written, with or without `.exr` or `.png`; the default is the
-    /// scene's name in this folder
+    /// Stem of the files that are written, with or without `.exr` or `.png`; with `.jpg` a JPEG is
+    /// written instead of the PNG; the default is the scene's name in this folder
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
     /// Samples a pixel, instead of the scene's
@@ -135,10 +160,42 @@ pub struct RenderArguments {
     /// Write times, memory and speed as JSON
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    /// Go on from the checkpoint of an earlier run, to the bytes of a run that was never
+    /// interrupted
+    #[arg(long)]
+    pub resume: bool,
+    /// The checkpoint, which then stays when the picture is done, for more samples later; the
+    /// default is STEM.checkpoint, which is removed
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Time between checkpoints; longer if to write one takes more than a fiftieth of it
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>)]
+    pub checkpoint_every: f64,
+    /// Memory that the render may take; the default is what the machine has free
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    pub memory: Option<f64>,
+    /// Render only the samples number A to B − 1 of each pixel, into STEM.part for lamina merge
+    #[arg(long, value_name = "A..B", value_parser = SampleRange::parse)]
+    pub samples: Option<SampleRange>,
+}
+
+/// `lamina merge`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct MergeArguments {
+    /// The parts, in any order
+    #[arg(value_name = "FILE.part", required = true)]
+    pub parts: Vec<PathBuf>,
+    /// Stem of the pictures that are written, with or without `.exr` or `.png`; with `.jpg` a JPEG is
+    /// written instead of the PNG
+    #[arg(long, value_name = "STEM")]
+    pub out: PathBuf,
 }
 
 /// Longest time that a render may be given: a year.
 const MOST_SECONDS: u32 = 366 * 24 * 3600;
+
+/// Most memory that a render may be given, GiB.
+const MOST_GIB: u32 = 1 << 20;
 
 /// A number from `LOW` to `HIGH`.
 fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
@@ -290,109 +347,4 @@ pub fn file_and_leaf(leaf: &str) -> (PathBuf, Option<&str>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use clap::CommandFactory;
-
-    use super::*;
-
-    fn parsed(line: &str) -> Result<Arguments, clap::Error> {
-        Arguments::try_parse_from(line.split(' '))
-    }
-
-    #[test]
-    fn the_command_line_has_no_contradictions() {
-        Arguments::command().debug_assert();
-        assert_eq!(GREETING.lines().count(), 5);
-    }
-
-    #[test]
-    fn render_takes_all_its_options() {
-        let line = "lamina render a.toml --out b --spp 9 --threads 2 --seed 7 --noise 0.01 --time 1.5 -D x.y=1 -D z=2 --cache c \
-                    --stats s.json";
-        let arguments = parsed(line).expect("the line is right");
-        let Some(Command::Render(render)) = arguments.command else {
-            panic!("{line} is no render");
-        };
-        assert_eq!(render.scene.overrides, ["x.y=1", "z=2"]);
-        assert_eq!(
-            (render.spp, render.threads, render.seed),
-            (Some(9), Some(2), Some(7))
-        );
-        assert_eq!((render.noise, render.time), (Some(0.01), Some(1.5)));
-        assert_eq!(render.cache, Some(PathBuf::from("c")));
-    }
-
-    #[test]
-    fn overrides_may_be_negative_and_hold_equals_signs() {
-        let arguments =
-            parsed("lamina check a.toml -Dpicture.exposure_ev=-1").expect("the line is right");
-        let Some(Command::Check(check)) = arguments.command else {
-            panic!("no check");
-        };
-        assert_eq!(check.scene.overrides, ["picture.exposure_ev=-1"]);
-    }
-
-    #[test]
-    fn bad_arguments_end_with_code_2() {
-        for line in [
-            "lamina paint",
-            "lamina render",
-            "lamina render a.toml --spp 0",
-            "lamina render a.toml --spp 1099511627776",
-            "lamina render a.toml --threads 0",
-            "lamina render a.toml --noise -0.1",
-            "lamina render a.toml --noise 1.5",
-            "lamina render a.toml --noise nan",
-            "lamina render a.toml --noise little",
-            "lamina render a.toml --time -1",
-            "lamina render a.toml --time inf",
-            "lamina render a.toml --time 10s",
-            "lamina optics --n 0.5 --out a.csv",
-            "lamina optics --cab nan --out a.csv",
-            "lamina optics --cab -1 --out a.csv",
-            "lamina optics --betacyanins -1 --out a.csv",
-            "lamina optics",
-            "lamina optics --cab 3",
-            "lamina optics --list --out a.csv",
-            "lamina optics --preset sun-green --presett x --out a.csv",
-            "lamina export pbrt a.toml --out b",
-            "lamina compare a.exr",
-            "lamina grow",
-            "lamina grow --list poplar",
-            "lamina grow poplar --frames 0",
-            "lamina grow poplar --size 8",
-        ] {
-            let error = parsed(line).expect_err(line);
-            assert_eq!(error.exit_code(), 2, "{line}");
-        }
-    }
-
-    #[test]
-    fn a_leaf_of_a_scene_is_named_behind_the_number_sign() {
-        for (line, file, leaf) in [
-            (
-                "lamina grow s.toml#beech --out a.svg",
-                "s.toml",
-                Some("beech"),
-            ),
-            ("lamina grow s.toml --out a.svg b.ply", "s.toml", None),
-            ("lamina grow a#b/s.toml --seed 3", "a#b/s.toml", None),
-        ] {
-            let Some(Command::Grow(grow)) = parsed(line).expect(line).command else {
-                panic!("{line} is no grow");
-            };
-            let named = grow.leaf.expect("a leaf is named");
-            assert_eq!(file_and_leaf(&named), (PathBuf::from(file), leaf));
-        }
-    }
-
-    #[test]
-    fn nothing_asked_is_nothing_to_do() {
-        assert!(
-            parsed("lamina")
-                .expect("the line is right")
-                .command
-                .is_none()
-        );
-    }
-}
+mod tests;

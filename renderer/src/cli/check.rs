@@ -2,7 +2,7 @@
 //! the size of the scene once built.
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
-use crate::cli::{Failure, colour, load_scene, say};
+use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
 use crate::scene::description::{Description, Held, Light, Mesh};
@@ -10,7 +10,11 @@ use crate::scene::load;
 use crate::scene::world::World;
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
-    let CheckArguments { scene, build } = arguments;
+    let CheckArguments {
+        scene,
+        build,
+        memory,
+    } = arguments;
     if let Some(leaves) = load::load_if_only_leaves(&scene.scene, &scene.overrides) {
         let (leaves, warnings) = leaves?;
         for warning in warnings {
@@ -21,6 +25,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         return Ok(());
     }
     let description = load_scene(scene)?.description;
+    needs::check(&description, *memory)?;
     if *build {
         return tell_world(scene, &description);
     }
@@ -93,7 +98,7 @@ fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), F
         "{}: {}{parts}, {}, {:.4} × {:.4} × {:.4} m, {:.1} MiB of geometry",
         scene.scene.display(),
         counted(count, "object", "objects"),
-        counted(world.lights.len(), "light", "lights"),
+        counted(description.lights.len(), "light", "lights"),
         size.x,
         size.y,
         size.z,

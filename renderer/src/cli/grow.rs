@@ -26,6 +26,7 @@ use leafmodel::measure::measure;
 use leafmodel::plan_file::{leaf_beside_preset, leaf_to_toml};
 use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
+use leafmodel::species::diagnosis::findings;
 use leafmodel::venation::VenationError;
 use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
@@ -35,7 +36,8 @@ use self::choice::Chosen;
 use self::frames::Page;
 use self::outputs::{Kind, Outputs};
 use crate::cli::arguments::GrowArguments;
-use crate::cli::interrupt::stop_on_interrupt;
+use crate::cli::progress::Patience;
+use crate::cli::signals::Signals;
 use crate::cli::{Failure, say, stats};
 use crate::export::drawing::{Style, draw_within};
 use crate::image::{atomic, portable_network};
@@ -71,8 +73,9 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.ages.is_some() {
         ages::check(&chosen.plan)?;
     }
-    let stop = stop_on_interrupt()?;
-    let work = || carry_out(arguments, &chosen, &outputs, &stop, started);
+    let signals = Signals::listen()?;
+    signals.begin_work();
+    let work = || carry_out(arguments, &chosen, &outputs, &signals.stop, started);
     match arguments.threads {
         None => work(),
         Some(threads) => rayon::ThreadPoolBuilder::new()
@@ -99,7 +102,15 @@ fn carry_out(
         return Ok(());
     }
     let growing = Instant::now();
-    let grown = Grown::new(plan, outputs.blade, stop)?;
+    let patience = Patience::new("growing");
+    let grown = if arguments.contents.is_some() && arguments.ages.is_none() {
+        Grown::new(plan, outputs.blade, stop)?
+    } else {
+        // Nothing of its contents is written.
+        let unpainted = plan.form_alone().map_err(Failure::bad)?;
+        Grown::new(&unpainted, outputs.blade, stop)?
+    };
+    drop(patience);
     let build_seconds = growing.elapsed().as_secs_f64();
     let Lamina {
         outline, network, ..
@@ -154,7 +165,7 @@ fn carry_out(
         };
         ages::write(plan, grown.lamina(), outputs, written, stop)?;
     }
-    tell_veins(arguments, plan, &grown, stop)?;
+    tell_veins(arguments, chosen, &grown, stop)?;
     let seconds = started.elapsed().as_secs_f64();
     if let Some(path) = &arguments.stats {
         let report = json!({
@@ -185,10 +196,11 @@ fn carry_out(
 /// Measures of the veins, and their description.
 fn tell_veins(
     arguments: &GrowArguments,
-    plan: &LeafPlan,
+    chosen: &Chosen,
     grown: &Grown,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
+    let (plan, preset) = (&chosen.plan, chosen.preset);
     let Lamina {
         outline, network, ..
     } = grown.lamina();
@@ -211,6 +223,10 @@ fn tell_veins(
         }
         for line in describe(outline, network).text().lines() {
             say(line);
+        }
+        let found = findings(preset.unwrap_or_default(), plan, outline, network);
+        if !found.is_empty() {
+            say(about::findings_table(&found));
         }
     }
     Ok(())

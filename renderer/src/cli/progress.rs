@@ -1,6 +1,7 @@
 //! The progress of a render, on a terminal or in a log.
 
 use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -15,6 +16,25 @@ pub(super) struct Reporter {
     /// Time that the render may take.
     time: Option<Duration>,
     last_line: Mutex<Instant>,
+}
+
+/// Prints a line every ten seconds about work whose length nobody knows, until it is dropped.
+pub(super) struct Patience {
+    /// Nothing is sent: the thread ends when this is dropped.
+    _until: Sender<()>,
+}
+
+impl Patience {
+    pub(super) fn new(work: &'static str) -> Self {
+        let (until, dropped) = channel();
+        std::thread::spawn(move || {
+            let started = Instant::now();
+            while dropped.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{work}: {:.0} s", started.elapsed().as_secs_f64());
+            }
+        });
+        Self { _until: until }
+    }
 }
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);

@@ -13,7 +13,7 @@ use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::VenationNetwork;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-use crate::image::{ImageError, MOST_PIXELS};
+use crate::image::{ImageError, MOST_BYTES, MOST_PIXELS};
 
 /// Space around the blade, as a share of its longer side.
 const BORDER: f64 = 0.02;
@@ -96,6 +96,7 @@ pub fn draw_within(
         width: u64::from(width),
         height: u64::from(height),
         channels: 3,
+        most: MOST_BYTES,
     })?;
     let sheet = Sheet {
         corner: DVec2::new(low.x - border, high.y + border),

@@ -26,7 +26,7 @@ use thiserror::Error;
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palette;
-use crate::scene::description::{Band, Description, FilmKind, Light};
+use crate::scene::description::{Band, Description, FilmKind, Light, Named};
 use crate::scene::world::World;
 
 use self::spectra::Spectra;
@@ -45,6 +45,15 @@ pub enum ExportError {
     /// A map cannot be written.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// A light that Mitsuba does not have.
+    #[error(
+        "lights.{light}.daylight cannot be exported: Mitsuba has no environment whose spectrum \
+         changes with direction; render with `distant` and `constant` lights instead"
+    )]
+    Daylight {
+        /// Name of the light.
+        light: String,
+    },
     /// The folder exists and holds something other than an export.
     #[error(
         "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -90,7 +99,8 @@ fn absorption_table(pigments: &Pigments) -> String {
 ///
 /// # Errors
 ///
-/// [`ExportError`] if something cannot be written, or `dir` is a folder of another kind.
+/// [`ExportError`] if the scene has daylight, something cannot be written, or `dir` is a folder of
+/// another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     let at = |path: &Path| {
         let path = path.to_owned();
@@ -99,6 +109,12 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     if dir.exists() && !dir.join("lamina.json").is_file() {
         return Err(ExportError::NotOurs {
             path: dir.to_owned(),
+        });
+    }
+    let is_daylight = |light: &&Named<Light>| matches!(light.value, Light::Daylight(_));
+    if let Some(light) = scene.lights.iter().find(is_daylight) {
+        return Err(ExportError::Daylight {
+            light: light.name.clone(),
         });
     }
     let parent = dir.parent().filter(|parent| !parent.as_os_str().is_empty());

@@ -30,6 +30,22 @@ impl Moments {
         self.squares = self.squares.saturating_add(other.squares);
     }
 
+    /// The bits of both sums, as they are stored.
+    pub(super) fn bits(&self) -> [i128; 2] {
+        [self.sum, self.squares as i128]
+    }
+
+    /// Adds one of the [bits](Self::bits) of another: sum 0 or 1.
+    #[inline]
+    pub(super) fn add_bits(&mut self, number: usize, bits: i128) {
+        if number == 0 {
+            // Bytes from a file may hold anything.
+            self.sum = self.sum.wrapping_add(bits);
+        } else {
+            self.squares = self.squares.saturating_add(bits as u128);
+        }
+    }
+
     /// Sum of the samples.
     pub fn sum(&self) -> f64 {
         self.sum as f64 / ONE

@@ -1,16 +1,24 @@
 //! Atomic replacement of files.
 
-use std::fs::File;
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::ImageError;
+
+/// What temporary names begin with; the number of the process follows.
+const PREFIX: &str = ".lamina-";
+/// What temporary names end with.
+const SUFFIX: &str = ".part";
 
 /// Replaces the file at `path` by the output of `write`.
 ///
 /// The output goes to a temporary file in the same folder, which is flushed, synced and renamed;
 /// then the folder is synced. If anything fails, the old file stays as it was and the temporary one
 /// is removed. A new file has the mode that the umask leaves of 0666.
+///
+/// A symbolic link stays, and what it leads to is replaced. A device or a pipe is written to.
 ///
 /// # Errors
 ///
@@ -25,32 +33,169 @@ pub fn replace(
     })
 }
 
+/// Where output for a path goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Destination {
+    /// A regular file at this path, behind all links, which may not exist yet.
+    File(PathBuf),
+    /// Something that takes bytes and must stay: a device, a pipe.
+    Stream,
+}
+
+/// Where output for `path` goes.
+///
+/// # Errors
+///
+/// A folder, a circle of links, or what the system says.
+pub fn destination(path: &Path) -> io::Result<Destination> {
+    let mut path = path.to_owned();
+    // As many links as the system itself follows.
+    for _ in 0..40 {
+        match fs::symlink_metadata(&path) {
+            Ok(found) if found.is_symlink() => {
+                let target = fs::read_link(&path)?;
+                // A name in /proc/self/fd may lead to a pipe, which has no path.
+                if fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+                    return Ok(Destination::Stream);
+                }
+                path = folder_of(&path).join(target);
+            }
+            Ok(found) if found.is_file() => return Ok(Destination::File(path)),
+            Ok(found) if found.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+            Ok(_) => return Ok(Destination::Stream),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(Destination::File(path));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// The folder of a file.
+pub fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        Some(_) | None => Path::new("."),
+    }
+}
+
 fn replace_or_fail(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        Some(_) | None => Path::new("."),
+    let path = match destination(path)? {
+        Destination::File(path) => path,
+        Destination::Stream => {
+            let mut stream = OpenOptions::new().write(true).open(path)?;
+            let mut writer = BufWriter::new(&mut stream);
+            write(&mut writer)?;
+            return writer.flush();
+        }
     };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lamina-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut temporary = builder.tempfile_in(folder)?;
+    let folder = folder_of(&path);
+    let mut temporary = temporary_in(folder)?;
     let mut writer = BufWriter::new(temporary.as_file_mut());
     write(&mut writer)?;
     writer.flush()?;
     drop(writer);
     temporary.as_file().sync_all()?;
-    temporary.persist(path).map_err(|error| error.error)?;
+    temporary.persist(&path).map_err(|error| error.error)?;
     // Until the folder's entry is on the disk, a power cut may bring back the old file.
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;
     Ok(())
+}
+
+/// A temporary file, locked as long as it is open so that nobody takes it for a dead program's.
+fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let prefix = format!("{PREFIX}{}-", std::process::id());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(SUFFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let temporary = builder.tempfile_in(folder)?;
+    // Without locks (some network folders) it is written all the same, and never swept.
+    let _ = locked(temporary.as_file());
+    Ok(temporary)
+}
+
+/// Locks an open file against other programs until it is closed; returns whether nobody else has
+/// it locked.
+///
+/// # Errors
+///
+/// The system's, if it cannot lock.
+pub fn locked(file: &File) -> io::Result<bool> {
+    #[cfg(unix)]
+    {
+        use rustix::fs::{FlockOperation, flock};
+        match flock(file, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) => Ok(true),
+            Err(rustix::io::Errno::WOULDBLOCK) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
+
+/// Removes temporary files that programs which were killed have left in a folder; errors are not
+/// worth a word.
+pub fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let Some(name) = name.to_str().filter(|name| name.ends_with(SUFFIX)) else {
+            continue;
+        };
+        let Some(rest) = name.strip_prefix(PREFIX) else {
+            continue;
+        };
+        let writer = rest.split('-').next().and_then(|pid| pid.parse().ok());
+        if is_abandoned(&entry.path(), writer) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether the program that wrote a temporary file is dead: nobody holds the lock, and it cannot
+/// be about to take it, because its process has ended or the file is a minute old.
+fn is_abandoned(path: &Path, writer: Option<i32>) -> bool {
+    let is_old = || {
+        let changed = fs::metadata(path).and_then(|found| found.modified());
+        let age = changed.ok().and_then(|changed| changed.elapsed().ok());
+        age.is_some_and(|age| age > Duration::from_secs(60))
+    };
+    let is_file = fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+    let file = is_file.then(|| OpenOptions::new().write(true).open(path));
+    let is_free = file.is_some_and(|file| file.and_then(|file| locked(&file)).unwrap_or(false));
+    is_free && (!writer.is_some_and(is_running) || is_old())
+}
+
+/// Whether a process of this machine has the number.
+fn is_running(process: i32) -> bool {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Pid, test_kill_process};
+        let process = Pid::from_raw(process);
+        process.is_some_and(|process| {
+            !matches!(test_kill_process(process), Err(rustix::io::Errno::SRCH))
+        })
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = process;
+        true
+    }
 }
 
 #[cfg(test)]
@@ -126,5 +271,93 @@ mod tests {
                 .mode()
         };
         assert_eq!(mode(&ours), mode(&plain));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_and_what_they_lead_to_is_replaced() {
+        use std::os::unix::fs::symlink;
+
+        let folder = tempfile::tempdir().expect("a folder");
+        let [link, other, file] = ["link", "other", "file"].map(|name| folder.path().join(name));
+        symlink("other", &link).expect("the folder can be written");
+        symlink("file", &other).expect("the folder can be written");
+        // First it leads nowhere, then to a file.
+        for text in [&b"new"[..], b"newer"] {
+            replace(&link, |out| out.write_all(text)).expect("the folder can be written");
+            assert_eq!(fs::read(&file).expect("it is there"), text);
+            assert_eq!(fs::read_link(&link).expect("a link"), Path::new("other"));
+            assert_eq!(names(folder.path()), ["file", "link", "other"]);
+        }
+        symlink("round", folder.path().join("round")).expect("the folder can be written");
+        let error = replace(&folder.path().join("round"), |_| Ok(())).expect_err("a circle");
+        assert!(error.to_string().contains("links"), "{error}");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_and_pipes_are_written_to() {
+        use std::io::Read as _;
+        use std::os::unix::fs::FileTypeExt;
+
+        let null = Path::new("/dev/null");
+        replace(null, |out| out.write_all(b"nothing")).expect("it takes everything");
+        let found = fs::metadata(null).expect("it is there");
+        assert!(found.file_type().is_char_device());
+        let full = replace(Path::new("/dev/full"), |out| out.write_all(b"too much"));
+        assert!(full.is_err());
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("pipe");
+        rustix::fs::mknodat(
+            rustix::fs::CWD,
+            &pipe,
+            rustix::fs::FileType::Fifo,
+            rustix::fs::Mode::RUSR | rustix::fs::Mode::WUSR,
+            0,
+        )
+        .expect("a pipe");
+        let writer = {
+            let pipe = pipe.clone();
+            std::thread::spawn(move || replace(&pipe, |out| out.write_all(b"through")))
+        };
+        let mut text = String::new();
+        let mut reader = File::open(&pipe).expect("the pipe is there");
+        reader.read_to_string(&mut text).expect("it is text");
+        assert_eq!(text, "through");
+        writer.join().expect("no panic").expect("it is written");
+        assert!(fs::metadata(&pipe).expect("it stays").file_type().is_fifo());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_files_of_the_dead_are_swept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        // No process has the greatest number.
+        let dead = at(&format!(".lamina-{}-x.part", i32::MAX));
+        let [ours, foreign, picture] = [
+            &format!(".lamina-{}-x.part", std::process::id()),
+            "x.part",
+            "y.exr",
+        ]
+        .map(at);
+        for path in [&dead, &ours, &foreign, &picture] {
+            fs::write(path, b"half").expect("the folder can be written");
+        }
+        replace(&at("z.exr"), |out| {
+            sweep(folder.path());
+            out.write_all(b"in the middle of it")
+        })
+        .expect("its temporary file is still there");
+        assert!(!dead.exists());
+        assert!(ours.exists() && foreign.exists() && picture.exists());
+        // Numbers of processes are used again: after a minute an unlocked file is nobody's.
+        let old = std::time::SystemTime::now() - Duration::from_secs(61);
+        let file = OpenOptions::new().write(true).open(&ours);
+        let file = file.expect("it is there");
+        file.set_modified(old).expect("it is ours");
+        drop(file);
+        sweep(folder.path());
+        assert!(!ours.exists() && foreign.exists() && picture.exists());
     }
 }

@@ -16,7 +16,9 @@ use exr::meta::header::{Header, LayerAttributes};
 use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
-use super::{Attribute, ImageError, Layer, MOST_BYTES, Picture, atomic, check_size};
+use super::{
+    Attribute, ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_size,
+};
 
 /// Attributes that describe the structure of the file. They cannot be set and are not reported.
 const STRUCTURAL: [&str; 15] = [
@@ -140,7 +142,13 @@ fn check(picture: &Picture) -> Result<(), ImageError> {
     let refuse = |what: String| Err(ImageError::Inconsistent { what });
     let channels = picture.layers.len() as u64;
     let (width, height) = (u64::from(picture.width), u64::from(picture.height));
-    check_size(width, height, channels, channels.saturating_mul(4))?;
+    check_size(
+        width,
+        height,
+        channels,
+        channels.saturating_mul(4),
+        MOST_BYTES,
+    )?;
     let pixels = width * height;
     for layer in &picture.layers {
         if layer.data.len() as u64 != pixels {
@@ -226,6 +234,15 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
+/// Reads an `OpenEXR` file that a scene names, as [`read()`].
+///
+/// # Errors
+///
+/// As [`read()`], and [`ImageError::TooLarge`] beyond [`MOST_TEXTURE_BYTES`].
+pub fn read_texture(path: &Path) -> Result<Picture, ImageError> {
+    super::read_file(path, |bytes| decode_within(bytes, MOST_TEXTURE_BYTES))
+}
+
 /// Reads the bytes of an `OpenEXR` file: the first part, its largest level, all channels as `f32`
 /// (16-bit floats exactly, integers rounded), and the attributes of the types in [`Attribute`].
 ///
@@ -234,6 +251,10 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`] for everything else,
 /// including input on which the decoder panics.
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
+    decode_within(bytes, MOST_BYTES)
+}
+
+fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
     let meta =
         guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
@@ -244,13 +265,14 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
         // Memory of the file's values plus that of ours.
         let bytes_a_pixel =
             (header.channels.bytes_per_pixel as u64).max(channels.saturating_mul(4));
-        check_size(size.0 as u64, size.1 as u64, channels, bytes_a_pixel)?;
+        check_size(size.0 as u64, size.1 as u64, channels, bytes_a_pixel, most)?;
         total = total.saturating_add((size.0 as u64 * size.1 as u64).saturating_mul(bytes_a_pixel));
-        if total > MOST_BYTES {
+        if total > most {
             return Err(ImageError::TooLarge {
                 width: size.0 as u64,
                 height: size.1 as u64,
                 channels,
+                most,
             });
         }
     }

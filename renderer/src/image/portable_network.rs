@@ -6,14 +6,16 @@ use std::path::Path;
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
 
+use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
-use super::{ImageError, Layer, MOST_BYTES, Picture, REC709, atomic, check_size};
+use super::{
+    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709, atomic, check_size,
+};
 
-/// The chunk that says "these are sRGB values" (rendering intent: perceptual), with length and
-/// checksum.
-const SRGB_CHUNK: [u8; 13] = [
-    0, 0, 0, 1, b's', b'R', b'G', b'B', 0, 0xae, 0xce, 0x1c, 0xe9,
-];
+/// White D65 and the primaries of Rec. 709, x and y of each times 100 000: what sRGB means.
+const CHROMATICITIES: [u32; 8] = [31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000];
+/// The exponent 1/2.2 times 100 000, which stands for the curve of sRGB where it is not known.
+const GAMMA: u32 = 45455;
 
 /// Where the first chunk ends: signature 8, then the header chunk of 13 + 12 bytes.
 const AFTER_HEADER: usize = 8 + 25;
@@ -37,6 +39,59 @@ pub fn encoded(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, ImageErro
     encode(width, height, rgb, rgb.len(), ExtendedColorType::Rgb8)
 }
 
+/// The bytes of a file with the pixels of a display: 8 or 16 bits, with or without alpha.
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] unless the number of values is that of the pixels.
+pub fn encoded_pixels(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
+    let (values, kind): (Vec<u8>, _) = match pixels.depth {
+        Depth::Eight => {
+            let values = pixels.values.iter().map(|&value| value as u8);
+            let kind = match pixels.channels {
+                4 => ExtendedColorType::Rgba8,
+                _ => ExtendedColorType::Rgb8,
+            };
+            (values.collect(), kind)
+        }
+        Depth::Sixteen => {
+            // The encoder takes the machine's byte order and writes the file's.
+            let values = pixels.values.iter().flat_map(|value| value.to_ne_bytes());
+            let kind = match pixels.channels {
+                4 => ExtendedColorType::Rgba16,
+                _ => ExtendedColorType::Rgb16,
+            };
+            (values.collect(), kind)
+        }
+    };
+    let count = pixels.values.len();
+    encode(pixels.width, pixels.height, &values, count, kind)
+}
+
+/// The chunks that tell the colours: sRGB (rendering intent: perceptual), and gamma and primaries
+/// for programs that do not know that one.
+fn colour_chunks() -> Vec<u8> {
+    let primaries: Vec<u8> = CHROMATICITIES
+        .iter()
+        .flat_map(|c| c.to_be_bytes())
+        .collect();
+    let chunks: [(&[u8; 4], &[u8]); 3] = [
+        (b"sRGB", &[0]),
+        (b"gAMA", &GAMMA.to_be_bytes()),
+        (b"cHRM", &primaries),
+    ];
+    let mut bytes = Vec::new();
+    for (name, data) in chunks {
+        bytes.extend((data.len() as u32).to_be_bytes());
+        let start = bytes.len();
+        bytes.extend(name);
+        bytes.extend(data);
+        let checksum = crc32fast::hash(&bytes[start..]);
+        bytes.extend(checksum.to_be_bytes());
+    }
+    bytes
+}
+
 fn encode(
     width: u32,
     height: u32,
@@ -45,17 +100,18 @@ fn encode(
     kind: ExtendedColorType,
 ) -> Result<Vec<u8>, ImageError> {
     let inconsistent = |what: String| ImageError::Inconsistent { what };
-    check_size(u64::from(width), u64::from(height), 3, 12)?;
-    if count as u64 != u64::from(width) * u64::from(height) * 3 {
+    check_size(u64::from(width), u64::from(height), 3, 12, MOST_BYTES)?;
+    let channels = u64::from(kind.channel_count());
+    if count as u64 != u64::from(width) * u64::from(height) * channels {
         return Err(inconsistent(format!(
-            "{count} values for {width} × {height} pixels of 3"
+            "{count} values for {width} × {height} pixels of {channels}"
         )));
     }
     let mut bytes = Vec::new();
     PngEncoder::new(&mut bytes)
         .write_image(values, width, height, kind)
         .map_err(|error| inconsistent(error.to_string()))?;
-    bytes.splice(AFTER_HEADER..AFTER_HEADER, SRGB_CHUNK);
+    bytes.splice(AFTER_HEADER..AFTER_HEADER, colour_chunks());
     Ok(bytes)
 }
 
@@ -128,7 +184,8 @@ fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError
     };
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let (width, height) = reader().into_dimensions().map_err(malformed)?;
-    check_size(u64::from(width), u64::from(height), channels, 12)?;
+    let (across, down) = (u64::from(width), u64::from(height));
+    check_size(across, down, channels, 12, MOST_TEXTURE_BYTES)?;
     let mut reader = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
@@ -138,7 +195,8 @@ fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError
 
 #[cfg(test)]
 mod tests {
-    use super::super::tone;
+    use super::super::display::Display;
+    use super::super::tone::Tone;
     use super::*;
 
     #[test]
@@ -151,10 +209,18 @@ mod tests {
         write(&path, 32, 8, &rgb).expect("the folder can be written");
         let picture = read(&path).expect("it was just written");
         assert_eq!((picture.width, picture.height), (32, 8));
-        let light: Vec<f32> = (0..256)
-            .flat_map(|i| picture.layers.iter().map(move |layer| layer.data[i]))
-            .collect();
-        assert_eq!(tone::to_bytes(&light, 0.0, tone::Tone::Linear), rgb);
+        let display = Display {
+            tone: Tone::Linear,
+            ..Display::default()
+        };
+        let pixels = display.pixels(&picture).expect("it has colours");
+        assert!(
+            pixels
+                .values
+                .iter()
+                .zip(&rgb)
+                .all(|(one, other)| *one == u16::from(*other))
+        );
         assert_eq!(picture.layers[0].data[255], 1.0);
         // 188 is the well-known encoding of half the light.
         assert!((picture.layers[0].data[188] - 0.5).abs() < 0.004);
@@ -174,19 +240,72 @@ mod tests {
     }
 
     #[test]
-    fn the_file_says_that_it_is_srgb_with_a_right_checksum() {
+    fn the_file_says_that_it_is_srgb_with_right_checksums() {
         let bytes = encode(1, 1, &[1, 2, 3], 3, ExtendedColorType::Rgb8).expect("one pixel");
-        assert_eq!(&bytes[AFTER_HEADER + 4..AFTER_HEADER + 8], b"sRGB");
-        // CRC-32 as the PNG specification defines it, over name and data.
-        let mut crc = u32::MAX;
-        for &byte in &SRGB_CHUNK[4..9] {
-            crc ^= u32::from(byte);
-            for _ in 0..8 {
-                crc = crc >> 1 ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 };
+        let mut at = AFTER_HEADER;
+        for (name, data) in [
+            (b"sRGB", vec![0_u8]),
+            (b"gAMA", 45455_u32.to_be_bytes().to_vec()),
+            (b"cHRM", CHROMATICITIES.map(u32::to_be_bytes).concat()),
+        ] {
+            let length = bytes[at..at + 4].try_into().map(u32::from_be_bytes);
+            let end = at + 8 + length.expect("four bytes") as usize;
+            assert_eq!(&bytes[at + 4..at + 8], name);
+            assert_eq!(bytes[at + 8..end], data);
+            // CRC-32 as the PNG specification defines it, over name and data.
+            let mut crc = u32::MAX;
+            for &byte in &bytes[at + 4..end] {
+                crc ^= u32::from(byte);
+                for _ in 0..8 {
+                    crc = crc >> 1 ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 };
+                }
             }
+            assert_eq!(bytes[end..end + 4], (!crc).to_be_bytes());
+            at = end + 4;
         }
-        assert_eq!(SRGB_CHUNK[9..], (!crc).to_be_bytes());
         assert!(decode(&bytes).is_ok());
+    }
+
+    #[test]
+    fn pixels_of_a_display_come_back_with_their_depth_and_alpha() {
+        for (depth, channels) in [
+            (Depth::Eight, 3_u8),
+            (Depth::Eight, 4),
+            (Depth::Sixteen, 3),
+            (Depth::Sixteen, 4),
+        ] {
+            let step = depth.most() / 255;
+            let values: Vec<u16> = (0..6 * u16::from(channels)).map(|i| 7 * i * step).collect();
+            let pixels = Pixels {
+                width: 3,
+                height: 2,
+                depth,
+                channels,
+                values: values.clone(),
+            };
+            let bytes = encoded_pixels(&pixels).expect("they are complete");
+            let stored = decode_stored(&bytes, 4).expect("it was just encoded");
+            assert_eq!(stored.color().has_alpha(), channels == 4);
+            assert_eq!(
+                stored.color().bits_per_pixel(),
+                match depth {
+                    Depth::Eight => 8,
+                    Depth::Sixteen => 16,
+                } * u16::from(channels)
+            );
+            let most = u32::from(depth.most());
+            let back = stored.into_rgba16().into_raw();
+            for (pixel, written) in back.chunks(4).zip(values.chunks(usize::from(channels))) {
+                for (value, written) in pixel.iter().zip(written) {
+                    assert_eq!(u32::from(*value), u32::from(*written) * 65535 / most);
+                }
+            }
+            let short = Pixels {
+                height: 3,
+                ..pixels
+            };
+            assert!(encoded_pixels(&short).is_err());
+        }
     }
 
     #[test]
@@ -206,6 +325,14 @@ mod tests {
                 "{error}"
             );
         }
+        // A sound header of 16,000² pixels.
+        let mut large = whole.clone();
+        large[16..20].copy_from_slice(&16_000_u32.to_be_bytes());
+        large[20..24].copy_from_slice(&16_000_u32.to_be_bytes());
+        let sum = crc32fast::hash(&large[12..29]);
+        large[29..33].copy_from_slice(&sum.to_be_bytes());
+        let error = decode(&large).map(|_| ()).expect_err("nobody wants that");
+        assert!(error.to_string().contains("16000 × 16000"), "{error}");
         for length in 0..whole.len() - 12 {
             assert!(
                 decode(&whole[..length]).is_err(),

@@ -1,38 +1,49 @@
-//! From linear light to 8-bit display values.
+//! From linear light to the values of a display.
+//!
+//! - **In**: linear sRGB of any strength and sign.
+//! - **Out**: sRGB values from 0 to 1.
+//! - **Always true**: each [`Tone`] is continuous in the light; with [`Tone::Agx`] and
+//!   [`Tone::Standard`] the hue in Oklab stays and no channel of a colour is 0.
 
-/// Curve before the sRGB encoding.
+mod agx;
+mod gamut;
+mod oklab;
+
+use self::gamut::Gamut;
+use self::oklab::Oklab;
+
+/// How light becomes what a display shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// No curve, so that colours can be measured in the PNG.
-    Linear,
-    /// Highlights roll off as on film.
+    /// A photograph's curve over 16.5 stops, with the hue kept: `agx.rs`.
+    Agx,
+    /// No curve; colours that no display has are brought among those that it has with their hue:
+    /// `gamut.rs`.
+    Standard,
+    /// Highlights of each channel roll off as on film.
     Filmic,
+    /// No curve, each channel clipped, so that colours can be measured in the picture.
+    Linear,
 }
 
-/// Encodes linear sRGB as 8-bit values: exposure 2^EV, the curve, the sRGB encoding, rounding.
-///
-/// Values may be interleaved in any way, since each is encoded separately. NaN becomes 0.
-pub fn to_bytes(linear: &[f32], exposure_ev: f64, tone: Tone) -> Vec<u8> {
-    let encoded = encoded(linear, exposure_ev, tone);
-    encoded
-        .map(|value| libm::round(value * 255.0) as u8)
-        .collect()
-}
+/// Strongest light that is told from stronger, so that no product overflows.
+const MOST_LIGHT: f64 = 1e9;
 
-fn encoded(linear: &[f32], exposure_ev: f64, tone: Tone) -> impl Iterator<Item = f64> + '_ {
-    let exposure = libm::exp2(exposure_ev);
-    linear.iter().map(move |&value| {
-        let light = f64::from(value) * exposure;
-        let light = match tone {
-            Tone::Linear => light,
-            Tone::Filmic => filmic(light),
+impl Tone {
+    /// The sRGB values, each 0 to 1, of linear sRGB light. A channel that is NaN counts as 0.
+    pub fn encoded(self, light: [f64; 3]) -> [f64; 3] {
+        let light = light.map(|value| match value {
+            value if value.is_nan() => 0.0,
+            value => value.clamp(-MOST_LIGHT, MOST_LIGHT),
+        });
+        let shown = match self {
+            Self::Agx => agx::formed(Oklab::of(light)),
+            Self::Standard => Gamut::Display.hold(Oklab::of(light)),
+            Self::Filmic => light.map(filmic),
+            Self::Linear => light,
         };
-        if light.is_nan() {
-            0.0
-        } else {
-            to_srgb(light.clamp(0.0, 1.0))
-        }
-    })
+        shown.map(|value| to_srgb(value.clamp(0.0, 1.0)))
+    }
 }
 
 /// A curve with the toe and shoulder of film: darks become a little darker, lights roll off towards
@@ -46,7 +57,7 @@ fn encoded(linear: &[f32], exposure_ev: f64, tone: Tone) -> impl Iterator<Item =
 ///
 /// \[narkowicz2016\], his rational fit to the ACES reference transform, with the factor 0.6 that he
 /// gives for the original's exposure.
-pub fn filmic(light: f64) -> f64 {
+fn filmic(light: f64) -> f64 {
     let x = 0.6 * light.max(0.0);
     if x > 1e6 {
         return 1.0;
@@ -80,31 +91,88 @@ pub fn from_srgb(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    #[test]
-    fn known_values_are_encoded_as_known() {
-        let light = [
-            0.0,
-            0.0031308,
-            0.18,
-            0.5,
-            1.0,
-            7.0,
-            -1.0,
-            f32::NAN,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-        ];
-        let expected = [0, 10, 118, 188, 255, 255, 0, 0, 255, 0];
-        assert_eq!(to_bytes(&light, 0.0, Tone::Linear), expected);
+    fn bytes(tone: Tone, light: [f64; 3]) -> [u8; 3] {
+        tone.encoded(light)
+            .map(|value| libm::round(value * 255.0) as u8)
     }
 
     #[test]
-    fn one_stop_is_a_factor_of_two() {
-        let light: Vec<f32> = (0..100).map(|i| i as f32 / 100.0).collect();
-        let half: Vec<f32> = light.iter().map(|value| value / 2.0).collect();
-        for tone in [Tone::Linear, Tone::Filmic] {
-            assert_eq!(to_bytes(&half, 1.0, tone), to_bytes(&light, 0.0, tone));
-            assert_eq!(to_bytes(&light, -1.0, tone), to_bytes(&half, 0.0, tone));
+    fn known_values_are_encoded_as_known() {
+        for (light, expected) in [
+            ([0.0, 0.0031308, 0.18], [0, 10, 118]),
+            ([0.5, 1.0, 7.0], [188, 255, 255]),
+            ([-1.0, f64::NAN, f64::INFINITY], [0, 0, 255]),
+            ([f64::NEG_INFINITY, 0.0, 0.0], [0; 3]),
+        ] {
+            assert_eq!(bytes(Tone::Linear, light), expected);
+        }
+    }
+
+    #[test]
+    fn white_paper_is_neutral_and_as_bright_as_it_is() {
+        for tone in [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear] {
+            let [red, green, blue] = bytes(tone, [0.8; 3]);
+            assert!(
+                red == green && green == blue,
+                "{tone:?}: {red} {green} {blue}"
+            );
+        }
+        // Without a curve 0.8 of the light; with one, 0.8 of the scale half a stop brighter.
+        let paper = from_srgb(Tone::Standard.encoded([0.8; 3])[1]);
+        assert!((paper - 0.8).abs() < 1e-4, "{paper}");
+        let paper = Tone::Agx.encoded([0.8 * 2.0_f64.sqrt(); 3])[1];
+        assert!((paper - 0.8).abs() < 0.02, "{paper}");
+    }
+
+    #[test]
+    fn a_colour_beyond_the_display_loses_its_blue_only_where_channels_are_bent_alone() {
+        let leaf = [0.21, 0.3, -0.006];
+        for (tone, has_blue) in [
+            (Tone::Agx, true),
+            (Tone::Standard, true),
+            (Tone::Filmic, false),
+            (Tone::Linear, false),
+        ] {
+            assert_eq!(bytes(tone, leaf)[2] > 0, has_blue, "{tone:?}");
+        }
+    }
+
+    #[test]
+    fn tones_are_continuous_where_a_channel_changes_its_sign() {
+        for tone in [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear] {
+            let mut last: Option<[f64; 3]> = None;
+            for step in -2000..2000 {
+                let now = tone.encoded([0.4, 0.5, 5e-5 * f64::from(step)]);
+                if let Some(last) = last {
+                    for (one, other) in now.into_iter().zip(last) {
+                        assert!(
+                            (one - other).abs() < 2e-3,
+                            "{tone:?} at {step}: {now:?} {last:?}"
+                        );
+                    }
+                }
+                last = Some(now);
+            }
+        }
+    }
+
+    #[test]
+    fn no_light_is_too_strange() {
+        for tone in [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear] {
+            for red in [
+                f64::NAN,
+                f64::INFINITY,
+                f64::NEG_INFINITY,
+                1e300,
+                -1e300,
+                1e-300,
+            ] {
+                for green in [0.0, 1.0, f64::INFINITY, -1.0] {
+                    let shown = tone.encoded([red, green, 1e-9]);
+                    let is_shown = shown.iter().all(|value| (0.0..=1.0).contains(value));
+                    assert!(is_shown, "{tone:?} of {red} {green}: {shown:?}");
+                }
+            }
         }
     }
 

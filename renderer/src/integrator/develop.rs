@@ -4,21 +4,23 @@ use glam::DVec3;
 
 use crate::image::openexr::spectral_attributes;
 use crate::image::{Attribute, Layer, Picture, REC709};
+use crate::integrator::caption::Caption;
+use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Source};
 use crate::integrator::render::{Job, Rendered};
-use crate::scene::description::{Camera as CameraBlock, Description, FilmKind};
-use crate::scene::world::World;
+use crate::scene::description::{Camera as CameraBlock, FilmKind};
+use crate::spectrum::WavelengthSampler;
 
 /// The picture with all its [layers](crate::integrator::layers::LAYERS) and attributes, computed on
 /// the current thread pool.
 ///
 /// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
-pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendered) -> Picture {
+pub fn develop(caption: &Caption, job: &Job, rendered: &Rendered) -> Picture {
     let mut layers = Vec::new();
     for layer in rendered.layout.layers() {
-        let names = layer.channel_names(&scene.film.kind);
+        let names = layer.channel_names(&caption.kind);
         for (channel, name) in names.into_iter().enumerate() {
-            let data = developed(layer, channel, &scene.camera, rendered);
+            let data = developed(layer, channel, &caption.camera, rendered);
             layers.push(Layer { name, data });
         }
     }
@@ -26,7 +28,7 @@ pub fn develop(scene: &Description, world: &World, job: &Job, rendered: &Rendere
         width: job.width,
         height: job.height,
         layers,
-        attributes: attributes(scene, world, job, rendered),
+        attributes: attributes(caption, job, rendered),
     }
 }
 
@@ -48,48 +50,50 @@ fn developed(
         }
         Source::Count(of) => film.map(|pixel| of(pixel) as f32),
         Source::Feature {
+            quantity,
             within: [least, most],
             ..
         } => {
             let number = first_feature(layer.name) + channel;
+            // Paths know places from the origin around which the world is traced.
+            let from = match quantity {
+                Quantity::Position => camera.origin()[channel],
+                Quantity::Normal | Quantity::Albedo | Quantity::Object => 0.0,
+            };
             film.map(|pixel| {
                 let value = pixel.feature(number);
-                value.map_or(0.0, |value| value.clamp(least, most) as f32)
+                value.map_or(0.0, |value| (from + value).clamp(least, most) as f32)
             })
         }
         Source::OfPoint { layer, by } => {
             let first = first_feature(layer);
+            let origin = camera.origin();
             film.map(|pixel| {
                 let [x, y, z] = [0, 1, 2].map(|axis| pixel.feature(first + axis));
                 let point = x.zip(y).zip(z);
-                point.map_or(0.0, |((x, y), z)| by(DVec3::new(x, y, z), camera) as f32)
+                point.map_or(0.0, |((x, y), z)| {
+                    by(origin + DVec3::new(x, y, z), camera) as f32
+                })
             })
         }
     }
 }
 
-fn attributes(
-    scene: &Description,
-    world: &World,
-    job: &Job,
-    rendered: &Rendered,
-) -> Vec<(String, Attribute)> {
+fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String, Attribute)> {
     let text = |name: &str, value: String| (name.to_owned(), Attribute::Text(value));
-    let manifest: Vec<String> = scene
-        .objects
-        .iter()
-        .enumerate()
-        .map(|(number, object)| format!("{} {}", number + 1, object.name))
+    let objects = (1..).zip(&caption.objects);
+    let manifest: Vec<String> = objects
+        .map(|(number, name)| format!("{number} {name}"))
         .collect();
-    let range = world.wavelengths.range_nm();
-    let (to_camera, to_ndc) = matrices(&scene.camera, job);
+    let range = WavelengthSampler::new(&caption.kind).range_nm();
+    let (to_camera, to_ndc) = matrices(&caption.camera, job);
     let mut attributes = vec![
         text("software", format!("Lamina {}", env!("CARGO_PKG_VERSION"))),
-        text("lamina:scene", scene.source.clone()),
-        text("lamina:sceneName", scene.name.clone()),
+        text("lamina:scene", caption.source.clone()),
+        text("lamina:sceneName", caption.name.clone()),
         text(
             "lamina:sceneHash",
-            format!("{:016x}", fnv1a(scene.source.as_bytes())),
+            format!("{:016x}", fnv1a(caption.source.as_bytes())),
         ),
         text("lamina:seed", job.seed.to_string()),
         (
@@ -116,7 +120,7 @@ fn attributes(
     if let Some(noise) = rendered.noise {
         attributes.push(text("lamina:noise", noise.aim.to_string()));
     }
-    match scene.film.kind {
+    match caption.kind {
         FilmKind::Rgb { .. } => {
             attributes.push(("chromaticities".to_owned(), REC709));
             attributes.push(text(

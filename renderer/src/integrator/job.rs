@@ -7,7 +7,7 @@ pub struct Job {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples a pixel.
+    /// Samples a pixel; for a part of a picture the number behind its last sample.
     pub spp: u32,
     /// Seed of every random number.
     pub seed: u64,

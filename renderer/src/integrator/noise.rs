@@ -40,7 +40,8 @@ pub struct NoiseWatch {
 
 #[derive(Clone, Copy, Debug)]
 struct BlockNoise {
-    /// Samples at which the block stops.
+    /// Samples at which the block stops, if the picture's most are no fewer. It does not depend on
+    /// the most, so that a render can go on to more.
     goal: u32,
     /// Relative error of a single sample: that of `n` samples is this over √n. Negative while it is
     /// unknown.
@@ -53,7 +54,7 @@ impl NoiseWatch {
     pub fn new(film: &Film, aim: f64, most: u32, colour: bool) -> Self {
         let pixels = film.width() as usize * film.height() as usize;
         let block = BlockNoise {
-            goal: most,
+            goal: u32::MAX,
             of_one_sample: -1.0,
         };
         Self {
@@ -65,6 +66,47 @@ impl NoiseWatch {
         }
     }
 
+    /// The target relative error.
+    pub fn aim(&self) -> f64 {
+        self.aim
+    }
+
+    /// Lets blocks go on to `most` samples.
+    pub fn set_most(&mut self, most: u32) {
+        self.most = most;
+    }
+
+    /// What [`NoiseWatch::restored`] needs: the luminance of each pixel at the last border, then
+    /// goal and relative error of a single sample for each block.
+    pub fn words(&self) -> Vec<u32> {
+        let luminance = self.luminance.iter().map(|value| value.to_bits());
+        let blocks = self.blocks.iter();
+        let blocks = blocks.flat_map(|block| [block.goal, block.of_one_sample.to_bits()]);
+        luminance.chain(blocks).collect()
+    }
+
+    /// This initial state with what was found until its [`words`](Self::words) were made; `None`
+    /// if they are those of another film.
+    pub fn restored(mut self, words: &[u32]) -> Option<Self> {
+        let (luminance, blocks) = words.split_at_checked(self.luminance.len())?;
+        if blocks.len() != 2 * self.blocks.len() {
+            return None;
+        }
+        for (own, word) in self.luminance.iter_mut().zip(luminance) {
+            *own = f32::from_bits(*word);
+        }
+        for (own, words) in self.blocks.iter_mut().zip(blocks.chunks_exact(2)) {
+            *own = BlockNoise {
+                goal: words[0],
+                of_one_sample: f32::from_bits(words[1]),
+            };
+        }
+        let known = |value: f32| value.is_finite();
+        let is_sound = self.luminance.iter().all(|&value| known(value))
+            && self.blocks.iter().all(|block| known(block.of_one_sample));
+        is_sound.then_some(self)
+    }
+
     /// Whether a decision is due at this number of samples.
     pub fn is_border(samples: u32) -> bool {
         samples >= FIRST_BORDER && samples.is_power_of_two()
@@ -72,20 +114,20 @@ impl NoiseWatch {
 
     /// Number of samples at which a block stops, by present knowledge.
     pub fn goal(&self, block: usize) -> u32 {
-        self.blocks[block].goal
+        self.blocks[block].goal.min(self.most)
     }
 
     /// Greatest number of samples at which a block stops, by present knowledge.
     pub fn last_goal(&self) -> u32 {
         let goals = self.blocks.iter().map(|block| block.goal);
-        goals.max().unwrap_or(0)
+        goals.max().unwrap_or(0).min(self.most)
     }
 
     /// Total number of paths, by present knowledge.
     pub fn expected_paths(&self, film: &Film) -> u64 {
-        let blocks = self.blocks.iter().enumerate();
+        let blocks = 0..self.blocks.len();
         blocks
-            .map(|(number, block)| u64::from(block.goal) * u64::from(film.pixels_of(number)))
+            .map(|number| u64::from(self.goal(number)) * u64::from(film.pixels_of(number)))
             .sum()
     }
 
@@ -111,7 +153,7 @@ impl NoiseWatch {
                 // If more than twice as many are needed, the next border decides.
                 let needed = f64::from(samples) * (error / self.aim) * (error / self.aim);
                 let steps = (needed / f64::from(STEP)).ceil() as u32;
-                steps.saturating_mul(STEP).min(self.most)
+                steps.saturating_mul(STEP)
             };
         }
     }

@@ -1,19 +1,19 @@
 //! All the paths of a picture, on all threads, pass by pass.
 
+mod pass;
+
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::film::{FEATURE_SAMPLES, Film, FilmError, PixelSums};
+use self::pass::PassOfPaths;
+use crate::film::{Film, FilmError};
 use crate::integrator::effort::Effort;
-use crate::integrator::features::{self, Sight};
+use crate::integrator::features;
 pub use crate::integrator::job::Job;
-use crate::integrator::layers::{Layout, MOST_CHANNELS};
+use crate::integrator::layers::Layout;
 use crate::integrator::noise::{self, NoiseWatch};
-use crate::integrator::path;
 use crate::integrator::trial;
-use crate::sampling::stream::Stream;
 use crate::scene::world::World;
-use crate::spectrum::Spectrum;
 
 /// Conditions that end a render before every pixel has all the samples of its [`Job`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,6 +53,9 @@ pub struct Rendered {
     pub ended: Ended,
     /// The noise reached, if there was a target.
     pub noise: Option<Noise>,
+    first: u32,
+    watch: Option<NoiseWatch>,
+    elapsed: Duration,
 }
 
 /// Relative errors: root mean square over the picture's pixels.
@@ -76,6 +79,94 @@ pub struct Progress {
 /// Samples per pixel of the longest pass: few enough to stop soon, enough to keep threads busy.
 const LONGEST_PASS: u32 = noise::STEP;
 
+/// A render as far as it has come: what it takes to go on with the same bits.
+#[derive(Clone, Debug)]
+pub struct Begun {
+    /// The sums. Blocks may have different numbers of samples.
+    pub film: Film,
+    /// Number of the first sample, 0 except for a part of a picture.
+    pub first: u32,
+    /// The effort of paths.
+    pub effort: Effort,
+    /// Rays traced.
+    pub rays: u64,
+    /// What is known of the noise, if there is a target.
+    pub watch: Option<NoiseWatch>,
+    /// Time that was spent on it.
+    pub elapsed: Duration,
+}
+
+impl Begun {
+    /// A render without any samples whose effort was chosen.
+    ///
+    /// # Errors
+    ///
+    /// [`FilmError`] if the film would be too large.
+    pub fn new(
+        job: &Job,
+        layout: Layout,
+        aim: Option<f64>,
+        effort: Effort,
+    ) -> Result<Self, FilmError> {
+        let film = Film::new(job.width, job.height, layout.beauty, &layout.sums())?;
+        let watch = aim.map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.colour));
+        Ok(Self {
+            film,
+            first: 0,
+            effort,
+            rays: 0,
+            watch,
+            elapsed: Duration::ZERO,
+        })
+    }
+
+    /// This render without any samples, as a part of a picture that begins with sample `first`.
+    pub fn from_sample(self, first: u32) -> Self {
+        Self { first, ..self }
+    }
+
+    /// This render, going on to the samples of a job.
+    pub fn up_to(mut self, job: &Job) -> Self {
+        if let Some(watch) = &mut self.watch {
+            watch.set_most(job.spp);
+        }
+        self
+    }
+
+    /// Number of the sample behind the last one of a block.
+    fn end_of(&self, block: usize) -> u32 {
+        self.first + self.film.drawn_of(block)
+    }
+
+    /// Number of the sample at which a block stops.
+    fn goal(&self, block: usize, job: &Job) -> u32 {
+        self.watch
+            .as_ref()
+            .map_or(job.spp, |watch| watch.goal(block))
+    }
+
+    /// Number of the first sample that a block still lacks; `None` if all have theirs.
+    fn next(&self, job: &Job) -> Option<u32> {
+        (0..self.film.blocks())
+            .filter(|&block| self.end_of(block) < self.goal(block, job))
+            .map(|block| self.end_of(block))
+            .min()
+    }
+}
+
+/// What a render tells while it goes on, and is told.
+#[derive(Clone, Copy)]
+pub struct Contact<'a> {
+    /// Once it is set, blocks not yet begun in this pass are skipped.
+    pub stop: &'a AtomicBool,
+    /// Called after each block of pixels.
+    pub progress: &'a (dyn Fn(Progress) + Sync),
+    /// Whether the state is to be kept; asked before each block of pixels.
+    pub is_due: &'a (dyn Fn() -> bool + Sync),
+    /// Keeps the state.
+    pub keep: &'a (dyn Fn(&Begun) + Sync),
+}
+
 /// Renders on the current thread pool, as [`render_until`] with no condition that ends it early
 /// except `stop`.
 ///
@@ -96,8 +187,7 @@ pub fn render(
 ///
 /// `progress` is called after each block of pixels. Once `stop` is set, blocks not yet begun in
 /// this pass are skipped, and the film so far is returned. A render that ends by time has the same
-/// bits as one whose job has as many samples as the pixels with most, and whose scene sets the
-/// effort that was chosen here.
+/// bits as one whose job has as many samples as the pixels with most.
 ///
 /// # Errors
 ///
@@ -109,81 +199,149 @@ pub fn render_until(
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Rendered, FilmError> {
+    let contact = Contact {
+        stop,
+        progress,
+        is_due: &|| false,
+        keep: &|_| (),
+    };
+    let begun = begin(world, job, halt.noise, stop)?;
+    let (begun, ended) = go_on(world, job, begun, halt.time, &contact);
+    Ok(Rendered::new(begun, Layout::new(&world.wavelengths), ended))
+}
+
+/// A render without any samples: the effort of its paths is chosen by a trial.
+///
+/// # Errors
+///
+/// [`FilmError`] if the film would be too large.
+pub fn begin(
+    world: &World,
+    job: &Job,
+    aim: Option<f64>,
+    stop: &AtomicBool,
+) -> Result<Begun, FilmError> {
     let started = Instant::now();
     let layout = Layout::new(&world.wavelengths);
-    let mut film = Film::new(job.width, job.height, layout.beauty, &layout.sums())?;
-    let mut watch = halt
-        .noise
-        .map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.colour));
-    let effort = trial::choose(world, job, layout, stop);
+    // The film first: whether it is too large is known at once.
+    let mut begun = Begun::new(job, layout, aim, trial::WITHOUT_TRIAL)?;
+    begun.effort = trial::choose(world, job, layout, stop);
+    begun.elapsed = started.elapsed();
+    Ok(begun)
+}
+
+/// Adds samples until every pixel has those up to number `job.spp − 1`, or enough, or the time
+/// is up, which counts from the beginning of the render, or it is stopped.
+///
+/// The bits do not depend on how often a render was interrupted: blocks go on behind their last
+/// sample, and noise is judged at the same numbers of samples.
+pub fn go_on(
+    world: &World,
+    job: &Job,
+    mut begun: Begun,
+    time: Option<Duration>,
+    contact: &Contact<'_>,
+) -> (Begun, Ended) {
+    let (started, before) = (Instant::now(), begun.elapsed);
+    let drawn = begun.film.drawn();
     let pass = PassOfPaths {
         world,
         job,
-        layout,
+        layout: Layout::new(&world.wavelengths),
         white: features::white(&world.wavelengths),
-        effort,
-        stop,
-        progress,
-        rays: AtomicU64::new(0),
+        effort: begun.effort,
+        contact,
+        rays: AtomicU64::new(begun.rays),
         paths: AtomicU64::new(0),
         total: AtomicU64::new(0),
     };
-    let all = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
-    let mut first = 0;
-    let ended = loop {
-        let goal = watch.as_ref().map_or(job.spp, NoiseWatch::last_goal);
-        if first >= goal {
-            break if first >= job.spp {
+    let samples = u64::from(job.spp.saturating_sub(begun.first));
+    let all = u64::from(job.width) * u64::from(job.height) * samples;
+    let ended = 'passes: loop {
+        let Some(next) = begun.next(job) else {
+            let [_, most] = begun.film.drawn_range();
+            break if begun.first + most >= job.spp {
                 Ended::Samples
             } else {
                 Ended::Noise
             };
-        }
-        if stop.load(Ordering::Relaxed) {
+        };
+        if contact.stop.load(Ordering::Relaxed) {
             break Ended::Interrupted;
         }
-        let Some(longest) = longest_pass(first, started.elapsed(), halt.time) else {
+        let elapsed = before + started.elapsed();
+        let Some(longest) = longest_pass(next, next - begun.first, elapsed, time) else {
             break Ended::Time;
         };
-        let end = goal.min(first + longest);
-        let total = watch
-            .as_ref()
-            .map_or(all, |watch| watch.expected_paths(&film));
-        pass.total.store(total, Ordering::Relaxed);
-        let goals = |block| watch.as_ref().map_or(end, |watch| watch.goal(block));
-        if !pass.run(&mut film, first, end, &goals) {
-            break Ended::Interrupted;
+        let end = job.spp.min(next.saturating_add(longest));
+        let watch = begun.watch.as_ref();
+        let total = watch.map_or(all, |watch| watch.expected_paths(&begun.film));
+        pass.total
+            .store(total - drawn.min(total), Ordering::Relaxed);
+        // A pass that was left to keep the state goes on where it was.
+        while !pass.run(&mut begun, end) {
+            begun.rays = pass.rays.load(Ordering::Relaxed);
+            begun.elapsed = before + started.elapsed();
+            if contact.stop.load(Ordering::Relaxed) {
+                break 'passes Ended::Interrupted;
+            }
+            (contact.keep)(&begun);
         }
-        first = end;
-        if let Some(watch) = watch.as_mut().filter(|_| NoiseWatch::is_border(first)) {
-            watch.look(&film, first);
+        if let Some(watch) = &mut begun.watch
+            && NoiseWatch::is_border(end)
+        {
+            watch.look(&begun.film, end);
         }
     };
     let paths = pass.paths.into_inner();
-    progress(Progress {
+    (contact.progress)(Progress {
         paths,
         total: paths,
     });
-    Ok(Rendered {
-        noise: watch.zip(halt.noise).map(|(watch, aim)| Noise {
-            aim,
-            reached: watch.reached(&film),
-        }),
-        film,
-        layout,
-        effort,
-        rays: pass.rays.into_inner(),
-        ended,
-    })
+    begun.rays = pass.rays.into_inner();
+    begun.elapsed = before + started.elapsed();
+    (begun, ended)
 }
 
-/// Greatest number of samples of the next pass, after `done` samples that took `elapsed`; `None`
-/// once the time is up, except for the first pass.
+impl Rendered {
+    /// The result of a render that ended.
+    pub fn new(begun: Begun, layout: Layout, ended: Ended) -> Self {
+        Self {
+            noise: begun.watch.as_ref().map(|watch| Noise {
+                aim: watch.aim(),
+                reached: watch.reached(&begun.film),
+            }),
+            film: begun.film,
+            layout,
+            effort: begun.effort,
+            rays: begun.rays,
+            ended,
+            first: begun.first,
+            watch: begun.watch,
+            elapsed: begun.elapsed,
+        }
+    }
+
+    /// The render as far as it came, which can go on.
+    pub fn into_begun(self) -> Begun {
+        Begun {
+            film: self.film,
+            first: self.first,
+            effort: self.effort,
+            rays: self.rays,
+            watch: self.watch,
+            elapsed: self.elapsed,
+        }
+    }
+}
+
+/// Greatest number of samples of the next pass, whose first one is `next`, after `done` samples
+/// that took `elapsed`; `None` once the time is up, except for the first pass.
 ///
 /// Passes double up to [`LONGEST_PASS`] and end at its multiples, where noise is judged. Towards
 /// the end of the time they get shorter, so that the last one ends soon after it.
-fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<u32> {
-    let longest = done.clamp(1, LONGEST_PASS - done % LONGEST_PASS);
+fn longest_pass(next: u32, done: u32, elapsed: Duration, time: Option<Duration>) -> Option<u32> {
+    let longest = next.clamp(1, LONGEST_PASS - next % LONGEST_PASS);
     let Some(time) = time.filter(|_| done > 0) else {
         return Some(longest);
     };
@@ -191,108 +349,6 @@ fn longest_pass(done: u32, elapsed: Duration, time: Option<Duration>) -> Option<
     let of_one = elapsed.as_secs_f64() / f64::from(done);
     let fit = (left.as_secs_f64() / of_one.max(1e-9)) as u32;
     Some(longest.min(fit).max(1))
-}
-
-/// Data that all passes share.
-struct PassOfPaths<'a> {
-    world: &'a World,
-    job: &'a Job,
-    layout: Layout,
-    white: Spectrum,
-    effort: Effort,
-    stop: &'a AtomicBool,
-    progress: &'a (dyn Fn(Progress) + Sync),
-    rays: AtomicU64,
-    paths: AtomicU64,
-    total: AtomicU64,
-}
-
-impl PassOfPaths<'_> {
-    /// Adds samples number `first` to `end − 1` of every block that has not yet reached its goal;
-    /// returns whether it was not interrupted.
-    fn run(
-        &self,
-        film: &mut Film,
-        first: u32,
-        end: u32,
-        goal: &(dyn Fn(usize) -> u32 + Sync),
-    ) -> bool {
-        let whole = AtomicBool::new(true);
-        film.expose(|block| {
-            let end = end.min(goal(block.number()));
-            if first >= end {
-                return;
-            }
-            if self.stop.load(Ordering::Relaxed) {
-                whole.store(false, Ordering::Relaxed);
-                return;
-            }
-            let mut traced = 0;
-            block.expose(end - first, |x, y, pixel| {
-                let samples = Samples {
-                    world: self.world,
-                    job: self.job,
-                    layout: self.layout,
-                    white: &self.white,
-                    effort: self.effort,
-                    x,
-                    y,
-                };
-                traced += match self.world.wavelengths.grid().lanes() {
-                    4 => samples.add::<4>(first, end, pixel),
-                    8 => samples.add::<8>(first, end, pixel),
-                    16 => samples.add::<16>(first, end, pixel),
-                    _ => samples.add::<32>(first, end, pixel),
-                };
-            });
-            self.rays.fetch_add(traced, Ordering::Relaxed);
-            let added = u64::from(end - first) * u64::from(block.pixels());
-            let paths = self.paths.fetch_add(added, Ordering::Relaxed) + added;
-            let total = self.total.load(Ordering::Relaxed);
-            (self.progress)(Progress { paths, total });
-        });
-        whole.into_inner()
-    }
-}
-
-/// The samples of one pixel.
-struct Samples<'a> {
-    world: &'a World,
-    job: &'a Job,
-    layout: Layout,
-    white: &'a Spectrum,
-    effort: Effort,
-    x: u32,
-    y: u32,
-}
-
-impl Samples<'_> {
-    /// Adds samples number `first` to `end − 1`; returns the number of rays.
-    fn add<const N: usize>(&self, first: u32, end: u32, pixel: &mut PixelSums<'_>) -> u64 {
-        let mut rays = 0;
-        let mut values = [0.0; MOST_CHANNELS];
-        let values = &mut values[..self.layout.beauty];
-        for sample in first..end {
-            let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
-            let (wavelengths, found) =
-                path::of_pixel::<N>(self.world, self.effort, self.x, self.y, &mut stream);
-            rays += u64::from(found.rays);
-            let sampler = &self.world.wavelengths;
-            sampler.film_values(&wavelengths, &found.radiance, values);
-            let features = found.first.as_ref().map(|hit| {
-                let sight = Sight {
-                    hit,
-                    wavelengths: &wavelengths,
-                    sampler,
-                    white: self.white,
-                    recorded: sample < FEATURE_SAMPLES,
-                };
-                self.layout.features(&sight)
-            });
-            pixel.add(sample, values, features.as_ref());
-        }
-        rays
-    }
 }
 
 #[cfg(test)]
@@ -306,19 +362,19 @@ mod tests {
         let mut ends = vec![0];
         while ends[ends.len() - 1] < 64 {
             let done = ends[ends.len() - 1];
-            ends.push(done + longest_pass(done, SECOND, None).expect("no time is set"));
+            ends.push(done + longest_pass(done, done, SECOND, None).expect("no time is set"));
         }
         assert_eq!(ends, [0, 1, 2, 4, 8, 16, 32, 48, 64]);
         // Every place where a pass shortened by time may have ended.
         for done in 1..200 {
-            let pass = longest_pass(done, SECOND, None).expect("no time is set");
+            let pass = longest_pass(done, done, SECOND, None).expect("no time is set");
             assert_eq!((done + pass - 1) / LONGEST_PASS, done / LONGEST_PASS);
         }
     }
 
     #[test]
     fn passes_get_shorter_towards_the_end_of_the_time_and_then_there_are_none() {
-        let of_32 = |elapsed, time| longest_pass(32, SECOND * elapsed, Some(SECOND * time));
+        let of_32 = |elapsed, time| longest_pass(32, 32, SECOND * elapsed, Some(SECOND * time));
         // 32 samples in 32 seconds: as many more as seconds are left.
         assert_eq!(of_32(32, 100), Some(16));
         assert_eq!(of_32(32, 37), Some(5));
@@ -326,6 +382,6 @@ mod tests {
         assert_eq!(of_32(32, 32), None);
         assert_eq!(of_32(40, 32), None);
         // There is always a first pass.
-        assert_eq!(longest_pass(0, SECOND, Some(Duration::ZERO)), Some(1));
+        assert_eq!(longest_pass(0, 0, SECOND, Some(Duration::ZERO)), Some(1));
     }
 }

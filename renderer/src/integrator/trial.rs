@@ -25,7 +25,7 @@ const LIGHT_SAMPLES: [u32; 4] = [1, 2, 4, 8];
 const PAIRS: [(f32, u32); 6] = [(0.03, 4), (0.06, 3), (0.1, 2), (0.2, 1), (0.4, 1), (1.0, 1)];
 
 /// The effort for pictures too small for a trial.
-const WITHOUT_TRIAL: Effort = Effort {
+pub(super) const WITHOUT_TRIAL: Effort = Effort {
     roulette_below: 0.1,
     branches: 2,
     light_samples: 2,
@@ -37,8 +37,12 @@ const SAMPLES: u32 = 16;
 /// Number of independent estimates of a pixel, whose difference gives the error.
 const ESTIMATES: u64 = 2;
 
-/// A trial takes one path for this many paths of the picture.
-const SHARE: u64 = 16;
+/// A trial takes so many paths for each pixel of the picture, whatever the number of samples: a
+/// render that goes on to more, or a part of a picture, must choose alike.
+const SHARE: u64 = 2;
+
+/// Pictures with fewer pixels get no trial, which would take longer than many of them.
+const FEWEST_PIXELS: u64 = 64 * 64;
 
 /// Number of pixels of a trial; fewer cannot distinguish the candidates, more are not needed.
 const PIXELS: std::ops::RangeInclusive<u64> = 96..=2048;
@@ -83,12 +87,12 @@ pub(super) fn choose(world: &World, job: &Job, layout: Layout, stop: &AtomicBool
         choices(PAIRS.iter().map(of).collect())
     };
     let tried = by_light_samples.len() + by_pair(without_trial).len();
-    let paths = u64::from(job.width) * u64::from(job.height) * u64::from(job.spp);
-    let of_a_pixel = tried as u64 * ESTIMATES * u64::from(SAMPLES);
-    let pixels = (paths / SHARE / of_a_pixel).min(*PIXELS.end());
-    if pixels < *PIXELS.start() {
+    let pixels = u64::from(job.width) * u64::from(job.height);
+    if pixels < FEWEST_PIXELS {
         return without_trial;
     }
+    let of_a_pixel = tried as u64 * ESTIMATES * u64::from(SAMPLES);
+    let pixels = (SHARE * pixels / of_a_pixel).clamp(*PIXELS.start(), *PIXELS.end());
     let trial = Trial {
         world,
         job,

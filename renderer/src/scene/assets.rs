@@ -134,7 +134,7 @@ fn channel(
 ///
 /// [`AssetError`] if a channel is missing or holds a value out of range.
 pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
-    let picture = openexr::read(file)?;
+    let picture = openexr::read_texture(file)?;
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut texels = vec![Texel::splat(0.0); width * height];
     for constituent in Constituent::ALL {
@@ -192,7 +192,7 @@ pub fn mask(file: &Path, channel: Option<&str>) -> Result<(usize, Vec<f32>), Str
         }
         return Ok((width, values));
     }
-    let picture = openexr::read(file).map_err(|error| said(file, &error))?;
+    let picture = openexr::read_texture(file).map_err(|error| said(file, &error))?;
     let found = match channel {
         Some(name) => picture.layers.iter().find(|layer| layer.name == name),
         None if picture.layers.len() == 1 => picture.layers.first(),
@@ -244,7 +244,7 @@ pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
     let picture = if is_png {
         portable_network::read(file)?
     } else {
-        openexr::read(file)?
+        openexr::read_texture(file)?
     };
     let red = channel(file, &picture, "R", 0.0)?;
     let green = channel(file, &picture, "G", 0.0)?;

@@ -7,6 +7,7 @@
 //!   and in range, indices are valid, files lie in the scene's folder.
 
 mod camera;
+mod daylight;
 mod film;
 mod instances;
 mod leaf;
@@ -14,6 +15,7 @@ mod light;
 mod material;
 mod mesh;
 mod object;
+mod picture;
 mod placement;
 mod references;
 mod solid;
@@ -36,7 +38,9 @@ use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
-use super::description::{Description, Leaf, Light, Material, Mesh, Object, Solid, Spectrum};
+use super::description::{
+    Description, Leaf, Light, Material, Mesh, Object, Picture, Solid, Spectrum,
+};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 13] = [
@@ -88,6 +92,19 @@ pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<L
     read_leaves(cx, tree, &others, leaf::leaf)
 }
 
+/// Reads only `[picture]` of a file. Errors are left in the context.
+pub(crate) fn read_only_picture(cx: &Context, tree: &Table) -> Option<Picture> {
+    let mut picture = Picture::default();
+    Keys::read(root(cx, tree), None, |keys| {
+        let about = "How the picture to look at is made from the film.";
+        keys.block("picture", about, |keys| {
+            picture::picture(&mut picture, keys);
+        });
+        keys.leave(&SECTIONS);
+    });
+    (cx.error_count() == 0).then_some(picture)
+}
+
 /// The schema of a scene file.
 pub(crate) fn schema() -> BlockSchema {
     Keys::describe(|keys| scene(&mut Description::empty("", String::new()), keys))
@@ -122,9 +139,9 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
         film::film(&mut scene.film, keys);
     });
-    let about = "How the PNG is made from the film.";
+    let about = "How the picture to look at is made from the film.";
     keys.block("picture", about, |keys| {
-        film::picture(&mut scene.picture, keys);
+        picture::picture(&mut scene.picture, keys);
     });
     let about = "Where the scene is seen from.";
     keys.required_block("camera", about, &["perspective"], |keys| {

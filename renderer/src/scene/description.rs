@@ -12,7 +12,10 @@ use leafmodel::optics::Pigments;
 use leafmodel::solid::SolidPlan;
 
 pub use crate::camera::view::View as Camera;
+pub use crate::image::display::Display as Picture;
+pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
+pub use crate::light::daylight::Daylight;
 pub use crate::spectrum::recorded::{Band, FilmKind};
 pub use crate::spectrum::written::Spectrum;
 
@@ -75,10 +78,7 @@ impl Description {
             name: name.to_owned(),
             source,
             film: Film::usual(),
-            picture: Picture {
-                exposure_ev: 0.0,
-                tone: Tone::Linear,
-            },
+            picture: Picture::default(),
             camera: Camera::usual(),
             integrator: Integrator::default(),
             materials: Vec::new(),
@@ -109,15 +109,6 @@ pub struct Film {
     pub filter_radius: f64,
     /// Colour or bands.
     pub kind: FilmKind,
-}
-
-/// How the PNG is made from the film.
-#[derive(Clone, Copy, Debug)]
-pub struct Picture {
-    /// Exposure: a factor of 2^EV on radiance.
-    pub exposure_ev: f64,
-    /// Curve before the sRGB encoding.
-    pub tone: Tone,
 }
 
 /// How light is followed.
@@ -311,6 +302,8 @@ pub enum Light {
         /// Spectrum of RGB 1 1 1, W m⁻² sr⁻¹ nm⁻¹.
         white: Spectrum,
     },
+    /// The sun and a clear sky.
+    Daylight(Daylight),
     /// An object whose surface emits on the side of its normal.
     Area {
         /// The object.

@@ -16,7 +16,7 @@ use leafmodel::plan_file;
 
 use super::assets::DECODER;
 use super::blocks;
-use super::description::{Description, Leaf, Named, Solid};
+use super::description::{Description, Leaf, Named, Picture, Solid};
 
 /// A scene that was accepted.
 #[derive(Clone, Debug)]
@@ -102,6 +102,23 @@ pub fn parse_leaves(
 ) -> Result<Vec<Named<Leaf>>, DocumentErrors> {
     let shown = escaped(file_name, 4 * QUOTED);
     into_leaves(Opened::text(text, &shown, folder, overrides, schema)?)
+}
+
+/// Reads only `[picture]` of a scene's text; `shown` is the text's name in reports.
+///
+/// # Errors
+///
+/// [`DocumentErrors`] with all errors of that block and of the overrides; the rest of the text is
+/// ignored.
+pub fn parse_picture(
+    text: &str,
+    shown: &str,
+    overrides: &[String],
+) -> Result<Picture, DocumentErrors> {
+    let shown = escaped(shown, 4 * QUOTED);
+    let opened = Opened::text(text, &shown, Path::new("."), overrides, schema)?;
+    let picture = blocks::read_only_picture(&opened.cx, &opened.tree);
+    opened.finish(picture).map(|(picture, _)| picture)
 }
 
 /// A block `[solids.NAME]` after `format = 1`, which reads back as the same body in a folder with

@@ -5,18 +5,19 @@ mod materials;
 mod meshes;
 mod notes;
 mod placing;
+mod recentred;
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use self::lights::build_light;
+use self::lights::build_lights;
 use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
 pub(crate) use self::placing::matrix_of;
@@ -39,8 +40,11 @@ use crate::spectrum::WavelengthSampler;
 /// Everything that paths need.
 #[derive(Debug)]
 pub struct World {
-    /// The placed surfaces.
+    /// The placed surfaces, around [`World::origin`].
     pub geometry: Geometry,
+    /// Where the origin of the geometry, the lights and the camera lies in the scene, m
+    /// ([`View::origin`](crate::camera::view::View::origin)).
+    pub origin: DVec3,
     /// The object, material and light of each instance of the geometry.
     pub objects: WorldObjects,
     /// The parts of leaves and bodies.
@@ -51,7 +55,7 @@ pub struct World {
     pub owners: Vec<MaterialOwner>,
     /// The distinct palettes of pigments.
     pub palettes: Palettes,
-    /// Lights, in the scene's order.
+    /// Lights, in the scene's order; daylight is two, sun and sky.
     pub lights: Vec<Light>,
     /// The selection of lights for sampling.
     pub selection: LightSelection,
@@ -151,6 +155,21 @@ impl World {
     ///
     /// As [`World::build`]; a cache that fails only gives a note.
     pub fn build_with(scene: &Description, cache: Option<&PlantCache>) -> Result<Self, WorldError> {
+        let origin = scene.camera.origin();
+        if origin == DVec3::ZERO {
+            Self::build_around(scene, origin, cache)
+        } else {
+            Self::build_around(&recentred::moved(scene, -origin), origin, cache)
+        }
+    }
+
+    /// Builds a scene whose camera is near the origin, which lies at `origin` in the scene as
+    /// written.
+    fn build_around(
+        scene: &Description,
+        origin: DVec3,
+        cache: Option<&PlantCache>,
+    ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
         let mut meshes = Vec::new();
         for mesh in &scene.meshes {
@@ -213,13 +232,16 @@ impl World {
             first,
         } = place(scene, &pieces);
         let mut lights = Vec::new();
-        for (number, light) in scene.lights.iter().enumerate() {
+        for light in &scene.lights {
             if let description::Light::Area { object, .. } = light.value {
-                objects.shine(first[object], number);
+                objects.shine(first[object], lights.len());
             }
-            lights.push(build_light(&light.name, &light.value, &meshes, |object| {
-                &instances[first[object]]
-            })?);
+            lights.extend(build_lights(
+                &light.name,
+                &light.value,
+                &meshes,
+                |object| &instances[first[object]],
+            )?);
         }
         for material in &mut materials {
             material.tabulate(wavelengths.grid());
@@ -230,6 +252,7 @@ impl World {
         let geometry = Geometry::build(meshes, instances)?;
         Ok(Self {
             geometry,
+            origin,
             objects,
             pieces,
             materials,

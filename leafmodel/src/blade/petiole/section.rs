@@ -1,6 +1,6 @@
 //! Cross-sections of petioles that are not round, and where petioles swell.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::super::mesh::vertex_normals;
 use super::super::relief::smooth_step;
@@ -36,15 +36,9 @@ impl Default for Section {
 }
 
 impl Section {
-    /// Gives a round tube along `points` this section. `shares` tells of each point how much of it
-    /// applies there; `frame` is that of the leaf, the first axis across it.
-    pub(super) fn shape(
-        &self,
-        tube: &mut StalkMesh,
-        points: &[DVec3],
-        shares: &[f64],
-        frame: &DMat3,
-    ) {
+    /// Gives a round tube along `points` this section. `sections` tells of each point how much of
+    /// it applies there, and the direction across the petiole.
+    pub(super) fn shape(&self, tube: &mut StalkMesh, points: &[DVec3], sections: &[(f64, DVec3)]) {
         if self.groove == 0.0 && self.flatness == 0.0 {
             return;
         }
@@ -63,13 +57,13 @@ impl Section {
             {
                 nearest += 1;
             }
-            let share = shares[nearest];
+            let (share, aside) = sections[nearest];
             if share == 0.0 {
                 continue;
             }
             let before = points[nearest.saturating_sub(1)];
             let tangent = (points[(nearest + 1).min(last)] - before).normalize();
-            let across = (frame.x_axis - tangent * tangent.dot(frame.x_axis)).normalize();
+            let across = (aside - tangent * tangent.dot(aside)).normalize();
             let up = across.cross(tangent);
             let offset = *position - points[nearest];
             let [along, x, z] = [tangent, across, up].map(|axis| axis.dot(offset));

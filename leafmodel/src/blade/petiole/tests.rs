@@ -29,7 +29,7 @@ fn midrib() -> VenationNetwork {
 fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
     let outline = ellipse(20.0, 60.0, 60);
     for (curl, bend, radius_mm) in [
-        (0.0, 0.0, None),
+        (0.0_f64, 0.0, None),
         (1.0, 0.8, Some(0.9)),
         (-0.5, -1.2, Some(0.1)),
     ] {
@@ -43,6 +43,7 @@ fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
             length: 0.5,
             radius_mm,
             curl,
+            course: Course::STRAIGHT,
             section: Section::default(),
         };
         let mesh = plan.build(&outline, &midrib(), &form).expect("a petiole");
@@ -50,7 +51,11 @@ fn a_petiole_is_closed_and_goes_from_its_foot_into_the_blade() {
         let radius = radius_mm.unwrap_or(0.5);
         assert_eq!(plan.radius_on(&outline, &midrib()), radius);
         // The foot lies on an arc of 30 mm that leaves the base along −y and bends down.
-        let foot = behind(plan.curl, 30.0, 30.0);
+        let foot = if curl == 0.0 {
+            DVec3::NEG_Y * 30.0
+        } else {
+            30.0 / curl * DVec3::new(0.0, -curl.sin(), curl.cos() - 1.0)
+        };
         let least = mesh
             .positions
             .iter()
@@ -75,6 +80,7 @@ fn the_joint_ends_within_the_vein() {
         length: 0.3,
         radius_mm: Some(0.8),
         curl: 0.0,
+        course: Course::STRAIGHT,
         section: Section::default(),
     };
     let form = BladeForm {
@@ -96,6 +102,7 @@ fn numbers_out_of_range_are_named() {
         length: 0.3,
         radius_mm: None,
         curl: 0.0,
+        course: Course::STRAIGHT,
         section: Section::default(),
     };
     for (bad, name) in [
@@ -141,7 +148,7 @@ fn first_hit(from: DVec3, along: DVec3, positions: &[DVec3], triangles: &[[u32; 
         );
         // Rays may go through edges.
         let within = s.min(t).min(1.0 - s - t) >= -1e-9;
-        (facing != 0.0 && within).then_some(away)
+        (facing != 0.0 && within && away > 0.0).then_some(away)
     });
     hits.fold(f64::INFINITY, f64::min)
 }
@@ -208,19 +215,21 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
             length: 0.5,
             radius_mm,
             curl: 0.3,
+            course: Course::STRAIGHT,
             section: Section::default(),
         };
         let tube = plan.build(&outline, &network, &form).expect("a petiole");
         assert_eq!(tube.validate(), Ok(()), "{form:?} {plan:?}");
         let blade = BladeMesh::build(&outline, &network, &form).expect("a blade");
         let way = Midrib::new(&outline, &network, 12.0);
-        let bending = Posture::new(&form, &outline, network.map(), None);
         let veins: Vec<VeinSegment> = network.segments().collect();
+        let posture = || Posture::new(&form, &outline, (network.map(), &veins), None);
+        let bending = posture();
         let joint = Joint::new(
             radius_mm.unwrap_or(way.radius),
             &way,
             Relief::new(&form, &veins),
-            Posture::new(&form, &outline, network.map(), None),
+            posture(),
             60.0,
         );
         // How far the tube stands out from the blade, seen from 5 mm above or below it, at a
@@ -267,4 +276,171 @@ fn the_tube_hides_the_blade_from_below_until_it_ends_and_sinks_once_from_above()
         // There is no step at its end.
         assert!(ahead(1.0, 0.0, -1.0) < 0.06, "{}", ahead(1.0, 0.0, -1.0));
     }
+}
+
+#[test]
+fn a_petiole_takes_its_course_and_is_closed_on_each_leaf_in_a_way_of_its_own() {
+    let outline = ellipse(20.0, 60.0, 60);
+    let plan = PetiolePlan {
+        length: 0.6,
+        radius_mm: Some(0.7),
+        curl: 0.2,
+        course: Course {
+            sag: 0.4,
+            neck: -0.5,
+            neck_length: 0.2,
+            sway: 0.3,
+            twist: 0.5,
+            stray: 0.15,
+        },
+        section: Section {
+            groove: 0.4,
+            flatness: 0.4,
+            foot: 0.5,
+            head: 0.3,
+        },
+    };
+    let network = midrib();
+    let foot = |seed: u64| {
+        let tube = plan.settled((&outline, &network), &flat(), None, seed);
+        let tube = tube.expect("a petiole");
+        assert_eq!(tube.validate(), Ok(()), "{seed}");
+        tube.positions[0]
+    };
+    let feet: Vec<DVec3> = (0..8).map(foot).collect();
+    for (i, a) in feet.iter().enumerate() {
+        assert!(a.x > 0.0 && a.y < -25.0, "{a}");
+        for b in &feet[..i] {
+            assert!(a.distance(*b) > 0.1, "{a} {b}");
+        }
+    }
+}
+
+/// Veins that spread from a base inside the blade.
+fn star(base: DVec2, rays: u32) -> VenationNetwork {
+    let mut nodes = vec![VeinNode {
+        position: base,
+        born: 0,
+    }];
+    let mut edges = Vec::new();
+    for ray in 0..rays {
+        let turn = std::f64::consts::TAU * (f64::from(ray) + 0.25) / f64::from(rays);
+        for step in 1..=20 {
+            let way = 0.45 * f64::from(step);
+            let last = nodes.len() as u32 - 1;
+            nodes.push(VeinNode {
+                position: base + way * DVec2::new(libm::sin(turn), libm::cos(turn)),
+                born: step,
+            });
+            edges.push(VeinEdge {
+                from: if step == 1 { 0 } else { last },
+                to: last + 1,
+                radius_from: 0.35 - 0.01 * f64::from(step - 1),
+                radius_to: 0.35 - 0.01 * f64::from(step),
+                order: 1,
+            });
+        }
+    }
+    VenationNetwork::from_parts(nodes, edges, 0.45).expect("a star")
+}
+
+#[test]
+fn the_petiole_of_a_peltate_leaf_meets_the_blade_all_around_without_a_gap() {
+    // An ellipse whose base lies 12 mm above its lower end.
+    let whole = ellipse(30.0, 40.0, 90);
+    let base = DVec2::new(0.0, 12.0);
+    let outline = Outline::new(whole.points().to_vec(), base, DVec2::new(0.0, 40.0));
+    let outline = outline.expect("a base inside");
+    let network = star(base, 7);
+    let bent = Course {
+        sag: -0.8,
+        sway: 0.3,
+        twist: 0.4,
+        ..Course::STRAIGHT
+    };
+    for (relief, fold, course) in [
+        (0.0, 0.0, Course::STRAIGHT),
+        (0.6, 0.2, bent),
+        (0.6, -0.3, bent),
+    ] {
+        let form = BladeForm {
+            relief,
+            fold,
+            curl: 0.4,
+            ..flat()
+        };
+        let plan = PetiolePlan {
+            length: 0.8,
+            radius_mm: Some(0.8),
+            curl: 0.1,
+            course,
+            section: Section {
+                groove: 0.3,
+                ..Section::default()
+            },
+        };
+        let tube = plan.build(&outline, &network, &form).expect("a petiole");
+        assert_eq!(tube.validate(), Ok(()), "{form:?}");
+        let blade = BladeMesh::build(&outline, &network, &form).expect("a blade");
+        let veins: Vec<VeinSegment> = network.segments().collect();
+        let posture = Posture::new(&form, &outline, (network.map(), &veins), None);
+        // What a ray along the blade's normal meets first, from above (1) or below (−1).
+        let tube_is_first = |p: DVec2, side: f64| {
+            let eye = posture.place(p, 3.0 * side);
+            let along = (posture.place(p, 0.0) - eye).normalize();
+            let hit = |positions: &[DVec3], triangles: &[[u32; 3]]| {
+                first_hit(eye, along, positions, triangles)
+            };
+            let blade = hit(&blade.positions, &blade.triangles);
+            assert!(blade.is_finite(), "a hole in the blade at {p}");
+            hit(&tube.positions, &tube.triangles) < blade
+        };
+        let rim = 1.7 * 0.8;
+        for i in 0..40 {
+            let turn = std::f64::consts::TAU * (f64::from(i) + 0.3) / 40.0;
+            let at = |share: f64| base + share * rim * DVec2::new(libm::cos(turn), libm::sin(turn));
+            // Under its whole width the tube hides the blade from both sides; beside it, the blade
+            // lies bare. Between them is the rim: nowhere does the tube stand off the blade.
+            for share in [0.1, 0.5, 0.9] {
+                assert!(tube_is_first(at(share), 1.0), "{share} of the rim, above");
+            }
+            // Farther in, the eye would be within the stalk.
+            for share in [0.7, 0.8, 0.9] {
+                assert!(tube_is_first(at(share), -1.0), "{share} of the rim, below");
+            }
+            assert!(!tube_is_first(at(1.3), 1.0), "it stands over the blade");
+            assert!(!tube_is_first(at(1.3), -1.0), "it hangs below the blade");
+        }
+        // It comes from below.
+        let lowest = tube.positions.iter().map(|p| p.z).fold(0.0, f64::min);
+        assert!(lowest < -15.0, "{lowest}");
+    }
+}
+
+#[test]
+fn the_rim_of_a_peltate_petiole_lies_on_both_sides_of_the_blade() {
+    let whole = ellipse(30.0, 40.0, 90);
+    let base = DVec2::new(0.0, 12.0);
+    let outline = Outline::new(whole.points().to_vec(), base, DVec2::new(0.0, 40.0));
+    let outline = outline.expect("a base inside");
+    let plan = PetiolePlan {
+        length: 0.5,
+        radius_mm: Some(0.8),
+        curl: 0.0,
+        course: Course::STRAIGHT,
+        section: Section::default(),
+    };
+    let tube = plan
+        .build(&outline, &star(base, 5), &flat())
+        .expect("a petiole");
+    // Of the flat blade, z = 0: the ring of the rim below it, the dome's first one above it, each
+    // within 2 % of the radius.
+    let near = |low: f64, high: f64| {
+        let rim = tube
+            .positions
+            .iter()
+            .filter(|p| p.truncate().length() > 1.2);
+        rim.filter(|p| (low..high).contains(&p.z)).count()
+    };
+    assert!(near(-0.0161, 0.0) >= 8 && near(0.0, 0.0161) >= 8);
 }

@@ -5,8 +5,10 @@ use glam::{DMat3, DVec2, DVec3};
 use super::settled::Settled;
 use crate::blade::BladeForm;
 use crate::blade::form::Bending;
+use crate::blade::pleats::Pleats;
 use crate::shape::outline::Outline;
 use crate::venation::conformal_map::ConformalMap;
+use crate::venation::network::VeinSegment;
 
 /// Distance over which slopes of the form are measured, as a share of the leaf's length.
 const NEARBY: f64 = 1e-4;
@@ -24,11 +26,12 @@ impl<'s> Posture<'s> {
     pub(in crate::blade) fn new(
         form: &BladeForm,
         outline: &Outline,
-        map: ConformalMap,
+        (map, veins): (ConformalMap, &[VeinSegment]),
         settled: Option<&'s Settled>,
     ) -> Self {
+        let pleats = Pleats::new(form, outline, veins);
         Self {
-            bending: Bending::new(form, outline, map),
+            bending: Bending::new(form, outline, map).pleated(pleats),
             nearby: NEARBY * outline.length(),
             base: outline.base(),
             settled,

@@ -36,10 +36,11 @@ const DISORDER: f64 = 0.5;
 /// Weight of 1 g/cm², N/mm².
 const GRAVITY: f64 = 9.81e-5;
 
-/// Share of a turgid blade's stiffness.
+/// Share of a turgid blade's stiffness. It falls in proportion to the turgor, as the modulus of
+/// parenchyma does (\[nilsson1958\]).
 pub(super) fn stiffness_left(stance: &Stance) -> f64 {
     let wilted = stance.wilting.map_or(0.0, |wilting| wilting.share);
-    libm::pow(FLACCID, wilted)
+    1.0 - (1.0 - FLACCID) * wilted
 }
 
 /// Weight over area, N/mm², of tissue that holds so much water (cm) and dry matter (g/cm²).

@@ -145,6 +145,7 @@ fn stalks_age_as_the_base_of_the_blade_does() {
         length: 0.3,
         radius_mm: None,
         curl: 0.0,
+        course: crate::blade::petiole::Course::STRAIGHT,
         section: crate::blade::petiole::Section::default(),
     });
     let dead = plan

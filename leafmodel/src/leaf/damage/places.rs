@@ -15,8 +15,11 @@ const SPREAD: f64 = 0.35;
 /// Corners of a hole.
 const HOLE_CORNERS: u32 = 28;
 
+/// Radius over that of the thickest secondary from which one stops a rip.
+const STOPPING: f64 = 0.45;
+
 /// Tries for each piece of damage.
-const TRIES: u64 = 80;
+pub(super) const TRIES: u64 = 80;
 
 /// Bites keep this share of the leaf's length away from base and apex.
 const ENDS: f64 = 0.12;
@@ -43,13 +46,13 @@ impl<'a> Places<'a> {
         }
     }
 
-    fn number(&mut self) -> f64 {
+    pub(super) fn number(&mut self) -> f64 {
         self.drawn += 1;
         uniform(self.seed, Use::Damage, self.drawn)
     }
 
     /// A size about its median.
-    fn size(&mut self, median: f64) -> f64 {
+    pub(super) fn size(&mut self, median: f64) -> f64 {
         self.drawn += 1;
         median * libm::exp(SPREAD * bell(self.seed, Use::DamageSize, self.drawn))
     }
@@ -64,15 +67,67 @@ impl<'a> Places<'a> {
 
     /// Distance to the nearest larger vein's side, the margin or anything eaten.
     fn room(&self, p: DVec2) -> f64 {
-        let veins = self.major.iter().map(|vein| {
-            let way = vein.to - vein.from;
-            let along = ((p - vein.from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-            (vein.from + way * along).distance(p) - vein.radius_from
-        });
+        let veins = self
+            .major
+            .iter()
+            .map(|vein| distance(vein, p) - vein.radius_from);
         let eaten = self.eaten.iter().map(|(q, radius)| q.distance(p) - radius);
         veins
             .chain(eaten)
             .fold(self.outline.distance_to_margin(p), f64::min)
+    }
+
+    /// Nothing more may be done to a disc.
+    pub(super) fn eat(&mut self, middle: DVec2, radius: f64) {
+        self.eaten.push((middle, radius));
+    }
+
+    /// Whether a place is farther than this from everything eaten.
+    pub(super) fn is_uneaten(&self, p: DVec2, away: f64) -> bool {
+        self.eaten
+            .iter()
+            .all(|(q, radius)| q.distance(p) > radius + away)
+    }
+
+    /// Radius from which a secondary stops a rip: rips cross the thin ends of secondaries, and the
+    /// loops between them.
+    pub(super) fn stopping_radius(&self) -> f64 {
+        let secondaries = self.major.iter().filter(|vein| vein.order == 2);
+        let thickest = secondaries.map(|vein| vein.radius_from).fold(0.0, f64::max);
+        STOPPING * thickest
+    }
+
+    /// Whether the sides of all veins that stop a rip are farther than `gap` from a place, and those
+    /// of primaries, where there are secondaries too, than `away`.
+    pub(super) fn is_clear_of_veins(&self, p: DVec2, gap: f64, away: f64) -> bool {
+        let stopping = self.stopping_radius();
+        self.major.iter().all(|vein| {
+            let gap = if vein.order == 1 && stopping > 0.0 {
+                away
+            } else {
+                gap
+            };
+            let stops = vein.order == 1 || vein.radius_from >= stopping;
+            !stops || distance(vein, p) - vein.radius_from > gap
+        })
+    }
+
+    /// The direction of the larger veins about a place, either way along them: that of the
+    /// secondaries where there are any.
+    pub(super) fn grain(&self, p: DVec2) -> Option<DVec2> {
+        let order = self.major.iter().map(|vein| vein.order).max()?;
+        // Directions without a sense: twice their angle has one.
+        let mut sum = DVec2::ZERO;
+        for vein in self.major.iter().filter(|vein| vein.order == order) {
+            let way = vein.to - vein.from;
+            let unit = way.normalize_or_zero();
+            let doubled = DVec2::new(unit.x * unit.x - unit.y * unit.y, 2.0 * unit.x * unit.y);
+            let near = 1.0 / (distance(vein, p) + 1e-3 * self.outline.length());
+            sum += doubled * (way.length() * near * near * near * near);
+        }
+        let angle = 0.5 * libm::atan2(sum.y, sum.x);
+        let (sin, cos) = libm::sincos(angle);
+        sum.is_finite().then_some(DVec2::new(cos, sin))
     }
 
     /// Holes, each with a margin that is not quite round.
@@ -207,6 +262,13 @@ impl<'a> Places<'a> {
         }
         blotches
     }
+}
+
+/// Distance to the axis of a piece of vein.
+fn distance(vein: &VeinSegment, p: DVec2) -> f64 {
+    let way = vein.to - vein.from;
+    let along = ((p - vein.from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+    (vein.from + way * along).distance(p)
 }
 
 /// The margin without a disc about a place on it, and the new edge; none if that leaves no margin.

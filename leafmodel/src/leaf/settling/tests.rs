@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::tests::plan;
 use super::super::*;
-use crate::blade::petiole::{PetiolePlan, Section};
+use crate::blade::petiole::{Course, PetiolePlan, Section};
 use crate::blade::stance::{Drying, MarginGrowth, Wilting};
 
 fn grown(stance: Stance) -> Leaf {
@@ -12,6 +12,14 @@ fn grown(stance: Stance) -> Leaf {
         length: 0.4,
         radius_mm: Some(0.5),
         curl: 0.3,
+        course: Course {
+            sag: 0.3,
+            neck: -0.4,
+            sway: 0.2,
+            twist: 0.3,
+            stray: 0.1,
+            ..Course::STRAIGHT
+        },
         section: Section {
             groove: 0.4,
             flatness: 0.2,
@@ -89,6 +97,24 @@ fn a_wilted_leaf_hangs_from_its_base() {
     );
     assert!(base(&whole).distance(DVec3::ZERO) < 1.0, "{}", base(&whole));
     assert_eq!(whole.mesh.validate(whole.lamina.outline.area()), Ok(()));
+}
+
+#[test]
+fn a_leaf_droops_the_more_the_more_turgor_it_has_lost() {
+    let droops = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| {
+        let leaf = grown(Stance {
+            wilting: Some(Wilting { share, pitch: 0.0 }),
+            ..Stance::default()
+        });
+        let heights = leaf.mesh.positions.iter().map(|p| p.z);
+        -heights.sum::<f64>() / leaf.mesh.positions.len() as f64
+    });
+    for pair in droops.windows(2) {
+        assert!(pair[1] > pair[0], "{droops:?}");
+    }
+    // Half of the turgor is not yet most of the way.
+    let reached = (droops[2] - droops[0]) / (droops[4] - droops[0]);
+    assert!(reached < 0.7, "{reached} of {droops:?}");
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! A description in words.
 
-use super::Description;
-use crate::venation::architecture::{PrimaryPattern, SecondaryEnding, SecondarySpacing};
+use super::{Areolation, Description, MarginalVenation, Veinlets};
+use crate::venation::architecture::{
+    Agrophic, Attachment, PrimaryPattern, QuaternaryCourse, SecondaryEnding, SecondarySpacing,
+};
 
 impl Description {
     /// Lines of text, one for each group of veins.
@@ -9,8 +11,11 @@ impl Description {
         let lines = [
             self.primaries_text(),
             self.secondaries_text(),
+            self.agrophic_text(),
             self.tertiaries_text(),
-            self.net_text(),
+            self.quaternaries_text(),
+            self.areoles_text(),
+            self.veinlets_text(),
             self.margin_text(),
         ];
         lines
@@ -47,6 +52,7 @@ impl Description {
     fn secondaries_text(&self) -> Option<String> {
         let ending = match self.ending? {
             SecondaryEnding::Craspedodromous => "craspedodromous",
+            SecondaryEnding::Sinus => "ending in sinuses",
             SecondaryEnding::Semicraspedodromous => "semicraspedodromous",
             SecondaryEnding::Eucamptodromous => "eucamptodromous",
             SecondaryEnding::Brochidodromous => "brochidodromous",
@@ -80,46 +86,88 @@ impl Description {
             Some(_) | None => String::new(),
         };
         let angles = angles.join(", ");
+        let attachment = match self.attachment {
+            Some(Attachment::Excurrent) => ", excurrent",
+            Some(Attachment::Decurrent) => ", decurrent",
+            None => "",
+        };
         Some(format!(
-            "secondary veins: {ending}, {pairs}{course}{spacing}; angle {angles}{between}"
+            "secondary veins: {ending}, {pairs}{attachment}{course}{spacing}; angle {angles}{between}"
         ))
     }
 
+    fn agrophic_text(&self) -> Option<String> {
+        self.primaries?;
+        let words = match self.agrophic {
+            Agrophic::Absent => return None,
+            Agrophic::Simple => "simple",
+            Agrophic::Compound => "compound",
+        };
+        Some(format!("agrophic veins: {words}"))
+    }
+
     fn tertiaries_text(&self) -> Option<String> {
-        let share = self.percurrent?;
-        if share <= 0.5 {
+        let found = &self.tertiaries;
+        if !found.is_percurrent()? {
             return Some("tertiary veins: reticulate".to_owned());
         }
-        let course = match self.tertiary_over_chord {
+        let course = match found.length_over_chord {
+            _ if found.are_chevrons() => "forming chevrons",
             Some(winding) if winding < 1.04 => "straight",
             Some(_) | None => "sinuous or offset",
         };
-        let angle = self
-            .tertiary_angle_deg
+        let angle = found
+            .angle_deg
             .map(|angle| format!(", {angle:.0}° to the secondary"))
             .unwrap_or_default();
         Some(format!("tertiary veins: percurrent, {course}{angle}"))
     }
 
-    fn net_text(&self) -> Option<String> {
-        let elongation = self.areole_elongation?;
-        let veinlets = self.veinlets_per_areole?;
-        let number = match veinlets {
-            few if few < 0.1 => "without freely ending veinlets".to_owned(),
-            some => format!("{some:.1} freely ending veinlets each"),
+    fn quaternaries_text(&self) -> Option<String> {
+        let words = match self.quaternaries.quaternary_course()? {
+            QuaternaryCourse::Reticulate => "reticulate",
+            QuaternaryCourse::OppositePercurrent => "opposite percurrent",
+            QuaternaryCourse::AlternatePercurrent => "alternate percurrent",
+            QuaternaryCourse::FreelyRamified => "freely ramified",
+        };
+        Some(format!("quaternary veins: {words}"))
+    }
+
+    fn areoles_text(&self) -> Option<String> {
+        let net = &self.net;
+        let (sides, elongation) = (net.sides?, net.elongation?);
+        let words = match net.areolation() {
+            Areolation::Lacking => return Some("areolation: lacking".to_owned()),
+            Areolation::Poor => "poorly developed",
+            Areolation::Moderate => "moderately developed",
+            Areolation::Good => "well developed",
         };
         Some(format!(
-            "areoles: {:.1} per mm², median elongation {elongation:.2}, {number}",
-            self.areoles_per_mm2
+            "areolation: {words}, {:.1} per mm², {sides:.0} sides, median elongation {elongation:.2}",
+            net.areoles_per_mm2
+        ))
+    }
+
+    fn veinlets_text(&self) -> Option<String> {
+        let net = &self.net;
+        let number = net.veinlets_per_areole?;
+        let words = match net.veinlets() {
+            Veinlets::Absent => return Some("freely ending veinlets: absent".to_owned()),
+            Veinlets::Unbranched => "mostly unbranched",
+            Veinlets::BranchedOnce => "mostly branched once",
+            Veinlets::Dendritic => "mostly dendritic",
+        };
+        let ends = net.free_ends_per_areole?;
+        Some(format!(
+            "freely ending veinlets: {words}, {number:.1} to an areole with {ends:.1} free ends"
         ))
     }
 
     fn margin_text(&self) -> Option<String> {
-        let share = self.free_at_margin?;
-        let words = if share < 0.25 {
-            "looped"
-        } else {
-            "incomplete: veins end freely at the margin"
+        let words = match self.marginal? {
+            MarginalVenation::Fimbrial => "a fimbrial vein",
+            MarginalVenation::Looped => "looped",
+            MarginalVenation::Incomplete => "incomplete: veins end freely at the margin",
         };
         Some(format!("marginal ultimate venation: {words}"))
     }

@@ -27,25 +27,29 @@ pub(super) struct Vein {
 pub(super) struct Tracer<'a> {
     network: &'a VenationNetwork,
     apex: DVec2,
-    ends: Vec<[u32; 2]>,
+    ends: &'a [[u32; 2]],
+    topology: Topology<'a>,
+}
+
+/// The nodes at both ends of each edge.
+pub(super) fn ends(network: &VenationNetwork) -> Vec<[u32; 2]> {
+    let edges = network.edges().iter();
+    edges.map(|edge| [edge.from, edge.to]).collect()
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(outline: &Outline, network: &'a VenationNetwork) -> Self {
-        let ends = network
-            .edges()
-            .iter()
-            .map(|edge| [edge.from, edge.to])
-            .collect();
+    /// `ends` are those of the network's edges.
+    pub(super) fn new(
+        outline: &Outline,
+        network: &'a VenationNetwork,
+        ends: &'a [[u32; 2]],
+    ) -> Self {
         Self {
             network,
             apex: outline.apex(),
             ends,
+            topology: Topology::new(network.nodes().len(), ends),
         }
-    }
-
-    fn topology(&self) -> Topology<'_> {
-        Topology::new(self.network.nodes().len(), &self.ends)
     }
 
     fn place(&self, node: u32) -> DVec2 {
@@ -58,7 +62,7 @@ impl<'a> Tracer<'a> {
 
     /// All veins of order 1: first the one that comes nearest to the apex.
     pub(super) fn primaries(&self) -> Vec<Vein> {
-        let topology = self.topology();
+        let topology = &self.topology;
         let mut starts: Vec<u32> = (0..self.network.nodes().len() as u32)
             .filter(|&node| topology.entering(node).is_empty())
             .flat_map(|node| topology.leaving(node).to_vec())
@@ -68,7 +72,7 @@ impl<'a> Tracer<'a> {
         let mut next = 0;
         while let Some(&start) = starts.get(next) {
             next += 1;
-            let vein = self.trace(&topology, start);
+            let vein = self.trace(topology, start);
             // Branches of the same order are primaries too.
             for pair in vein.nodes.windows(2) {
                 let more = topology.leaving(pair[0]).iter().copied().filter(|&edge| {
@@ -94,14 +98,14 @@ impl<'a> Tracer<'a> {
 
     /// The veins of an order that leave a vein.
     pub(super) fn leaving(&self, vein: &Vein, order: u8) -> Vec<Vein> {
-        let topology = self.topology();
+        let topology = &self.topology;
         let starts = vein.nodes.iter().flat_map(|&node| topology.leaving(node));
         starts
             .copied()
             .filter(|&edge| self.order(edge) == order)
             .filter(|&edge| topology.entering(self.ends[edge as usize][1]).len() < 2)
             .filter(|&edge| !vein.nodes.contains(&self.ends[edge as usize][1]))
-            .map(|edge| self.trace(&topology, edge))
+            .map(|edge| self.trace(topology, edge))
             .filter(|found| found.nodes.len() > STUMP)
             .collect()
     }
@@ -217,6 +221,30 @@ impl Vein {
     /// Its direction over a first share of its length.
     pub(super) fn departure(&self, share: f64) -> DVec2 {
         (self.at(share) - self.start()).normalize_or_zero()
+    }
+
+    /// The node farthest from the straight way between two places, of those at these shares of its
+    /// length, and how far away it is.
+    pub(super) fn farthest(
+        &self,
+        from: DVec2,
+        to: DVec2,
+        shares: std::ops::Range<f64>,
+    ) -> Option<(DVec2, f64)> {
+        let way = (to - from).normalize_or_zero();
+        let whole = self.length().max(1e-12);
+        let mut walked = 0.0;
+        let mut best: Option<(DVec2, f64)> = None;
+        for (i, &place) in self.places.iter().enumerate() {
+            if i > 0 {
+                walked += (place - self.places[i - 1]).length();
+            }
+            let away = way.perp_dot(place - from).abs();
+            if shares.contains(&(walked / whole)) && best.is_none_or(|(_, most)| away > most) {
+                best = Some((place, away));
+            }
+        }
+        best
     }
 
     /// How far it strays from its chord, share of that.

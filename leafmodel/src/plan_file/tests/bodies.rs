@@ -1,10 +1,12 @@
 //! Tissue, form and stalks by chance.
 
 use super::*;
+use crate::blade::MarginThickness;
 use crate::blade::hairs::{HairPlace, HairPlan};
-use crate::blade::petiole::Section;
+use crate::blade::petiole::{Course, Section};
 use crate::blade::stance::{Drying, MarginGrowth, Stance, Wilting};
 use crate::blade::surface::SurfacePlan;
+use crate::blade::unevenness::Unevenness;
 use crate::optics::{Constituent, Contents, VeinFactors};
 
 pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
@@ -41,7 +43,12 @@ pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
                 fold: fold.to_radians(),
                 curl: curl.to_radians(),
                 ruffle,
+                pleat: (20.0 * ruffle).to_radians(),
                 relief,
+                margin: MarginThickness {
+                    share: 1.0 - ruffle,
+                    width_mm: 0.2 + relief,
+                },
                 max_edge_mm: relief,
                 ..default
             }
@@ -86,16 +93,34 @@ pub(super) fn petiole_or_compound()
                 head,
             }
         });
+    let angles = (
+        -170.0..170.0_f64,
+        -110.0..110.0_f64,
+        -170.0..170.0_f64,
+        -170.0..170.0_f64,
+        0.0..55.0_f64,
+    );
+    let course =
+        (angles, 0.02..1.0).prop_map(|((sag, neck, sway, twist, stray), neck_length)| Course {
+            sag: sag.to_radians(),
+            neck: neck.to_radians(),
+            neck_length,
+            sway: sway.to_radians(),
+            twist: twist.to_radians(),
+            stray: stray.to_radians(),
+        });
     let petiole = (
         0.0..3.0,
         prop::option::of(0.01..2.0),
         -90.0..90.0_f64,
+        course,
         section,
     );
-    let petiole = petiole.prop_map(|(length, radius_mm, curl, section)| PetiolePlan {
+    let petiole = petiole.prop_map(|(length, radius_mm, curl, course, section)| PetiolePlan {
         length,
         radius_mm,
         curl: curl.to_radians(),
+        course,
         section,
     });
     let palmate = (
@@ -201,6 +226,19 @@ pub(super) fn surface() -> impl Strategy<Value = Option<SurfacePlan>> {
         cell_share: cells.2,
         bloom: [bulge.0, veins.2],
     });
+    prop::option::of(any)
+}
+
+pub(super) fn unevenness() -> impl Strategy<Value = Option<Unevenness>> {
+    let any = (0.0..0.3, 0.0..0.3, 0.5..500.0, 0.0..0.9, 0.05..100.0).prop_map(
+        |(fields, patches, patch_mm, along_primaries, reach_mm)| Unevenness {
+            fields,
+            patches,
+            patch_mm,
+            along_primaries,
+            reach_mm,
+        },
+    );
     prop::option::of(any)
 }
 

@@ -224,7 +224,14 @@ pub(super) fn specimen() -> impl Strategy<Value = Specimen> {
         let point =
             || (0.001..0.01, 0.001..0.01).prop_map(|(length, width)| Point { length, width });
         prop_oneof![
-            (0.001..0.01).prop_map(|diameter| Tip::Gland { diameter }),
+            (0.001..0.01, 0.0..30.0).prop_map(|(diameter, anthocyanins)| {
+                let mut gland = Gland {
+                    diameter,
+                    ..Gland::default()
+                };
+                gland.contents[Constituent::Anthocyanins] = anthocyanins;
+                Tip::Gland(gland)
+            }),
             point().prop_map(Tip::Mucro),
             point().prop_map(Tip::Awn),
         ]
@@ -276,15 +283,34 @@ pub(super) fn specimen() -> impl Strategy<Value = Specimen> {
 }
 
 pub(super) fn damage() -> impl Strategy<Value = Option<Damage>> {
-    let damage = (0_u32..200, 0.1..100.0, 0_u32..50, 0.2..20.0, 0.0..10.0).prop_map(
-        |(holes, hole_mm, mines, mine_mm, rim_mm)| Damage {
+    let dieback = (0.0..0.9, 0.0..2.0, 0.1..10.0, 0.0..1.0, 0.0..5.0).prop_map(
+        |(share, from_tip, vein_speed, unevenness, rim_mm)| Dieback {
+            share,
+            from_tip,
+            vein_speed,
+            unevenness,
+            rim_mm,
+        },
+    );
+    let tears = (0_u32..100, 0.5..500.0, 0.005..0.5, 0.0..0.3);
+    let dieback = prop::option::of(dieback);
+    let sizes = (0_u32..200, 0.1..100.0, 0_u32..50, 0.2..20.0, 0.0..10.0);
+    let damage = (sizes, tears, dieback).prop_map(|(sizes, tears, dieback)| {
+        let (holes, hole_mm, mines, mine_mm, rim_mm) = sizes;
+        let (tears, tear_mm, tear_gape, tear_lift) = tears;
+        Damage {
             holes,
             hole_mm,
             mines,
             mine_mm,
+            tears,
+            tear_mm,
+            tear_gape,
+            tear_lift,
             rim_mm,
+            dieback,
             ..Damage::default()
-        },
-    );
+        }
+    });
     prop::option::of(damage)
 }

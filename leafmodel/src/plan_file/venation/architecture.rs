@@ -6,8 +6,8 @@ use crate::document::limits::Limits;
 use crate::document::value_kind::{Flag, Integer, ListOf, Number, Numbers, Word};
 use crate::plan_file::venation::SHARE;
 use crate::venation::architecture::{
-    Architecture, ArchitectureError, Arrangement, Attachment, PrimaryPattern, SecondaryCourse,
-    SecondaryEnding, SecondarySpacing, TertiaryCourse,
+    Agrophic, Architecture, ArchitectureError, Arrangement, Attachment, PrimaryPattern,
+    QuaternaryCourse, SecondaryCourse, SecondaryEnding, SecondarySpacing, TertiaryCourse,
 };
 
 pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
@@ -65,6 +65,10 @@ pub(super) fn architecture(plan: &mut Architecture, keys: &mut Keys<'_>) {
     keys.block("tertiaries", about, |keys| {
         tertiaries(&mut plan.tertiaries, keys);
     });
+    let about = "Quaternary veins.";
+    keys.block("quaternaries", about, |keys| {
+        quaternaries(&mut plan.quaternaries, keys);
+    });
 }
 
 fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut Keys<'_>) {
@@ -81,12 +85,14 @@ fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut
     );
     let words = [
         ("craspedodromous", SecondaryEnding::Craspedodromous),
+        ("sinus", SecondaryEnding::Sinus),
         ("semicraspedodromous", SecondaryEnding::Semicraspedodromous),
         ("eucamptodromous", SecondaryEnding::Eucamptodromous),
         ("brochidodromous", SecondaryEnding::Brochidodromous),
         ("festooned", SecondaryEnding::Festooned),
     ];
-    let about = "Where they end: in teeth or lobes (craspedodromous), joined in arches with \
+    let about = "Where they end: in teeth or lobes (craspedodromous), in the sinuses between them \
+        (sinus), joined in arches with \
         branches into teeth (semicraspedodromous), upturned inside the margin (eucamptodromous), \
         joined in arches (brochidodromous), the same with a second row of loops (festooned).";
     keys.required("ending", &mut plan.ending, Word(&words), about);
@@ -141,6 +147,16 @@ fn secondaries(plan: &mut crate::venation::architecture::Secondaries, keys: &mut
         limits,
         about,
     );
+    let words = [
+        ("absent", Agrophic::Absent),
+        ("simple", Agrophic::Simple),
+        ("compound", Agrophic::Compound),
+    ];
+    let about = "Agrophic veins, combs of two or more veins on the outer side of the lowest \
+        secondary (simple) or of the two lowest (compound) of each side; they end as the \
+        secondaries do. Pinnate leaves only: elsewhere the outer secondaries of lateral primaries \
+        are such veins.";
+    keys.key("agrophic", &mut plan.agrophic, Word(&words), about);
 }
 
 fn tertiaries(plan: &mut crate::venation::architecture::Tertiaries, keys: &mut Keys<'_>) {
@@ -161,6 +177,25 @@ fn tertiaries(plan: &mut crate::venation::architecture::Tertiaries, keys: &mut K
     let limits = Number(Limits::closed(40.0, 140.0));
     let about = "Percurrent only: angle to the secondary that they leave.";
     keys.key("angle_deg", &mut plan.angle_deg, limits, about);
+}
+
+fn quaternaries(plan: &mut crate::venation::architecture::Quaternaries, keys: &mut Keys<'_>) {
+    let words = [
+        ("reticulate", QuaternaryCourse::Reticulate),
+        ("opposite_percurrent", QuaternaryCourse::OppositePercurrent),
+        (
+            "alternate_percurrent",
+            QuaternaryCourse::AlternatePercurrent,
+        ),
+        ("freely_ramified", QuaternaryCourse::FreelyRamified),
+    ];
+    let about = "How they run: in a net, as chance has it (reticulate), or between percurrent \
+        tertiaries: across from one to the next, straight (opposite) or with an offset \
+        (alternate), or branched and ending between them (freely ramified).";
+    keys.key("course", &mut plan.course, Word(&words), about);
+    let limits = Number(Limits::closed(0.002, 0.1));
+    let about = "Unless reticulate: distance between neighbours, share of the leaf's length.";
+    keys.key("spacing", &mut plan.spacing, limits, about);
 }
 
 /// The key to change, and what to write instead.
@@ -197,6 +232,28 @@ pub(super) fn remedy(error: &ArchitectureError) -> (&'static [&'static str], &'s
             "give the outline teeth, use fewer pairs, or let the secondaries end inside the \
              margin: eucamptodromous or brochidodromous",
         ),
+        ArchitectureError::TooFewSinuses { .. } => (
+            &["architecture", "secondaries", "ending"],
+            "give the outline lobes or teeth, use fewer pairs, or let the secondaries end inside \
+             the margin: eucamptodromous or brochidodromous",
+        ),
+        ArchitectureError::NoBearers { .. } => (
+            &["architecture", "secondaries", "agrophic"],
+            "use \"absent\", or pinnate primaries with as many pairs",
+        ),
+        ArchitectureError::NoComb { .. } => (
+            &["architecture", "secondaries", "agrophic"],
+            "use \"absent\", a span that starts higher, or an outline that is wider or has more \
+             teeth near its base",
+        ),
+        ArchitectureError::NoTertiaries => (
+            &["architecture", "quaternaries", "course"],
+            "use \"reticulate\", or percurrent tertiaries",
+        ),
+        ArchitectureError::QuaternariesTooClose { .. } => (
+            &["architecture", "quaternaries", "spacing"],
+            "use a wider spacing, or a longer young leaf: initial_length_segments",
+        ),
         ArchitectureError::TooManyPairs { .. } => (
             &["architecture", "secondaries", "pairs"],
             "use fewer pairs, a wider span, or a longer young leaf: initial_length_segments",
@@ -205,7 +262,8 @@ pub(super) fn remedy(error: &ArchitectureError) -> (&'static [&'static str], &'s
             &["architecture", "secondaries", "pairs"],
             "use fewer pairs, or a span that starts above the lateral primaries",
         ),
-        ArchitectureError::TertiariesTooClose { .. } => (
+        ArchitectureError::TertiariesTooClose { .. }
+        | ArchitectureError::NoRoomForQuaternaries { .. } => (
             &["architecture", "tertiaries", "spacing"],
             "use a wider spacing, or a longer young leaf: initial_length_segments",
         ),

@@ -273,16 +273,20 @@ fn teeth_differ_on_the_two_sides_and_from_leaf_to_leaf() {
 
 #[test]
 fn each_tooth_bears_its_tip() {
-    use crate::shape::tips::Point;
+    use crate::shape::tips::{Gland, Point};
 
     let point = Point {
         length: 0.01,
         width: 0.002,
     };
+    let gland = Gland {
+        diameter: 0.01,
+        ..Gland::default()
+    };
     for (tip, corners, reach) in [
         (Tip::Awn(point), 5, 0.1),
         (Tip::Mucro(point), 3, 0.1),
-        (Tip::Gland { diameter: 0.01 }, 11, 0.1),
+        (Tip::Gland(gland), 11, 0.1),
     ] {
         let wave = ToothWave {
             tip: Some(tip),
@@ -294,6 +298,15 @@ fn each_tooth_bears_its_tip() {
         assert_eq!(more, 24 * (corners - 1), "{tip:?}");
         let out = tipped.bounds().1.x - plain.bounds().1.x;
         assert!((out / reach - 1.0).abs() < 0.3, "{tip:?}: {out} mm");
+        // Glands are known, and move with the margin.
+        let is_gland = matches!(tip, Tip::Gland(_));
+        assert_eq!(tipped.knobs().len(), if is_gland { 24 } else { 0 });
+        let larger = tipped.moved_and_scaled(DVec2::ONE, 3.0);
+        for (knob, moved) in tipped.knobs().iter().zip(larger.knobs()) {
+            assert!((moved.radius - 3.0 * knob.radius).abs() < 1e-12);
+            assert!(larger.distance_to_margin(moved.feet[0]) < 1e-9);
+            assert!((larger.distance_to_margin(moved.centre) / moved.radius - 1.0).abs() < 0.1);
+        }
     }
 }
 

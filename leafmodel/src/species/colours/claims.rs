@@ -12,6 +12,7 @@ use crate::optics::Constituent::{
 };
 use crate::optics::{Contents, ProspectD};
 use crate::species::{PRESETS, find};
+use crate::venation::architecture::PrimaryPattern;
 use crate::venation::network::VeinSegment;
 use crate::venation::plan::{AuxinPlan, Growth};
 
@@ -29,32 +30,36 @@ struct Point {
 
 /// The leaf of a preset with a coarser net, so that it grows fast.
 fn points(plan: &LeafPlan) -> Vec<Point> {
-    const COARSER: f64 = 2.5;
     let mut plan = LeafPlan {
         map_size: 360,
         compound: None,
         ..plan.clone()
     };
     if let VenationPlan::Auxin(auxin) = &plan.venation {
+        // The primaries of a fan leave no room for a coarser net.
+        let is_fan = auxin.architecture.as_ref().is_some_and(|architecture| {
+            architecture.primaries.pattern == PrimaryPattern::Flabellate
+        });
+        let coarser = if is_fan { 1.0 } else { 2.5 };
         let growth = match auxin.growth.clone() {
             Growth::Isogonic {
                 initial_length,
                 length_step,
             } => Growth::Isogonic {
-                initial_length: initial_length / COARSER,
+                initial_length: initial_length / coarser,
                 length_step,
             },
             Growth::Marginal {
                 initial_length,
                 length_step,
             } => Growth::Marginal {
-                initial_length: initial_length / COARSER,
+                initial_length: initial_length / coarser,
                 length_step,
             },
             other @ (Growth::None | Growth::Anisotropic { .. }) => other,
         };
         plan.venation = VenationPlan::Auxin(AuxinPlan {
-            final_length: auxin.final_length / COARSER,
+            final_length: auxin.final_length / coarser,
             growth,
             ..auxin.clone()
         });

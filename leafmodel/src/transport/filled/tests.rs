@@ -153,8 +153,10 @@ fn blades_of_all_kinds_are_supplied_and_can_be_meshed() {
             curl: 0.3,
             ruffle: 0.01,
             ruffle_waves: 3.0,
+            pleat: 0.0,
             relief: 0.5,
             thickness_mm: 0.2,
+            margin: crate::blade::MarginThickness::EVEN,
             max_edge_mm: outline.length() / 20.0,
             meshed_vein_radius_mm: 0.1,
         };

@@ -1,140 +1,21 @@
 //! Architectures that contradict themselves or their outline.
 
-use thiserror::Error;
-
+use super::error::ArchitectureError;
 use super::ground::Ground;
 use super::margin::Margin;
 use super::primaries;
-use super::secondaries;
-use super::{Architecture, Lots, PrimaryPattern, SecondaryEnding, TertiaryCourse};
+use super::secondaries::{self, agrophic};
+use super::{
+    Agrophic, Architecture, Lots, PrimaryPattern, QuaternaryCourse, SecondaryEnding, TertiaryCourse,
+};
 use crate::shape::outline::Outline;
 
 /// Secondaries of one side are at least so many segments of the young leaf apart.
 const CLOSEST: f64 = 4.0;
 
-/// Why an architecture cannot be grown.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum ArchitectureError {
-    /// A number outside its range.
-    #[error("architecture: {key} is {value}, outside {range}")]
-    OutOfRange {
-        /// Which.
-        key: &'static str,
-        /// What it was.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
-    /// Lateral primaries where there are none, or none where there are some.
-    #[error(
-        "{pattern} venation has {wanted} lateral primaries a side; lateral_primary_angles_deg names {named}"
-    )]
-    LateralPrimaries {
-        /// The pattern.
-        pattern: &'static str,
-        /// What it has.
-        wanted: &'static str,
-        /// How many are named.
-        named: usize,
-    },
-    /// A number of lateral primaries that the pattern cannot have.
-    #[error("{pattern} venation has {wanted} lateral_primaries a side, not {laterals}")]
-    LateralCount {
-        /// The pattern.
-        pattern: &'static str,
-        /// What it has.
-        wanted: &'static str,
-        /// How many are asked for.
-        laterals: u32,
-    },
-    /// Secondaries between primaries that leave them no room.
-    #[error("{pattern} venation has no secondaries between its primaries, not {pairs} pairs")]
-    NoSecondaries {
-        /// The pattern.
-        pattern: &'static str,
-        /// Pairs asked for.
-        pairs: u32,
-    },
-    /// Primaries nearer to each other than vein segments are long.
-    #[error(
-        "primaries {apart:.2} segments of the young leaf apart, less than 3, cannot be told from each other"
-    )]
-    PrimariesTooClose {
-        /// Segments between neighbours.
-        apart: f64,
-    },
-    /// Angles or places that do not ascend.
-    #[error("{key} does not ascend: {first} is followed by {second}")]
-    NotAscending {
-        /// Which list.
-        key: &'static str,
-        /// A number.
-        first: f64,
-        /// The next one.
-        second: f64,
-    },
-    /// Secondaries that would run into teeth that are not there.
-    #[error(
-        "{ending} secondaries end in teeth or lobes: {pairs} pairs need as many a side, and the outline has {right} on the right and {left} on the left"
-    )]
-    TooFewTeeth {
-        /// The ending.
-        ending: &'static str,
-        /// Pairs asked for.
-        pairs: u32,
-        /// Teeth and lobes on the right.
-        right: usize,
-        /// Teeth and lobes on the left.
-        left: usize,
-    },
-    /// More secondaries than the young leaf has room for.
-    #[error(
-        "{pairs} pairs of secondaries lie {apart:.1} segments apart in the young leaf, less than 4; {fit} pairs fit"
-    )]
-    TooManyPairs {
-        /// Pairs asked for.
-        pairs: u32,
-        /// Segments between neighbours.
-        apart: f64,
-        /// Pairs that fit.
-        fit: u32,
-    },
-    /// Secondaries that lateral primaries or the margin leave no room for.
-    #[error(
-        "of {pairs} pairs of secondaries only {fit} on one side of the midrib have a way to the margin"
-    )]
-    NoWay {
-        /// Pairs asked for.
-        pairs: u32,
-        /// Those that fit.
-        fit: u32,
-    },
-    /// Tertiaries nearer to each other than vein segments are long.
-    #[error(
-        "tertiaries {apart:.2} segments of the young leaf apart, less than 2.5, cannot be told from each other; a spacing of {least:.4} or more can"
-    )]
-    TertiariesTooClose {
-        /// Segments between neighbours.
-        apart: f64,
-        /// The least spacing that fits, share of the leaf's length.
-        least: f64,
-    },
-    /// Lateral primaries that point away from the blade where they part from the midrib.
-    #[error(
-        "of {asked} lateral primaries only {fit} point into the blade where they part from the midrib"
-    )]
-    PrimariesOffBlade {
-        /// Lateral primaries asked for.
-        asked: usize,
-        /// Those that fit.
-        fit: usize,
-    },
-    /// A midrib that leaves the blade.
-    #[error(
-        "the straight way from base to apex leaves the blade: a midrib cannot be laid out on it"
-    )]
-    MidribOffBlade,
-}
+/// Tertiaries between which quaternaries can be laid out are at least so many segments of the young
+/// leaf apart.
+const LADDER: f64 = 5.0;
 
 impl Architecture {
     /// Checks all that needs no outline.
@@ -190,6 +71,12 @@ impl Architecture {
                 pairs: self.secondaries.pairs,
             });
         }
+        self.check_bearers(pattern)?;
+        if self.quaternaries.course != QuaternaryCourse::Reticulate
+            && self.tertiaries.course == TertiaryCourse::Reticulate
+        {
+            return Err(ArchitectureError::NoTertiaries);
+        }
         let span = ("span", &self.secondaries.span[..]);
         for (key, list) in [("lateral_primary_angles_deg", &angles[..]), span] {
             if let Some(pair) = list.windows(2).find(|pair| pair[0] >= pair[1]) {
@@ -201,6 +88,28 @@ impl Architecture {
             }
         }
         Ok(())
+    }
+
+    /// Refuses agrophic veins where no secondary can bear them.
+    fn check_bearers(&self, pattern: &'static str) -> Result<(), ArchitectureError> {
+        let plan = &self.secondaries;
+        let (kind, bearers) = match plan.agrophic {
+            Agrophic::Absent => return Ok(()),
+            Agrophic::Simple => ("simple", "lowest pair of secondaries"),
+            Agrophic::Compound => ("compound", "two lowest pairs of secondaries"),
+        };
+        let there = if self.primaries.pattern != PrimaryPattern::Pinnate {
+            format!("{pattern} venation has lateral primaries, whose outer secondaries they are")
+        } else if (plan.pairs as usize) < plan.agrophic.combs() {
+            format!("{} pairs are asked for", plan.pairs)
+        } else {
+            return Ok(());
+        };
+        Err(ArchitectureError::NoBearers {
+            kind,
+            bearers,
+            there,
+        })
     }
 
     fn numbers(&self) -> Vec<(&'static str, f64, f64, f64, &'static str)> {
@@ -259,6 +168,13 @@ impl Architecture {
                 140.0,
                 "40 to 140 (degrees)",
             ),
+            (
+                "quaternaries.spacing",
+                self.quaternaries.spacing,
+                0.002,
+                0.1,
+                "0.002 to 0.1 (of the length)",
+            ),
             ("irregularity", self.irregularity, 0.0, 1.0, "0 to 1"),
         ];
         numbers.extend(
@@ -296,42 +212,9 @@ impl Architecture {
                 fit: (reach / CLOSEST) as u32,
             });
         }
-        let apart = self.tertiaries.spacing * length;
-        if self.tertiaries.course != TertiaryCourse::Reticulate && apart < 2.5 {
-            let least = 2.5 / length;
-            return Err(ArchitectureError::TertiariesTooClose { apart, least });
-        }
-        let (low, high) = blade.bounds();
-        let apart = if self.primaries.pattern == PrimaryPattern::Flabellate {
-            self.primaries.fork_spacing * length
-        } else if self.primaries.laterals > 0 {
-            let width = young * (high.x - low.x);
-            0.5 * width / f64::from(self.primaries.laterals + 1)
-        } else {
-            f64::INFINITY
-        };
-        if apart < 3.0 {
-            return Err(ArchitectureError::PrimariesTooClose { apart });
-        }
+        self.check_spacing(blade, young)?;
         let margin = Margin::new(blade);
-        let ending = match plan.ending {
-            SecondaryEnding::Craspedodromous => Some("craspedodromous"),
-            SecondaryEnding::Semicraspedodromous => Some("semicraspedodromous"),
-            SecondaryEnding::Eucamptodromous
-            | SecondaryEnding::Brochidodromous
-            | SecondaryEnding::Festooned => None,
-        };
-        if let Some(ending) = ending {
-            let [right, left] = margin.tips_a_side();
-            if right.min(left) < plan.pairs as usize {
-                return Err(ArchitectureError::TooFewTeeth {
-                    ending,
-                    pairs: plan.pairs,
-                    right,
-                    left,
-                });
-            }
-        }
+        self.check_ends(&margin)?;
         let lots = Lots::new(0, 0.0);
         let ground = Ground {
             blade,
@@ -363,6 +246,88 @@ impl Architecture {
                 pairs: plan.pairs,
                 fit,
             });
+        }
+        let bearers = agrophic::bearers(plan, &laid.veins);
+        let fit = laid.agrophic.poorest(&bearers);
+        if plan.agrophic != Agrophic::Absent && fit < agrophic::LEAST {
+            let (ending, to) = match plan.ending {
+                SecondaryEnding::Craspedodromous => ("craspedodromous", "to a tooth"),
+                SecondaryEnding::Sinus => ("sinus", "to a sinus"),
+                SecondaryEnding::Semicraspedodromous => ("semicraspedodromous", "to the margin"),
+                SecondaryEnding::Eucamptodromous => ("eucamptodromous", "to the margin"),
+                SecondaryEnding::Brochidodromous => ("brochidodromous", "to the margin"),
+                SecondaryEnding::Festooned => ("festooned", "to the margin"),
+            };
+            return Err(ArchitectureError::NoComb { ending, fit, to });
+        }
+        Ok(())
+    }
+
+    /// Refuses tertiaries, quaternaries and primaries too near to each other.
+    fn check_spacing(&self, blade: &Outline, young: f64) -> Result<(), ArchitectureError> {
+        let length = young * blade.length();
+        let apart = self.tertiaries.spacing * length;
+        if self.tertiaries.course != TertiaryCourse::Reticulate && apart < 2.5 {
+            let least = 2.5 / length;
+            return Err(ArchitectureError::TertiariesTooClose { apart, least });
+        }
+        if self.quaternaries.course != QuaternaryCourse::Reticulate {
+            if apart < LADDER {
+                let least = LADDER / length;
+                return Err(ArchitectureError::NoRoomForQuaternaries { apart, least });
+            }
+            let apart = self.quaternaries.spacing * length;
+            if apart < 2.5 {
+                let least = 2.5 / length;
+                return Err(ArchitectureError::QuaternariesTooClose { apart, least });
+            }
+        }
+        let (low, high) = blade.bounds();
+        let apart = if self.primaries.pattern == PrimaryPattern::Flabellate {
+            self.primaries.fork_spacing * length
+        } else if self.primaries.laterals > 0 {
+            let width = young * (high.x - low.x);
+            0.5 * width / f64::from(self.primaries.laterals + 1)
+        } else {
+            f64::INFINITY
+        };
+        if apart < 3.0 {
+            return Err(ArchitectureError::PrimariesTooClose { apart });
+        }
+        Ok(())
+    }
+
+    /// Refuses secondaries that run to teeth or sinuses which are not there.
+    fn check_ends(&self, margin: &Margin) -> Result<(), ArchitectureError> {
+        let plan = &self.secondaries;
+        let ending = match plan.ending {
+            SecondaryEnding::Craspedodromous => Some("craspedodromous"),
+            SecondaryEnding::Semicraspedodromous => Some("semicraspedodromous"),
+            SecondaryEnding::Sinus
+            | SecondaryEnding::Eucamptodromous
+            | SecondaryEnding::Brochidodromous
+            | SecondaryEnding::Festooned => None,
+        };
+        if plan.ending == SecondaryEnding::Sinus {
+            let [right, left] = margin.sinuses_a_side();
+            if right.min(left) < plan.pairs as usize {
+                return Err(ArchitectureError::TooFewSinuses {
+                    pairs: plan.pairs,
+                    right,
+                    left,
+                });
+            }
+        }
+        if let Some(ending) = ending {
+            let [right, left] = margin.tips_a_side();
+            if right.min(left) < plan.pairs as usize {
+                return Err(ArchitectureError::TooFewTeeth {
+                    ending,
+                    pairs: plan.pairs,
+                    right,
+                    left,
+                });
+            }
         }
         Ok(())
     }

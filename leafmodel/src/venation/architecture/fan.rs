@@ -15,7 +15,7 @@ use super::ground::Ground;
 use crate::shape::outline::Outline;
 
 /// How far the place of a fork strays, share of its distance from the base.
-const FORK_JITTER: f64 = 0.12;
+const FORK_JITTER: f64 = 0.45;
 
 /// Where veins end, share of the way to the margin.
 const REACH: f64 = 0.985;
@@ -164,9 +164,10 @@ fn one(
         let [a, b] = sector;
         let middle = f64::midpoint(a, b);
         let end = fan.end(middle, ground.blade);
-        let jitter = 1.0 + FORK_JITTER * ground.lots.jitter(1, vein, 2 * fork);
-        let turned = from + TURNING * spacing;
-        let stop = (fan.fork(sector, spacing) * jitter).max(from + 0.5 * TURNING * spacing);
+        let jitter = 1.0 + FORK_JITTER * ground.lots.loose(1, vein, 2 * fork);
+        // A vein has turned into its sector before it forks again or ends.
+        let turned = (from + TURNING * spacing).min(f64::midpoint(from, end));
+        let stop = (fan.fork(sector, spacing) * jitter).max(turned + 0.5 * TURNING * spacing);
         let forks = stop < end - 2.0 * TURNING * spacing;
         let next = if forks { stop } else { end };
         // Along the sector, which bends with the margin.

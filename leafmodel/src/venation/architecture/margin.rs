@@ -13,6 +13,9 @@ const SHARPNESS: f64 = 0.08;
 /// A sinus is at least so deep over half its width.
 const SINUS: f64 = 0.03;
 
+/// Places between two tips at which their sinus is looked for.
+const SINUS_PLACES: u32 = 48;
+
 /// Tips that are so much lower than one nearer than a share of the margin do not count.
 const DWARFED: f64 = 0.13;
 
@@ -140,23 +143,63 @@ impl Margin {
         &self.tips
     }
 
+    /// The deepest places between neighbouring tips of one side, the apex one of them, by place;
+    /// their height is how far they lie inside the straight way from tip to tip.
+    pub(crate) fn sinuses(&self) -> Vec<Tip> {
+        let apex = Tip {
+            place: self.at(self.apex_at),
+            at: self.apex_at,
+            height: 0.0,
+        };
+        let mut all = self.tips.clone();
+        all.push(apex);
+        all.sort_by(|a, b| a.at.total_cmp(&b.at));
+        let deepest = |pair: &[Tip]| {
+            let (from, to) = (pair[0].place, pair[1].place);
+            let inwards = (to - from).normalize_or_zero().perp();
+            (1..SINUS_PLACES)
+                .map(|k| {
+                    let share = f64::from(k) / f64::from(SINUS_PLACES);
+                    let at = pair[0].at + (pair[1].at - pair[0].at) * share;
+                    let place = self.at(at);
+                    let height = (place - from).dot(inwards);
+                    Tip { place, at, height }
+                })
+                .max_by(|a, b| a.height.total_cmp(&b.height))
+                .filter(|sinus| sinus.height > SINUS * (to - from).length())
+        };
+        all.windows(2).filter_map(deepest).collect()
+    }
+
+    /// How many sinuses each side has: right, left.
+    pub(crate) fn sinuses_a_side(&self) -> [usize; 2] {
+        let all = self.sinuses();
+        let right = all.iter().filter(|sinus| sinus.at < self.apex_at).count();
+        [right, all.len() - right]
+    }
+
     /// How many teeth and lobes each side has: right, left.
     pub(crate) fn tips_a_side(&self) -> [usize; 2] {
         let right = self.tips.iter().filter(|tip| tip.at < self.apex_at).count();
         [right, self.tips.len() - right]
     }
 
-    /// The tip that stands out most within `reach` along the margin.
+    /// The tip that stands out most within `reach` along the margin, near ones preferred.
     pub(crate) fn lobe_near(&self, at: f64, reach: f64) -> Option<DVec2> {
         let share = reach / self.perimeter;
         let near = |tip: &&Tip| {
             let away = (tip.at - at).abs();
             away.min(1.0 - away) <= share
         };
-        let score = |tip: &Tip| tip.height;
-        self.tips
-            .iter()
-            .filter(near)
+        let within = || self.tips.iter().filter(near);
+        let highest = within().map(|tip| tip.height).fold(0.0, f64::max);
+        // Of teeth that are about alike the nearest; a lobe stands out far more than they do.
+        let score = |tip: &Tip| {
+            let away = (tip.at - at).abs();
+            let away = away.min(1.0 - away) / share;
+            tip.height / highest - away * away
+        };
+        within()
             .max_by(|a, b| score(a).total_cmp(&score(b)))
             .map(|tip| tip.place)
     }

@@ -1,12 +1,19 @@
 //! Where secondary veins leave their primaries, how they run and where they end.
 
+pub(crate) mod agrophic;
+mod between;
+mod targets;
+
 use glam::DVec2;
 
+use self::agrophic::Agrophics;
+use self::between::intersecondaries;
+use self::targets::{branch_into_teeth, inward, run_into};
 use super::axis::Axis;
 use super::course::Course;
-use super::ends::{aside, assign, tip_cost};
+use super::ends::aside;
 use super::festoons;
-use super::margin::{Hit, Margin, Tip};
+use super::margin::{Hit, Margin};
 use super::{
     Architecture, Arrangement, Attachment, Lots, Secondaries, SecondaryCourse, SecondaryEnding,
 };
@@ -31,12 +38,16 @@ const KNEE: f64 = 2.0 / 3.0;
 /// How far below its place a decurrent vein leaves, share of the axis.
 const DECURRENT: f64 = 0.035;
 
+/// How far from the axis it turns away at least, share of the leaf's length, so that it does not
+/// join what it runs beside.
+const CLEAR: f64 = 0.02;
+
 /// A secondary vein to be laid out.
 #[derive(Clone, Debug)]
 pub(crate) struct Secondary {
     /// Its course.
     pub(crate) course: Course,
-    /// The number of the primary that it leaves.
+    /// The number of the primary that it leaves, or of the secondary if it is an agrophic vein.
     pub(crate) axis: usize,
     /// On which side of it: 1 the right, −1 the left.
     pub(crate) side: f64,
@@ -47,18 +58,11 @@ pub(crate) struct Secondary {
 pub(crate) struct Laid {
     /// Order 2.
     pub(crate) veins: Vec<Secondary>,
+    /// Agrophic veins, which leave some of them.
+    pub(crate) agrophic: Agrophics,
     /// Intersecondaries, and branches that run from arches into teeth.
     pub(crate) finer: Vec<Course>,
 }
-
-/// Radians by which a vein to a tooth is turned as gladly as it is moved half a spacing.
-const TURN: f64 = 0.14;
-
-/// How far from its angle a vein leaves for a tooth, radians: 35°.
-const MOST_TURN: f64 = 0.611;
-
-/// What it costs that the straight way to a tooth leaves the blade.
-const OFF_BLADE: f64 = 40.0;
 
 /// The blade and its primaries.
 #[derive(Clone, Copy)]
@@ -139,9 +143,15 @@ pub(crate) fn lay_out(architecture: &Architecture, site: Site<'_>) -> Laid {
     let mut taken: Vec<DVec2> = site.axes.iter().map(|axis| axis.course.at(1.0).0).collect();
     for axis in 0..site.axes.len() {
         for side in [1.0, -1.0] {
-            one_side(architecture, site, axis, side, &mut taken, &mut laid);
+            let row = Row {
+                axis,
+                side,
+                places: places(architecture, site.axes, axis, side),
+            };
+            one_side(&architecture.secondaries, site, &row, &mut taken, &mut laid);
         }
     }
+    agrophic::lay_out(architecture, site, &mut taken, &mut laid);
     laid
 }
 
@@ -175,21 +185,29 @@ fn places(architecture: &Architecture, axes: &[Axis], axis: usize, side: f64) ->
     plan.places(count, span, shifted)
 }
 
-fn one_side(
-    architecture: &Architecture,
-    site: Site<'_>,
-    number: usize,
+/// The veins of one side of an axis.
+struct Row {
+    /// The number of the axis.
+    axis: usize,
+    /// 1 the right, −1 the left.
     side: f64,
+    /// Where they leave it, shares of its length, ascending.
+    places: Vec<f64>,
+}
+
+fn one_side(
+    plan: &Secondaries,
+    site: Site<'_>,
+    row: &Row,
     taken: &mut Vec<DVec2>,
     laid: &mut Laid,
 ) {
     let Site {
         margin, axes, lots, ..
     } = site;
-    let plan = &architecture.secondaries;
+    let (number, side, wanted) = (row.axis, row.side, &row.places);
     let axis = &axes[number];
     let vein = |k: usize| (number as u64) << 16 | u64::from(side < 0.0) << 12 | k as u64;
-    let wanted = places(architecture, axes, number, side);
     let gap = match wanted[..] {
         [first, .., last] => (last - first) / (wanted.len() as f64 - 1.0),
         _ => 0.3,
@@ -217,7 +235,13 @@ fn one_side(
         })
         .collect();
     match plan.ending {
-        SecondaryEnding::Craspedodromous => run_into_teeth(&mut drafts, site, number, gap, taken),
+        SecondaryEnding::Craspedodromous => {
+            run_into(&mut drafts, margin.tips(), site, number, gap, taken);
+        }
+        SecondaryEnding::Sinus => {
+            let sinuses = margin.sinuses();
+            run_into(&mut drafts, &sinuses, site, number, gap, taken);
+        }
         SecondaryEnding::Semicraspedodromous => branch_into_teeth(&mut drafts, margin),
         SecondaryEnding::Eucamptodromous
         | SecondaryEnding::Brochidodromous
@@ -235,9 +259,12 @@ fn one_side(
             Attachment::Decurrent => {
                 // Lower on the axis, and beside it up to where it turns away.
                 let (below, _) = axis.at(draft.share - DECURRENT);
-                let turn = start + (bends[0] - start) * 0.12;
+                let way = bends[0] - start;
+                let share = (CLEAR * length / way.length().max(1e-9)).clamp(0.12, 0.5);
+                let turn = start + way * share;
                 let bends: Vec<DVec2> = std::iter::once(turn).chain(bends).collect();
-                Course::curve(below, &bends, lots, 2, vein(k), 1.0)
+                // What runs beside the axis at first does not join it there.
+                Course::curve(below, &bends, lots, 2, vein(k), 1.0).crowded()
             }
         };
         let arches = plan.ending.has_arches() && next.is_some();
@@ -267,137 +294,6 @@ fn one_side(
         }));
 }
 
-/// A place just inside a tooth.
-fn inward(tip: DVec2, from: DVec2, length: f64) -> DVec2 {
-    tip + (from - tip).normalize_or_zero() * (0.006 * length)
-}
-
-/// Gives each draft a tooth or lobe, and moves its start so that it reaches that at about its
-/// angle, on a way that stays on the blade.
-fn run_into_teeth(
-    drafts: &mut [Draft],
-    site: Site<'_>,
-    number: usize,
-    gap: f64,
-    taken: &mut Vec<DVec2>,
-) {
-    let Site {
-        margin,
-        axes,
-        blade,
-        ..
-    } = site;
-    let axis = &axes[number];
-    let length = blade.length();
-    let free = |tip: &&Tip| {
-        taken
-            .iter()
-            .all(|p| (*p - tip.place).length() > 0.03 * length)
-    };
-    let mut tips: Vec<Tip> = margin.tips().iter().filter(free).copied().collect();
-    let [Some(first), Some(last)] = [drafts.first(), drafts.last()] else {
-        return;
-    };
-    // In the order in which the veins come.
-    if first.hit.at > last.hit.at {
-        tips.reverse();
-    }
-    let is_open = |share: f64, tip: &Tip| {
-        let (place, _) = axis.at(share);
-        let from = place + (tip.place - place) * 0.02;
-        // The tip itself lies on the margin.
-        let to = inward(tip.place, place, length);
-        let mut others = axes.iter().enumerate().filter(|(i, _)| *i != number);
-        !blade.is_crossed_by(from, to)
-            && others.all(|(_, other)| !other.course.is_crossed_by(from, to))
-    };
-    // The best start for a tip, and what it costs.
-    let best = |draft: &Draft, tip: &Tip| {
-        let starts = (-12..=12).map(|i| draft.share + gap * 0.1 * f64::from(i));
-        let cost = |share: f64| {
-            let (place, ahead) = axis.at(share);
-            let turned = ((tip.place - place).angle_to(ahead).abs() - draft.angle) / TURN;
-            let moved = (share - draft.share) / (0.5 * gap);
-            turned * turned + moved * moved
-        };
-        let mut ways: Vec<(f64, f64)> = starts
-            .filter(|share| (0.01..0.97).contains(share))
-            .map(|share| (cost(share), share))
-            .collect();
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let turned_little = |share: f64| {
-            let (place, ahead) = axis.at(share);
-            ((tip.place - place).angle_to(ahead).abs() - draft.angle).abs() < MOST_TURN
-        };
-        let open = ways
-            .iter()
-            .find(|&&(_, share)| turned_little(share) && is_open(share, tip));
-        open.copied().or_else(|| {
-            let &(cost, share) = ways.first()?;
-            Some((cost + OFF_BLADE, share))
-        })
-    };
-    let highest = tips.iter().map(|tip| tip.height).fold(0.0, f64::max);
-    // What is out of all reach is not looked at.
-    let apex = margin.apex_at();
-    let near = |draft: &Draft, tip: &Tip| {
-        let same_half = (tip.at < apex) == (draft.hit.at < apex);
-        same_half && (tip.at - draft.hit.at).abs() < 0.15
-    };
-    let costs: Vec<Vec<Option<(f64, f64)>>> = drafts
-        .iter()
-        .map(|draft| {
-            let of = |tip: &Tip| best(draft, tip).filter(|_| near(draft, tip));
-            tips.iter().map(of).collect()
-        })
-        .collect();
-    let cost = |i: usize, t: usize| match costs[i][t] {
-        Some((cost, _)) => tip_cost(cost.sqrt(), &tips[t], highest),
-        None => 4.0 * OFF_BLADE,
-    };
-    let Some(chosen) = assign(drafts.len(), tips.len(), cost) else {
-        return;
-    };
-    let mut least = 0.01;
-    for (i, &t) in chosen.iter().enumerate() {
-        let Some((cost, share)) = costs[i][t] else {
-            continue;
-        };
-        drafts[i].share = share.max(least);
-        least = drafts[i].share + 0.35 * gap;
-        if cost < OFF_BLADE {
-            drafts[i].tip = Some(tips[t].place);
-            taken.push(tips[t].place);
-        }
-    }
-}
-
-/// Gives each draft the tooth nearest to where it would meet the margin.
-fn branch_into_teeth(drafts: &mut [Draft], margin: &Margin) {
-    let tips = margin.tips();
-    let highest = tips.iter().map(|tip| tip.height).fold(0.0, f64::max);
-    let mut order: Vec<usize> = (0..drafts.len()).collect();
-    order.sort_by(|&a, &b| drafts[a].hit.at.total_cmp(&drafts[b].hit.at));
-    let wanted: Vec<f64> = order.iter().map(|&i| drafts[i].hit.at).collect();
-    let spread = wanted
-        .last()
-        .zip(wanted.first())
-        .map_or(0.0, |(b, a)| b - a);
-    let spacing = (spread / wanted.len().max(2) as f64).max(0.01);
-    let away = |i: usize, t: usize| (tips[t].at - wanted[i]) / spacing;
-    let cost = |i: usize, t: usize| tip_cost(away(i, t), &tips[t], highest);
-    for (i, t) in assign(wanted.len(), tips.len(), cost)
-        .into_iter()
-        .flatten()
-        .enumerate()
-    {
-        // A tooth far from where the vein would end is another vein's.
-        if away(i, t).abs() < 2.0 {
-            drafts[order[i]].tip = Some(tips[t].place);
-        }
-    }
-}
-
 /// The bends of a vein after its start; none if there is no room for it.
 fn course(
     plan: &Secondaries,
@@ -423,7 +319,7 @@ fn course(
     if reach < 0.02 * length {
         return None;
     }
-    if plan.ending == SecondaryEnding::Craspedodromous {
+    if plan.ending.has_targets() {
         let end = inward(draft.tip?, start, length);
         let [half, far] = bowed(end);
         let stays = [(start, half), (half, far), (far, end)]
@@ -454,29 +350,4 @@ fn course(
         Some(_) | None => margin.inside(draft.hit.at + towards_apex * 0.62 * on, 0.8 * inset),
     };
     Some(vec![half, knee, end])
-}
-
-/// Veins of a part of the length between two secondaries, and along them.
-fn intersecondaries(
-    plan: &Secondaries,
-    courses: &[Course],
-    lots: Lots,
-    number: usize,
-    side: f64,
-    laid: &mut Laid,
-) {
-    for (k, pair) in courses.windows(2).enumerate() {
-        let vein = (number as u64) << 16 | u64::from(side < 0.0) << 12 | 1 << 11 | k as u64;
-        let whole = plan.intersecondaries.floor();
-        let more = lots.share(3, vein, 0) < plan.intersecondaries - whole;
-        let count = whole as u32 + u32::from(more);
-        for i in 0..count {
-            let between = f64::from(i + 1) / f64::from(count + 1);
-            let at = |t: f64| pair[0].at(t).0.lerp(pair[1].at(t).0, between);
-            let reach = 0.26 + 0.14 * lots.share(3, vein, 1 + u64::from(i));
-            let bends = [at(0.5 * reach), at(reach)];
-            let course = Course::curve(at(0.0), &bends, lots, 3, vein + u64::from(i), 0.5);
-            laid.finer.push(course);
-        }
-    }
 }

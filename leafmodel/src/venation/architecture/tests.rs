@@ -76,6 +76,115 @@ fn teeth_that_are_not_there_are_missed() {
 }
 
 #[test]
+fn sinuses_that_are_not_there_are_missed() {
+    let said = said("magnolia", |_, veins| {
+        veins.secondaries.ending = SecondaryEnding::Sinus;
+    });
+    assert_eq!(
+        said,
+        "sinus secondaries end between teeth or lobes: 8 pairs need as many sinuses a side, and \
+         the outline has 0 on the right and 0 on the left"
+    );
+}
+
+#[test]
+fn a_lobed_leaf_has_a_sinus_below_each_lobe_but_the_lowest() {
+    let blade = outline("white-oak");
+    let margin = Margin::new(&blade);
+    let [right, left] = margin.sinuses_a_side();
+    assert!(
+        (4..=5).contains(&right) && (4..=5).contains(&left),
+        "{right} {left}"
+    );
+    // Those between lobes are deep; one below a shoulder is not.
+    let deep: Vec<_> = margin
+        .sinuses()
+        .into_iter()
+        .filter(|sinus| sinus.height > 5.0)
+        .collect();
+    assert!(deep.len() >= 6, "{}", deep.len());
+    for sinus in deep {
+        let beside = [-0.02, 0.02].map(|away| margin.at(sinus.at + away).x.abs());
+        assert!(
+            beside.iter().all(|&x| x > sinus.place.x.abs()),
+            "{} beside {beside:?}",
+            sinus.place
+        );
+    }
+}
+
+#[test]
+fn agrophic_veins_need_pinnate_secondaries_that_bear_them() {
+    let palmate = said("magnolia", |_, veins| {
+        veins.primaries.pattern = PrimaryPattern::Actinodromous;
+        veins.primaries.lateral_angles_deg = vec![40.0];
+        veins.secondaries.agrophic = Agrophic::Simple;
+    });
+    assert_eq!(
+        palmate,
+        "simple agrophic veins leave the lowest pair of secondaries of pinnate venation; \
+         actinodromous venation has lateral primaries, whose outer secondaries they are"
+    );
+    let few = said("magnolia", |_, veins| {
+        veins.secondaries.pairs = 1;
+        veins.secondaries.agrophic = Agrophic::Compound;
+    });
+    assert_eq!(
+        few,
+        "compound agrophic veins leave the two lowest pairs of secondaries of pinnate venation; \
+         1 pairs are asked for"
+    );
+    // A red oak has a tooth to each secondary at its base and none for a comb.
+    let toothless = said("red-oak", |_, veins| {
+        let oak = species::find("red-oak").expect("a preset").plan();
+        let own = oak
+            .venation
+            .auxin()
+            .and_then(|plan| plan.architecture.clone());
+        veins.secondaries = own.expect("it has one").secondaries;
+        veins.secondaries.agrophic = Agrophic::Simple;
+    });
+    assert!(
+        toothless.starts_with("a comb of agrophic veins has 2 or more; ")
+            && toothless.ends_with(
+                "of one craspedodromous comb find a way to a tooth outside its secondary"
+            ),
+        "{toothless}"
+    );
+}
+
+#[test]
+fn quaternaries_need_percurrent_tertiaries_with_room_between_them() {
+    let net = said("magnolia", |_, veins| {
+        veins.tertiaries.course = TertiaryCourse::Reticulate;
+        veins.quaternaries.course = QuaternaryCourse::OppositePercurrent;
+    });
+    assert_eq!(
+        net,
+        "quaternaries that are laid out lie between percurrent tertiaries, and the tertiaries are \
+         reticulate"
+    );
+    let narrow = said("magnolia", |_, veins| {
+        veins.tertiaries.spacing = 0.01;
+        veins.quaternaries.course = QuaternaryCourse::FreelyRamified;
+    });
+    assert_eq!(
+        narrow,
+        "tertiaries 3.00 segments of the young leaf apart leave quaternaries no room, which takes \
+         5; a spacing of 0.0167 or more does"
+    );
+    let close = said("magnolia", |_, veins| {
+        veins.quaternaries.course = QuaternaryCourse::AlternatePercurrent;
+        veins.quaternaries.spacing = 0.005;
+    });
+    assert_eq!(
+        close,
+        "quaternaries 1.50 segments of the young leaf apart, less than 2.5, cannot be told from \
+         each other; a spacing of 0.0083 or more can"
+    );
+}
+
+#[test]
 fn more_pairs_than_the_young_leaf_has_room_for_are_told_with_how_many_fit() {
     let said = said("magnolia", |plan, veins| {
         plan.growth = Growth::Isogonic {

@@ -176,6 +176,29 @@ impl Chains {
         }
     }
 
+    /// Way from the start of a half to the place a third of its length away.
+    pub(crate) fn stretch(&self, half: u32) -> DVec2 {
+        let mut left = self.lengths[(half / 2) as usize] / 3.0;
+        let points = self.points(half / 2);
+        let last = points.len() - 1;
+        let at = |i: usize| {
+            if half.is_multiple_of(2) {
+                points[i]
+            } else {
+                points[last - i]
+            }
+        };
+        for i in 0..last {
+            let (from, to) = (at(i), at(i + 1));
+            let step = (to - from).length();
+            if step >= left && step > 0.0 {
+                return from.lerp(to, left / step) - at(0);
+            }
+            left -= step;
+        }
+        at(last) - at(0)
+    }
+
     /// For each half the next one along the face on its left.
     pub(crate) fn nexts(&self) -> Vec<u32> {
         let mut nexts = vec![0; 2 * self.len()];

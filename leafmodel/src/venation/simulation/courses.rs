@@ -9,8 +9,9 @@ use super::{Simulation, turned};
 use crate::venation::architecture::course::Course;
 use crate::venation::architecture::ground::Ground;
 use crate::venation::architecture::margin::Margin;
+use crate::venation::architecture::secondaries::Secondary;
 use crate::venation::architecture::{
-    Architecture, Lots, festoons, primaries, secondaries, tertiaries,
+    Architecture, Lots, festoons, primaries, quaternaries, secondaries, tertiaries,
 };
 use crate::venation::influence::Influence;
 use crate::venation::plan::Growth;
@@ -94,15 +95,10 @@ impl<I: Influence> Simulation<'_, I> {
         let laid = secondaries::lay_out(plan, site);
         let courses: Vec<Course> = laid.veins.iter().map(|vein| vein.course.clone()).collect();
         let seconds = self.lay_out_order(&courses, 2, &mut look);
-        let veins = |nodes: &[u32], side: f64, fertile: f64, is_lowest: bool| tertiaries::Grown {
-            nodes: nodes
-                .iter()
-                .map(|&node| self.lamina.full_grown(self.veins.positions[node as usize]))
-                .collect(),
-            side,
-            fertile,
-            is_lowest,
-        };
+        // Agrophic veins leave secondaries.
+        let combs = &laid.agrophic.veins;
+        let courses: Vec<Course> = combs.iter().map(|vein| vein.course.clone()).collect();
+        let comb_nodes = self.lay_out_order(&courses, 2, &mut look);
         let primary = grown.iter().enumerate().map(|(number, nodes)| {
             // Up to the first secondary on the side that faces the midrib.
             let axis = &axes[number];
@@ -114,29 +110,66 @@ impl<I: Influence> Simulation<'_, I> {
                 .map(|vein| (vein.course.start() - axis.course.start()).length())
                 .fold(f64::INFINITY, f64::min);
             let fertile = (first / axis.course.length()).min(0.95);
-            veins(nodes, axis.side, fertile, false)
+            self.as_grown(nodes, axis.side, fertile, false)
         });
+        let bears = |number: usize| combs.iter().any(|vein| vein.axis == number);
         let secondary = seconds
             .iter()
             .zip(&laid.veins)
             .enumerate()
             .map(|(i, (nodes, vein))| {
-                // Each side's come one after the other, the lowest first.
-                let is_lowest = i == 0 || {
-                    let before = &laid.veins[i - 1];
-                    before.axis != vein.axis || before.side != vein.side
-                };
-                veins(nodes, vein.side, 1.0, is_lowest)
+                let is_lowest = is_first_of_row(&laid.veins, i) && !bears(i);
+                self.as_grown(nodes, vein.side, 1.0, is_lowest)
             });
-        let coarse: Vec<tertiaries::Grown> = primary.chain(secondary).collect();
+        let agrophic = comb_nodes
+            .iter()
+            .zip(combs)
+            .enumerate()
+            .map(|(i, (nodes, vein))| {
+                let is_lowest =
+                    is_first_of_row(combs, i) && is_first_of_row(&laid.veins, vein.axis);
+                self.as_grown(nodes, vein.side, 1.0, is_lowest)
+            });
+        let coarse: Vec<tertiaries::Grown> = primary.chain(secondary).chain(agrophic).collect();
         let unit = self.clock.stage(0).unit;
+        let rungs = tertiaries::courses(plan, &coarse, ground, unit);
+        let first = laid.finer.len();
         let mut finer = laid.finer;
-        finer.extend(tertiaries::courses(
-            plan, &coarse, blade, &margin, unit, lots,
-        ));
-        self.lay_out_order(&finer, 3, &mut look);
+        finer.extend(rungs.iter().map(|rung| rung.course.clone()));
+        let thirds = self.lay_out_order(&finer, 3, &mut look);
+        // Tertiaries send quaternaries to the next tertiary farther out; coarser veins stop them.
+        let mut row: Vec<tertiaries::Grown> = coarse
+            .into_iter()
+            .map(|vein| tertiaries::Grown {
+                side: 0.0,
+                is_lowest: false,
+                ..vein
+            })
+            .collect();
+        let of_rungs = thirds[first..].iter().zip(&rungs);
+        row.extend(of_rungs.map(|(nodes, rung)| self.as_grown(nodes, -rung.side, 1.0, false)));
+        let fourths = quaternaries::courses(plan, &row, ground, unit);
+        self.lay_out_order(&fourths.veins, 4, &mut look);
+        self.lay_out_order(&fourths.branches, 4, &mut look);
         self.noticed = self.veins.count();
         self.first_step = self.step;
+    }
+
+    /// A vein that has grown, as those that leave it see it.
+    fn as_grown(
+        &self,
+        nodes: &[u32],
+        side: f64,
+        fertile: f64,
+        is_lowest: bool,
+    ) -> tertiaries::Grown {
+        let place = |&node: &u32| self.lamina.full_grown(self.veins.positions[node as usize]);
+        tertiaries::Grown {
+            nodes: nodes.iter().map(place).collect(),
+            side,
+            fertile,
+            is_lowest,
+        }
     }
 
     /// Lets veins of one order grow together until all are done; gives the nodes of each.
@@ -289,6 +322,14 @@ impl<I: Influence> Simulation<'_, I> {
         tip.is_done = true;
         tip.is_joined = true;
         true
+    }
+}
+
+/// Whether a vein is the lowest of its side of its axis: each side's come one after the other.
+fn is_first_of_row(veins: &[Secondary], i: usize) -> bool {
+    i == 0 || {
+        let (before, vein) = (&veins[i - 1], &veins[i]);
+        before.axis != vein.axis || before.side != vein.side
     }
 }
 

@@ -2,6 +2,7 @@
 
 use leafmodel::species;
 use leafmodel::species::colours::{ColouredLeaf, coloured};
+use leafmodel::species::diagnosis::Finding;
 use leafmodel::species::leaf_traits::{LeafTraits, Provenance, Quantity, traits};
 
 use super::choice::{is_word, unknown_preset};
@@ -70,6 +71,25 @@ fn in_colour(leaf: &ColouredLeaf) -> Vec<Row> {
 fn table(species: &str, mut rows: Vec<Row>) -> String {
     rows.insert(0, ["trait", "value", "range", "from"].map(str::to_owned));
     format!("  {species}\n{}", in_columns(&rows))
+}
+
+/// What was found on a grown leaf beside what is known of its species.
+pub(super) fn findings_table(found: &[Finding]) -> String {
+    let row = |finding: &Finding| {
+        let verdict = if finding.is_in() { "in" } else { "out" };
+        [
+            finding.name.to_owned(),
+            with_unit(&number(finding.found), finding.unit),
+            range(finding.range),
+            verdict.to_owned(),
+            told(finding.from),
+        ]
+    };
+    let heading = ["trait", "found", "range", "", "from"].map(str::to_owned);
+    let rows: Vec<[String; 5]> = std::iter::once(heading)
+        .chain(found.iter().map(row))
+        .collect();
+    in_columns(&rows)
 }
 
 fn told(from: Provenance) -> String {

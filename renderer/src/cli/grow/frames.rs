@@ -189,6 +189,7 @@ mod tests {
             length: 0.5,
             radius_mm: Some(0.4),
             curl: 0.0,
+            course: leafmodel::blade::petiole::Course::STRAIGHT,
             section: leafmodel::blade::petiole::Section::default(),
         });
         let lamina = plan.grow_lamina().expect("a good plan");

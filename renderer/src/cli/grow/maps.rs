@@ -209,7 +209,11 @@ radiance_w_m2_sr_nm = 0.1
             .map(|n| n.parse().expect("a number"))
             .collect();
         let (low, high) = outline.bounds();
-        assert_eq!(numbers, [low.x, low.y, high.x, high.y]);
+        // The frame of the map keeps the size, so that its far corner may be rounded.
+        for (number, side) in numbers.iter().zip([low.x, low.y, high.x, high.y]) {
+            assert!((number - side).abs() < 1e-12, "{numbers:?}");
+        }
+        assert_eq!(numbers.len(), 4);
         let day = back.attributes.iter().find(|(key, _)| key == "lamina:day");
         assert!(
             matches!(day, Some((_, Attribute::Double(day))) if *day == 27.0),

@@ -143,6 +143,7 @@ mod tests {
             length: 1.0,
             radius_mm: Some(100.0),
             curl: 0.0,
+            course: leafmodel::blade::petiole::Course::STRAIGHT,
             section: leafmodel::blade::petiole::Section::default(),
         });
         let warnings = told(&plan);

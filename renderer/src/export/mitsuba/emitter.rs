@@ -26,14 +26,15 @@ pub(super) fn environment_file(light: &str, file: &Path) -> String {
     format!("maps/environment-{light}.{ending}")
 }
 
-/// The emitter of a light; `None` if it is written with its shape.
+/// The emitter of a light; `None` if it is written with its shape or not at all.
 pub(super) fn emitter(
     light: &Named<Light>,
     world: &World,
     spectra: &mut Spectra,
 ) -> Option<Element> {
     match &light.value {
-        Light::Area { .. } => None,
+        // Daylight was refused before anything is written.
+        Light::Area { .. } | Light::Daylight(_) => None,
         Light::Constant { radiance } => {
             let constant = Element::plugin("emitter", "constant");
             Some(constant.holding(spectra.element("radiance", radiance, 1.0)))
@@ -97,7 +98,7 @@ fn sun(
     spectra: &mut Spectra,
 ) -> Element {
     let (low, high) = world.geometry.bounds();
-    let middle = (low + high).as_dvec3() * 0.5 * UNITS_PER_METRE;
+    let middle = ((low + high).as_dvec3() * 0.5 + world.origin) * UNITS_PER_METRE;
     let distance = SUN_DISTANCE * f64::from((high - low).length()) * 0.5 * UNITS_PER_METRE;
     let radius = distance * libm::tan(0.5 * angular_diameter);
     let sin = libm::sin(0.5 * angular_diameter);
@@ -169,5 +170,19 @@ penumbra_angle_deg = 10
                 .expect("a number");
             assert!((value - degrees).abs() < 1e-9, "{name}: {value}");
         }
+    }
+
+    #[test]
+    fn daylight_is_refused_before_anything_is_written() {
+        let text = format!("{SCENE}[lights.noon.daylight]\nelevation_deg = 60\n");
+        let scene = parse(&text, "scene.toml", Path::new("."), &[]);
+        let scene = scene.expect("the test's own scene is right").description;
+        let world = World::build(&scene).expect("the test's own scene can be built");
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("out");
+        let refused = crate::export::mitsuba::write(&scene, &world, &out);
+        let text = refused.expect_err("Mitsuba has no such light").to_string();
+        assert!(text.contains("lights.noon.daylight"), "{text}");
+        assert!(!out.exists());
     }
 }

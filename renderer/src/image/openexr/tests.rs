@@ -1,7 +1,9 @@
 use std::process::Command;
 
-use super::super::{Attribute, ImageError, Layer, Picture, REC709};
-use super::{decode, encode, read, spectral_attributes, spectral_channel_name, write};
+use super::super::{Attribute, ImageError, Layer, MOST_TEXTURE_BYTES, Picture, REC709};
+use super::{
+    decode, decode_within, encode, read, spectral_attributes, spectral_channel_name, write,
+};
 
 fn bits(seed: u64) -> u64 {
     let bits = (seed ^ (seed >> 31)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -252,6 +254,17 @@ fn a_header_that_claims_too_much_is_refused_unread() {
             "{error}"
         );
     }
+}
+
+#[test]
+fn a_texture_may_take_less_memory_than_a_picture() {
+    // 9,000² pixels of seven channels are 2.3 GB.
+    let bytes = claiming(9_000, 9_000);
+    let refused = decode_within(&bytes, MOST_TEXTURE_BYTES).map(|_| ());
+    assert!(matches!(
+        refused,
+        Err(ImageError::TooLarge { width: 9_000, .. })
+    ));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `[film.rgb]`, `[film.spectral]` and `[picture]`.
+//! `[film.rgb]` and `[film.spectral]`.
 
 use leafmodel::document::context::Context;
 use leafmodel::document::error::DocumentError;
@@ -6,12 +6,12 @@ use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
-use leafmodel::document::value_kind::{Integer, Kind, Number, Word};
+use leafmodel::document::value_kind::{Integer, Kind, Number};
 use leafmodel::document::values::{
     integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
 };
 
-use crate::scene::description::{Band, Film, FilmKind, Picture, Tone};
+use crate::scene::description::{Band, Film, FilmKind};
 
 /// Range of wavelengths of the renderer, nm.
 const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
@@ -251,15 +251,4 @@ impl Kind for Bands {
             wanted: "the middles of 1 to 32 bands, rising",
         }
     }
-}
-
-/// The keys of `[picture]`.
-pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
-    let limits = Number(Limits::closed(-30.0, 30.0));
-    let about = "Radiance is multiplied by 2 to this power.";
-    keys.key("exposure_ev", &mut picture.exposure_ev, limits, about);
-    let words = [("linear", Tone::Linear), ("filmic", Tone::Filmic)];
-    let about = "Curve before the sRGB encoding: none, so that colours can be measured in the \
-        PNG; or highlights that roll off as on film.";
-    keys.key("tone", &mut picture.tone, Word(&words), about);
 }

@@ -1,4 +1,4 @@
-//! `[lights.NAME.…]`: distant, constant, environment, area, spot.
+//! `[lights.NAME.…]`: distant, constant, environment, daylight, area, spot.
 
 use glam::DVec3;
 use leafmodel::document::context::QUOTED;
@@ -10,8 +10,11 @@ use leafmodel::document::source::escaped;
 use leafmodel::document::value_kind::{Degrees, FilePath, Number, Vector};
 
 use super::camera::COORDINATES_M;
+use super::daylight::daylight;
 use super::report;
 use super::spectrum::SpectrumOf;
+use crate::light::daylight::Daylight;
+use crate::light::daylight::spctrl2::Atmosphere;
 use crate::scene::angle::sin_cos_deg;
 use crate::scene::description::{Light, Spectrum};
 
@@ -24,7 +27,7 @@ pub(super) fn light(light: &mut Light, keys: &mut Keys<'_>) {
     keys.kind(light, &KINDS);
 }
 
-const KINDS: [Variant<Light>; 5] = [
+const KINDS: [Variant<Light>; 6] = [
     Variant {
         name: "distant",
         about: "A disc at infinity, like the sun.",
@@ -102,6 +105,23 @@ const KINDS: [Variant<Light>; 5] = [
                 let about = "What RGB 1 1 1 stands for.";
                 keys.key("white_w_m2_sr_nm", white, SpectrumOf::Emission, about);
                 refuse_darkness(white, keys);
+            }
+        },
+    },
+    Variant {
+        name: "daylight",
+        about: "The sun and a clear sky, with the spectra of a day.",
+        new: || {
+            Light::Daylight(Daylight {
+                elevation: std::f64::consts::FRAC_PI_4,
+                azimuth: 0.0,
+                atmosphere: Atmosphere::default(),
+            })
+        },
+        is: |light| matches!(light, Light::Daylight(_)),
+        declare: |light, keys| {
+            if let Light::Daylight(day) = light {
+                daylight(day, keys);
             }
         },
     },

@@ -11,14 +11,14 @@ use crate::scene::assets;
 use crate::scene::description;
 use crate::spectrum::Curve;
 
-/// A light of the scene; `instance_of` gives the only instance of an emitting object.
-pub(super) fn build_light<'i>(
+/// The lights of a block of the scene; `instance_of` gives the only instance of an emitting object.
+pub(super) fn build_lights<'i>(
     name: &str,
     light: &description::Light,
     meshes: &[TriangleMesh],
     instance_of: impl Fn(usize) -> &'i Instance,
-) -> Result<Light, WorldError> {
-    Ok(match light {
+) -> Result<Vec<Light>, WorldError> {
+    Ok(vec![match light {
         description::Light::Distant {
             towards,
             angular_diameter,
@@ -82,5 +82,9 @@ pub(super) fn build_light<'i>(
             *penumbra_angle,
             Curve::from_description(intensity),
         )),
-    })
+        description::Light::Daylight(day) => {
+            let (sun, sky) = day.lights();
+            return Ok(vec![Light::Sun(sun), Light::Sky(sky)]);
+        }
+    }])
 }

@@ -1,6 +1,11 @@
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use super::World;
+use crate::image::Picture;
+use crate::integrator::caption::Caption;
+use crate::integrator::develop::develop;
+use crate::integrator::render::{Job, render};
 use crate::scene::load::parse;
 
 const SCENE: &str = r#"
@@ -124,4 +129,81 @@ fn instances_stand_where_their_object_and_their_row_say() {
         .transform_point3(glam::Vec3::new(0.1, 0.0, 0.0));
     let expected = glam::Vec3::new(0.0, 0.6, 1.0 - 1.0);
     assert!(point.distance(expected) < 1e-6, "{point} is not {expected}");
+}
+
+/// A leaf under a spotlight, and everything that has a place a given way off along x and z.
+fn far_scene(off: f64) -> String {
+    format!(
+        r#"
+format = 1
+[film.rgb]
+size = [24, 24]
+spp = 32
+[camera.perspective]
+position_m = [{x0}, -0.25, {z2}]
+look_at_m = [{x0}, 0, {z0}]
+vertical_fov_deg = 20
+aperture_diameter_mm = 4
+[materials.leaf.leaf.contents]
+structure = 1.5
+chlorophyll_ug_per_cm2 = 40
+carotenoids_ug_per_cm2 = 8
+water_cm = 0.01
+dry_matter_g_per_cm2 = 0.005
+[meshes.ball.sphere]
+radius_m = 0.03
+[objects.ball]
+mesh = "ball"
+material = "leaf"
+position_m = [{x0}, 0, {z0}]
+[lights.lamp.spot]
+position_m = [{x1}, -0.3, {z2}]
+look_at_m = [{x0}, 0, {z0}]
+cone_angle_deg = 30
+intensity_w_sr_nm = 0.01
+"#,
+        x0 = off,
+        x1 = off + 0.2,
+        z0 = off,
+        z2 = off + 0.2,
+    )
+}
+
+#[test]
+fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
+    let picture = |off: f64| {
+        let loaded = parse(&far_scene(off), "scene.toml", Path::new("."), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("it can be built");
+        let job = Job {
+            width: 24,
+            height: 24,
+            spp: 32,
+            seed: 1,
+        };
+        let go = AtomicBool::new(false);
+        let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
+        develop(&Caption::of(&scene), &job, &rendered)
+    };
+    let off = 999_000.0;
+    let (near, far) = (picture(0.0), picture(off));
+    let channel = |picture: &Picture, name: &str| picture.layer(name).expect(name).data.clone();
+    let mean = |values: &[f32]| values.iter().sum::<f32>() / values.len() as f32;
+    for name in ["R", "G", "B", "A", "depth.Z"] {
+        let (near, far) = (channel(&near, name), channel(&far, name));
+        assert!(mean(&near) > 0.0, "{name}: nothing is seen");
+        // The random numbers are the same, so only roundings differ.
+        let off = (mean(&far) / mean(&near) - 1.0).abs();
+        assert!(off < 1e-3, "{name}: {off}");
+    }
+    // Places are those of the scene as written, as fine as single precision has them.
+    let (near, far) = (channel(&near, "P.X"), channel(&far, "P.X"));
+    for (near, far) in near.iter().zip(&far).filter(|(near, _)| **near != 0.0) {
+        assert!(
+            (f64::from(*far) - off - f64::from(*near)).abs() < 0.04,
+            "{near} and {far}"
+        );
+    }
 }

@@ -1,0 +1,141 @@
+//! A blade that grows thinner towards its margin.
+//!
+//! Within a distance of the margin the thickness falls smoothly to a share of that of the blade.
+//! The contents per area fall with it: the tissue stays the same and there is less of it, so the
+//! contents per volume are those of the rest of the blade. The structure parameter is no content
+//! and stays.
+
+use glam::DVec2;
+
+use super::contents_map::ContentsMap;
+use super::error::Field;
+use super::frame::UvFrame;
+use super::relief::smooth_step;
+use crate::optics::Constituent;
+use crate::shape::outline::Outline;
+
+/// How thick the margin is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarginThickness {
+    /// Thickness at the margin over that of the blade, 0.05 to 1 (no thinner).
+    pub share: f64,
+    /// Distance from the margin within which the thickness falls, mm, 0.01 to 100.
+    pub width_mm: f64,
+}
+
+impl MarginThickness {
+    /// A margin as thick as the blade.
+    pub const EVEN: Self = Self {
+        share: 1.0,
+        width_mm: 1.0,
+    };
+
+    pub(super) fn fields(&self) -> [Field; 2] {
+        [
+            ("margin_thickness", self.share, 0.05..=1.0, "0.05 to 1"),
+            (
+                "margin_width_mm",
+                self.width_mm,
+                0.01..=100.0,
+                "0.01 to 100 (millimetres)",
+            ),
+        ]
+    }
+
+    /// Whether no place is thinner than another.
+    pub(super) fn is_even(&self) -> bool {
+        self.share == 1.0
+    }
+
+    /// Thickness over that of the blade at a distance from the margin, mm.
+    pub(super) fn at(&self, distance: f64) -> f64 {
+        self.share + (1.0 - self.share) * smooth_step(distance / self.width_mm)
+    }
+
+    /// Lets the contents of a map fall with the thickness.
+    pub(crate) fn thin(&self, map: &mut ContentsMap, frame: &UvFrame, outline: &Outline) {
+        if self.is_even() {
+            return;
+        }
+        let size = DVec2::new(f64::from(map.width), f64::from(map.height));
+        let texel = frame.size / size;
+        // Texels beyond the margin continue those on it.
+        let reach = self.width_mm + 2.0 * texel.max_element();
+        let mut near = vec![false; map.texels.len()];
+        let points = outline.points();
+        for (i, &a) in points.iter().enumerate() {
+            let b = points[(i + 1) % points.len()];
+            let pieces = (a.distance(b) / reach).ceil().max(1.0) as usize;
+            for piece in 0..pieces {
+                let [from, to] = [piece, piece + 1].map(|i| a.lerp(b, i as f64 / pieces as f64));
+                let index = |p: DVec2| ((p - frame.min) / texel).clamp(DVec2::ZERO, size - 1.0);
+                let (low, high) = (index(from.min(to) - reach), index(from.max(to) + reach));
+                for row in low.y as usize..=high.y as usize {
+                    near[row * map.width as usize..][low.x as usize..=high.x as usize].fill(true);
+                }
+            }
+        }
+        for (number, _) in near.iter().enumerate().filter(|(_, near)| **near) {
+            let (column, row) = (number % map.width as usize, number / map.width as usize);
+            let p = frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5);
+            let inside = if outline.contains(p) {
+                outline.distance_to_margin(p)
+            } else {
+                0.0
+            };
+            let share = self.at(inside) as f32;
+            for (constituent, content) in map.texels[number].iter_mut() {
+                if constituent != Constituent::Structure {
+                    *content *= share;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::blade::tests::ellipse;
+    use crate::optics::PerConstituent;
+
+    const THIN: MarginThickness = MarginThickness {
+        share: 0.4,
+        width_mm: 3.0,
+    };
+
+    #[test]
+    fn the_thickness_falls_smoothly_to_its_share_at_the_margin() {
+        assert_eq!([0.0, 3.0, 50.0].map(|d| THIN.at(d)), [0.4, 1.0, 1.0]);
+        assert!((THIN.at(1.5) - 0.7).abs() < 1e-12);
+        assert_eq!(MarginThickness::EVEN.at(0.0), 1.0);
+    }
+
+    #[test]
+    fn contents_fall_with_the_thickness_and_the_structure_stays() {
+        let outline = ellipse(20.0, 40.0, 200);
+        let frame = UvFrame::around(outline.points());
+        let mut map = ContentsMap {
+            width: 100,
+            height: 200,
+            texels: vec![PerConstituent::splat(2.0); 20_000],
+        };
+        THIN.thin(&mut map, &frame, &outline);
+        let mut thinned = 0;
+        for (number, texel) in map.texels.iter().enumerate() {
+            assert_eq!(texel[Constituent::Structure], 2.0);
+            let place = DVec2::new((number % 100) as f64 + 0.5, (number / 100) as f64 + 0.5);
+            let p = frame.min + 0.2 * place;
+            let wanted = 2.0 * THIN.at(outline.distance_to_margin(p));
+            let held = f64::from(texel[Constituent::Water]);
+            if outline.contains(p) {
+                assert!(
+                    (held - wanted).abs() < 1e-6,
+                    "{held} is not {wanted} at {p}"
+                );
+                thinned += usize::from(held < 1.99);
+            }
+        }
+        assert!(thinned > 3000, "{thinned}");
+    }
+}

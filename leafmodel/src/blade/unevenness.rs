@@ -1,0 +1,408 @@
+//! Greens that are not even: fields between veins differ, larger patches of the leaf do, and tissue
+//! along primaries is paler.
+//!
+//! Each texel's chlorophyll and carotenoids are multiplied by
+//!
+//! `(1 + a f) (1 + b g) (1 − c exp(−d / w)) / m`
+//!
+//! with a number f of mean 0 and deviation 1 for each field that veins of the first three orders
+//! enclose, smooth noise g of mean 0 and deviation 1, the distance d from the axis of the nearest
+//! primary, and the mean m of the rest over the blade, weighted by chlorophyll.
+//!
+//! - **In**: an [`Unevenness`], a painted map, margin and veins, a seed.
+//! - **Out**: the map with its pigments changed.
+//! - **Always true**: the blade as a whole holds as much chlorophyll as before.
+//! - **Left out**: whence it comes: light flecks, age, supply.
+
+use glam::DVec2;
+
+use super::contents_map::ContentsMap;
+use super::distances::Distances;
+use super::frame::UvFrame;
+use super::mottle::Mottle;
+use super::tissue::TissueError;
+use crate::optics::Constituent;
+use crate::shape::outline::Outline;
+use crate::venation::network::VeinSegment;
+
+/// By how much the greens of a blade differ from place to place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unevenness {
+    /// Coefficient of variation of chlorophyll from field to field between veins of the first three
+    /// orders, 0 to 0.3.
+    pub fields: f64,
+    /// Coefficient of variation of chlorophyll from patch to patch, 0 to 0.3.
+    pub patches: f64,
+    /// Size of the patches, mm, 0.5 to 500.
+    pub patch_mm: f64,
+    /// Share of the chlorophyll that tissue at primaries lacks, 0 to 0.9.
+    pub along_primaries: f64,
+    /// Distance from their axes over which that falls to 1/e, mm, 0.05 to 100.
+    pub reach_mm: f64,
+}
+
+impl Default for Unevenness {
+    /// A broad leaf as one sees it against the light; by eye.
+    fn default() -> Self {
+        Self {
+            fields: 0.04,
+            patches: 0.04,
+            patch_mm: 14.0,
+            along_primaries: 0.08,
+            reach_mm: 2.0,
+        }
+    }
+}
+
+/// Standard deviation of the noise of [`Mottle`] (measured).
+const NOISE_DEVIATION: f64 = 0.36;
+/// Highest order of the veins that enclose fields.
+const ENCLOSING: u8 = 3;
+/// Size of the noise from which fields take their numbers, mm: smaller than most of them.
+const FIELD_NOISE_MM: f64 = 0.4;
+/// What the seed is changed by, so that patches and fields do not follow the mottle.
+const OTHER: [u64; 2] = [0x9a7c_5e11, 0x51e1_d5aa];
+
+impl Unevenness {
+    /// Checks every field.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for the first field out of range, by name.
+    pub fn validate(&self) -> Result<(), TissueError> {
+        let fields = [
+            ("fields", self.fields, 0.0..=0.3, "from 0 to 0.3"),
+            ("patches", self.patches, 0.0..=0.3, "from 0 to 0.3"),
+            ("patch_mm", self.patch_mm, 0.5..=500.0, "from 0.5 to 500"),
+            (
+                "along_primaries",
+                self.along_primaries,
+                0.0..=0.9,
+                "from 0 to 0.9",
+            ),
+            ("reach_mm", self.reach_mm, 0.05..=100.0, "from 0.05 to 100"),
+        ];
+        for (field, value, range, text) in fields {
+            TissueError::unless(range.contains(&value), field, value, text)?;
+        }
+        Ok(())
+    }
+
+    /// Changes the pigments of a map over `frame`.
+    pub(crate) fn apply(
+        &self,
+        map: &mut ContentsMap,
+        frame: &UvFrame,
+        outline: &Outline,
+        veins: &[VeinSegment],
+        seed: u64,
+    ) {
+        let grid = Grid {
+            frame,
+            width: map.width as usize,
+            height: map.height as usize,
+        };
+        let mut factors = if self.fields > 0.0 {
+            let numbers = grid.field_numbers(outline, veins, seed ^ OTHER[0]);
+            numbers.iter().map(|f| 1.0 + self.fields * f).collect()
+        } else {
+            vec![1.0; map.texels.len()]
+        };
+        let noise = Mottle::new(seed ^ OTHER[1], self.patch_mm);
+        let lines: Vec<[DVec2; 2]> = veins
+            .iter()
+            .filter(|vein| vein.order == 1)
+            .map(|vein| [vein.from, vein.to])
+            .collect();
+        let primaries = (!lines.is_empty()).then(|| Distances::new(lines, frame));
+        let (mut before, mut after) = (0.0, 0.0);
+        for (i, factor) in factors.iter_mut().enumerate() {
+            let p = grid.place(i);
+            let patch = (noise.at(p) / NOISE_DEVIATION).clamp(-2.5, 2.5);
+            let paler = primaries
+                .as_ref()
+                .map_or(0.0, |distances| libm::exp(-distances.at(p) / self.reach_mm));
+            *factor *= (1.0 + self.patches * patch) * (1.0 - self.along_primaries * paler);
+            if outline.contains(p) {
+                let chlorophyll = f64::from(map.texels[i][Constituent::Chlorophyll]);
+                before += chlorophyll;
+                after += chlorophyll * *factor;
+            }
+        }
+        let mean = if before > 0.0 { after / before } else { 1.0 };
+        for (texel, factor) in map.texels.iter_mut().zip(factors) {
+            for pigment in [Constituent::Chlorophyll, Constituent::Carotenoids] {
+                texel[pigment] = (f64::from(texel[pigment]) * factor / mean) as f32;
+            }
+        }
+    }
+}
+
+/// The texels of a map.
+struct Grid<'a> {
+    frame: &'a UvFrame,
+    width: usize,
+    height: usize,
+}
+
+/// A texel that belongs to no field yet, and one at which a vein or the margin ends fields.
+const OPEN: u32 = u32::MAX;
+const WALL: u32 = u32::MAX - 1;
+
+impl Grid<'_> {
+    fn size(&self) -> DVec2 {
+        DVec2::new(self.width as f64, self.height as f64)
+    }
+
+    /// The middle of a texel.
+    fn place(&self, i: usize) -> DVec2 {
+        let texel = DVec2::new((i % self.width) as f64, (i / self.width) as f64) + 0.5;
+        self.frame.point(texel / self.size())
+    }
+
+    /// A number of mean 0 and deviation 1 for each texel: that of its field.
+    fn field_numbers(&self, outline: &Outline, veins: &[VeinSegment], seed: u64) -> Vec<f64> {
+        let (fields, count) = self.fields(outline, veins);
+        let mut middles = vec![(DVec2::ZERO, 0.0); count];
+        for (i, &field) in fields.iter().enumerate() {
+            if let Some((sum, area)) = middles.get_mut(field as usize) {
+                *sum += self.place(i);
+                *area += 1.0;
+            }
+        }
+        // The noise changes little with a field's middle, so maps of all sizes show the same leaf.
+        let noise = Mottle::new(seed, FIELD_NOISE_MM);
+        let number =
+            |&(sum, area): &(DVec2, f64)| (noise.at(sum / area) / NOISE_DEVIATION).clamp(-2.5, 2.5);
+        let numbers: Vec<f64> = middles.iter().map(number).collect();
+        let of = |field: &u32| numbers.get(*field as usize).copied().unwrap_or(0.0);
+        let sharp: Vec<f64> = fields.iter().map(of).collect();
+        self.softened(&self.softened(&sharp))
+    }
+
+    /// The field of each texel, and how many there are. Texels of veins belong to the nearest.
+    fn fields(&self, outline: &Outline, veins: &[VeinSegment]) -> (Vec<u32>, usize) {
+        let texels = self.width * self.height;
+        let mut field = vec![OPEN; texels];
+        for (i, field) in field.iter_mut().enumerate() {
+            if !outline.contains(self.place(i)) {
+                *field = WALL;
+            }
+        }
+        for vein in veins.iter().filter(|vein| vein.order <= ENCLOSING) {
+            self.wall(vein, &mut field);
+        }
+        let mut count = 0;
+        // Texels at which fields may grow over walls, the earlier the nearer.
+        let mut edge = Vec::new();
+        let mut open = Vec::new();
+        for start in 0..texels {
+            if field[start] != OPEN {
+                continue;
+            }
+            field[start] = count;
+            open.push(start);
+            while let Some(i) = open.pop() {
+                let mut is_edge = false;
+                for other in self.beside(i) {
+                    if field[other] == OPEN {
+                        field[other] = count;
+                        open.push(other);
+                    }
+                    is_edge |= field[other] == WALL;
+                }
+                if is_edge {
+                    edge.push(i);
+                }
+            }
+            count += 1;
+        }
+        let mut next = 0;
+        while let Some(&i) = edge.get(next) {
+            next += 1;
+            for other in self.beside(i) {
+                if field[other] == WALL {
+                    field[other] = field[i];
+                    edge.push(other);
+                }
+            }
+        }
+        (field, count as usize)
+    }
+
+    /// Makes walls of the texels through which a vein's axis goes, without gaps at corners.
+    fn wall(&self, vein: &VeinSegment, field: &mut [u32]) {
+        let texel = |p: DVec2| self.frame.uv(p) * self.size();
+        let (from, to) = (texel(vein.from), texel(vein.to));
+        let steps = (3.0 * from.distance(to)).ceil().max(1.0);
+        let most = self.size() - 1.0;
+        let mut before: Option<(usize, usize)> = None;
+        for step in 0..=steps as usize {
+            let p = from.lerp(to, step as f64 / steps).clamp(DVec2::ZERO, most);
+            let (column, row) = (p.x as usize, p.y as usize);
+            field[row * self.width + column] = WALL;
+            if let Some((_, row_before)) = before {
+                field[row_before * self.width + column] = WALL;
+            }
+            before = Some((column, row));
+        }
+    }
+
+    /// The four texels beside one, less those beyond the map.
+    fn beside(&self, i: usize) -> impl Iterator<Item = usize> {
+        let (column, row) = (i % self.width, i / self.width);
+        let (width, height) = (self.width, self.height);
+        let left = (column > 0).then(|| i - 1);
+        let right = (column + 1 < width).then_some(i + 1);
+        let below = (row > 0).then(|| i - width);
+        let above = (row + 1 < height).then_some(i + width);
+        [left, right, below, above].into_iter().flatten()
+    }
+
+    /// Means over each texel and those beside it.
+    fn softened(&self, values: &[f64]) -> Vec<f64> {
+        let mean = |i: usize| {
+            let beside: Vec<f64> = self.beside(i).map(|other| values[other]).collect();
+            (values[i] + beside.iter().sum::<f64>()) / (1.0 + beside.len() as f64)
+        };
+        (0..values.len()).map(mean).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::LazyLock;
+
+    use crate::leaf::{Lamina, LeafPlan};
+    use crate::species::find;
+
+    fn plan(unevenness: Option<Unevenness>) -> LeafPlan {
+        let mut plan = find("tertiary").expect("a preset").plan();
+        plan.map_size = 320;
+        plan.tissue.mottle = 0.0;
+        plan.unevenness = unevenness;
+        plan
+    }
+
+    /// Ratios of chlorophyll to that of the even leaf inside the blade, and their places; and both
+    /// leaves' sums.
+    fn ratios(unevenness: Unevenness) -> (Vec<(DVec2, f64)>, [f64; 2]) {
+        let lamina = &*LAMINA;
+        let [even, own] = [None, Some(unevenness)].map(|unevenness| {
+            let map = plan(unevenness).paint(lamina, &|| false);
+            map.expect("a good plan")
+        });
+        let frame = frame();
+        let grid = Grid {
+            frame: &frame,
+            width: own.width as usize,
+            height: own.height as usize,
+        };
+        let mut ratios = Vec::new();
+        let mut sums = [0.0; 2];
+        for (i, pair) in even.texels.iter().zip(&own.texels).enumerate() {
+            let p = grid.place(i);
+            if lamina.outline.contains(p) {
+                let [was, own] = [pair.0, pair.1];
+                let [was, own] = [was, own].map(|texel| f64::from(texel[Constituent::Chlorophyll]));
+                sums[0] += was;
+                sums[1] += own;
+                ratios.push((p, own / was));
+            }
+        }
+        (ratios, sums)
+    }
+
+    /// Distances to veins of these orders.
+    fn distances(orders: [u8; 2]) -> Distances {
+        let segments = LAMINA.network.segments();
+        let those = segments.filter(|vein| (orders[0]..=orders[1]).contains(&vein.order));
+        Distances::new(those.map(|vein| [vein.from, vein.to]).collect(), &frame())
+    }
+
+    fn frame() -> UvFrame {
+        UvFrame::around(LAMINA.outline.points())
+    }
+
+    static LAMINA: LazyLock<Lamina> =
+        LazyLock::new(|| plan(None).grow_lamina().expect("a good plan"));
+
+    fn deviation(values: &[f64]) -> f64 {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt()
+    }
+
+    const NONE: Unevenness = Unevenness {
+        fields: 0.0,
+        patches: 0.0,
+        patch_mm: 10.0,
+        along_primaries: 0.0,
+        reach_mm: 2.0,
+    };
+
+    #[test]
+    fn the_leaf_holds_as_much_as_before_and_varies_by_what_was_asked() {
+        let cases = [
+            Unevenness {
+                fields: 0.06,
+                ..NONE
+            },
+            Unevenness {
+                patches: 0.06,
+                patch_mm: 6.0,
+                ..NONE
+            },
+        ];
+        for unevenness in cases {
+            let (ratios, [was, own]) = ratios(unevenness);
+            assert!((own / was - 1.0).abs() < 1e-6, "{was} {own}");
+            let values: Vec<f64> = ratios.iter().map(|(_, ratio)| *ratio).collect();
+            let cv = deviation(&values);
+            // Few patches and fields of unlike size: a leaf's own deviation is about that asked for.
+            assert!((0.035..0.085).contains(&cv), "{unevenness:?}: {cv}");
+        }
+    }
+
+    #[test]
+    fn fields_are_even_inside_and_differ_across_tertiaries() {
+        let (ratios, _) = ratios(Unevenness {
+            fields: 0.06,
+            ..NONE
+        });
+        let distances = distances([1, ENCLOSING]);
+        // Beside a place far from veins there is the same green.
+        let texel = frame().size.max_element() / 320.0;
+        let mut steps = [Vec::new(), Vec::new()];
+        for pair in ratios.windows(2) {
+            let is_row = (pair[0].0.y - pair[1].0.y).abs() < 1e-9;
+            if is_row && pair[1].0.x - pair[0].0.x < 1.5 * texel {
+                let near = distances.at(pair[0].0) < texel;
+                let far = distances.at(pair[0].0) > 5.0 * texel;
+                if near || far {
+                    steps[usize::from(near)].push((pair[0].1 - pair[1].1).abs());
+                }
+            }
+        }
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        assert!(steps[0].len() > 500, "{}", steps[0].len());
+        assert!(mean(&steps[0]) < 1e-6, "{}", mean(&steps[0]));
+        assert!(mean(&steps[1]) > 0.004, "{}", mean(&steps[1]));
+    }
+
+    #[test]
+    fn tissue_along_primaries_is_paler() {
+        let (ratios, _) = ratios(Unevenness {
+            along_primaries: 0.2,
+            ..NONE
+        });
+        let distances = distances([1, 1]);
+        let far = ratios.iter().find(|(p, _)| distances.at(*p) > 12.0);
+        let far = far.expect("a place far away").1;
+        for (p, ratio) in &ratios {
+            let expected = 1.0 - 0.2 * libm::exp(-distances.at(*p) / 2.0);
+            assert!((ratio / far - expected).abs() < 2e-3, "{ratio} {expected}");
+        }
+    }
+}

@@ -1,0 +1,36 @@
+"""Lamina from Python: it runs the program `lamina` and reads the files that it writes.
+
+Nothing is computed a second time here; what a function returns is what the program wrote, as arrays
+with units and coordinates.
+
+    import lamina
+
+    picture = lamina.render("scene.toml", {"film.spectral.spp": 256})
+    leaf = lamina.grow("birch", {"seed": 3})
+    spectra = lamina.optics(chlorophyll=45, water=0.011)
+    problems = lamina.check("scene.toml")
+
+The program is the one that the environment variable `LAMINA` names, else the one on the path, else
+cargo's release build of the repository that holds this package.
+"""
+
+from lamina.checking import Problem, check
+from lamina.grown import Grown, frames, grow
+from lamina.program import LaminaError, program, run, version
+from lamina.rendered import read, render
+from lamina.spectra import optics
+
+__all__ = [
+    "Grown",
+    "LaminaError",
+    "Problem",
+    "check",
+    "frames",
+    "grow",
+    "optics",
+    "program",
+    "read",
+    "render",
+    "run",
+    "version",
+]

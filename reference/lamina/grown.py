@@ -1,0 +1,144 @@
+"""Grown leaves: margin, network of veins, measures and mesh as arrays."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lamina.program import Value, overrides, run
+
+if TYPE_CHECKING:
+    import networkx
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Grown:
+    """A leaf as it was grown, in millimetres; the blade is flat here, but for `vertices`."""
+
+    outline: Array
+    """Corners of the margin, counter-clockwise, `[corners, 2]`."""
+    base: Array
+    apex: Array
+    nodes: Array
+    """Places of the veins' nodes, `[nodes, 2]`; older ones come first."""
+    edges: NDArray[np.int64]
+    """Numbers of the node nearer to the petiole and of the farther one, `[edges, 2]`."""
+    radii: Array
+    """Radius of the vein at both nodes, `[edges, 2]`."""
+    orders: NDArray[np.int64]
+    """Order of the vein: 1 for primaries, then upwards."""
+    areoles: list[dict[str, Any]]
+    """Area, perimeter, elongation, circularity, centroid and corners of each."""
+    measures: dict[str, Any]
+    """What `lamina grow --measure` writes; `docs/src/theory/measures.md` defines it."""
+    vertices: Array | None
+    """Vertices of the blade in space, `[vertices, 3]`, m; None unless the mesh was asked for."""
+    faces: NDArray[np.int64] | None
+    """Corners of its triangles, `[faces, 3]`, from 0."""
+
+    def graph(self) -> networkx.Graph:
+        """The veins as a graph: nodes with `x_mm`, `y_mm`; edges with `length_mm`, `radius_mm` (the
+        mean of both ends) and `order`. Needs networkx.
+        """
+        import networkx
+
+        graph = networkx.Graph()
+        for number, (x, y) in enumerate(self.nodes):
+            graph.add_node(number, x_mm=float(x), y_mm=float(y))
+        steps = self.nodes[self.edges[:, 1]] - self.nodes[self.edges[:, 0]]
+        lengths = np.hypot(*steps.T)
+        for (a, b), length, radii, order in zip(
+            self.edges, lengths, self.radii, self.orders, strict=True
+        ):
+            graph.add_edge(
+                int(a),
+                int(b),
+                length_mm=float(length),
+                radius_mm=float(radii.mean()),
+                order=int(order),
+            )
+        return graph
+
+    def lines(self) -> Array:
+        """Both ends of every piece of vein, `[edges, 2, 2]`: for drawing, or for geometries."""
+        return self.nodes[self.edges]
+
+
+def grow(
+    leaf: str | Path, values: Mapping[str, Value] | None = None, *, mesh: bool = False
+) -> Grown:
+    """Grows a leaf.
+
+    `leaf` is a preset's name (`lamina grow --list`), a file of leaves, or `FILE.toml#NAME`;
+    `values` sets keys of its plan as `lamina grow --set` does. `mesh` makes the blade in space too,
+    which takes longer. Raises LaminaError.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        network, measures = Path(folder, "leaf.json"), Path(folder, "measures.json")
+        blade = Path(folder, "leaf.obj")
+        files = [str(network), *([str(blade)] if mesh else [])]
+        run(
+            ["grow", str(leaf), *overrides("--set", values)]
+            + ["--out", *files, "--measure", str(measures)]
+        )
+        measured = json.loads(measures.read_text(encoding="utf-8"))
+        vertices, faces = obj(blade) if mesh else (None, None)
+        return leaf_of(network, measured, vertices, faces)
+
+
+def frames(leaf: str | Path, count: int, values: Mapping[str, Value] | None = None) -> list[Grown]:
+    """A leaf at `count` times of its growth, the last of which is the grown leaf.
+
+    Arguments are those of `grow`; the leaves are without measures. Raises LaminaError.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        out = str(Path(folder, "leaf.json"))
+        setting = overrides("--set", values)
+        run(["grow", str(leaf), *setting, "--frames", str(count), "--out", out])
+        files = sorted(Path(folder).glob("leaf-*.json"))
+        return [leaf_of(file, {}, None, None) for file in files]
+
+
+def leaf_of(
+    file: Path,
+    measures: dict[str, Any],
+    vertices: Array | None,
+    faces: NDArray[np.int64] | None,
+) -> Grown:
+    """A leaf from the JSON of its veins."""
+    told = json.loads(file.read_text(encoding="utf-8"))
+    margin, nodes, edges = told["outline"], told["nodes"], told["edges"]
+    return Grown(
+        outline=np.asarray(margin["points_mm"], float).reshape(-1, 2),
+        base=np.asarray(margin["base_mm"], float),
+        apex=np.asarray(margin["apex_mm"], float),
+        nodes=np.column_stack([nodes["x_mm"], nodes["y_mm"]]).astype(float),
+        edges=np.column_stack([edges["from"], edges["to"]]).astype(np.int64).reshape(-1, 2),
+        radii=np.column_stack([edges["radius_from_mm"], edges["radius_to_mm"]]).astype(float),
+        orders=np.asarray(edges["order"], np.int64),
+        areoles=told["areoles"],
+        measures=measures,
+        vertices=vertices,
+        faces=faces,
+    )
+
+
+def obj(file: Path) -> tuple[Array, NDArray[np.int64]]:
+    """Vertices (m) and triangles of the OBJ that the program writes, which has millimetres."""
+    vertices, faces = [], []
+    for line in file.read_text(encoding="utf-8").splitlines():
+        kind, *words = line.split() or [""]
+        if kind == "v":
+            vertices.append([float(word) for word in words[:3]])
+        elif kind == "f":
+            faces.append([int(word.partition("/")[0]) - 1 for word in words])
+    return np.asarray(vertices, float) / 1000, np.asarray(faces, np.int64)

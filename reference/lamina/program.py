@@ -1,0 +1,93 @@
+"""Finding and running the program."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+Value = bool | int | float | str | Sequence["Value"] | Mapping[str, "Value"]
+"""What a key of a scene or leaf file may be set to."""
+
+
+class LaminaError(RuntimeError):
+    """The program refused or failed; its text is what it printed.
+
+    `code` is its exit status: 2 for what was wrong in the input or the call, 1 for a system that
+    failed (a full disk), 130 for an interrupt.
+    """
+
+    def __init__(self, text: str, code: int) -> None:
+        super().__init__(text)
+        self.code = code
+
+
+def program() -> Path:
+    """The `lamina` that is run. Raises FileNotFoundError if there is none."""
+    named = os.environ.get("LAMINA")
+    if named:
+        found = shutil.which(named)
+        if found is None:
+            raise FileNotFoundError(f"the environment variable LAMINA names no program: {named}")
+        return Path(found)
+    found = shutil.which("lamina")
+    if found is not None:
+        return Path(found)
+    root = Path(__file__).resolve().parents[2]
+    built = Path(os.environ.get("CARGO_TARGET_DIR") or root / "target") / "release" / "lamina"
+    if built.is_file():
+        return built
+    raise FileNotFoundError(
+        "no program `lamina`: install it (cargo install --path renderer), or name it in the "
+        "environment variable LAMINA"
+    )
+
+
+def run(arguments: Sequence[str | Path]) -> str:
+    """Runs the program, gives what it printed. Raises LaminaError if it fails."""
+    done = subprocess.run(
+        [program(), *arguments], capture_output=True, text=True, encoding="utf-8", check=False
+    )
+    if done.returncode != 0:
+        raise LaminaError(done.stderr.strip() or done.stdout.strip(), done.returncode)
+    return done.stdout
+
+
+def version() -> str:
+    """The program's version, such as `0.1.0`."""
+    return run(["--version"]).split()[-1]
+
+
+def overrides(flag: str, values: Mapping[str, Value] | None) -> list[str]:
+    """Arguments that set keys: `flag` and `KEY=VALUE` for each, values written as in TOML."""
+    arguments: list[str] = []
+    for key, value in (values or {}).items():
+        arguments += [flag, f"{key}={toml(value)}"]
+    return arguments
+
+
+def toml(value: Value) -> str:
+    """A value as TOML has it, on one line."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+            for letter, short in (("\n", "\\n"), ("\r", "\\r"), ("\t", "\\t")):
+                escaped = escaped.replace(letter, short)
+            return f'"{escaped}"'
+        case Mapping():
+            members = ", ".join(f"{toml(str(key))} = {toml(inner)}" for key, inner in value.items())
+            return "{ " + members + " }"
+        case Sequence():
+            return "[" + ", ".join(toml(inner) for inner in value) + "]"
+        case _ if hasattr(value, "item"):
+            # A number of NumPy's.
+            return toml(value.item())
+        case int():
+            return str(value)
+        case float():
+            return repr(value)
+    raise TypeError(f"a key cannot be set to {value!r}")

@@ -1,0 +1,124 @@
+"""Pictures as arrays with units and coordinates."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio
+import xarray as xr
+
+from lamina.program import Value, overrides, run
+
+# Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised; the
+# decimal point is a comma.
+BAND = re.compile(r"^(?P<layer>\w+\.)?S0\.(?P<whole>\d+),(?P<part>\d+)nm$")
+
+# Layers of three channels: name of the variable, its unit, its axis and that axis' labels.
+TRIPLES = {
+    "": ("colour", "1", "channel", "RGB"),
+    "variance": ("colour_variance", "1", "channel", "RGB"),
+    "albedo": ("albedo", "1", "channel", "RGB"),
+    "N": ("normal", "1", "axis", "XYZ"),
+    "P": ("position", "m", "axis", "XYZ"),
+}
+SINGLES = {
+    "A": ("coverage", "1"),
+    "depth.Z": ("depth", "m"),
+    "height.Z": ("height", "m"),
+    "id.object": ("object", "1"),
+    "samples.Y": ("samples", "1"),
+}
+RADIANCE = "W m-2 sr-1 nm-1"
+
+
+def render(
+    scene: str | Path,
+    values: Mapping[str, Value] | None = None,
+    *,
+    out: str | Path | None = None,
+    spp: int | None = None,
+    noise: float | None = None,
+    seconds: float | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+) -> xr.Dataset:
+    """Renders a scene and gives its picture.
+
+    `values` sets keys as `lamina render -D` does: `{"film.rgb.size": [320, 240]}`. `out` keeps the
+    EXR and the PNG under this stem; without it they are deleted once they are read. The other
+    arguments are the program's flags. See `read` for what is in the picture. Raises LaminaError.
+    """
+    arguments = ["render", str(scene), *overrides("-D", values)]
+    flags = {
+        "--spp": spp,
+        "--noise": noise,
+        "--time": seconds,
+        "--seed": seed,
+        "--threads": threads,
+    }
+    for flag, value in flags.items():
+        if value is not None:
+            arguments += [flag, str(value)]
+    with tempfile.TemporaryDirectory() as folder:
+        stem = Path(out) if out is not None else Path(folder, "picture")
+        stem = stem.with_suffix("") if stem.suffix in (".exr", ".png") else stem
+        run([*arguments, "--out", str(stem)])
+        return read(stem.with_name(stem.name + ".exr"))
+
+
+def read(file: str | Path) -> xr.Dataset:
+    """The layers of an EXR of the program's.
+
+    Dimensions are `y` and `x` (pixels, from the top left corner), and `wavelength` (nm) for a
+    spectral film, `channel` (R, G, B) for a colour film, `axis` (X, Y, Z) for places and
+    directions. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
+    samples and the variances of those means; then `coverage`, `depth`, `normal`, `position`,
+    `albedo`, `object` and `samples`, as far as the scene asked for them. Each variable has its
+    `units`; what the program wrote about the render is in `attrs`. Raises OSError for a file that
+    is no EXR.
+    """
+    image = oiio.ImageInput.open(str(file))
+    if image is None:
+        raise OSError(f"{file}: {oiio.geterror()}")
+    spec = image.spec()
+    pixels = np.asarray(image.read_image(oiio.FLOAT))
+    image.close()
+    layers: dict[str, xr.DataArray] = {}
+    spectral: dict[str, list[tuple[float, int]]] = {}
+    for number, name in enumerate(spec.channelnames):
+        if band := BAND.match(name):
+            layer = (band["layer"] or "").rstrip(".")
+            centre = float(f"{band['whole']}.{band['part']}")
+            spectral.setdefault(layer, []).append((centre, number))
+        elif name in SINGLES:
+            key, unit = SINGLES[name]
+            layers[key] = xr.DataArray(pixels[:, :, number], dims=("y", "x"), attrs={"units": unit})
+    for layer, bands in spectral.items():
+        bands.sort()
+        name = "radiance" if not layer else f"radiance_{layer}"
+        layers[name] = xr.DataArray(
+            pixels[:, :, [number for _, number in bands]],
+            dims=("y", "x", "wavelength"),
+            coords={"wavelength": ("wavelength", [band for band, _ in bands], {"units": "nm"})},
+            attrs={"units": f"({RADIANCE})2" if layer == "variance" else RADIANCE},
+        )
+    numbers = {name: number for number, name in enumerate(spec.channelnames)}
+    for layer, (name, unit, axis, labels) in TRIPLES.items():
+        channels = [f"{layer}.{label}" if layer else label for label in labels]
+        if all(channel in numbers for channel in channels):
+            layers[name] = xr.DataArray(
+                pixels[:, :, [numbers[channel] for channel in channels]],
+                dims=("y", "x", axis),
+                coords={axis: list(labels)},
+                attrs={"units": unit},
+            )
+    told = {
+        attribute.name.removeprefix("lamina:"): attribute.value
+        for attribute in spec.extra_attribs
+        if attribute.name.startswith("lamina:")
+    }
+    return xr.Dataset(layers, attrs={"software": spec.get_string_attribute("Software"), **told})

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Tests of the package `lamina` and of its notebooks: run by `reference/self-test`.
+
+They hold what the package returns against what the program itself prints or writes.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE))
+
+import lamina
+import numpy as np
+import OpenImageIO as oiio
+from lamina.checking import problems_of
+from lamina.program import toml
+from lamina_reference.program import program
+from lamina_reference.testing import run_tests
+
+FLAT = ROOT / "scenes" / "flat-leaf" / "scene.toml"
+SMALL = {"film.spectral.size": [12, 8]}
+
+
+def printed(*arguments: str) -> str:
+    """What the program prints."""
+    done = subprocess.run([program(), *arguments], capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def refused(call: object) -> lamina.LaminaError:
+    """The error that a call ends in."""
+    try:
+        call()  # type: ignore[operator]
+    except lamina.LaminaError as failure:
+        return failure
+    raise AssertionError("it was not refused")
+
+
+def test_the_program_that_the_environment_names_is_run() -> None:
+    assert lamina.program().samefile(program())
+    assert printed("--version").split()[-1] == lamina.version()
+
+
+def test_values_are_written_as_toml_reads_them() -> None:
+    import tomllib
+
+    values = {
+        "a": 1,
+        "b": 0.1,
+        "c": True,
+        "d": 'quoted "text" \\ with\nlines',
+        "e": [1, [2.5, "x"]],
+        "f": {"d65": 0.5},
+        "g": np.float64(1e-30),
+        "h": np.int32(7),
+    }
+    text = "\n".join(f"{key} = {toml(value)}" for key, value in values.items())
+    assert tomllib.loads(text) == values
+    try:
+        toml({1, 2})  # type: ignore[arg-type]
+    except TypeError:
+        return
+    raise AssertionError("a set is no value")
+
+
+def test_a_spectral_picture_is_what_the_exr_holds() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        stem = Path(folder, "kept")
+        picture = lamina.render(FLAT, SMALL, spp=4, seed=2, out=stem)
+        exr = oiio.ImageInput.open(str(stem) + ".exr")
+        names, pixels = exr.spec().channelnames, exr.read_image(oiio.FLOAT)
+        exr.close()
+        assert stem.with_suffix(".png").is_file()
+    assert dict(picture.sizes) == {"y": 8, "x": 12, "wavelength": 4, "axis": 3}
+    assert picture.wavelength.values.tolist() == [450, 550, 650, 750]
+    assert picture.radiance.attrs["units"] == "W m-2 sr-1 nm-1"
+    assert picture.attrs["software"] == f"Lamina {lamina.version()}"
+    assert picture.attrs["spp"] == 4 and picture.attrs["sceneName"] == "flat-leaf"
+    for band, channel in ((450, "S0.450,000000nm"), (750, "S0.750,000000nm")):
+        ours = picture.radiance.sel(wavelength=band).values
+        assert np.array_equal(ours, pixels[:, :, names.index(channel)])
+    variance = picture.radiance_variance.sel(wavelength=550).values
+    assert np.array_equal(variance, pixels[:, :, names.index("variance.S0.550,000000nm")])
+    assert picture.radiance.values.max() > 0
+
+
+def test_a_colour_picture_has_channels_and_layers() -> None:
+    colour = FLAT.read_text().replace("[film.spectral]", "[film.rgb]")
+    kept = [row for row in colour.splitlines() if not row.startswith("band")]
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder, "colour.toml")
+        scene.write_text("\n".join(kept))
+        picture = lamina.render(scene, {"film.rgb.size": [8, 6]}, spp=1)
+    assert picture.colour.dims == ("y", "x", "channel")
+    layers = {"coverage", "albedo", "normal", "position", "depth", "object", "samples"}
+    assert layers <= set(picture)
+    assert set(np.unique(picture.samples)) == {1.0}
+
+
+def test_the_same_call_gives_the_same_numbers_and_another_seed_others() -> None:
+    first, again, other = (
+        lamina.render(FLAT, SMALL, spp=2, seed=seed).radiance for seed in (1, 1, 2)
+    )
+    assert first.identical(again)
+    assert not first.equals(other)
+
+
+def test_a_leaf_is_what_the_program_writes() -> None:
+    leaf = lamina.grow("runions-9c", {"seed": 3}, mesh=True)
+    with tempfile.TemporaryDirectory() as folder:
+        file, measures = Path(folder, "leaf.json"), Path(folder, "measures.json")
+        printed("grow", "runions-9c", "--seed", "3", "--out", str(file), "--measure", str(measures))
+        told = json.loads(file.read_text())
+        assert json.loads(measures.read_text()) == leaf.measures
+    assert leaf.nodes[:, 0].tolist() == told["nodes"]["x_mm"]
+    assert leaf.edges[:, 1].tolist() == told["edges"]["to"]
+    assert len(leaf.areoles) == leaf.measures["areole_count"]
+    graph = leaf.graph()
+    length = sum(data["length_mm"] for _, _, data in graph.edges(data=True))
+    assert abs(length / leaf.measures["vein_length_mm"] - 1) < 1e-6
+    assert leaf.lines().shape == (len(leaf.edges), 2, 2)
+    assert leaf.vertices is not None and leaf.faces is not None
+    assert leaf.faces.max() == len(leaf.vertices) - 1
+    # The blade is as long as the flat leaf, but for its curl.
+    assert 0.9 * leaf.measures["length_mm"] < 1000 * np.ptp(leaf.vertices[:, 1]) < 250
+
+
+def test_optics_are_the_programs_table() -> None:
+    told = lamina.optics("birch-yellow", water=0.012)
+    table = printed("optics", "--preset", "birch-yellow", "--cw", "0.012", "--out", "-")
+    rows = list(csv.DictReader(io.StringIO(table)))
+    assert told.wavelength.values.tolist() == [float(row["wavelength_nm"]) for row in rows]
+    assert told.reflectance.values.tolist() == [float(row["R"]) for row in rows]
+    assert told.transmittance.values.tolist() == [float(row["T"]) for row in rows]
+    assert told.attrs == {"preset": "birch-yellow", "water": 0.012}
+
+
+def test_problems_of_a_scene_are_told_with_their_places() -> None:
+    assert lamina.check(FLAT) == []
+    file = ROOT / "tests" / "format" / "broken" / "unknown_name.toml"
+    problems = lamina.check(file)
+    assert problems and all(problem.code.startswith("scene::") for problem in problems)
+    lines = file.read_text().splitlines()
+    for problem in problems:
+        assert problem.file.endswith("unknown_name.toml") and problem.help
+        assert problem.line is not None and 1 <= problem.line <= len(lines)
+    wrong = {"film.spectral.spp": "many", "camera.perspective.vertical_fov_deg": 500}
+    found = lamina.check(FLAT, wrong)
+    assert [problem.code for problem in found] == ["scene::wrong_type", "scene::out_of_range"]
+    assert problems_of("nothing of the kind") == []
+
+
+def test_what_the_program_refuses_is_an_error_with_its_words() -> None:
+    assert "poplar" in str(refused(lambda: lamina.grow("popplar")))
+    assert "at least 0" in str(refused(lambda: lamina.optics(water=-1)))
+    failure = refused(lambda: lamina.render("nowhere.toml"))
+    assert "nowhere.toml" in str(failure) and failure.code == 2
+    try:
+        lamina.optics(chlorofyll=3)
+    except TypeError as wrong:
+        assert "chlorophyll" in str(wrong)
+    else:
+        raise AssertionError("a name with a typo was taken")
+
+
+def test_notebooks_run_from_top_to_bottom() -> None:
+    """Every code cell of every notebook, in a fresh namespace, without a window."""
+    import matplotlib
+    from lamina_reference import variant
+
+    variant.choose()
+
+    matplotlib.use("Agg")
+    notebooks = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+    assert len(notebooks) >= 3
+    for file in notebooks:
+        cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+        assert not any(cell.get("outputs") for cell in cells), f"{file.name} holds outputs"
+        names: dict[str, object] = {"__name__": "__main__"}
+        os.chdir(file.parent)
+        for number, cell in enumerate(cells):
+            if cell["cell_type"] == "code":
+                source = "".join(cell["source"])
+                exec(compile(source, f"{file.name}, cell {number}", "exec"), names)  # noqa: S102
+
+
+def main() -> int:
+    """Runs every test of this file, or those whose names hold the arguments."""
+    return run_tests(globals(), "package")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,307 @@
+//! Sums of a render as a file, from which it goes on after an interruption, or which is merged with
+//! other parts of the same picture.
+//!
+//! - **In**: a [`Begun`] render and its [`Heading`]; or a file.
+//! - **Out**: a file; or the render, which goes on with the same bits; or the sum of several.
+//! - **Always true**: a file is written whole or not at all ([`crate::image::atomic`]). A file of
+//!   another format or a damaged one is an error, which no content can turn into a panic.
+//! - **Left out**: when to write one, which the command line decides.
+//!
+//! A file is a magic line and sections: length, CRC-32 and bytes of each. First comes the heading,
+//! then a section for each row of blocks ([`Film::packed_row`]), then counts of rejected samples
+//! and clamped values, then what is known of the noise.
+
+mod bytes;
+mod heading;
+mod merge;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+pub use heading::{Heading, PROGRAM};
+pub use merge::{MergeError, merge};
+
+use self::bytes::{Out, Rest};
+use self::heading::Progress;
+use crate::film::{BLOCK_SIDE, DamagedRow, Film, FilmError};
+use crate::image::{ImageError, atomic};
+use crate::integrator::layers::Layout;
+use crate::integrator::render::{Begun, Job};
+use crate::spectrum::WavelengthSampler;
+
+/// The first bytes of a file.
+const MAGIC: [u8; 16] = *b"lamina sums  1\n\n";
+
+/// Why a checkpoint cannot be read.
+#[derive(Debug, Error)]
+pub enum CheckpointError {
+    /// The system refuses.
+    #[error("{}: {source}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// It does not begin as one.
+    #[error("{} is no checkpoint or part of this format", .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It begins as one.
+    #[error("{} is damaged: {what}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Where.
+        what: &'static str,
+    },
+    /// It claims to be larger than any film.
+    #[error("{}: {source}", .path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Of which size.
+        source: FilmError,
+    },
+}
+
+/// Writes the state of a render; an old file is replaced when the new one is whole.
+///
+/// # Errors
+///
+/// [`ImageError::File`] if it cannot be written; an old one is untouched.
+pub fn write(path: &Path, heading: &Heading, begun: &Begun) -> Result<(), ImageError> {
+    atomic::replace(path, |file| write_sections(file, heading, begun))
+}
+
+fn write_sections(
+    file: &mut BufWriter<&mut File>,
+    heading: &Heading,
+    begun: &Begun,
+) -> io::Result<()> {
+    let film = &begun.film;
+    file.write_all(&MAGIC)?;
+    section(file, &heading.to_bytes(&Progress::of(begun)))?;
+    // Rows are packed on all threads, some at a time, so that few are in memory.
+    let batch = 4 * rayon::current_num_threads();
+    for first in (0..film.rows()).step_by(batch) {
+        let rows = first..(first + batch).min(film.rows());
+        let packed: Vec<_> = rows
+            .into_par_iter()
+            .map(|row| film.packed_row(row))
+            .collect();
+        for row in packed {
+            section(file, &row)?;
+        }
+    }
+    let mut faults = Out::default();
+    for count in film.fault_counts() {
+        faults.long(count);
+    }
+    section(file, &faults.0)?;
+    let mut noise = Out::default();
+    if let Some(watch) = &begun.watch {
+        for word in watch.words() {
+            noise.word(word);
+        }
+    }
+    section(file, &noise.0)
+}
+
+fn section(file: &mut BufWriter<&mut File>, bytes: &[u8]) -> io::Result<()> {
+    let length = u32::try_from(bytes.len()).map_err(io::Error::other)?;
+    file.write_all(&length.to_le_bytes())?;
+    file.write_all(&crc32fast::hash(bytes).to_le_bytes())?;
+    file.write_all(bytes)
+}
+
+/// Reads the state of a render; sums are added up on the current thread pool.
+///
+/// # Errors
+///
+/// [`CheckpointError`].
+pub fn read(path: &Path) -> Result<(Heading, Begun), CheckpointError> {
+    let opened = Opened::new(path)?;
+    let begun = opened.begun(std::slice::from_ref(&opened))?;
+    if begun.film.drawn_range() != opened.progress.drawn {
+        return Err(opened.damaged("the heading and the sums differ in samples"));
+    }
+    Ok((opened.heading, begun))
+}
+
+/// A file whose heading was read, and the places of its sections.
+struct Opened {
+    path: PathBuf,
+    heading: Heading,
+    progress: Progress,
+    /// Place, length and checksum of each section behind the heading.
+    sections: Vec<(u64, u32, u32)>,
+}
+
+impl Opened {
+    fn new(path: &Path) -> Result<Self, CheckpointError> {
+        let refuse = |source| CheckpointError::File {
+            path: path.to_owned(),
+            source,
+        };
+        let damaged = |what| CheckpointError::Damaged {
+            path: path.to_owned(),
+            what,
+        };
+        let foreign = || CheckpointError::Foreign {
+            path: path.to_owned(),
+        };
+        // The type is checked before opening, since opening a pipe would wait for a writer.
+        let found = std::fs::metadata(path).map_err(refuse)?;
+        if !found.is_file() {
+            return Err(foreign());
+        }
+        let mut file = File::open(path).map_err(refuse)?;
+        let size = file.metadata().map_err(refuse)?.len();
+        let mut magic = [0; MAGIC.len()];
+        if size < MAGIC.len() as u64 {
+            return Err(foreign());
+        }
+        file.read_exact(&mut magic).map_err(refuse)?;
+        if magic != MAGIC {
+            return Err(foreign());
+        }
+        let mut at = MAGIC.len() as u64;
+        let mut sections = Vec::new();
+        while at < size {
+            let mut head = [0; 8];
+            if size - at < 8 {
+                return Err(damaged("its end is missing"));
+            }
+            file.seek(SeekFrom::Start(at)).map_err(refuse)?;
+            file.read_exact(&mut head).map_err(refuse)?;
+            let mut head = Rest(&head);
+            let (length, sum) = head.word().zip(head.word()).unwrap_or_default();
+            at += 8;
+            if size - at < u64::from(length) {
+                return Err(damaged("its end is missing"));
+            }
+            sections.push((at, length, sum));
+            at += u64::from(length);
+        }
+        if sections.is_empty() {
+            return Err(damaged("its end is missing"));
+        }
+        let heading = section_of(path, sections.remove(0))?;
+        let (heading, progress) =
+            Heading::from_bytes(&heading).ok_or_else(|| damaged("its heading says nothing"))?;
+        Ok(Self {
+            path: path.to_owned(),
+            heading,
+            progress,
+            sections,
+        })
+    }
+
+    fn damaged(&self, what: &'static str) -> CheckpointError {
+        CheckpointError::Damaged {
+            path: self.path.clone(),
+            what,
+        }
+    }
+
+    fn section(&self, number: usize) -> Result<Vec<u8>, CheckpointError> {
+        section_of(&self.path, self.sections[number])
+    }
+
+    /// Whether there is a section for each row of blocks, long enough for its blocks.
+    fn has_all_rows(&self, layout: Layout) -> bool {
+        let Job { width, height, .. } = self.heading.job;
+        let (across, rows) = (width.div_ceil(BLOCK_SIDE), height.div_ceil(BLOCK_SIDE));
+        // The count of samples, and two bytes for each kind of number.
+        let kinds = 2 * layout.beauty + 1 + layout.sums().len();
+        let least = u64::from(across) * (4 + 2 * kinds as u64);
+        let rows = rows as usize;
+        self.sections.len() == rows + 2
+            && self.sections[..rows]
+                .iter()
+                .all(|&(_, length, _)| u64::from(length) >= least)
+    }
+
+    /// The sums of several files of one render, this one among them, with the first of their
+    /// samples. Rows of blocks are added up on all threads.
+    fn begun(&self, parts: &[Self]) -> Result<Begun, CheckpointError> {
+        let layout = Layout::new(&WavelengthSampler::new(&self.heading.caption.kind));
+        // Before any memory is taken for what a heading claims.
+        if let Some(part) = parts.iter().find(|part| !part.has_all_rows(layout)) {
+            return Err(part.damaged("it has not all rows"));
+        }
+        let begun = Begun::new(
+            &self.heading.job,
+            layout,
+            self.heading.aim,
+            self.progress.effort,
+        );
+        let mut begun = begun.map_err(|source| CheckpointError::TooLarge {
+            path: self.path.clone(),
+            source,
+        })?;
+        let rows = begun.film.rows();
+        begun.film.add_rows(|row, sums| {
+            for part in parts {
+                let told = |DamagedRow| part.damaged("a row has impossible sums");
+                sums.add(&part.section(row)?).map_err(told)?;
+            }
+            Ok(())
+        })?;
+        for part in parts {
+            part.add_faults(&mut begun.film, rows)?;
+            begun.rays = begun.rays.saturating_add(part.progress.rays);
+            begun.elapsed = begun.elapsed.saturating_add(part.progress.elapsed);
+        }
+        if !begun.film.is_sound() {
+            return Err(self.damaged("more samples are rejected than drawn"));
+        }
+        begun.first = self.progress.first;
+        if let Some(watch) = begun.watch.take() {
+            let bytes = self.section(rows + 1)?;
+            let words = bytes.chunks(4).map(|word| Rest(word).word());
+            let words: Option<Vec<u32>> = words.collect();
+            let watch = words.and_then(|words| watch.restored(&words));
+            begun.watch = Some(watch.ok_or_else(|| self.damaged("its noise is impossible"))?);
+        }
+        Ok(begun)
+    }
+
+    fn add_faults(&self, film: &mut Film, section: usize) -> Result<(), CheckpointError> {
+        let bytes = self.section(section)?;
+        let counts = bytes.chunks(8).map(|count| Rest(count).long());
+        let counts: Option<Vec<u64>> = counts.collect();
+        let added = counts.and_then(|counts| film.add_fault_counts(&counts).ok());
+        added.ok_or_else(|| self.damaged("its counts of rejected samples are impossible"))
+    }
+}
+
+/// The bytes of a section, if its checksum is right.
+fn section_of(path: &Path, (at, length, sum): (u64, u32, u32)) -> Result<Vec<u8>, CheckpointError> {
+    let refuse = |source| CheckpointError::File {
+        path: path.to_owned(),
+        source,
+    };
+    let mut file = File::open(path).map_err(refuse)?;
+    file.seek(SeekFrom::Start(at)).map_err(refuse)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    file.take(u64::from(length))
+        .read_to_end(&mut bytes)
+        .map_err(refuse)?;
+    if bytes.len() < length as usize || crc32fast::hash(&bytes) != sum {
+        return Err(CheckpointError::Damaged {
+            path: path.to_owned(),
+            what: "a checksum is wrong",
+        });
+    }
+    Ok(bytes)
+}

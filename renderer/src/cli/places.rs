@@ -1,0 +1,231 @@
+//! Where outputs go: checked before any work is done, and kept from other programs.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::cli::Failure;
+use crate::cli::signals::Signals;
+use crate::image::atomic::{self, Destination, destination, folder_of};
+
+/// Fails if `path` could not be written, before any work is done. Half files of programs that were
+/// killed are removed from its folder.
+pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
+    let shown = path.display();
+    if path.is_dir() {
+        return Err(Failure::bad(format!("{shown} is a folder: name a file")));
+    }
+    let refused = |error: std::io::Error| Failure::system(format!("{shown}: {error}"));
+    let path = match destination(path).map_err(refused)? {
+        Destination::File(path) => path,
+        Destination::Stream => return check_stream(path).map_err(refused),
+    };
+    let folder = folder_of(&path);
+    if !folder.is_dir() {
+        return Err(Failure::bad(format!(
+            "the folder {} of {shown} does not exist: make it or write somewhere else",
+            folder.display(),
+        )));
+    }
+    atomic::sweep(folder);
+    tempfile::NamedTempFile::new_in(folder).map_err(|error| {
+        Failure::system(format!(
+            "nothing can be written into {}: {error}",
+            folder.display()
+        ))
+    })?;
+    Ok(())
+}
+
+/// Whether a device or a pipe may be written to. It is not opened: opening a pipe waits for a
+/// reader.
+fn check_stream(path: &Path) -> std::io::Result<()> {
+    #[cfg(unix)]
+    rustix::fs::access(path, rustix::fs::Access::WRITE_OK)?;
+    #[cfg(not(unix))]
+    let _ = path;
+    Ok(())
+}
+
+/// As [`check_writable`] for all outputs of a command; none may be one of the inputs, which `reader`
+/// reads, or be written twice.
+pub(super) fn check_outputs(
+    outputs: &[&Path],
+    inputs: &[PathBuf],
+    reader: &str,
+) -> Result<(), Failure> {
+    let inputs: Vec<_> = inputs
+        .iter()
+        .map(|file| fs::canonicalize(file).unwrap_or_else(|_| file.clone()))
+        .collect();
+    let mut seen: BTreeMap<PathBuf, &Path> = BTreeMap::new();
+    for &output in outputs {
+        check_writable(output)?;
+        let Some(place) = place_of(output) else {
+            continue;
+        };
+        if inputs.contains(&place) {
+            return Err(Failure::bad(format!(
+                "{} is a file that {reader} reads: name another output",
+                output.display()
+            )));
+        }
+        if let Some(other) = seen.insert(place, output) {
+            return Err(if other == output {
+                Failure::written_twice(output)
+            } else {
+                let (one, other) = (output.display(), other.display());
+                Failure::bad(format!("{one} and {other} are one file: name another"))
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The one path of a file that may not exist yet; `None` for devices and pipes.
+fn place_of(path: &Path) -> Option<PathBuf> {
+    let Ok(Destination::File(path)) = destination(path) else {
+        return None;
+    };
+    let folder = fs::canonicalize(folder_of(&path)).ok()?;
+    Some(folder.join(path.file_name()?))
+}
+
+/// An output that no other program writes as long as this lives.
+#[derive(Debug)]
+pub(super) struct Lock {
+    path: PathBuf,
+    _file: File,
+}
+
+impl Lock {
+    /// Keeps other programs from an output by a locked file beside it; `None` for devices, and
+    /// where the system has no locks.
+    pub(super) fn take(output: &Path, signals: &Signals) -> Result<Option<Self>, Failure> {
+        let Some(place) = place_of(output) else {
+            return Ok(None);
+        };
+        let name = place.file_name().unwrap_or_default().to_string_lossy();
+        let path = place.with_file_name(format!(".{name}.lock"));
+        let refused =
+            |error: std::io::Error| Failure::system(format!("{}: {error}", path.display()));
+        // The one who had the lock may remove the file after it was opened here.
+        for _ in 0..100 {
+            let mut options = OpenOptions::new();
+            options.read(true).write(true).create(true).truncate(false);
+            let mut file = options.open(&path).map_err(refused)?;
+            match atomic::locked(&file) {
+                Err(_) => {
+                    let _ = fs::remove_file(&path);
+                    return Ok(None);
+                }
+                Ok(false) => {
+                    let holder = fs::read_to_string(&path).unwrap_or_default();
+                    return Err(Failure::system(format!(
+                        "{} is being written by {}: wait for it, or name another output",
+                        output.display(),
+                        if holder.is_empty() {
+                            "another program"
+                        } else {
+                            holder.trim()
+                        }
+                    )));
+                }
+                Ok(true) => {}
+            }
+            if !is_same(&file, &path) {
+                continue;
+            }
+            let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+            let holder = format!("process {} on {}\n", std::process::id(), host.trim());
+            let written = file
+                .set_len(0)
+                .and_then(|()| file.write_all(holder.as_bytes()));
+            written.map_err(refused)?;
+            signals.clean(path.clone());
+            return Ok(Some(Self { path, _file: file }));
+        }
+        Err(Failure::system(format!(
+            "{} cannot be locked",
+            output.display()
+        )))
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Whether an open file is still the one at a path.
+fn is_same(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let found = file.metadata().ok().zip(fs::metadata(path).ok());
+        found.is_some_and(|(own, other)| (own.dev(), own.ino()) == (other.dev(), other.ino()))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        path.exists()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_is_written_once_and_is_no_input() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("sub")).expect("the folder can be written");
+        fs::write(at("scene.toml"), b"").expect("the folder can be written");
+        let (exr, again) = (at("a.exr"), at("sub/../a.exr"));
+        assert!(check_outputs(&[&exr, &at("a.png")], &[at("scene.toml")], "the test").is_ok());
+        assert!(check_outputs(&[&exr, &again], &[], "the test").is_err());
+        assert!(check_outputs(&[&exr, &exr], &[], "the test").is_err());
+        assert!(
+            check_outputs(&[&at("scene.toml")], &[at("sub/../scene.toml")], "the test").is_err()
+        );
+        assert!(check_outputs(&[&at("none/a.exr")], &[], "the test").is_err());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_may_take_several_outputs_and_links_count_as_what_they_lead_to() {
+        let null = Path::new("/dev/null");
+        assert!(check_outputs(&[null, null], &[], "the test").is_ok());
+        let folder = tempfile::tempdir().expect("a folder");
+        let [link, file] = ["link", "file"].map(|name| folder.path().join(name));
+        std::os::unix::fs::symlink("file", &link).expect("the folder can be written");
+        assert!(check_outputs(&[&link, &file], &[], "the test").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_lock_is_taken_once_and_leaves_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = folder.path().join("a.exr");
+        let signals = Signals::default();
+        let lock = Lock::take(&output, &signals).expect("nobody has it");
+        assert!(lock.is_some());
+        let Err(Failure::System(message)) = Lock::take(&output, &signals) else {
+            panic!("it is taken");
+        };
+        let process = format!("process {}", std::process::id());
+        assert!(message.contains(&process), "{message}");
+        drop(lock);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+        // A lock file of a program that was killed holds nobody up.
+        fs::write(folder.path().join(".a.exr.lock"), "process 1 on moon").expect("it is ours");
+        assert!(
+            Lock::take(&output, &signals)
+                .expect("nobody has it")
+                .is_some()
+        );
+    }
+}

@@ -1,0 +1,33 @@
+//! `lamina tonemap`: a picture to look at from an EXR, without rendering again.
+
+use crate::cli::arguments::TonemapArguments;
+use crate::cli::{Failure, check_writable, say};
+use crate::image::display::FileKind;
+use crate::image::{Attribute, openexr};
+use crate::scene::load::parse_picture;
+
+pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    let kind = FileKind::of(out).ok_or_else(|| {
+        Failure::bad(format!(
+            "{}: the ending tells what is written: png or jpg",
+            out.display()
+        ))
+    })?;
+    let picture = openexr::read(&arguments.picture).map_err(Failure::bad)?;
+    // What the scene said when it was rendered; other programs' pictures say nothing.
+    let scene = match picture.attribute("lamina:scene") {
+        Some(Attribute::Text(text)) => text.as_str(),
+        _ => "",
+    };
+    let shown = format!("{} (lamina:scene)", arguments.picture.display());
+    let display = parse_picture(scene, &shown, &arguments.overrides())?;
+    display.check(kind).map_err(Failure::bad)?;
+    check_writable(out)?;
+    display.write(&picture, kind, out).map_err(|error| {
+        let place = arguments.picture.display();
+        Failure::bad(format!("{place}: {error}"))
+    })?;
+    say(out.display());
+    Ok(())
+}

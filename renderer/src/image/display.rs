@@ -1,0 +1,340 @@
+//! How a picture is shown: from the radiance of its layers to the pixels of a PNG or JPEG.
+//!
+//! Colours are those of the layers `R`, `G` and `B`; of a spectral picture, those that its bands
+//! have together. With [`Display::alpha`] what lies behind everything is taken out of them.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use super::pixels::{Depth, Pixels};
+use super::tone::Tone;
+use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, portable_network};
+use crate::spectrum::wavelengths::seen_at;
+
+/// Settings of `[picture]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Exposure: a factor of 2^EV on radiance.
+    pub exposure_ev: f64,
+    /// How light becomes what a display shows.
+    pub tone: Tone,
+    /// Depth of a PNG.
+    pub depth: Depth,
+    /// Whether a PNG has an alpha channel, and nothing behind what is partly there.
+    pub alpha: bool,
+}
+
+impl Default for Display {
+    fn default() -> Self {
+        Self {
+            exposure_ev: 0.0,
+            tone: Tone::Standard,
+            depth: Depth::Eight,
+            alpha: false,
+        }
+    }
+}
+
+/// Kinds of files that are looked at, by their ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// `.png`.
+    Png,
+    /// `.jpg` or `.jpeg`: 8 bits, without alpha.
+    Jpeg,
+}
+
+impl FileKind {
+    /// The kind of a file with this ending, if it is one.
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()? {
+            "png" => Some(Self::Png),
+            "jpg" | "jpeg" => Some(Self::Jpeg),
+            _ => None,
+        }
+    }
+}
+
+impl Display {
+    /// Refuses settings that a file of this kind cannot have.
+    ///
+    /// # Errors
+    ///
+    /// [`ImageError::Inconsistent`] for a JPEG of 16 bits or with alpha.
+    pub fn check(&self, kind: FileKind) -> Result<(), ImageError> {
+        let cannot = match (kind, self.depth, self.alpha) {
+            (FileKind::Jpeg, Depth::Sixteen, _) => "16 bits a channel",
+            (FileKind::Jpeg, Depth::Eight, true) => "an alpha channel",
+            (FileKind::Jpeg, Depth::Eight, false) | (FileKind::Png, ..) => return Ok(()),
+        };
+        let what = format!("a JPEG cannot have {cannot}: write a PNG, or leave that out");
+        Err(ImageError::Inconsistent { what })
+    }
+
+    /// Writes a picture as a file of a kind.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Display::check`] and [`Display::pixels`]; [`ImageError::File`].
+    pub fn write(&self, picture: &Picture, kind: FileKind, path: &Path) -> Result<(), ImageError> {
+        self.check(kind)?;
+        let pixels = self.pixels(picture)?;
+        let bytes = match kind {
+            FileKind::Png => portable_network::encoded_pixels(&pixels)?,
+            FileKind::Jpeg => jpeg::encoded(&pixels)?,
+        };
+        atomic::replace(path, |file| file.write_all(&bytes))
+    }
+
+    /// The pixels that show a picture.
+    ///
+    /// # Errors
+    ///
+    /// [`ImageError::Inconsistent`] if it has neither colours nor bands, colours of other
+    /// primaries than those of Rec. 709, or no layer `A` where alpha is wanted.
+    pub fn pixels(&self, picture: &Picture) -> Result<Pixels, ImageError> {
+        let mut colours = colours(picture)?;
+        let alpha = if self.alpha {
+            let missing = || lacks("channel `A`, which alpha is made of");
+            let alpha = &picture.layer("A").ok_or_else(missing)?.data;
+            take_background_out(&mut colours, alpha, picture.width as usize);
+            Some(alpha)
+        } else {
+            None
+        };
+        let exposure = libm::exp2(self.exposure_ev);
+        let most = f64::from(self.depth.most());
+        let stored = |value: f64| libm::round(value * most) as u16;
+        let channels = if alpha.is_some() { 4 } else { 3 };
+        let mut values = Vec::with_capacity(colours.len() * channels);
+        for (pixel, colour) in colours.iter().enumerate() {
+            let light = colour.map(|value| f64::from(value) * exposure);
+            values.extend(self.tone.encoded(light).map(stored));
+            if let Some(alpha) = alpha {
+                values.push(stored(f64::from(alpha[pixel]).clamp(0.0, 1.0)));
+            }
+        }
+        Ok(Pixels {
+            width: picture.width,
+            height: picture.height,
+            depth: self.depth,
+            channels: channels as u8,
+            values,
+        })
+    }
+}
+
+fn lacks(what: &str) -> ImageError {
+    ImageError::Inconsistent {
+        what: format!("it has no {what}"),
+    }
+}
+
+/// Linear sRGB of each pixel.
+fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
+    let channels = ["R", "G", "B"].map(|name| picture.layer(name));
+    if let [Some(red), Some(green), Some(blue)] = channels {
+        if let Some(primaries @ Attribute::Chromaticities(_)) = picture.attribute("chromaticities")
+            && *primaries != REC709
+        {
+            return Err(lacks("colours of the primaries of Rec. 709"));
+        }
+        let channels = red.data.iter().zip(&green.data).zip(&blue.data);
+        return Ok(channels
+            .map(|((&red, &green), &blue)| [red, green, blue])
+            .collect());
+    }
+    let bands: Vec<(f64, &[f32])> = picture
+        .layers
+        .iter()
+        .filter_map(|layer| Some((wavelength(&layer.name)?, layer.data.as_slice())))
+        .collect();
+    if bands.is_empty() {
+        return Err(lacks("channels `R`, `G`, `B`, nor bands `S0.…nm`"));
+    }
+    Ok(colours_of_bands(&bands))
+}
+
+/// The wavelength, nm, in the name of a spectral channel: `S0.550,000000nm`.
+fn wavelength(name: &str) -> Option<f64> {
+    let nm = name.strip_prefix("S0.")?.strip_suffix("nm")?;
+    nm.replace(',', ".")
+        .parse()
+        .ok()
+        .filter(|nm: &f64| nm.is_finite())
+}
+
+/// Bands stand for the wavelengths around them; without any in sight they are shown in grey.
+fn colours_of_bands(bands: &[(f64, &[f32])]) -> Vec<[f32; 3]> {
+    let nearest = |nm: f64| {
+        let distance = |i: &usize| (bands[*i].0 - nm).abs();
+        let nearest = (0..bands.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.unwrap_or(0)
+    };
+    let mut weights = vec![[0.0_f32; 3]; bands.len()];
+    if bands.iter().any(|band| (400.0..=780.0).contains(&band.0)) {
+        for nm in (400..780).map(|nm| f64::from(nm) + 0.5) {
+            for (sum, value) in weights[nearest(nm)].iter_mut().zip(seen_at(nm)) {
+                *sum += value as f32;
+            }
+        }
+    } else {
+        weights.fill([1.0 / bands.len() as f32; 3]);
+    }
+    let mut colours = vec![[0.0; 3]; bands[0].1.len()];
+    for (weight, (_, values)) in weights.iter().zip(bands) {
+        for (colour, value) in colours.iter_mut().zip(*values) {
+            for (sum, weight) in colour.iter_mut().zip(weight) {
+                *sum += weight * value;
+            }
+        }
+    }
+    colours
+}
+
+/// Farthest pixel that is asked for the background of one at an edge.
+const REACH: usize = 4;
+
+/// What pixels show apart from what lies behind everything: (C − (1 − α) B) / α.
+///
+/// B is the mean of the nearest pixels in which nothing stands before it; a pixel with none near
+/// stays as it is. Where nothing stands at all there is no colour.
+fn take_background_out(colours: &mut [[f32; 3]], alpha: &[f32], width: usize) {
+    let seen = colours.to_vec();
+    let height = seen.len() / width;
+    for (pixel, colour) in colours.iter_mut().enumerate() {
+        let share = alpha[pixel];
+        if share <= 0.0 {
+            *colour = [0.0; 3];
+        } else if share < 1.0
+            && let Some(behind) = background(&seen, alpha, [width, height], pixel)
+        {
+            for (value, behind) in colour.iter_mut().zip(behind) {
+                *value = ((*value - (1.0 - share) * behind) / share).max(0.0);
+            }
+        }
+    }
+}
+
+/// Mean of the uncovered pixels on the smallest square around a pixel that has any.
+fn background(
+    seen: &[[f32; 3]],
+    alpha: &[f32],
+    [width, height]: [usize; 2],
+    pixel: usize,
+) -> Option<[f32; 3]> {
+    let (x, y) = (pixel % width, pixel / width);
+    (1..=REACH).find_map(|reach| {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for row in y.saturating_sub(reach)..=(y + reach).min(height - 1) {
+            for column in x.saturating_sub(reach)..=(x + reach).min(width - 1) {
+                let other = row * width + column;
+                if alpha[other] == 0.0 {
+                    for (sum, value) in sum.iter_mut().zip(seen[other]) {
+                        *sum += value;
+                    }
+                    count += 1.0;
+                }
+            }
+        }
+        (count > 0.0).then(|| sum.map(|sum: f32| sum / count))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Layer;
+    use super::*;
+
+    fn picture(width: u32, layers: &[(&str, &[f32])]) -> Picture {
+        Picture {
+            width,
+            height: layers[0].1.len() as u32 / width,
+            layers: layers
+                .iter()
+                .map(|(name, data)| Layer {
+                    name: (*name).to_owned(),
+                    data: data.to_vec(),
+                })
+                .collect(),
+            attributes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn one_stop_is_a_factor_of_two() {
+        let grey = [0.1, 0.3, 0.45];
+        let double = grey.map(|value| 2.0 * value);
+        let once = picture(3, &[("R", &grey), ("G", &grey), ("B", &grey)]);
+        let twice = picture(3, &[("R", &double), ("G", &double), ("B", &double)]);
+        for tone in [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear] {
+            let show = |exposure_ev, picture| {
+                let display = Display {
+                    exposure_ev,
+                    tone,
+                    ..Display::default()
+                };
+                display.pixels(picture).expect("it has colours").values
+            };
+            assert_eq!(show(1.0, &once), show(0.0, &twice), "{tone:?}");
+            assert_eq!(show(0.0, &once), show(-1.0, &twice), "{tone:?}");
+        }
+    }
+
+    #[test]
+    fn an_edge_before_a_bright_sky_has_the_leafs_own_colour() {
+        // Sky of 4, a leaf of 0.5, and pixels of both between them.
+        let alpha = [0.0, 0.25, 0.75, 1.0, 1.0];
+        let seen = alpha.map(|share| 0.5 * share + 4.0 * (1.0 - share));
+        let picture = picture(
+            5,
+            &[("R", &seen), ("G", &seen), ("B", &seen), ("A", &alpha)],
+        );
+        let display = Display {
+            tone: Tone::Linear,
+            depth: Depth::Sixteen,
+            alpha: true,
+            ..Display::default()
+        };
+        let pixels = display.pixels(&picture).expect("it has alpha");
+        assert_eq!((pixels.channels, pixels.values.len()), (4, 20));
+        let leaf = pixels.values[16];
+        for (pixel, share) in pixels.values.chunks(4).zip(alpha) {
+            assert_eq!(pixel[3], (f64::from(share) * 65535.0).round() as u16);
+            let expected = if share > 0.0 { leaf } else { 0 };
+            assert!(pixel[0].abs_diff(expected) <= 1, "{pixel:?} at {share}");
+        }
+    }
+
+    #[test]
+    fn bands_stand_for_what_lies_around_them_and_infrared_is_grey() {
+        let one = [1.0];
+        let bands = |names: &[&str]| {
+            let layers: Vec<(&str, &[f32])> = names.iter().map(|name| (*name, &one[..])).collect();
+            colours(&picture(1, &layers)).expect("it has bands")[0]
+        };
+        let all = bands(&["S0.450,000000nm", "S0.550,000000nm", "S0.650,000000nm"]);
+        let green = bands(&["S0.550,000000nm"]);
+        // Any one band alone stands for all wavelengths.
+        for (one, other) in all.into_iter().zip(green) {
+            assert!((one - other).abs() < 1e-4, "{all:?} {green:?}");
+        }
+        assert_eq!(bands(&["S0.900,000000nm", "S0.1600,000000nm"]), [1.0; 3]);
+    }
+
+    #[test]
+    fn what_cannot_be_shown_is_refused() {
+        let grey = picture(1, &[("Y", &[0.5])]);
+        assert!(Display::default().pixels(&grey).is_err());
+        let mut colour = picture(1, &[("R", &[0.5]), ("G", &[0.5]), ("B", &[0.5])]);
+        let with_alpha = Display {
+            alpha: true,
+            ..Display::default()
+        };
+        assert!(with_alpha.pixels(&colour).is_err());
+        assert!(with_alpha.check(FileKind::Jpeg).is_err());
+        let primaries = Attribute::Chromaticities([[0.3; 2]; 4]);
+        colour.attributes = vec![("chromaticities".to_owned(), primaries)];
+        assert!(Display::default().pixels(&colour).is_err());
+    }
+}

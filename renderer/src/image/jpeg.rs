@@ -1,0 +1,68 @@
+//! JPEG: pictures for screens.
+
+use image::codecs::jpeg::JpegEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+use super::pixels::{Depth, Pixels};
+use super::{ImageError, MOST_BYTES, check_size};
+
+/// Quality of 1 to 100 at which fine veins show no blocks.
+const QUALITY: u8 = 93;
+
+/// The bytes of a JPEG file (JFIF) of sRGB values, which is what JPEG without a profile means.
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] unless the pixels have 8 bits and no alpha, and for more than
+/// 65535 pixels a side.
+pub fn encoded(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
+    let inconsistent = |what: String| ImageError::Inconsistent { what };
+    let (width, height) = (pixels.width, pixels.height);
+    check_size(u64::from(width), u64::from(height), 3, 12, MOST_BYTES)?;
+    if pixels.depth != Depth::Eight || pixels.channels != 3 {
+        return Err(inconsistent("a JPEG has 8 bits and no alpha".to_owned()));
+    }
+    let values: Vec<u8> = pixels.values.iter().map(|&value| value as u8).collect();
+    if values.len() as u64 != u64::from(width) * u64::from(height) * 3 {
+        let count = values.len();
+        return Err(inconsistent(format!(
+            "{count} values for {width} × {height} pixels"
+        )));
+    }
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, QUALITY)
+        .write_image(&values, width, height, ExtendedColorType::Rgb8)
+        .map_err(|error| inconsistent(error.to_string()))?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use image::ImageReader;
+
+    use super::*;
+
+    #[test]
+    fn colours_come_back_nearly_as_they_were() {
+        let mut pixels = Pixels {
+            width: 16,
+            height: 16,
+            depth: Depth::Eight,
+            channels: 3,
+            values: [70, 120, 30].repeat(256),
+        };
+        let bytes = encoded(&pixels).expect("it is a small picture");
+        let reader = ImageReader::new(std::io::Cursor::new(&bytes));
+        let reader = reader.with_guessed_format().expect("bytes can be read");
+        let back = reader.decode().expect("it is a JPEG").into_rgb8();
+        assert_eq!(back.dimensions(), (16, 16));
+        for (value, written) in back.into_raw().into_iter().zip(&pixels.values) {
+            assert!(
+                u16::from(value).abs_diff(*written) <= 3,
+                "{value}, not {written}"
+            );
+        }
+        pixels.depth = Depth::Sixteen;
+        assert!(encoded(&pixels).is_err());
+    }
+}

@@ -1,0 +1,176 @@
+//! `[lights.NAME.daylight]`: where the sun stands, and the air before it.
+
+use leafmodel::document::context::QUOTED;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::source::escaped;
+use leafmodel::document::value_kind::{Degrees, Number, Text};
+use toml::value::{Datetime, Offset};
+
+use crate::light::daylight::spctrl2::distance_factor;
+use crate::light::daylight::sun_position::{Moment, sun_position};
+use crate::light::daylight::{Daylight, ELEVATIONS_DEG};
+
+/// Years in which the position of the sun is accurate.
+const YEARS: [u16; 2] = [1950, 2050];
+const TIME: &str =
+    "a date and time with its offset from UTC, such as \"2026-06-21T12:00:00+02:00\"";
+
+/// The keys of the block.
+pub(super) fn daylight(day: &mut Daylight, keys: &mut Keys<'_>) {
+    for chosen in keys.one_of(&["elevation_deg", "time"], Some("elevation_deg")) {
+        if chosen == "time" {
+            place_and_time(day, keys);
+        } else {
+            angles(day, keys);
+        }
+    }
+    let air = &mut day.atmosphere;
+    let limits = Number(Limits::closed(2.0, 10.0));
+    let about = "Extinction by the hazy air over that by pure air: 2 very clear, 3 clear, 6 warm \
+        and moist, 10 hazy.";
+    keys.key("turbidity", &mut air.turbidity, limits, about);
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "Ozone above the place, as the height of the pure gas (100 Dobson units are 0.1).";
+    keys.key("ozone_atm_cm", &mut air.ozone_cm, limits, about);
+    let limits = Number(Limits::closed(0.0, 10.0));
+    let about = "Water vapour above the place, as the height of the liquid.";
+    keys.key("water_vapour_cm", &mut air.water_cm, limits, about);
+    let mut pressure_hpa = air.pressure_pa / 100.0;
+    let limits = Number(Limits::closed(300.0, 1100.0));
+    let about = "Air pressure at the place: 1013 at the sea, 795 at 2000 m.";
+    keys.key("pressure_hpa", &mut pressure_hpa, limits, about);
+    air.pressure_pa = pressure_hpa * 100.0;
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "Share of light that the ground far around reflects. It brightens the sky, and \
+        the directions below the horizon shine with it.";
+    keys.key("ground_albedo", &mut air.ground_albedo, limits, about);
+}
+
+/// The sun by two angles.
+fn angles(day: &mut Daylight, keys: &mut Keys<'_>) {
+    let [low, high] = ELEVATIONS_DEG;
+    let limits = Degrees(Limits::closed(low, high));
+    let about = "Height of the sun above the horizon.";
+    keys.needed("elevation_deg", &mut day.elevation, limits, about);
+    let limits = Degrees(Limits::closed(-360.0, 360.0));
+    let about = "Direction of the sun along the ground, from +x towards +y.";
+    keys.key("azimuth_deg", &mut day.azimuth, limits, about);
+    for of_a_place in ["latitude_deg", "longitude_deg", "north_azimuth_deg"] {
+        keys.exclude("elevation_deg", of_a_place);
+    }
+}
+
+/// The sun by place and time.
+fn place_and_time(day: &mut Daylight, keys: &mut Keys<'_>) {
+    let (mut time, mut latitude, mut longitude) = (String::new(), 0.0, 0.0);
+    let mut north = std::f64::consts::FRAC_PI_2;
+    let about = "Date and time by RFC 3339, from 1950 to 2050; `Z` at the end is UTC.";
+    keys.needed("time", &mut time, Text(TIME), about);
+    let limits = Degrees(Limits::closed(-90.0, 90.0));
+    let about = "Latitude of the place, north is positive. It stands beside `time`.";
+    keys.needed("latitude_deg", &mut latitude, limits, about);
+    let limits = Degrees(Limits::closed(-180.0, 180.0));
+    let about = "Longitude of the place, east is positive. It stands beside `time`.";
+    keys.needed("longitude_deg", &mut longitude, limits, about);
+    let limits = Degrees(Limits::closed(-360.0, 360.0));
+    let about = "Where north is in the scene beside `time`, from +x towards +y: 90 is +y, so that \
+        +x is east.";
+    keys.key("north_azimuth_deg", &mut north, limits, about);
+    keys.exclude("time", "azimuth_deg");
+    if !keys.is_sound() {
+        return;
+    }
+    let moment = match moment_of(&time) {
+        Ok(moment) => moment,
+        Err(problem) => {
+            let help = format!("write {TIME}");
+            return keys.refuse(&["time"], problem, &help);
+        }
+    };
+    let [elevation, compass] = sun_position(moment, latitude, longitude);
+    if elevation.to_degrees() < ELEVATIONS_DEG[0] {
+        let problem = format!(
+            "the sun stands at {:.1}° there and then, and daylight needs it at least {}° above \
+             the horizon",
+            elevation.to_degrees(),
+            ELEVATIONS_DEG[0]
+        );
+        // Within 17 minutes: the equation of time is left out.
+        let minutes = (720.0 - 4.0 * longitude.to_degrees()).rem_euclid(1440.0) as u32;
+        let help = format!(
+            "choose another time, noon there is at about {:02}:{:02} UTC; or write \
+             `elevation_deg` instead",
+            minutes / 60,
+            minutes % 60
+        );
+        return keys.refuse(&["time"], problem, &help);
+    }
+    day.elevation = elevation;
+    day.azimuth = north - compass;
+    day.atmosphere.distance_factor = distance_factor(moment.day_of_year());
+}
+
+/// The moment of a time as written; what is wrong with it otherwise.
+fn moment_of(text: &str) -> Result<Moment, String> {
+    let written = escaped(text, QUOTED);
+    let parsed: Datetime = text
+        .parse()
+        .map_err(|error| format!("\"{written}\" is no date and time ({error})"))?;
+    let (Some(date), Some(time)) = (parsed.date, parsed.time) else {
+        return Err(format!("\"{written}\" lacks the date or the time of day"));
+    };
+    let ahead_minutes = match parsed.offset {
+        Some(Offset::Z) => 0,
+        Some(Offset::Custom { minutes }) => minutes,
+        None => return Err(format!("\"{written}\" has no offset from UTC")),
+    };
+    if date.year < YEARS[0] || date.year > YEARS[1] {
+        return Err(format!(
+            "the year is {}, outside {} to {}",
+            date.year, YEARS[0], YEARS[1]
+        ));
+    }
+    let seconds = f64::from(time.second.unwrap_or(0));
+    let minutes = f64::from(time.minute) - f64::from(ahead_minutes);
+    let hours = f64::from(time.hour) + minutes / 60.0 + seconds / 3600.0;
+    let [month, day] = [date.month, date.day].map(u32::from);
+    Ok(Moment::new(i32::from(date.year), month, day, hours))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_moment_is_the_same_however_far_its_clock_is_from_utc() {
+        let utc = moment_of("2026-06-21T23:30:00Z").expect("it is a time");
+        for same in [
+            "2026-06-22T01:30:00+02:00",
+            "2026-06-21T13:30:00.00-10:00",
+            "2026-06-21 23:30:00z",
+        ] {
+            let other = moment_of(same).expect("it is a time");
+            let [one, two] = [utc, other].map(|moment| sun_position(moment, 1.1, -0.4));
+            assert!(
+                one.iter().zip(two).all(|(a, b)| (a - b).abs() < 1e-9),
+                "{same}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_time_that_is_none_is_told_apart() {
+        for (text, part) in [
+            ("2026-02-29T12:00:00Z", "is no date and time"),
+            ("noon", "is no date and time"),
+            ("2026-06-21T12:00:00", "has no offset from UTC"),
+            ("2026-06-21", "lacks the date or the time"),
+            ("12:00:00", "lacks the date or the time"),
+            ("1949-12-31T12:00:00Z", "outside 1950 to 2050"),
+        ] {
+            let problem = moment_of(text).expect_err(text);
+            assert!(problem.contains(part), "{text}: {problem}");
+        }
+    }
+}
