@@ -34,6 +34,8 @@ mod contours;
 mod developed;
 pub mod diagnosis;
 mod extended;
+#[cfg(test)]
+mod grown_once;
 mod individuals;
 pub mod leaf_traits;
 mod list;

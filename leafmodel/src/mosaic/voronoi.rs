@@ -30,6 +30,8 @@ const FIRST_RADIUS: f64 = 2.0;
 const FAR_RADIUS: f64 = 4.0;
 /// Number of faces processed together.
 const CHUNK: usize = 256;
+/// Cells that are sorted by distance at first; hardly any piece needs more.
+const FIRST_SORTED: usize = 24;
 
 /// The part of a face that lies nearest to one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -315,16 +317,22 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
     let mut polygon: Vec<(DVec2, u32)> = Vec::with_capacity(12);
     let mut spare = Vec::with_capacity(12);
     for &(cell, at) in &near {
-        // The nearest cells come first, since they cut away most.
         others.clear();
         others.extend(
             near.iter()
                 .map(|&(other, place)| (place.distance_squared(at), other, place)),
         );
-        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut sorted = 0;
         polygon.clear();
         polygon.extend(triangle.map(|p| (p, FACE_EDGE)));
-        for &(distance, other, place) in &others {
+        for i in 0..others.len() {
+            // The nearest cells come first, since they cut away most. Few are needed, so no more are sorted.
+            if i == sorted {
+                let more = sorted.max(FIRST_SORTED);
+                sort_first(&mut others[sorted..], more);
+                sorted += more;
+            }
+            let (distance, other, place) = others[i];
             if other == cell {
                 continue;
             }
@@ -363,6 +371,17 @@ fn cut_face(surface: &Surface, face: u32, near: Vec<(u32, DVec2)>) -> Cut {
         }
     }
     Cut { pieces, near }
+}
+
+/// Brings the nearest `count` cells to the front, sorted by distance and number.
+fn sort_first(others: &mut [(f64, u32, DVec2)], count: usize) {
+    let order =
+        |a: &(f64, u32, DVec2), b: &(f64, u32, DVec2)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if count < others.len() {
+        others.select_nth_unstable_by(count, order);
+    }
+    let first = count.min(others.len());
+    others[..first].sort_unstable_by(order);
 }
 
 /// The part of a polygon that is at least as near to `at` as to `other`; new edges are tagged.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::find;
+use super::{find, grown_once};
 use crate::leaf::{Lamina, LeafPlan};
 use crate::measure::{Measures, measure};
 use crate::shape::outline::Outline;
@@ -17,6 +17,8 @@ mod open;
 
 /// A preset and the leaf that it grows.
 struct Grown {
+    /// The preset's name, if the leaf is a preset's.
+    name: Option<&'static str>,
     plan: LeafPlan,
     outline: Outline,
     network: VenationNetwork,
@@ -24,15 +26,22 @@ struct Grown {
 
 impl Grown {
     fn preset(name: &str) -> Self {
-        Self::of(find(name).expect("a preset").plan())
+        let preset = find(name).expect("a preset");
+        let lamina = grown_once::lamina(name);
+        Self::with(Some(preset.name), preset.plan(), lamina)
     }
 
     fn of(plan: LeafPlan) -> Self {
         let lamina = plan.grow_lamina().expect("a good plan");
+        Self::with(None, plan, lamina)
+    }
+
+    fn with(name: Option<&'static str>, plan: LeafPlan, lamina: Lamina) -> Self {
         let Lamina {
             outline, network, ..
         } = lamina;
         Self {
+            name,
             plan,
             outline,
             network,
@@ -53,6 +62,9 @@ impl Grown {
     }
 
     fn measures(&self) -> Measures {
+        if let Some(name) = self.name {
+            return grown_once::measures(name);
+        }
         let exponent = self.plan.venation.murray_exponent();
         measure(&self.outline, &self.network, exponent)
     }

@@ -131,7 +131,7 @@ fn each_species_is_what_its_architecture_says() {
         if crate::species::colours::coloured(preset.name).is_some() {
             continue;
         }
-        let leaf = Grown::of(plan);
+        let leaf = Grown::preset(preset.name);
         let found = describe(&leaf.outline, &leaf.network);
         let mut all = disagreements(&asked, &found);
         let measures = leaf.measures();

@@ -62,7 +62,7 @@ fn junctions_of_species_are_balanced_and_simple_and_widths_follow_murray_by_orde
             continue;
         }
         seen += 1;
-        let leaf = Grown::of(plan);
+        let leaf = Grown::preset(preset.name);
         let measures = leaf.measures();
         let mut hold = |holds: bool, what: String| {
             if !holds {
