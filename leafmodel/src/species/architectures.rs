@@ -81,6 +81,25 @@ pub(super) fn cottonwood() -> Architecture {
     }
 }
 
+/// Quaking aspen: the lowest veins strongly ascending, as primaries, then arches.
+pub(super) fn aspen() -> Architecture {
+    let cottonwood = cottonwood();
+    Architecture {
+        primaries: actinodromous(&[48.0]),
+        secondaries: Secondaries {
+            pairs: 6,
+            angles_deg: [56.0, 52.0, 46.0],
+            span: [0.2, 0.86],
+            inset: 0.04,
+            intersecondaries: 0.2,
+            ..cottonwood.secondaries
+        },
+        tertiaries: across(TertiaryCourse::AlternatePercurrent, 0.028, 95.0),
+        irregularity: 0.45,
+        ..Architecture::default()
+    }
+}
+
 /// Southern magnolia: many arches well inside an entire margin, and intersecondaries.
 pub(super) fn magnolia() -> Architecture {
     Architecture {

@@ -133,11 +133,11 @@ pub(super) fn red_oak() -> LeafPlan {
         spacing: 0.28,
         hold: 0.34,
         hold_base: 0.3,
-        terminal: 0.65,
+        terminal: 0.85,
         sinus: 1.5,
         blunt: 1.2,
         rates: [0.97, 1.02],
-        zone: [0.22, 0.75],
+        zone: [0.22, 0.85],
         bow: 0.02,
         ..Wave::default()
     };
@@ -147,9 +147,9 @@ pub(super) fn red_oak() -> LeafPlan {
         bow: 0.0,
         lean: 0.0,
         zone: [0.25, 0.97],
-        ..teeth(0.9, 0.35)
+        ..teeth(0.55, 0.35)
     };
-    let form = [0.82, 0.55, 0.7, 0.75];
+    let form = [0.82, 0.55, 0.7, 1.0];
     as_if(trees::red_oak(), 1, plan(form, 0.4, vec![lobes, points]))
 }
 
@@ -266,7 +266,7 @@ pub(super) fn hawthorn() -> LeafPlan {
         spacing: 0.32,
         hold: 0.36,
         hold_base: 0.3,
-        terminal: 0.7,
+        terminal: 0.8,
         blunt: 1.6,
         sinus: 1.2,
         transport: 0.45,
@@ -277,9 +277,10 @@ pub(super) fn hawthorn() -> LeafPlan {
     let points = Wave {
         lean: 0.3,
         zone: [0.4, 0.97],
+        sequence: Sequence::Acropetal,
         ..teeth(0.6, 0.12)
     };
-    let form = [0.85, 0.5, 0.6, 0.65];
+    let form = [0.85, 0.5, 0.6, 0.9];
     green(45.0, 420.0, 1, plan(form, 0.4, vec![lobes, points]))
 }
 

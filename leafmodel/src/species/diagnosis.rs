@@ -78,6 +78,20 @@ static KNOWN: &[Known] = &[
         "fna7",
         "teeth a side 5–15 in early leaves, 25–40 in late ones",
     ),
+    known(
+        "aspen",
+        TeethASide,
+        [18.0, 30.0],
+        "gleason1991",
+        "short shoots: mostly 18–30 teeth a side",
+    ),
+    known(
+        "aspen",
+        PetioleMm,
+        [30.0, 70.0],
+        "tremuloides",
+        "petiole 3–7 cm",
+    ),
     known("maple", Lobes, [5.0, 5.0], "turkeyflora", "5-lobed"),
     known(
         "maple",

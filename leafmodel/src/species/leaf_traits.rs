@@ -27,14 +27,15 @@ use crate::venation::plan::AuxinPlan;
 
 pub(super) use self::others::{ALCHEMILLA, CROTON, GRASS, IVY, ORCHID, TRILLIUM};
 pub(super) use self::trees::{
-    BIRCH, CHERRY, COTTONWOOD, GINKGO, MAGNOLIA, MAPLE, POPLAR, RED_OAK, SWEETGUM, WHITE_OAK,
-    WILLOW,
+    ASPEN, BIRCH, CHERRY, COTTONWOOD, GINKGO, MAGNOLIA, MAPLE, POPLAR, RED_OAK, SWEETGUM,
+    WHITE_OAK, WILLOW,
 };
 
 /// All of them, in the order of the book.
-static SPECIES: [&LeafTraits; 17] = [
+static SPECIES: [&LeafTraits; 18] = [
     &POPLAR,
     &COTTONWOOD,
+    &ASPEN,
     &MAPLE,
     &WHITE_OAK,
     &RED_OAK,

@@ -114,6 +114,16 @@ pub(super) fn cottonwood(outline: OutlinePlan) -> OutlinePlan {
     with(outline, USUAL, drip_tip(0.14, 0.3))
 }
 
+/// Quaking aspen: fine rounded teeth, each with a gland, and a short point.
+pub(super) fn aspen(outline: OutlinePlan) -> OutlinePlan {
+    let outline = toothed(outline, |_, wave| ToothWave {
+        form: ToothForm::Crenate,
+        tip: Some(gland(0.003)),
+        ..uneven(wave, 0.14, 0.2)
+    });
+    with(outline, USUAL, drip_tip(0.1, 0.3))
+}
+
 /// White willow: fine teeth, each with a gland, and a long point.
 pub(super) fn willow(outline: OutlinePlan) -> OutlinePlan {
     let outline = toothed(outline, |_, wave| ToothWave {

@@ -116,6 +116,10 @@ static LIES: &[Lie] = &[
         .runs([18.0, -20.0, -10.0, 25.0, 8.0])
         .with(FLATTENED)
         .undulate(0.03, 0.06),
+    lie("aspen", [0.95, 22.0])
+        .runs([14.0, -12.0, 9.0, 30.0, 8.0])
+        .with(FLATTENED)
+        .undulate(0.02, 0.05),
     lie("maple", [0.9, 30.0])
         .runs([20.0, 25.0, 10.0, 12.0, 8.0])
         .with(TERETE)

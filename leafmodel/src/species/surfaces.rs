@@ -27,9 +27,10 @@ const fn relief(preset: &'static str, veins: [f64; 2], bulge: [f64; 2], cells: [
     }
 }
 
-static RELIEFS: [Relief; 17] = [
+static RELIEFS: [Relief; 18] = [
     relief("poplar", [0.08, 0.35], [0.05, 0.7], [30.0, 1.0]),
     relief("cottonwood", [0.03, 0.35], [0.03, 0.6], [30.0, 1.0]),
+    relief("aspen", [0.03, 0.30], [0.03, 0.6], [28.0, 1.0]),
     relief("maple", [0.14, 0.45], [0.14, 0.6], [32.0, 1.0]),
     relief("white-oak", [0.10, 0.40], [0.06, 0.7], [25.0, 1.0]),
     relief("red-oak", [0.08, 0.40], [0.06, 0.7], [25.0, 1.0]),
@@ -50,8 +51,9 @@ static RELIEFS: [Relief; 17] = [
 ];
 
 /// GGX roughness of the adaxial coat where it is not the usual one.
-static COATS: [(&str, f64); 18] = [
+static COATS: [(&str, f64); 19] = [
     ("cottonwood", 0.3),
+    ("aspen", 0.32),
     ("magnolia", 0.14),
     ("ivy", 0.22),
     ("croton", 0.2),
@@ -91,7 +93,7 @@ pub(super) fn surface(preset: &str) -> Option<SurfacePlan> {
 fn bloom(preset: &str) -> [f64; 2] {
     match preset {
         "willow" => [0.0, 0.25],
-        "sweetgum" | "maple" | "white-oak" => [0.0, 0.05],
+        "aspen" | "sweetgum" | "maple" | "white-oak" => [0.0, 0.05],
         _ => [0.0, 0.0],
     }
 }
@@ -100,9 +102,10 @@ fn bloom(preset: &str) -> [f64; 2] {
 /// patch, size of patches (mm), what tissue along primaries lacks and its reach (mm). By eye, and
 /// more for thin leaves of a crown's shade and light than for evergreen ones. The silver birch is
 /// left even, for the scenes in which it stands beside itself with other pigments.
-static UNEVEN: [(&str, [f64; 5]); 12] = [
+static UNEVEN: [(&str, [f64; 5]); 13] = [
     ("poplar", [0.04, 0.04, 12.0, 0.06, 1.5]),
     ("cottonwood", [0.03, 0.04, 14.0, 0.06, 1.5]),
+    ("aspen", [0.04, 0.04, 12.0, 0.07, 1.5]),
     ("maple", [0.06, 0.05, 16.0, 0.10, 2.0]),
     ("white-oak", [0.05, 0.05, 18.0, 0.10, 2.0]),
     ("red-oak", [0.05, 0.05, 18.0, 0.08, 2.0]),

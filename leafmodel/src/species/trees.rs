@@ -86,6 +86,15 @@ pub(super) fn cottonwood() -> LeafPlan {
     )
 }
 
+pub(super) fn aspen() -> LeafPlan {
+    leaf(
+        &leaf_traits::ASPEN,
+        5,
+        specimens::aspen(contours::aspen()),
+        dense(&leaf_traits::ASPEN, architectures::aspen(), 3.6),
+    )
+}
+
 pub(super) fn ivy() -> LeafPlan {
     leaf(
         &leaf_traits::IVY,

@@ -162,6 +162,34 @@ pub(super) fn cottonwood() -> OutlinePlan {
     }
 }
 
+/// A quaking aspen's: nearly round with a rounded base and a short point, finely toothed.
+pub(super) fn aspen() -> OutlinePlan {
+    OutlinePlan {
+        contour: pointed(&[
+            (0.0, 0.0),
+            (0.17, -0.005),
+            (0.33, 0.05),
+            (0.435, 0.16),
+            (0.465, 0.3),
+            (0.435, 0.46),
+            (0.35, 0.62),
+            (0.235, 0.76),
+            (0.125, 0.87),
+            (0.045, 0.945),
+            (0.0, 1.0),
+        ]),
+        specimen: Specimen::default(),
+        teeth: vec![ToothWave {
+            per_side: 24,
+            height: 0.011,
+            lean: 0.5,
+            fade_base: 0.2,
+            fade_apex: 0.12,
+            ..ToothWave::default()
+        }],
+    }
+}
+
 /// A silver birch's: a triangle with rounded lower corners, doubly toothed.
 pub(super) fn birch() -> OutlinePlan {
     // There are no teeth at the base and small ones towards the apex.

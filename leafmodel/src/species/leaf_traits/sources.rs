@@ -130,6 +130,10 @@ pub(super) const FNA_POPULUS: Source = Source {
     key: "fna7",
     says: "blade broadly triangular-ovate, 3–9 (–14) × 3–9 (–16.5) cm, width 4/5 to 6/5 of the length",
 };
+pub(super) const ASPEN_FLORA: Source = Source {
+    key: "gleason1991",
+    says: "Populus tremuloides: 3–10 cm, rotund-ovate to reniform-cordate, shortly acuminate to apiculate",
+};
 pub(super) const ACER: Source = Source {
     key: "turkeyflora",
     says: "Acer platanoides: blade 5-lobed, 6–13 × 8–14 cm",

@@ -8,9 +8,10 @@ use crate::optics::Constituent::{
 use crate::species::{PRESETS, find};
 
 /// The species that must have a preset.
-const ASKED_FOR: [&str; 17] = [
+const ASKED_FOR: [&str; 18] = [
     "poplar",
     "cottonwood",
+    "aspen",
     "maple",
     "white-oak",
     "red-oak",

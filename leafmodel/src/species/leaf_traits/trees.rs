@@ -1,9 +1,9 @@
 //! Trees and shrubs of temperate lands.
 
 use super::sources::{
-    ACER, BETULA, FNA_POPULUS, GINKGO_FLORA, LIQUIDAMBAR, LITTLE_ANTHOCYANIN, MAGNOLIA_FLORA,
-    PRUNUS, QUERCUS_ALBA, QUERCUS_RUBRA, SALIX, by_eye, carotenoids, chlorophyll, dry_matter,
-    flora, flora_span, measured, related, structure, thickness, water, width_by_eye,
+    ACER, ASPEN_FLORA, BETULA, FNA_POPULUS, GINKGO_FLORA, LIQUIDAMBAR, LITTLE_ANTHOCYANIN,
+    MAGNOLIA_FLORA, PRUNUS, QUERCUS_ALBA, QUERCUS_RUBRA, SALIX, by_eye, carotenoids, chlorophyll,
+    dry_matter, flora, flora_span, measured, related, structure, thickness, water, width_by_eye,
 };
 use super::{BRIGHT_VEINS, BURIED_VEINS, LeafTraits, Lie, Quantity, VeinLook};
 
@@ -31,6 +31,25 @@ const fn cottonwood(preset: &'static str) -> LeafTraits {
         veins: BRIGHT_VEINS,
     }
 }
+
+const ASPEN_CHLOROPHYLL: Quantity = chlorophyll(40.0);
+/// Quaking aspen, a leaf of a short shoot.
+pub(in crate::species) static ASPEN: LeafTraits = LeafTraits {
+    preset: "aspen",
+    species: "Populus tremuloides",
+    length_mm: flora(50.0, [30.0, 100.0], ASPEN_FLORA),
+    width_mm: flora_span([30.0, 100.0], ASPEN_FLORA),
+    widest_at: flora_span([0.1, 0.5], ASPEN_FLORA),
+    thickness_mm: thickness(0.18),
+    structure: structure(1.5),
+    chlorophyll: ASPEN_CHLOROPHYLL,
+    carotenoids: carotenoids(ASPEN_CHLOROPHYLL),
+    anthocyanins: LITTLE_ANTHOCYANIN,
+    water: water(0.0098),
+    dry_matter: dry_matter(0.0068),
+    lie: Lie::new(6.0, 14.0, [0.012, 2.5], 0.6),
+    veins: BRIGHT_VEINS,
+};
 
 const MAPLE_CHLOROPHYLL: Quantity = measured(
     42.0,

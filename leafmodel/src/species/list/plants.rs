@@ -53,6 +53,13 @@ pub(super) static PLANTS: &[Preset] = &[
         plan: PlanOf::Function(trees::cottonwood),
     },
     Preset {
+        name: "aspen",
+        about: "Quaking aspen: nearly round, finely toothed, on a long flattened stalk",
+        source: "length, teeth and kind of venation as floras give them; contents each with its own source (--about); outline, veins and form by eye",
+        row: None,
+        plan: PlanOf::Function(trees::aspen),
+    },
+    Preset {
         name: "birch",
         about: "Silver birch: twice toothed, a vein into each large tooth",
         source: "length and kind of venation as floras give them; contents each with its own source (--about); outline, veins and form by eye",
