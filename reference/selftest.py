@@ -548,8 +548,8 @@ BEYOND_A_SCHEMA = """
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
     path_outside senescence_auxin solid_mesh solid_mosaic surface_cells table_file unknown_name unsorted
-    venation_agrophic venation_cells venation_origin venation_origins_meet venation_quaternaries
-    venation_transport_fine venation_young wilting_on_ground wrong_file
+    venation_agrophic venation_cells venation_craspedodromous venation_origin venation_origins_meet venation_pairs
+    venation_quaternaries venation_sinus venation_transport_fine venation_young wilting_on_ground wrong_file
 """.split()
 
 
