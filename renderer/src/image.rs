@@ -30,6 +30,7 @@ pub mod openexr;
 pub mod pixels;
 pub mod portable_network;
 pub mod tone;
+pub mod white;
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -108,7 +108,11 @@ fn takes_text(entry: &EntrySchema) -> bool {
         Is::Value {
             of: Type::AnyOf(types, _),
             ..
-        } => types.iter().any(is_text),
+        } => {
+            // Where a number may stand, a word without quotes is no TOML and gets them by that.
+            let is_number = |of: &Type| matches!(of, Type::Number(_) | Type::Integer { .. });
+            types.iter().any(is_text) && !types.iter().any(is_number)
+        }
         Is::Value { of, .. } => is_text(of),
         Is::Block(_) | Is::Named(_) | Is::List { .. } => false,
     }

@@ -9,7 +9,7 @@ use crate::image::tone::Tone;
 use crate::integrator::caption::Caption;
 use crate::integrator::effort::Effort;
 use crate::integrator::render::{Begun, Job};
-use crate::scene::description::Picture;
+use crate::scene::description::{Picture, White};
 
 /// Tones by the numbers that stand for them.
 const TONES: [Tone; 4] = [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear];
@@ -156,11 +156,18 @@ impl Heading {
         out.doubles(&[*vertical_fov, *lens_radius, *focus_distance]);
         let Picture {
             exposure_ev,
+            auto_exposure,
+            white,
             tone,
             depth,
             alpha,
         } = caption.picture;
         out.double(exposure_ev);
+        out.flag(auto_exposure);
+        out.double(match white {
+            White::D65 => 0.0,
+            White::Kelvin(kelvin) => kelvin,
+        });
         let number = TONES.iter().position(|known| *known == tone);
         out.word(number.map_or(u32::MAX, |number| number as u32));
         out.flag(depth == Depth::Sixteen);
@@ -213,6 +220,11 @@ impl Heading {
             },
             picture: Picture {
                 exposure_ev: rest.double()?,
+                auto_exposure: rest.flag()?,
+                white: match rest.double()? {
+                    0.0 => White::D65,
+                    kelvin => White::Kelvin(kelvin),
+                },
                 tone: *TONES.get(rest.word()? as usize)?,
                 depth: if rest.flag()? {
                     Depth::Sixteen

@@ -6,8 +6,11 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use glam::DVec3;
+
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
+use super::white::White;
 use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, portable_network};
 use crate::spectrum::wavelengths::seen_at;
 
@@ -16,6 +19,10 @@ use crate::spectrum::wavelengths::seen_at;
 pub struct Display {
     /// Exposure: a factor of 2^EV on radiance.
     pub exposure_ev: f64,
+    /// Whether light is brought to a middle grey first: see [`meter`].
+    pub auto_exposure: bool,
+    /// The light that comes out white.
+    pub white: White,
     /// How light becomes what a display shows.
     pub tone: Tone,
     /// Depth of a PNG.
@@ -28,6 +35,8 @@ impl Default for Display {
     fn default() -> Self {
         Self {
             exposure_ev: 0.0,
+            auto_exposure: false,
+            white: White::D65,
             tone: Tone::Standard,
             depth: Depth::Eight,
             alpha: false,
@@ -102,13 +111,21 @@ impl Display {
         } else {
             None
         };
-        let exposure = libm::exp2(self.exposure_ev);
+        let mut exposure = libm::exp2(self.exposure_ev);
+        if self.auto_exposure {
+            exposure *= meter(&colours);
+        }
+        let adaptation = self.white.adaptation();
         let most = f64::from(self.depth.most());
         let stored = |value: f64| libm::round(value * most) as u16;
         let channels = if alpha.is_some() { 4 } else { 3 };
         let mut values = Vec::with_capacity(colours.len() * channels);
         for (pixel, colour) in colours.iter().enumerate() {
             let light = colour.map(|value| f64::from(value) * exposure);
+            let light = match self.white {
+                White::D65 => light,
+                White::Kelvin(_) => (adaptation * DVec3::from_array(light)).to_array(),
+            };
             values.extend(self.tone.encoded(light).map(stored));
             if let Some(alpha) = alpha {
                 values.push(stored(f64::from(alpha[pixel]).clamp(0.0, 1.0)));
@@ -122,6 +139,34 @@ impl Display {
             values,
         })
     }
+}
+
+/// The factor that brings the mean logarithm of luminance to that of middle grey, 0.18. Pixels
+/// without light do not count; a picture without any keeps its exposure.
+///
+/// # Source
+///
+/// \[reinhard2002\], equations 1 and 2.
+fn meter(colours: &[[f32; 3]]) -> f64 {
+    const MIDDLE_GREY: f64 = 0.18;
+    let weights = [0.2126, 0.7152, 0.0722];
+    let luminance = |colour: &[f32; 3]| -> f64 {
+        let channels = colour.iter().zip(weights);
+        channels
+            .map(|(value, weight)| f64::from(*value) * weight)
+            .sum()
+    };
+    let lit = colours
+        .iter()
+        .map(luminance)
+        .filter(|y| *y > 0.0 && y.is_finite());
+    let (sum, count) = lit.fold((0.0, 0_u32), |(sum, count), y| {
+        (sum + libm::log(y), count + 1)
+    });
+    if count == 0 {
+        return 1.0;
+    }
+    MIDDLE_GREY / libm::exp(sum / f64::from(count))
 }
 
 fn lacks(what: &str) -> ImageError {
@@ -245,6 +290,9 @@ fn background(
 mod tests {
     use super::super::Layer;
     use super::*;
+    use crate::image::tone::from_srgb;
+    use crate::spectrum::cie::{srgb_from_xyz, xyz_of};
+    use crate::spectrum::planck;
 
     fn picture(width: u32, layers: &[(&str, &[f32])]) -> Picture {
         Picture {
@@ -279,6 +327,57 @@ mod tests {
             assert_eq!(show(1.0, &once), show(0.0, &twice), "{tone:?}");
             assert_eq!(show(0.0, &once), show(-1.0, &twice), "{tone:?}");
         }
+    }
+
+    #[test]
+    fn the_meter_brings_any_light_to_middle_grey_and_stops_are_added() {
+        let dim = [0.001, 0.004, 0.0, f32::NAN];
+        let grey = picture(4, &[("R", &dim), ("G", &dim), ("B", &dim)]);
+        let metered = |exposure_ev| {
+            let display = Display {
+                exposure_ev,
+                auto_exposure: true,
+                tone: Tone::Linear,
+                depth: Depth::Sixteen,
+                ..Display::default()
+            };
+            let values = display.pixels(&grey).expect("it has colours").values;
+            from_srgb(f64::from(values[0]) / 65535.0)
+        };
+        // The geometric mean is 0.002.
+        assert!((metered(0.0) - 0.09).abs() < 1e-4, "{}", metered(0.0));
+        assert!((metered(1.0) - 0.18).abs() < 1e-4, "{}", metered(1.0));
+        let black = picture(1, &[("R", &[0.0]), ("G", &[0.0]), ("B", &[0.0])]);
+        let auto = Display {
+            auto_exposure: true,
+            ..Display::default()
+        };
+        assert_eq!(auto.pixels(&black).expect("it has colours").values, [0; 3]);
+    }
+
+    #[test]
+    fn a_white_that_is_set_makes_its_light_grey() {
+        // Light of 3000 K, as linear sRGB.
+        let [x, y, z] = xyz_of(|nm| planck::radiance(nm, 3000.0));
+        let warm = srgb_from_xyz([0.5 * x / y, 0.5, 0.5 * z / y]).map(|value| [value as f32]);
+        let lamp = picture(1, &[("R", &warm[0]), ("G", &warm[1]), ("B", &warm[2])]);
+        let show = |white| {
+            let display = Display {
+                white,
+                tone: Tone::Linear,
+                ..Display::default()
+            };
+            display.pixels(&lamp).expect("it has colours").values
+        };
+        let [red, green, blue] = show(White::Kelvin(3000.0))[..] else {
+            panic!("three channels");
+        };
+        assert!(
+            red.abs_diff(green) <= 1 && green.abs_diff(blue) <= 1,
+            "{red} {green} {blue}"
+        );
+        let seen = show(White::D65);
+        assert!(seen[0] > seen[1] + 20 && seen[1] > seen[2] + 20, "{seen:?}");
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub use crate::camera::view::View as Camera;
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
+pub use crate::image::white::White;
 pub use crate::light::daylight::Daylight;
 pub use crate::spectrum::recorded::{Band, FilmKind};
 pub use crate::spectrum::written::Spectrum;

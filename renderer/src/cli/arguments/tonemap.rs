@@ -16,6 +16,12 @@ pub struct TonemapArguments {
     /// Radiance is multiplied by 2 to this power, instead of the scene's
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure_ev: Option<String>,
+    /// Whether light is brought to middle grey first; exposure_ev is then more or less than that
+    #[arg(long, value_name = "true|false", num_args = 0..=1, default_missing_value = "true")]
+    auto_exposure: Option<String>,
+    /// The light that comes out white: d65, or a colour temperature in K
+    #[arg(long, value_name = "WHITE")]
+    white: Option<String>,
     /// How light becomes what a display shows: agx, standard, filmic or none
     #[arg(long, value_name = "TONE")]
     tone: Option<String>,
@@ -32,6 +38,8 @@ impl TonemapArguments {
     pub fn overrides(&self) -> Vec<String> {
         let flags = [
             ("exposure_ev", &self.exposure_ev),
+            ("auto_exposure", &self.auto_exposure),
+            ("white", &self.white),
             ("tone", &self.tone),
             ("sixteen_bits", &self.sixteen_bits),
             ("alpha", &self.alpha),

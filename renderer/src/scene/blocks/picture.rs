@@ -1,16 +1,62 @@
 //! `[picture]`.
 
+use leafmodel::document::context::Context;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{Flag, Number, Word};
+use leafmodel::document::schema::Type;
+use leafmodel::document::tree::{Node, Value};
+use leafmodel::document::value_kind::{Flag, Kind, Number, Word};
+use leafmodel::document::values::wrong_type;
 
-use crate::scene::description::{Depth, Picture, Tone};
+use crate::scene::description::{Depth, Picture, Tone, White};
+
+/// A word or a temperature.
+struct WhiteKind;
+
+const WORDS: [(&str, White); 1] = [("d65", White::D65)];
+const WANTED: &str = "\"d65\", or a number: the colour temperature in K";
+const KELVIN: Limits = Limits::closed(White::LEAST, White::MOST);
+
+impl Kind for WhiteKind {
+    type Of = White;
+
+    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<White> {
+        match &node.value {
+            Value::Integer(_) | Value::Number(_) => {
+                Number(KELVIN).read(cx, node, key).map(White::Kelvin)
+            }
+            Value::Text(text) if text == "d65" => Some(White::D65),
+            _ => {
+                wrong_type(cx, node, key, WANTED);
+                None
+            }
+        }
+    }
+
+    fn write(&self, value: &White) -> Value {
+        match value {
+            White::D65 => Word(&WORDS).write(value),
+            White::Kelvin(kelvin) => Number(KELVIN).write(kelvin),
+        }
+    }
+
+    fn describe(&self) -> Type {
+        let types = vec![Word(&WORDS).describe(), Number(KELVIN).describe()];
+        Type::AnyOf(types, WANTED)
+    }
+}
 
 /// The keys of `[picture]`.
 pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
     let limits = Number(Limits::closed(-30.0, 30.0));
     let about = "Radiance is multiplied by 2 to this power.";
     keys.key("exposure_ev", &mut picture.exposure_ev, limits, about);
+    let about = "Whether light is brought to middle grey (0.18) first, by the mean logarithm of \
+        the picture's luminance; `exposure_ev` is then more or less than that.";
+    keys.key("auto_exposure", &mut picture.auto_exposure, Flag, about);
+    let about = "The light that comes out white: `\"d65\"`, in which colours are as the film has \
+        them, or a colour temperature in K (daylight from 4000 on, a black body below).";
+    keys.key("white", &mut picture.white, WhiteKind, about);
     let words = [
         ("agx", Tone::Agx),
         ("standard", Tone::Standard),

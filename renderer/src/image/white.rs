@@ -1,0 +1,116 @@
+//! White balance: what colour of light comes out white.
+//!
+//! - **In**: linear sRGB as the film has it, in which light like D65 is neutral.
+//! - **Out**: linear sRGB in which the light of [`White`] is neutral.
+
+use glam::{DMat3, DVec3};
+
+use crate::spectrum::cie::{XYZ_TO_SRGB, xyz_of};
+use crate::spectrum::planck;
+
+/// The light that comes out white.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum White {
+    /// CIE illuminant D65, in which nothing is changed.
+    D65,
+    /// Light of this correlated colour temperature, K, from [`White::LEAST`] to [`White::MOST`]:
+    /// daylight from 4000 K on, a black body below.
+    Kelvin(f64),
+}
+
+impl White {
+    /// The least temperature, K.
+    pub const LEAST: f64 = 1500.0;
+    /// The greatest temperature, K.
+    pub const MOST: f64 = 25_000.0;
+
+    /// The linear map of linear sRGB that makes this light white: von Kries' scaling of cone
+    /// responses, the responses those of the Bradford transform.
+    ///
+    /// # Source
+    ///
+    /// \[lindbloom2017\], chromatic adaptation; ICC.1:2022, annex E.
+    pub fn adaptation(self) -> DMat3 {
+        let Self::Kelvin(kelvin) = self else {
+            return DMat3::IDENTITY;
+        };
+        let to_cones = from_rows([
+            [0.8951, 0.2664, -0.1614],
+            [-0.7502, 1.7135, 0.0367],
+            [0.0389, -0.0685, 1.0296],
+        ]);
+        let to_xyz = from_rows(XYZ_TO_SRGB).inverse();
+        let seen = to_cones * white_of(kelvin);
+        let shown = to_cones * to_xyz * DVec3::ONE;
+        let adapted = to_cones.inverse() * DMat3::from_diagonal(shown / seen) * to_cones;
+        to_xyz.inverse() * adapted * to_xyz
+    }
+}
+
+fn from_rows(rows: [[f64; 3]; 3]) -> DMat3 {
+    DMat3::from_cols_array_2d(&rows).transpose()
+}
+
+/// XYZ of light of a temperature, Y = 1.
+///
+/// # Source
+///
+/// From 4000 K on CIE 015:2018, equations 4.7 to 4.9, daylight; below, Planck's law under the CIE
+/// 1931 observer.
+fn white_of(kelvin: f64) -> DVec3 {
+    if kelvin < 4000.0 {
+        let xyz = DVec3::from_array(xyz_of(|nm| planck::radiance(nm, kelvin)));
+        return xyz / xyz.y;
+    }
+    let t = 1000.0 / kelvin;
+    let [a, b, c, d] = if kelvin <= 7000.0 {
+        [0.244_063, 0.099_11, 2.967_8, -4.607_0]
+    } else {
+        [0.237_040, 0.247_48, 1.901_8, -2.006_4]
+    };
+    let x = a + t * (b + t * (c + t * d));
+    let y = -3.0 * x * x + 2.870 * x - 0.275;
+    DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: DVec3, expected: [f64; 3], slack: f64) {
+        let off = (found - DVec3::from_array(expected)).abs().max_element();
+        assert!(off < slack, "{found} {expected:?}");
+    }
+
+    /// By colour-science 0.4: `matrix_chromatic_adaptation_VonKries(…, "Bradford")` between the
+    /// chromaticities of `CCT_to_xy_CIE_D`, or of `sd_blackbody`, and of D65.
+    #[test]
+    fn colours_are_adapted_as_colour_science_does() {
+        let colour = DVec3::new(0.4, 0.3, 0.1);
+        for (kelvin, expected) in [
+            (3000.0, [0.176_550_17, 0.350_707_87, 0.354_814_87]),
+            (4000.0, [0.283_751_58, 0.321_140_64, 0.212_187_29]),
+            (5000.0, [0.345_731_97, 0.308_373_67, 0.145_559_29]),
+            (7500.0, [0.423_001_82, 0.297_254_04, 0.084_331]),
+        ] {
+            close(White::Kelvin(kelvin).adaptation() * colour, expected, 3e-4);
+        }
+    }
+
+    #[test]
+    fn light_of_the_temperature_is_neutral_and_d65_leaves_all_as_it_is() {
+        let to_srgb = from_rows(XYZ_TO_SRGB);
+        for kelvin in [1500.0, 2856.0, 3999.0, 4000.0, 5200.0, 7001.0, 25_000.0] {
+            let light = to_srgb * white_of(kelvin);
+            close(White::Kelvin(kelvin).adaptation() * light, [1.0; 3], 1e-6);
+        }
+        assert_eq!(White::D65.adaptation(), DMat3::IDENTITY);
+        // The illuminant's own temperature, nearly.
+        let colour = DVec3::new(0.4, 0.3, 0.1);
+        close(
+            White::Kelvin(6504.0).adaptation() * colour,
+            [0.4, 0.3, 0.1],
+            5e-4,
+        );
+    }
+}
