@@ -38,6 +38,7 @@ mod individuals;
 pub mod leaf_traits;
 mod list;
 pub mod maple;
+mod peltate;
 mod runions;
 mod specimens;
 mod stances;
