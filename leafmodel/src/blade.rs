@@ -64,6 +64,8 @@ pub use margin_thickness::MarginThickness;
 pub use mesh::{BladeError, BladeMesh, MeshDefect};
 pub(crate) use sheet::even_sheet;
 
+use crate::venation::network::VeinSegment;
+
 /// How a flat lamina is bent, and how finely it is meshed. Angles are radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BladeForm {
@@ -106,6 +108,14 @@ impl BladeForm {
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.1,
         }
+    }
+
+    /// The veins that are edges of the mesh and have relief.
+    fn major(&self, veins: &[VeinSegment]) -> Vec<VeinSegment> {
+        let is_major = |vein: &&VeinSegment| {
+            vein.radius_from.max(vein.radius_to) >= self.meshed_vein_radius_mm
+        };
+        veins.iter().filter(is_major).copied().collect()
     }
 
     /// Checks every field.

@@ -10,23 +10,31 @@
 //! - **Out**: the places in space of the grid's control points.
 //! - **Always true**: a sheet that is as it wants to be, without weight, does not move; the same
 //!   input gives the same bits.
-//! - **Left out**: contact of the sheet with itself, friction, speed.
+//! - **Left out**: friction, speed, contact of parts within two cells of each other.
 //!
 //! # Source
 //!
-//! \[koiter1966\] for the energy, \[cirak2000\] and \[kiendl2009\] for splines as elements.
+//! \[koiter1966\] for the energy, \[cirak2000\] and \[kiendl2009\] for splines as elements, \[li2020\] for
+//! contact.
 
+mod contact;
+mod crossings;
 mod envelope;
 mod equilibrium;
 mod forms;
 mod grid;
+mod nearest;
 mod patch;
 mod sheet;
+mod skin;
 mod tensor;
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+pub(crate) use crossings::crossings;
 pub(crate) use equilibrium::{Effort, relaxed};
 pub(crate) use grid::Grid;
 pub(crate) use patch::Patch;
 pub(crate) use sheet::{Clamp, Ground, Sheet};
+pub(crate) use skin::Skin;

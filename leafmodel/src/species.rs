@@ -40,6 +40,7 @@ mod individuals;
 pub mod leaf_traits;
 mod list;
 pub mod maple;
+mod peltate;
 mod runions;
 mod specimens;
 mod stances;

@@ -48,7 +48,7 @@ impl MarginThickness {
     }
 
     /// Thickness over that of the blade at a distance from the margin, mm.
-    pub(super) fn at(&self, distance: f64) -> f64 {
+    pub(crate) fn at(&self, distance: f64) -> f64 {
         self.share + (1.0 - self.share) * smooth_step(distance / self.width_mm)
     }
 

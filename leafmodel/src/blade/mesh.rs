@@ -169,11 +169,7 @@ impl BladeMesh {
         lifted: &dyn Fn(DVec2) -> f64,
     ) -> Result<Self, BladeError> {
         form.validate()?;
-        let major: Vec<VeinSegment> = veins
-            .iter()
-            .filter(|vein| vein.radius_from.max(vein.radius_to) >= form.meshed_vein_radius_mm)
-            .copied()
-            .collect();
+        let major = form.major(veins);
         let size = SizeField::new(form, &major);
         let skeleton = if holes.is_empty() {
             Skeleton::new(outline, &size, &major)

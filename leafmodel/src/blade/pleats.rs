@@ -24,7 +24,7 @@ const STRONG: f64 = 0.4;
 const RISE: f64 = 0.12;
 
 /// Heights of the folds over the flat lamina.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Pleats {
     origin: DVec2,
     spacing: f64,
@@ -132,6 +132,29 @@ impl Pleats {
             }
         }
         nearest
+    }
+
+    /// The folds as a grid with cells of this side (mm) sees them: averaged over a square of that
+    /// side.
+    pub(super) fn seen_by(mut self, side: f64) -> Self {
+        let half = (0.5 * side / self.spacing).round() as usize;
+        let (columns, rows) = (self.columns, self.rows);
+        for (step, count, others) in [(1, columns, rows), (columns, rows, columns)] {
+            let before = self.heights.clone();
+            if before.is_empty() {
+                break;
+            }
+            for line in 0..others {
+                let from = line * if step == 1 { columns } else { 1 };
+                let at = |i: usize| before[from + i.min(count - 1) * step];
+                for i in 0..count {
+                    let first = i.saturating_sub(half);
+                    let sum: f64 = (first..=i + half).map(at).sum();
+                    self.heights[from + i * step] = sum / (i + half + 1 - first) as f64;
+                }
+            }
+        }
+        self
     }
 
     /// Height of a flat point towards the adaxial side, mm, ≥ 0.
@@ -267,6 +290,23 @@ mod tests {
         let end = last.from;
         assert!(pleats.height(end) < 0.1, "{}", pleats.height(end));
         assert!(pleats.height(end + aside) > 0.5);
+    }
+
+    #[test]
+    fn a_grid_sees_wide_folds_and_not_those_finer_than_its_cells() {
+        let veins = herringbone(60.0, 7, 0.5);
+        let (exact, fine) = (pleated(&veins), pleated(&veins).seen_by(0.6));
+        let coarse = pleated(&veins).seen_by(16.0);
+        let spread = |pleats: &Pleats| {
+            let heights =
+                (0..200).map(|i| pleats.height(DVec2::new(7.0, 20.0 + 0.1 * f64::from(i))));
+            let all: Vec<f64> = heights.collect();
+            let [low, high] = [f64::min, f64::max].map(|f| all.iter().copied().reduce(f));
+            high.expect("heights") - low.expect("heights")
+        };
+        let [exact, fine, coarse] = [&exact, &fine, &coarse].map(spread);
+        assert!(fine > 0.85 * exact && fine < exact, "{fine} of {exact}");
+        assert!(coarse < 0.35 * exact, "{coarse} of {exact}");
     }
 
     #[test]

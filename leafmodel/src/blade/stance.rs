@@ -3,13 +3,13 @@
 //! [`BladeForm`](super::BladeForm) says how the blade of a turgid leaf is bent. A [`Stance`] says
 //! what has happened to it since. The blade is then an elastic shell (`crate::shell`) in
 //! equilibrium: every undulation, curl and crumple follows from what the tissue wants and from its
-//! weight.
+//! weight. It keeps clear of itself by its thickness, veins included.
 //!
 //! - **In**: a [`Stance`], margin and veins, the mass of the tissue, a seed.
 //! - **Out**: [`Settled`], which moves each point of the bent blade.
 //! - **Always true**: the stance of a leaf of which nothing is said moves nothing; same seed, same
 //!   bits.
-//! - **Left out**: contact of the blade with itself, tears, the time that drying takes.
+//! - **Left out**: tears, the time that drying takes.
 
 mod posture;
 mod settled;

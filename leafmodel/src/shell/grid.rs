@@ -133,6 +133,18 @@ impl Grid {
         self.spacing
     }
 
+    /// The corner of the first cell.
+    pub(super) fn origin(&self) -> DVec2 {
+        self.origin
+    }
+
+    /// Column and row of a cell, and its control points.
+    pub(super) fn cell_points(&self, cell: usize) -> ([usize; 2], [u32; 9]) {
+        let ([column, row], _) = self.places[cell];
+        let point = |i: usize| self.points[(row + i / 3) * (self.columns + 2) + column + i % 3];
+        ([column, row], std::array::from_fn(point))
+    }
+
     /// Number of cells.
     pub(crate) fn cells(&self) -> usize {
         self.places.len()
@@ -241,7 +253,7 @@ impl Grid {
 }
 
 /// Values, first and second derivatives of the three quadratic B-splines on the unit cell.
-fn quadratic(t: f64) -> [[f64; 3]; 3] {
+pub(super) fn quadratic(t: f64) -> [[f64; 3]; 3] {
     let s = 1.0 - t;
     [
         [0.5 * s * s, 0.75 - (t - 0.5) * (t - 0.5), 0.5 * t * t],

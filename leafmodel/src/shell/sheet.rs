@@ -1,17 +1,21 @@
 //! The energy of a sheet, its slope and its stiffness.
 
+mod stiffness;
+
 use glam::{DVec2, DVec3};
 
-use super::envelope::Envelope;
+use super::contact::Contact;
 use super::forms::{Forms, Wanted, metric, tangents};
 use super::grid::{Basis, Grid};
 use super::patch::Patch;
-use super::tensor::{Stiffness, Tensor, applied, dot, less, positive, scaled};
+use super::skin::Skin;
+use super::tensor::{Stiffness, Tensor, applied, dot, less, scaled};
 
-/// Share of the stretching energy that is taken at the corners of cells; the rest is taken at their
-/// middles. The middles alone would not notice a wave of two cells' length; with the corners at
-/// full weight a sheet could hardly bend without stretching (membrane locking).
-const AT_CORNERS: f64 = 0.05;
+/// Share of the stretching energy that is taken at the middles of cells' sides; the rest is taken at
+/// the middles of cells. Those alone would not notice a wave of two cells' length, nor would the
+/// corners notice one that alternates both ways; with the sides at full weight a sheet could hardly
+/// bend without stretching (membrane locking).
+const AT_SIDES: f64 = 0.02;
 
 /// A horizontal plane that carries the sheet.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +55,8 @@ pub(crate) struct Sheet {
     ground: Option<Ground>,
     /// Places that may touch the ground, with their areas.
     soles: Vec<(Vec<Basis>, f64)>,
+    /// What keeps it from passing through itself.
+    contact: Option<Contact>,
     points: usize,
     spacing: f64,
     /// Mean of the bending stiffnesses, N mm.
@@ -84,13 +90,14 @@ impl Sheet {
             held: Vec::new(),
             ground,
             soles: Vec::new(),
+            contact: None,
             points: grid.points(),
             spacing: h,
             typical_bend: patches.iter().map(|patch| patch.bend).sum::<f64>()
                 / patches.len() as f64,
         };
-        // Corners, each with the cells that meet there.
-        let mut corners: Vec<(DVec2, usize)> = Vec::new();
+        // Middles of sides, each with the cells that meet there.
+        let mut sides: Vec<(DVec2, usize)> = Vec::new();
         for (cell, patch) in patches.iter().enumerate() {
             let p = grid.centre(cell);
             let basis = grid.basis(p);
@@ -100,7 +107,7 @@ impl Sheet {
             sheet.stretching.push(Place {
                 basis: basis.to_vec(),
                 wanted: wanted.metric,
-                stiffness: scaled(&wanted.stretch, area * (1.0 - AT_CORNERS)),
+                stiffness: scaled(&wanted.stretch, area * (1.0 - AT_SIDES)),
             });
             sheet.bending.push(Place {
                 basis: basis.to_vec(),
@@ -114,20 +121,17 @@ impl Sheet {
             if ground.is_some() {
                 sheet.soles.push((basis.to_vec(), area));
             }
-            for corner in 0..4 {
-                let side = |i: usize| if i == 0 { -0.5 } else { 0.5 };
-                let offset = DVec2::new(side(corner % 2), side(corner / 2));
-                corners.push((p + h * offset, cell));
-            }
+            let halves = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|way| 0.5 * h * way);
+            sides.extend(halves.map(|half| (p + half, cell)));
         }
-        corners.sort_by(|(a, i), (b, j)| {
+        sides.sort_by(|(a, i), (b, j)| {
             let key = |p: &DVec2| ((p.y / h * 4.0).round(), (p.x / h * 4.0).round());
             let (a, b) = (key(a), key(b));
             a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(i.cmp(j))
         });
-        for same in corners.chunk_by(|(a, _), (b, _)| a.distance_squared(*b) < 0.01 * h * h) {
+        for same in sides.chunk_by(|(a, _), (b, _)| a.distance_squared(*b) < 0.01 * h * h) {
             let cells: Vec<usize> = same.iter().map(|&(_, cell)| cell).collect();
-            sheet.add_corner(grid, rest, patches, same[0].0, &cells, &cell_area);
+            sheet.add_side(grid, rest, patches, same[0].0, &cells, &cell_area);
         }
         if let Some(clamp) = clamp {
             sheet.clamp(grid, rest, patches, clamp);
@@ -135,7 +139,17 @@ impl Sheet {
         sheet
     }
 
-    fn add_corner(
+    /// The same sheet, whose parts keep clear of each other as the pieces of `skin` say.
+    pub(crate) fn keeping_clear(self, skin: Skin) -> Self {
+        // As stiff as the bending of a cell: a search that can bend it can also stop it.
+        let stiffness = self.typical_bend / (self.spacing * self.spacing);
+        Self {
+            contact: Some(Contact::new(skin, stiffness)),
+            ..self
+        }
+    }
+
+    fn add_side(
         &mut self,
         grid: &Grid,
         rest: &[DVec3],
@@ -156,7 +170,7 @@ impl Sheet {
         };
         for &cell in cells {
             let wanted = Wanted::new(&form, &patches[cell]);
-            let share = scaled(&wanted.stretch, 0.25 * AT_CORNERS * cell_area(cell));
+            let share = scaled(&wanted.stretch, 0.25 * AT_SIDES * cell_area(cell));
             for (sum, metric) in place.wanted.iter_mut().zip(wanted.metric) {
                 *sum += metric / cells.len() as f64;
             }
@@ -193,6 +207,23 @@ impl Sheet {
                 stiffness: clamp.stiffness,
             });
         }
+    }
+
+    /// The same sheet, with every cell below `y` held where it is at rest.
+    #[cfg(test)]
+    pub(super) fn held_below(mut self, grid: &Grid, rest: &[DVec3], y: f64) -> Self {
+        let below = (0..grid.cells()).map(|cell| grid.centre(cell));
+        for p in below.filter(|p| p.y < y) {
+            let weights: Vec<(u32, f64)> =
+                grid.basis(p).iter().map(|b| (b.point, b.value)).collect();
+            let target = weights.iter().map(|&(i, w)| rest[i as usize] * w).sum();
+            self.held.push(Held {
+                weights,
+                target,
+                stiffness: 1e3,
+            });
+        }
+        self
     }
 
     /// Number of control points.
@@ -268,135 +299,10 @@ impl Sheet {
                 }
             }
         }
+        if let Some(contact) = &self.contact {
+            energy += contact.walk(&contact.touches(x), push);
+        }
         energy
-    }
-
-    /// An empty matrix with place for the sheet's stiffness.
-    pub(super) fn matrix(&self) -> Envelope {
-        let mut first: Vec<usize> = (0..self.points).collect();
-        let places = self.stretching.iter().chain(&self.bending);
-        for place in places {
-            let least = place.basis.iter().map(|function| function.point).min();
-            let least = least.expect("a place has functions") as usize;
-            for function in &place.basis {
-                let row = &mut first[function.point as usize];
-                *row = least.min(*row);
-            }
-        }
-        for held in &self.held {
-            let least = held.weights.iter().map(|&(point, _)| point).min();
-            let least = least.expect("what is held has functions") as usize;
-            for &(point, _) in &held.weights {
-                first[point as usize] = least.min(first[point as usize]);
-            }
-        }
-        Envelope::new((0..3 * self.points).map(|i| 3 * first[i / 3]).collect())
-    }
-
-    /// Writes the stiffness at `x` without its negative parts: that of Gauss and Newton, with the
-    /// stress of what is under tension.
-    pub(super) fn stiffness(&self, x: &[DVec3], damping: f64, matrix: &mut Envelope) {
-        matrix.clear();
-        for place in &self.stretching {
-            Self::add_stretching(place, x, matrix);
-        }
-        for place in &self.bending {
-            let form = Forms::of(&place.basis, x);
-            let rates: Vec<Tensor> = place.basis.iter().map(|f| form.rate(f)).collect();
-            let forces: Vec<Tensor> = rates
-                .iter()
-                .map(|&r| applied(&place.stiffness, r))
-                .collect();
-            let n = form.normal.to_array();
-            pairs(&place.basis, |i, j, a, b| {
-                let factor = dot(forces[i], rates[j]);
-                for (row, &u) in n.iter().enumerate() {
-                    for (column, &v) in n.iter().enumerate() {
-                        put(matrix, (a, row), (b, column), factor * u * v);
-                    }
-                }
-            });
-        }
-        for held in &self.held {
-            for &(a, u) in &held.weights {
-                for &(b, v) in held.weights.iter().filter(|&&(b, _)| b <= a) {
-                    for axis in 0..3 {
-                        put(matrix, (a, axis), (b, axis), held.stiffness * u * v);
-                    }
-                }
-            }
-        }
-        if let Some(ground) = self.ground {
-            for (basis, area) in &self.soles {
-                if height(basis, x) < ground.height {
-                    pairs(basis, |i, j, a, b| {
-                        let value = ground.stiffness * area * basis[i].value * basis[j].value;
-                        put(matrix, (a, 2), (b, 2), value);
-                    });
-                }
-            }
-        }
-        for i in 0..3 * self.points {
-            matrix.add(i, i, damping);
-        }
-    }
-
-    fn add_stretching(place: &Place, x: &[DVec3], matrix: &mut Envelope) {
-        let tangents = tangents(&place.basis, x);
-        let strain = less(metric(&tangents), place.wanted).map(|e| 0.5 * e);
-        let [u, v] = tangents;
-        let rates: Vec<[DVec3; 3]> = place
-            .basis
-            .iter()
-            .map(|function| {
-                let [a, b] = function.first;
-                [u * a, v * b, 0.5 * (v * a + u * b)]
-            })
-            .collect();
-        let forces: Vec<[DVec3; 3]> = rates
-            .iter()
-            .map(|rate| {
-                place
-                    .stiffness
-                    .map(|row| rate[0] * row[0] + rate[1] * row[1] + rate[2] * row[2])
-            })
-            .collect();
-        let tension = positive(applied(&place.stiffness, strain));
-        pairs(&place.basis, |i, j, a, b| {
-            let (f, g) = (place.basis[i].first, place.basis[j].first);
-            let stressed = tension[0] * f[0] * g[0]
-                + tension[1] * f[1] * g[1]
-                + 0.5 * tension[2] * (f[0] * g[1] + f[1] * g[0]);
-            let (force, rate) = (&forces[i], &rates[j]);
-            let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
-            for (row, column) in places {
-                let straight = if row == column { stressed } else { 0.0 };
-                let value = force.iter().zip(rate).fold(straight, |sum, (force, rate)| {
-                    sum + force[row] * rate[column]
-                });
-                put(matrix, (a, row), (b, column), value);
-            }
-        });
-    }
-}
-
-/// Adds to the lower half of the matrix.
-fn put(matrix: &mut Envelope, (a, row): (u32, usize), (b, column): (u32, usize), value: f64) {
-    let (i, j) = (3 * a as usize + row, 3 * b as usize + column);
-    if j <= i {
-        matrix.add(i, j, value);
-    }
-}
-
-/// Calls `act` with the indices and points of each pair of which the second is not beyond the
-/// first.
-fn pairs(basis: &[Basis], mut act: impl FnMut(usize, usize, u32, u32)) {
-    for (i, a) in basis.iter().enumerate() {
-        for (j, b) in basis.iter().enumerate() {
-            if b.point <= a.point {
-                act(i, j, a.point, b.point);
-            }
-        }
     }
 }
 

@@ -211,3 +211,150 @@ fn a_margin_that_grows_in_excess_buckles_into_waves_as_long_as_its_rim_is_wide()
         "{waves:?}"
     );
 }
+
+/// Triangles of a sheet, finer than its cells, and pairs of them that pass through each other.
+fn crossings_of(grid: &Grid, x: &[DVec3], [width, length]: [f64; 2]) -> usize {
+    let step = 0.25 * grid.spacing();
+    let count = [width, length].map(|side| (side / step).ceil() as u32 + 1);
+    let mut places = Vec::new();
+    let mut triangles = Vec::new();
+    for i in 0..count[0] * count[1] {
+        let (column, row) = (i % count[0], i / count[0]);
+        let share = |k: u32, of: usize| f64::from(k) / f64::from(count[of] - 1);
+        let p = DVec2::new(width * (share(column, 0) - 0.5), length * share(row, 1));
+        places.push(grid.value(x, p)[0]);
+        if column + 1 < count[0] && row + 1 < count[1] {
+            triangles.push([i, i + 1, i + count[0]]);
+            triangles.push([i + 1, i + count[0] + 1, i + count[0]]);
+        }
+    }
+    crossings(&places, &triangles).len()
+}
+
+#[test]
+fn a_strip_that_dries_winds_into_a_scroll_without_passing_through_itself() {
+    let (width, length) = (6.0, 60.0);
+    let margin = rectangle(width, length);
+    let grid = over(&margin, 1.2);
+    let rest = flat(&grid);
+    // It has begun to roll up: not quite one turn.
+    let begun = grid.fitted(|p| {
+        let angle = 0.1 * p.y;
+        DVec3::new(p.x, 10.0 * libm::sin(angle), 10.0 - 10.0 * libm::cos(angle))
+    });
+    // It curls ever more tightly towards its end, twice round on the whole, and a little askew.
+    let patches: Vec<Patch> = (0..grid.cells())
+        .map(|cell| {
+            let p = grid.centre(cell);
+            let along = 0.21 + 0.05 * libm::cos(p.y / 7.0);
+            Patch {
+                curvature: [0.0, along, 0.004],
+                ..patch()
+            }
+        })
+        .collect();
+    let effort = Effort {
+        steps: 400,
+        tolerance: 1e-6,
+    };
+    let sheet = Sheet::new(&grid, &rest, &patches, DVec3::ZERO, None, None);
+    let (free, _) = relaxed(&sheet, &begun, effort);
+    let through = crossings_of(&grid, &free, [width, length]);
+    assert!(through > 100, "{through}");
+    let within = |p: DVec2| p.cmpge(margin[0]).all() && p.cmple(margin[2]).all();
+    let skin = Skin::over(&grid, &margin, within, |_| 0.1);
+    let (x, [start, end]) = relaxed(&sheet.keeping_clear(skin), &begun, effort);
+    assert_eq!(crossings_of(&grid, &x, [width, length]), 0);
+    // It has wound up all the same, more than once round, and its layers are within a cell of
+    // each other, but not nearer than it is thick.
+    assert!(end < 0.2 * start, "{end} of {start}");
+    let at = |y: f64| grid.value(&x, DVec2::new(0.0, y))[0];
+    let way = |y: f64| grid.value(&x, DVec2::new(0.0, y))[2];
+    let turned: f64 = (0..600)
+        .map(|i| {
+            let y = 0.1 * f64::from(i);
+            way(y).angle_between(way(y + 0.1))
+        })
+        .sum();
+    assert!(turned > 2.2 * std::f64::consts::PI, "{turned}");
+    let nearest = (0..=600)
+        .flat_map(|i| (0..=600).map(move |j| [i, j].map(|k| 0.1 * f64::from(k))))
+        .filter(|[y, z]| z - y > 8.0)
+        .map(|[y, z]| at(y).distance(at(z)))
+        .fold(f64::INFINITY, f64::min);
+    assert!((0.2..1.2).contains(&nearest), "{nearest}");
+}
+
+#[test]
+fn the_slope_of_what_touches_is_that_of_the_energy() {
+    let margin = rectangle(4.0, 24.0);
+    let grid = over(&margin, 1.0);
+    let patches = vec![patch(); grid.cells()];
+    let within = |p: DVec2| p.cmpge(margin[0]).all() && p.cmple(margin[2]).all();
+    let skin = Skin::over(&grid, &margin, within, |_| 0.1);
+    let rest = flat(&grid);
+    let sheet = Sheet::new(&grid, &rest, &patches, DVec3::ZERO, None, None);
+    // A coil of pitch 0.35 mm, whose layers touch.
+    let coiled = |p: DVec2| {
+        let angle = p.y / 2.0;
+        let radius = 2.0 + 0.055 * angle;
+        DVec3::new(
+            p.x + 0.03 * p.y,
+            radius * libm::sin(angle),
+            radius * libm::cos(angle),
+        )
+    };
+    let x = grid.fitted(coiled);
+    let alone = sheet.energy(&x);
+    let sheet = sheet.keeping_clear(skin);
+    assert!(
+        sheet.energy(&x) > 1.001 * alone,
+        "{} {alone}",
+        sheet.energy(&x)
+    );
+    let mut slope = vec![DVec3::ZERO; x.len()];
+    sheet.slope(&x, &mut slope);
+    for point in (0..x.len()).step_by(5) {
+        for axis in 0..3 {
+            let moved = |by: f64| {
+                let mut x = x.clone();
+                x[point][axis] += by;
+                sheet.energy(&x)
+            };
+            let found = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+            let told = slope[point][axis];
+            assert!(
+                (found - told).abs() < 1e-4 * (1.0 + told.abs()),
+                "{found} is not {told}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_corrugated_strip_sags_as_little_as_its_section_says() {
+    let (width, length, weight) = (12.0, 40.0, 2e-7);
+    let grid = over(&rectangle(width, length), 1.0);
+    let patches = vec![Patch { weight, ..patch() }; grid.cells()];
+    let tip = |height: f64| {
+        let wave = |p: DVec2| height * libm::sin(std::f64::consts::TAU * p.x / 6.0);
+        let rest = grid.fitted(|p| p.extend(wave(p)));
+        let sheet = Sheet::new(&grid, &rest, &patches, -DVec3::Z, None, None);
+        // Held along its whole end: what is left free bends as a beam.
+        let (x, _) = relaxed(&sheet.held_below(&grid, &rest, 3.0), &rest, THOROUGH);
+        let mean = |x: &[DVec3]| {
+            let places = (0..=24).map(|i| DVec2::new(-6.0 + 0.5 * f64::from(i), length));
+            places.map(|p| grid.value(x, p)[0].z).sum::<f64>() / 25.0
+        };
+        mean(&x) - mean(&rest)
+    };
+    // Second moment over width: that of the plate, and t a² / 2 of its midplane if the section
+    // keeps its form. Its free edges yield a little.
+    let (a, flat) = (0.4, tip(0.0));
+    let stiffer = 1.0 + patch().stretch * a * a / (2.0 * patch().bend);
+    let found = flat / tip(a);
+    assert!(
+        (0.75..1.0).contains(&(found / stiffer)),
+        "{found} for {stiffer}"
+    );
+}

@@ -72,16 +72,12 @@ impl<'s> Posture<'s> {
 
     /// A point of the sheet, and its derivatives by the flat coordinates.
     fn sheet(&self, p: DVec2, settled: &Settled) -> [DVec3; 3] {
-        let moved = settled.moved(p);
         let slope = |axis: DVec2| {
             let step = self.nearby * axis;
             let ends = self.bending.place(p + step, 0.0) - self.bending.place(p - step, 0.0);
             ends / (2.0 * self.nearby)
         };
-        [
-            self.bending.place(p, 0.0) + moved[0],
-            slope(DVec2::X) + moved[1],
-            slope(DVec2::Y) + moved[2],
-        ]
+        let form = [self.bending.place(p, 0.0), slope(DVec2::X), slope(DVec2::Y)];
+        settled.carried(p, form)
     }
 }

@@ -7,8 +7,10 @@ use glam::{DMat3, DVec2, DVec3};
 use super::{Stance, tissue};
 use crate::blade::BladeForm;
 use crate::blade::form::Bending;
+use crate::blade::pleats::Pleats;
+use crate::blade::relief::Relief;
 use crate::shape::outline::Outline;
-use crate::shell::{Clamp, Effort, Grid, Ground, Sheet, relaxed};
+use crate::shell::{Clamp, Effort, Grid, Ground, Sheet, Skin, relaxed};
 use crate::venation::network::{VeinSegment, VenationNetwork};
 
 /// Cells of the first search, and of the second, which begins where the first has ended.
@@ -32,8 +34,10 @@ const GROUND: f64 = 1e-3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
     grid: Grid,
-    /// Displacements of the grid's control points, mm.
-    moved: Vec<DVec3>,
+    /// The grid's control points in the form of the turgid leaf, mm.
+    rest: Vec<DVec3>,
+    /// The same where the blade has come to lie.
+    at: Vec<DVec3>,
     turn: DMat3,
     sag: f64,
     on_ground: bool,
@@ -56,13 +60,24 @@ impl Settled {
             return None;
         }
         let veins: Vec<VeinSegment> = network.segments().collect();
-        let bending = Bending::new(form, outline, network.map());
+        let pleats = Pleats::new(form, outline, &veins);
+        let relief = Relief::new(form, &form.major(&veins));
+        // Ridges stand out on one side; what touches may come from either.
+        let half_thickness = |p: DVec2| 0.5 * form.thickness_mm + relief.height(p);
         let weight = tissue::weight(stance, water_and_dry_matter);
         let sag = sag(stance, outline, weight, stalk);
         let mut settled: Option<Self> = None;
         for (cells, effort) in CELLS.into_iter().zip(EFFORTS) {
             let spacing = (outline.area() / cells).sqrt();
             let grid = Grid::over(outline.points(), |p| outline.contains(p), spacing);
+            let bending =
+                Bending::new(form, outline, network.map()).pleated(pleats.clone().seen_by(spacing));
+            let skin = Skin::over(
+                &grid,
+                outline.points(),
+                |p| outline.contains(p),
+                half_thickness,
+            );
             let patches = tissue::patches(&grid, stance, form, (outline, &veins), weight, seed);
             let rest = grid.fitted(|p| bending.place(p, 0.0));
             let sheet = |down: DVec3, ground: Option<Ground>| {
@@ -71,11 +86,14 @@ impl Settled {
                     stiffness: HOLDER,
                 };
                 let held = ground.is_none().then_some(clamp);
-                Sheet::new(&grid, &rest, &patches, down, ground, held)
+                Sheet::new(&grid, &rest, &patches, down, ground, held).keeping_clear(skin.clone())
             };
             let down = down(stance, sag);
             let mut x = match &settled {
-                Some(before) => grid.fitted(|p| bending.place(p, 0.0) + before.moved(p)[0]),
+                Some(before) => grid.fitted(|p| {
+                    let form = [bending.place(p, 0.0), DVec3::ZERO, DVec3::ZERO];
+                    before.carried(p, form)[0]
+                }),
                 None if stance.on_ground => {
                     // It dries first, and then it falls.
                     let (mut x, _) = relaxed(&sheet(DVec3::ZERO, None), &rest, effort);
@@ -92,10 +110,10 @@ impl Settled {
                 stiffness: GROUND,
             });
             x = relaxed(&sheet(down, ground), &x, effort).0;
-            let moved = x.iter().zip(&rest).map(|(x, rest)| x - rest).collect();
             settled = Some(Self {
                 grid,
-                moved,
+                rest,
+                at: x,
                 turn: DMat3::from_cols(
                     DVec3::X,
                     DVec3::new(0.0, libm::cos(sag), -libm::sin(sag)),
@@ -108,9 +126,19 @@ impl Settled {
         settled
     }
 
-    /// How far the flat point `p` has moved, and how that changes with its coordinates.
-    pub(super) fn moved(&self, p: DVec2) -> [DVec3; 3] {
-        self.grid.value(&self.moved, p)
+    /// Where the flat point `p`, which `form` places in the turgid leaf (with its derivatives by the
+    /// flat coordinates), has come to lie, likewise with derivatives. What the grid does not resolve
+    /// of the form turns with the sheet.
+    pub(super) fn carried(&self, p: DVec2, form: [DVec3; 3]) -> [DVec3; 3] {
+        let rest = self.grid.value(&self.rest, p);
+        let at = self.grid.value(&self.at, p);
+        let frame = |[_, across, along]: [DVec3; 3]| {
+            let x = across.normalize_or(DVec3::X);
+            let z = across.cross(along).normalize_or(DVec3::Z);
+            DMat3::from_cols(x, z.cross(x), z)
+        };
+        let turn = frame(at) * frame(rest).transpose();
+        std::array::from_fn(|i| at[i] + turn * (form[i] - rest[i]))
     }
 
     /// A point of the blade after the stalk has sagged.

@@ -112,9 +112,10 @@ fn a_leaf_droops_the_more_the_more_turgor_it_has_lost() {
     for pair in droops.windows(2) {
         assert!(pair[1] > pair[0], "{droops:?}");
     }
-    // Half of the turgor is not yet most of the way.
-    let reached = (droops[2] - droops[0]) / (droops[4] - droops[0]);
-    assert!(reached < 0.7, "{reached} of {droops:?}");
+    // A blade that hangs straight down can droop no more: the first quarter of the turgor counts
+    // for more than a quarter of the way, but it is not yet most of it.
+    let reached = (droops[1] - droops[0]) / (droops[4] - droops[0]);
+    assert!((0.25..0.6).contains(&reached), "{reached} of {droops:?}");
 }
 
 #[test]
@@ -138,4 +139,24 @@ fn a_margin_that_grows_in_excess_is_longer_and_leaves_the_plane() {
     let (little, much) = (excess(0.01), excess(0.4));
     assert!(area(&much) > 1.15 * area(&little), "{}", area(&much));
     assert_eq!(much.mesh.validate(much.lamina.outline.area()), Ok(()));
+}
+
+#[test]
+fn dry_leaves_do_not_pass_through_themselves() {
+    let species = ["oak-litter", "sugar-maple-autumn"].map(|name| {
+        let plan = crate::species::find(name).expect("a preset").plan();
+        (name, plan.form_alone().expect("good numbers"))
+    });
+    // Rolled up from side to side, more than once round.
+    let mut rolled = species[0].1.clone();
+    rolled.stance.drying = Some(Drying {
+        faces: 0.03,
+        shrinkage: 0.1,
+        ..Drying::USUAL
+    });
+    for (name, plan) in species.into_iter().chain([("a rolled oak", rolled)]) {
+        let mesh = Leaf::grow(&plan).expect("a good plan").mesh;
+        let crossed = crate::shell::crossings(&mesh.positions, &mesh.triangles);
+        assert_eq!(crossed.len(), 0, "{name}");
+    }
 }

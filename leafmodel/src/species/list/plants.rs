@@ -1,6 +1,6 @@
 //! Extensions of Runions et al. 2005, then trees and shrubs.
 
-use super::super::{PlanOf, Preset, as_grown, beyond, trees};
+use super::super::{PlanOf, Preset, as_grown, beyond, peltate, trees};
 
 pub(super) static PLANTS: &[Preset] = &[
     Preset {
@@ -142,5 +142,12 @@ pub(super) static PLANTS: &[Preset] = &[
         source: "kind of venation as floras and the Manual of Leaf Architecture give it; contents each with its own source (--about); outline and numbers of veins by eye",
         row: None,
         plan: PlanOf::Function(as_grown::trillium),
+    },
+    Preset {
+        name: "nasturtium",
+        about: "Garden nasturtium: a round shield on a petiole from its middle, nine primary veins",
+        source: "size, number of primary veins and place of the petiole as floras give them; the rest by eye",
+        row: None,
+        plan: PlanOf::Function(peltate::nasturtium),
     },
 ];
