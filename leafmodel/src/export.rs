@@ -53,6 +53,9 @@ pub fn order_colour(order: u8) -> [u8; 3] {
     ORDER_COLOURS[usize::from(order.max(1) - 1).min(last)]
 }
 
+/// What has written a file.
+const SOFTWARE: &str = concat!("Lamina ", env!("CARGO_PKG_VERSION"));
+
 /// A coordinate rounded to 10⁻⁴ mm, without trailing zeros.
 fn rounded(value: f64) -> f64 {
     // Adding 0 turns −0 into 0.

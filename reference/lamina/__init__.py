@@ -9,6 +9,7 @@ with units and coordinates.
     leaf = lamina.grow("birch", {"seed": 3})
     spectra = lamina.optics(chlorophyll=45, water=0.011)
     problems = lamina.check("scene.toml")
+    pictures = lamina.sweep("sweep.toml", store="pictures.zarr")
 
 The program is the one that the environment variable `LAMINA` names, else the one on the path, else
 cargo's release build of the repository that holds this package.
@@ -16,9 +17,11 @@ cargo's release build of the repository that holds this package.
 
 from lamina.checking import Problem, check
 from lamina.grown import Grown, frames, grow
+from lamina.parts import render_in_parts
 from lamina.program import LaminaError, program, run, version
 from lamina.rendered import read, render
 from lamina.spectra import optics
+from lamina.sweeping import sweep
 
 __all__ = [
     "Grown",
@@ -31,6 +34,8 @@ __all__ = [
     "program",
     "read",
     "render",
+    "render_in_parts",
     "run",
+    "sweep",
     "version",
 ]

@@ -132,6 +132,21 @@ def leaf_of(
     )
 
 
+def numbers_of(measures: str) -> dict[str, float]:
+    """The numbers in the JSON of measures, those of objects inside by their path: `a.b`."""
+    numbers: dict[str, float] = {}
+
+    def take(told: Mapping[str, Any], before: str) -> None:
+        for key, value in told.items():
+            if isinstance(value, Mapping):
+                take(value, f"{before}{key}.")
+            elif isinstance(value, int | float) and not isinstance(value, bool):
+                numbers[before + key] = float(value)
+
+    take(json.loads(measures), "")
+    return numbers
+
+
 def obj(file: Path) -> tuple[Array, NDArray[np.int64]]:
     """Vertices (m) and triangles of the OBJ that the program writes, which has millimetres."""
     vertices, faces = [], []

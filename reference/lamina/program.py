@@ -20,8 +20,11 @@ class LaminaError(RuntimeError):
     """
 
     def __init__(self, text: str, code: int) -> None:
-        super().__init__(text)
+        super().__init__(text, code)
         self.code = code
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 def program() -> Path:
@@ -45,10 +48,18 @@ def program() -> Path:
     )
 
 
-def run(arguments: Sequence[str | Path]) -> str:
-    """Runs the program, gives what it printed. Raises LaminaError if it fails."""
+def run(arguments: Sequence[str | Path], command: str | None = None) -> str:
+    """Runs the program, gives what it printed. Raises LaminaError if it fails.
+
+    `command` is another machine's program, which is run if this one has it at the same place.
+    """
+    here = command is not None and Path(command).is_file()
     done = subprocess.run(
-        [program(), *arguments], capture_output=True, text=True, encoding="utf-8", check=False
+        [command if here and command else program(), *arguments],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
     )
     if done.returncode != 0:
         raise LaminaError(done.stderr.strip() or done.stdout.strip(), done.returncode)

@@ -39,7 +39,7 @@ def optics(preset: str | None = None, **contents: float) -> xr.Dataset:
             raise TypeError(f"optics() has no {name!r}; it has {', '.join(CONTENTS)}")
         # One word, so that a negative number is not taken for a flag.
         arguments.append(f"{CONTENTS[name][0]}={float(value)!r}")
-    table = np.loadtxt(io.StringIO(run(arguments)), delimiter=",", skiprows=1)
+    table = np.loadtxt(io.StringIO(run(arguments)), delimiter=",", skiprows=2)
     wavelengths = ("wavelength", table[:, 0], {"units": "nm"})
     quantities = {
         name: ("wavelength", table[:, column], {"units": "1"})

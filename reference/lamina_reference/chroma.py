@@ -141,7 +141,7 @@ def reflectance(binary: Path, leaf: str) -> tuple[float, float]:
             capture_output=True,
             check=True,
         )
-        nm, r, _ = np.loadtxt(file, delimiter=",", skiprows=1).T
+        nm, r, _ = np.loadtxt(file, delimiter=",", skiprows=2).T
     return colour.lightness_chroma_of_xyz(colour.xyz_under_d65(nm, r))
 
 

@@ -106,7 +106,7 @@ def rows(binary: Path) -> list[Row]:
             lamina(binary, "--preset", name, "--out", csv, "--colour", file)
             data = json.loads(file.read_text(encoding="utf-8"))
             colours = data["colours"]
-            nm, *ours = np.loadtxt(csv, delimiter=",", skiprows=1).T
+            nm, *ours = np.loadtxt(csv, delimiter=",", skiprows=2).T
             contents = data["contents"]
             assert all(contents[absorber] == 0.0 for absorber in prospect.BETALAINS), name
             own = [np.array(part).ravel() for part in model.spectra(kind(nm), contents)]

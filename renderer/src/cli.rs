@@ -42,8 +42,10 @@ mod places;
 mod progress;
 mod render;
 mod schema;
+mod shell;
 mod signals;
 mod stats;
+mod sweep;
 mod tonemap;
 
 use std::ffi::OsString;
@@ -124,6 +126,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
         Command::Schema(schema) => schema::run(schema),
+        Command::Sweep(sweep) => sweep::run(sweep),
+        Command::Completions(shell) => {
+            shell::completions(shell);
+            Ok(())
+        }
+        Command::Man(man) => shell::man(man),
     })
 }
 

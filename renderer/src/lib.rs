@@ -86,5 +86,6 @@ pub mod sampling;
 pub mod scene;
 pub mod simd;
 pub mod spectrum;
+pub mod sweep;
 #[cfg(test)]
 mod testing;

@@ -98,6 +98,20 @@ impl Opened {
         })
     }
 
+    /// What its blocks have noted so far, unless the file has errors of syntax.
+    ///
+    /// # Errors
+    ///
+    /// [`DocumentErrors`] with those, and with what was noted of values.
+    pub fn into_whole(self) -> Result<Context, DocumentErrors> {
+        if self.syntax.is_empty() {
+            return Ok(self.cx);
+        }
+        let (sources, errors, _) = self.cx.into_parts();
+        let errors = with_syntax(&sources, self.syntax, errors);
+        Err(DocumentErrors::new(Arc::new(sources), errors))
+    }
+
     /// What was read, unless there is any error.
     ///
     /// # Errors

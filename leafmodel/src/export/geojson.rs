@@ -3,8 +3,8 @@
 use glam::DVec2;
 use serde_json::{Value, json};
 
-use super::rounded;
 use super::runs::Runs;
+use super::{SOFTWARE, rounded};
 use crate::shape::outline::Outline;
 use crate::venation::areole::areoles;
 use crate::venation::network::VenationNetwork;
@@ -17,8 +17,9 @@ use crate::venation::network::VenationNetwork;
 /// or `areole` (a `Polygon` with `area_mm2`, `perimeter_mm`, `circularity`; nets inside it are no
 /// holes in it).
 pub fn geojson(outlines: &[Outline], network: &VenationNetwork) -> String {
-    let mut text = String::from(
-        "{\"type\":\"FeatureCollection\",\n\
+    let mut text = format!(
+        "{{\"type\":\"FeatureCollection\",\n\
+         \"software\":\"{SOFTWARE}\",\n\
          \"coordinate_unit\":\"mm\",\n\
          \"note\":\"Coordinates are millimetres on the leaf, base to apex along +y, not degrees of longitude and latitude.\",\n\
          \"features\":[\n",

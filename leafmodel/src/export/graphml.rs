@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::SOFTWARE;
 use crate::venation::network::VenationNetwork;
 
 /// Name, element and type of every attribute.
@@ -26,6 +27,7 @@ pub fn graphml(network: &VenationNetwork) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
     );
+    let _ = writeln!(text, "<desc>{SOFTWARE}</desc>");
     for (name, element, kind) in KEYS {
         let _ = writeln!(
             text,

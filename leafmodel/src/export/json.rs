@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use glam::DVec2;
 use serde_json::{Value, json};
 
+use super::SOFTWARE;
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areole, areoles};
 use crate::venation::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
@@ -36,7 +37,7 @@ pub fn json(outlines: &[Outline], network: &VenationNetwork, with_areoles: bool)
     let nodes = |value: fn(&VeinNode) -> Value| column(network.nodes(), value);
     let edges = |value: fn(&VeinEdge) -> Value| column(network.edges(), value);
     let mut text = format!(
-        "{{\"length_unit\":\"mm\",\n\"steps\":{},\n\"sources\":{},\n\"segment_mm\":{},\n\"ending\":\"{ending}\",\n\
+        "{{\"software\":\"{SOFTWARE}\",\n\"length_unit\":\"mm\",\n\"steps\":{},\n\"sources\":{},\n\"segment_mm\":{},\n\"ending\":\"{ending}\",\n\
          {head},\n",
         network.steps(),
         network.sources(),

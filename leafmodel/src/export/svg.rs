@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::DVec2;
 
 use super::runs::Runs;
-use super::{order_colour, rounded};
+use super::{SOFTWARE, order_colour, rounded};
 use crate::shape::outline::Outline;
 use crate::venation::areole::areoles;
 use crate::venation::network::{VeinEdge, VenationNetwork};
@@ -50,6 +50,7 @@ pub fn svg_within(
     let size = high - low + DVec2::splat(2.0 * border);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {3} {0} {1}\">\n\
+         <desc>{SOFTWARE}</desc>\n\
          <g transform=\"scale(1,-1)\">\n<path id=\"margin\" fill=\"#eef3e2\" stroke=\"none\" d=\"",
         rounded(size.x),
         rounded(size.y),

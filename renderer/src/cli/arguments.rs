@@ -2,6 +2,8 @@
 
 mod optics;
 mod samples;
+mod shell;
+mod sweep;
 mod tonemap;
 
 use std::path::PathBuf;
@@ -10,6 +12,8 @@ use clap::{Args, Parser, Subcommand};
 
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
+pub use shell::{CompletionsArguments, ManArguments};
+pub use sweep::{SweepArguments, TaskRange};
 pub use tonemap::TonemapArguments;
 
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
@@ -78,6 +82,9 @@ pub enum Command {
     /// Add up parts of a picture, rendered with --samples, to STEM.exr and STEM.png
     #[command(after_help = MERGE_EXAMPLES)]
     Merge(MergeArguments),
+    /// Render a scene, or grow a leaf, with many settings
+    #[command(after_help = sweep::EXAMPLES)]
+    Sweep(SweepArguments),
     /// Report every error of a scene file, or of a file of leaves
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
@@ -100,6 +107,10 @@ pub enum Command {
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),
+    /// Print what a shell needs to complete commands and flags
+    Completions(CompletionsArguments),
+    /// Write manual pages
+    Man(ManArguments),
 }
 
 /// A scene file with overrides.

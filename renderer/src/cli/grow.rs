@@ -33,8 +33,10 @@ use serde_json::json;
 
 use self::blade_files::Parts;
 use self::choice::Chosen;
+pub(super) use self::choice::{NotChosen, is_word, unknown_preset};
 use self::frames::Page;
 use self::outputs::{Kind, Outputs};
+use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
@@ -84,6 +86,12 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             .map_err(Failure::system)?
             .install(work),
     }
+}
+
+/// The leaf that a command line names, with its margin and veins as they would be grown.
+pub(super) fn named_plan(arguments: &GrowArguments) -> Result<(String, LeafPlan), NotChosen> {
+    let chosen = choice::choose(arguments, true)?;
+    Ok((chosen.name, chosen.plan))
 }
 
 fn carry_out(
@@ -210,6 +218,7 @@ fn tell_veins(
         }
         let measures = measure(outline, network, plan.venation.murray_exponent());
         let mut report = measures.json();
+        report["program"] = PROGRAM.into();
         if let (Some(leaf), Some(report)) = (grown.compound(), report.as_object_mut()) {
             eprintln!("note: measures are those of the largest leaflet");
             report.insert("compound".to_owned(), compound_measures(leaf));
@@ -245,6 +254,7 @@ fn write_plans(
         Some(preset) => leaf_beside_preset(name, plan, preset),
         None => leaf_to_toml(name, plan, Extent::Changed),
     };
+    let text = format!("# Written by Lamina {PROGRAM}.\n{text}");
     for (path, kind) in &outputs.whole {
         if *kind == Kind::Toml {
             finish(path, text.as_bytes(), stop)?;

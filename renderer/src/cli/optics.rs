@@ -12,6 +12,7 @@ use leafmodel::optics::{Contents, ProspectD, presets};
 use serde_json::json;
 
 use self::leaf::Chosen;
+use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::OpticsArguments;
 use crate::cli::{Failure, check_writable, say};
 use crate::image::atomic;
@@ -59,15 +60,19 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         say(chosen.about());
     }
     match &arguments.out {
-        Some(file) if is_stdout(file) => say(table(&contents).trim_end()),
-        Some(file) => write(file, table(&contents).as_bytes())?,
+        Some(file) if is_stdout(file) => say(table(&contents, &chosen.line()).trim_end()),
+        Some(file) => write(file, table(&contents, &chosen.line()).as_bytes())?,
         None => {}
     }
     if let Some(file) = &arguments.colour {
         let colours = colour::Colours::of(&contents);
         match file {
             Some(file) => {
-                let report = json!({ "contents": chosen.json(), "colours": colours.json() });
+                let report = json!({
+                    "program": PROGRAM,
+                    "contents": chosen.json(),
+                    "colours": colours.json(),
+                });
                 write(file, format!("{report:#}\n").as_bytes())?;
             }
             None => say(colours.table()),
@@ -99,9 +104,9 @@ fn check_ending(file: &Path, ending: &str, what: &str) -> Result<(), Failure> {
     )))
 }
 
-/// R and T at every nanometre of PROSPECT-D's table.
-fn table(contents: &Contents) -> String {
-    let mut table = String::from("wavelength_nm,R,T\n");
+/// R and T at every nanometre of PROSPECT-D's table; a comment says what wrote it, of which leaf.
+fn table(contents: &Contents, leaf: &str) -> String {
+    let mut table = format!("# Lamina {PROGRAM}, PROSPECT-D: {leaf}\nwavelength_nm,R,T\n");
     for nm in 400..=2500 {
         let at = ProspectD::coefficients_extrapolated(f64::from(nm));
         let optics = at.reflectance_transmittance(contents);

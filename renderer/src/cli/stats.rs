@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
 use crate::image::atomic;
 
@@ -17,8 +18,12 @@ pub(super) fn peak_mib() -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-/// Writes a JSON object atomically.
+/// Writes a JSON object atomically, with the version of the program as `program`.
 pub(super) fn write(path: &Path, stats: &Value) -> Result<(), Failure> {
+    let mut stats = stats.clone();
+    if let Some(members) = stats.as_object_mut() {
+        members.insert("program".to_owned(), PROGRAM.into());
+    }
     let text = format!("{stats:#}\n");
     atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)
 }

@@ -9,6 +9,19 @@ use super::{ImageError, MOST_BYTES, check_size};
 /// Quality of 1 to 100 at which fine veins show no blocks.
 const QUALITY: u8 = 93;
 
+/// Length of the marker with which a file begins.
+const AFTER_START: usize = 2;
+
+/// A comment segment (COM) that says what has written the file.
+fn comment() -> Vec<u8> {
+    const TEXT: &[u8] = concat!("Lamina ", env!("CARGO_PKG_VERSION")).as_bytes();
+    let mut segment = vec![0xff, 0xfe];
+    // The length counts itself.
+    segment.extend((TEXT.len() as u16 + 2).to_be_bytes());
+    segment.extend(TEXT);
+    segment
+}
+
 /// The bytes of a JPEG file (JFIF) of sRGB values, which is what JPEG without a profile means.
 ///
 /// # Errors
@@ -33,6 +46,7 @@ pub fn encoded(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
     JpegEncoder::new_with_quality(&mut bytes, QUALITY)
         .write_image(&values, width, height, ExtendedColorType::Rgb8)
         .map_err(|error| inconsistent(error.to_string()))?;
+    bytes.splice(AFTER_START..AFTER_START, comment());
     Ok(bytes)
 }
 

@@ -68,17 +68,21 @@ pub fn encoded_pixels(pixels: &Pixels) -> Result<Vec<u8>, ImageError> {
     encode(pixels.width, pixels.height, &values, count, kind)
 }
 
+/// What has written the file: keyword and text of a `tEXt` chunk.
+const SOFTWARE: &[u8] = concat!("Software\0Lamina ", env!("CARGO_PKG_VERSION")).as_bytes();
+
 /// The chunks that tell the colours: sRGB (rendering intent: perceptual), and gamma and primaries
-/// for programs that do not know that one.
-fn colour_chunks() -> Vec<u8> {
+/// for programs that do not know that one; then the program.
+fn leading_chunks() -> Vec<u8> {
     let primaries: Vec<u8> = CHROMATICITIES
         .iter()
         .flat_map(|c| c.to_be_bytes())
         .collect();
-    let chunks: [(&[u8; 4], &[u8]); 3] = [
+    let chunks: [(&[u8; 4], &[u8]); 4] = [
         (b"sRGB", &[0]),
         (b"gAMA", &GAMMA.to_be_bytes()),
         (b"cHRM", &primaries),
+        (b"tEXt", SOFTWARE),
     ];
     let mut bytes = Vec::new();
     for (name, data) in chunks {
@@ -111,7 +115,7 @@ fn encode(
     PngEncoder::new(&mut bytes)
         .write_image(values, width, height, kind)
         .map_err(|error| inconsistent(error.to_string()))?;
-    bytes.splice(AFTER_HEADER..AFTER_HEADER, colour_chunks());
+    bytes.splice(AFTER_HEADER..AFTER_HEADER, leading_chunks());
     Ok(bytes)
 }
 

@@ -38,18 +38,23 @@ pub fn fingerprint(loaded: &Loaded, path: &Path) -> Result<u64, AssetError> {
             text = text.replace(folder, "");
         }
     }
-    let mut hash = fnv1a(OFFSET, text.as_bytes());
+    let mut hash = fnv1a(text.as_bytes());
     for file in &loaded.inputs {
         let bytes = assets::read(file)?;
-        hash = fnv1a(hash, &(bytes.len() as u64).to_le_bytes());
-        hash = fnv1a(hash, &bytes);
+        hash = go_on(hash, &(bytes.len() as u64).to_le_bytes());
+        hash = go_on(hash, &bytes);
     }
     Ok(hash)
 }
 
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
-fn fnv1a(start: u64, bytes: &[u8]) -> u64 {
+/// The 64-bit FNV-1a hash of some bytes.
+pub fn fnv1a(bytes: &[u8]) -> u64 {
+    go_on(OFFSET, bytes)
+}
+
+fn go_on(start: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(start, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })

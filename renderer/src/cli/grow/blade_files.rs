@@ -6,6 +6,8 @@ use glam::{DAffine3, DVec2, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::WholeLeaf;
 
+use crate::checkpoint::PROGRAM;
+
 /// A blade or tubes, with their place.
 struct Part<'l> {
     /// Number of the blade among the different ones, from 1: the map of the first is NAME.exr,
@@ -106,7 +108,7 @@ impl Part<'_> {
 /// PLY with normals, uv and thickness, and the number of the part for each face.
 pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment lengths in mm\nelement vertex {}\n",
+        "ply\nformat binary_little_endian 1.0\ncomment Lamina {PROGRAM}, lengths in mm\nelement vertex {}\n",
         parts.vertices()
     );
     for name in ["x", "y", "z", "nx", "ny", "nz", "u", "v", "thickness"] {
@@ -142,7 +144,7 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
 /// OBJ with an object and a material, `blade-1` and so on or `stalks`, for each run of faces of one
 /// part.
 pub(super) fn obj(parts: &Parts<'_>) -> String {
-    let mut text = String::from("# lengths in mm\n");
+    let mut text = format!("# Lamina {PROGRAM}, lengths in mm\n");
     for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {
         let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
         let _ = writeln!(text, "vt {} {}", uv.x, uv.y);

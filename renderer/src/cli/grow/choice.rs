@@ -1,5 +1,6 @@
 //! The leaf to be grown: a preset or a leaf of a file.
 
+use leafmodel::document::report::DocumentErrors;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{LeafFile, LeafNotChosen, load_one_leaf};
 use leafmodel::species;
@@ -17,8 +18,16 @@ pub(super) struct Chosen {
     pub(super) preset: Option<&'static str>,
 }
 
+/// Why there is no leaf to grow.
+pub(in crate::cli) enum NotChosen {
+    /// Errors of the file or the settings, with their places.
+    Document(DocumentErrors),
+    /// Anything else.
+    Failure(Failure),
+}
+
 /// The leaf with all its settings.
-pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Chosen, Failure> {
+pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Chosen, NotChosen> {
     let wanted = arguments.leaf.as_deref().unwrap_or_default();
     let read = |file| {
         load_one_leaf(
@@ -40,7 +49,7 @@ pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Cho
         let (path, leaf) = file_and_leaf(wanted);
         // A word that is not the name of a file is taken for a preset.
         if is_word(wanted) && !path.exists() {
-            return Err(unknown_preset(wanted));
+            return Err(NotChosen::Failure(unknown_preset(wanted)));
         }
         read(LeafFile::File { path: &path, leaf })
     }?;
@@ -54,11 +63,11 @@ pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Cho
 }
 
 /// Whether it looks like the name of a preset, not of a file.
-pub(super) fn is_word(wanted: &str) -> bool {
+pub(in crate::cli) fn is_word(wanted: &str) -> bool {
     !wanted.contains(['/', '\\', '.', '#'])
 }
 
-pub(super) fn unknown_preset(wanted: &str) -> Failure {
+pub(in crate::cli) fn unknown_preset(wanted: &str) -> Failure {
     let names = species::PRESETS.iter().map(|preset| preset.name);
     let meant =
         nearest(wanted, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
@@ -68,14 +77,23 @@ pub(super) fn unknown_preset(wanted: &str) -> Failure {
     ))
 }
 
-impl From<LeafNotChosen> for Failure {
+impl From<LeafNotChosen> for NotChosen {
     fn from(error: LeafNotChosen) -> Self {
         match error {
-            LeafNotChosen::Scene(errors) => errors.into(),
+            LeafNotChosen::Scene(errors) => Self::Document(errors),
             LeafNotChosen::WhichLeaf { .. }
             | LeafNotChosen::NoValue { .. }
             | LeafNotChosen::UnknownKey { .. }
-            | LeafNotChosen::Ambiguous { .. } => Self::bad(error),
+            | LeafNotChosen::Ambiguous { .. } => Self::Failure(Failure::bad(error)),
+        }
+    }
+}
+
+impl From<NotChosen> for Failure {
+    fn from(error: NotChosen) -> Self {
+        match error {
+            NotChosen::Document(errors) => errors.into(),
+            NotChosen::Failure(failure) => failure,
         }
     }
 }

@@ -1,0 +1,49 @@
+//! `lamina completions` and `lamina man`: what shells and `man` want to know of the command line.
+
+use std::fs;
+use std::io::Write as _;
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+
+use crate::cli::arguments::{Arguments, CompletionsArguments, ManArguments};
+use crate::cli::{Failure, say};
+use crate::image::atomic;
+
+pub(super) fn completions(arguments: &CompletionsArguments) {
+    let mut script = Vec::new();
+    let mut command = Arguments::command();
+    clap_complete::generate(arguments.shell, &mut command, "lamina", &mut script);
+    say(String::from_utf8_lossy(&script).trim_end());
+}
+
+pub(super) fn man(arguments: &ManArguments) -> Result<(), Failure> {
+    let mut command = Arguments::command().disable_help_subcommand(true);
+    command.build();
+    let Some(folder) = &arguments.out else {
+        say(page(command)?.trim_end());
+        return Ok(());
+    };
+    let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
+    fs::create_dir_all(folder).map_err(refused)?;
+    let mut open = vec![(String::from("lamina"), command)];
+    while let Some((name, command)) = open.pop() {
+        for inner in command.get_subcommands() {
+            let name = format!("{name}-{}", inner.get_name());
+            open.push((name, inner.clone()));
+        }
+        let path = folder.join(format!("{name}.1"));
+        let text = page(command.display_name(name))?;
+        atomic::replace(&path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
+        say(path.display());
+    }
+    Ok(())
+}
+
+fn page(command: clap::Command) -> Result<String, Failure> {
+    let mut page = Vec::new();
+    Man::new(command)
+        .render(&mut page)
+        .map_err(Failure::system)?;
+    Ok(String::from_utf8_lossy(&page).into_owned())
+}

@@ -1,0 +1,301 @@
+//! `lamina sweep`: one scene rendered, or one leaf grown, with many settings.
+//!
+//! Each task is a process of its own, the same command that a person would give; what kills one
+//! kills no other. A task is done when its record is there, which is written last. Files and
+//! records are named by what they are made from, so whatever else the sweep becomes, nothing is
+//! done twice.
+
+mod list;
+mod process;
+mod record;
+mod table;
+mod tasks;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write as _;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use leafmodel::species;
+use serde_json::json;
+
+use self::process::Ended;
+use self::record::Record;
+use self::table::{Row, State};
+use self::tasks::{hexadecimal, identities, words_of};
+use crate::cli::arguments::{SweepArguments, file_and_leaf};
+use crate::cli::signals::Signals;
+use crate::cli::{Failure, check_writable, grow, say, stats};
+use crate::image::atomic;
+use crate::sweep::{Sweep, Target, Words, is_sweep_file};
+
+pub(super) fn run(arguments: &SweepArguments) -> Result<(), Failure> {
+    let sweep = opened(arguments)?;
+    let range = match arguments.tasks {
+        None => 0..sweep.len(),
+        Some(tasks) if tasks.end <= sweep.len() => tasks.first..tasks.end,
+        Some(tasks) => {
+            return Err(Failure::bad(format!(
+                "--tasks {}..{}: the sweep has {} tasks, from 0 to {}",
+                tasks.first,
+                tasks.end,
+                sweep.len(),
+                sweep.len() - 1
+            )));
+        }
+    };
+    let Some(folder) = &arguments.out else {
+        return list::print(&sweep, arguments, range);
+    };
+    let identities = identities(&sweep, range.clone())?;
+    let made = folder.join("tasks");
+    let refused = |error| Failure::system(format!("{}: {error}", made.display()));
+    std::fs::create_dir_all(&made).map_err(refused)?;
+    let table = folder.join(match arguments.tasks {
+        None => "sweep.csv".to_owned(),
+        Some(tasks) => format!("sweep-{}-{}.csv", tasks.first, tasks.end),
+    });
+    check_writable(&table)?;
+    check_writable(&made.join("record"))?;
+    let signals = Signals::listen()?;
+    signals.begin_work();
+    let work = Work {
+        sweep: &sweep,
+        arguments,
+        signals: &signals,
+        range,
+        identities,
+        made,
+    };
+    let result = work.carry_out();
+    // Whatever has happened, the table tells what there is.
+    let rows = work.rows(&result.failed)?;
+    table::write(&table, &sweep, &rows)?;
+    stats::write(&folder.join("sweep.json"), &work.about())?;
+    say(table.display());
+    result.told(&work)
+}
+
+/// The sweep that the command line asks for.
+fn opened(arguments: &SweepArguments) -> Result<Sweep, Failure> {
+    let what = arguments.what.as_str();
+    let words = Words {
+        over: &arguments.over,
+        seeds: arguments.seeds,
+        fixed: &arguments.overrides,
+        spp: arguments.spp,
+        noise: arguments.noise,
+    };
+    let (path, leaf) = file_and_leaf(what);
+    let leaf_target = || Target::Leaf(what.to_owned());
+    if leaf.is_some() || species::find(what).is_some() {
+        return Ok(Sweep::words(leaf_target(), what, &words)?);
+    }
+    if grow::is_word(what) && !path.exists() {
+        return Err(grow::unknown_preset(what));
+    }
+    let (is_sweep, is_scene) = is_sweep_file(&path)?;
+    if is_sweep {
+        return Ok(Sweep::file(&path, &words)?);
+    }
+    let target = if is_scene {
+        Target::Scene(path)
+    } else {
+        leaf_target()
+    };
+    Ok(Sweep::words(target, what, &words)?)
+}
+
+/// Tasks to be done.
+struct Work<'a> {
+    sweep: &'a Sweep,
+    arguments: &'a SweepArguments,
+    signals: &'a Signals,
+    range: Range<usize>,
+    /// Of each task of the range.
+    identities: Vec<u64>,
+    /// The folder of their files.
+    made: PathBuf,
+}
+
+/// What has become of the tasks.
+#[derive(Debug, Default)]
+struct Outcome {
+    done: usize,
+    /// Those that were done before.
+    before: usize,
+    failed: BTreeMap<u64, String>,
+    interrupted: bool,
+}
+
+/// Time between two lines about tasks that went well, if they are many.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+impl Work<'_> {
+    fn carry_out(&self) -> Outcome {
+        let is_open = |identity: &u64| !Record::is_there(&self.made, *identity);
+        let mut seen = BTreeSet::new();
+        // Tasks that are the same are done once.
+        let numbered = self.range.clone().zip(&self.identities);
+        let open: Vec<(usize, u64)> = numbered
+            .filter(|(_, identity)| is_open(identity) && seen.insert(**identity))
+            .map(|(number, identity)| (number, *identity))
+            .collect();
+        let outcome = Mutex::new(Outcome {
+            before: self.range.len() - open.len(),
+            ..Outcome::default()
+        });
+        if !open.is_empty() && open.len() < self.range.len() {
+            let before = self.range.len() - open.len();
+            eprintln!("{before} of {} tasks are done already", self.range.len());
+        }
+        let next = AtomicUsize::new(0);
+        let said = Mutex::new(Instant::now());
+        let jobs = usize::from(self.arguments.jobs).min(open.len());
+        std::thread::scope(|scope| {
+            for _ in 0..jobs {
+                scope.spawn(|| {
+                    while let Some(&(number, identity)) =
+                        open.get(next.fetch_add(1, Ordering::Relaxed))
+                    {
+                        if self.signals.stop.load(Ordering::Relaxed) {
+                            break;
+                        }
+                        let began = Instant::now();
+                        let ended = self.one(number, identity, jobs);
+                        let mut outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner);
+                        outcome.take(identity, ended);
+                        let count = outcome.done + outcome.failed.len();
+                        self.tell(
+                            number,
+                            identity,
+                            &outcome,
+                            [count, open.len()],
+                            began,
+                            &said,
+                        );
+                    }
+                });
+            }
+        });
+        let mut outcome = outcome.into_inner().unwrap_or_else(PoisonError::into_inner);
+        outcome.interrupted |= self.signals.stop.load(Ordering::Relaxed);
+        outcome
+    }
+
+    /// Does a task: its process, then its record.
+    fn one(&self, number: usize, identity: u64, jobs: usize) -> Ended {
+        let task = self.sweep.task(number);
+        let mut words = words_of(self.sweep, &task, self.arguments.cache.as_deref());
+        let threads = self
+            .arguments
+            .threads
+            .map_or_else(|| (rayon::current_num_threads() / jobs).max(1), usize::from);
+        words.extend(["--threads".to_owned(), threads.to_string()]);
+        let files = record::files(self.sweep, &self.made, identity, &mut words);
+        let ended = process::run(&words, self.signals);
+        if !matches!(ended, Ended::Done) {
+            return ended;
+        }
+        match Record::of(self.sweep, &task, identity, &self.made, files)
+            .and_then(|record| record.write(&self.made))
+        {
+            Ok(()) => Ended::Done,
+            Err(problem) => Ended::Failed(problem),
+        }
+    }
+
+    fn tell(
+        &self,
+        number: usize,
+        identity: u64,
+        outcome: &Outcome,
+        [count, all]: [usize; 2],
+        began: Instant,
+        said: &Mutex<Instant>,
+    ) {
+        let task = self.sweep.task(number);
+        let mut settings: Vec<String> = task.overrides().collect();
+        settings.extend(task.seed.map(|seed| format!("seed {seed}")));
+        let settings = settings.join(" ");
+        if let Some(problem) = outcome.failed.get(&identity) {
+            eprintln!("task {number} failed: {settings}\n{}", problem.trim_end());
+            return;
+        }
+        let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+        if all <= 100 || said.elapsed() >= BETWEEN_LINES || count == all {
+            *said = Instant::now();
+            let seconds = began.elapsed().as_secs_f64();
+            eprintln!("{count} of {all}: task {number}, {seconds:.1} s  {settings}");
+        }
+    }
+
+    /// The table's rows.
+    fn rows(&self, failed: &BTreeMap<u64, String>) -> Result<Vec<Row<'_>>, Failure> {
+        let numbered = self.range.clone().zip(&self.identities);
+        let rows = numbered.map(|(number, identity)| {
+            let record = Record::read(&self.made, *identity).map_err(Failure::system)?;
+            let state = match &record {
+                Some(_) => State::Done,
+                None if failed.contains_key(identity) => State::Failed,
+                None => State::Open,
+            };
+            Ok(Row {
+                task: self.sweep.task(number),
+                identity: *identity,
+                state,
+                record,
+            })
+        });
+        rows.collect()
+    }
+
+    /// What the sweep is, for those who find its folder.
+    fn about(&self) -> serde_json::Value {
+        let mut about = list::about(self.sweep);
+        about["what"] = json!(self.arguments.what);
+        about
+    }
+}
+
+impl Outcome {
+    fn take(&mut self, identity: u64, ended: Ended) {
+        match ended {
+            Ended::Done => self.done += 1,
+            Ended::Interrupted => self.interrupted = true,
+            Ended::Failed(problem) => {
+                self.failed.insert(identity, problem);
+            }
+        }
+    }
+
+    /// The result of the command.
+    fn told(&self, work: &Work<'_>) -> Result<(), Failure> {
+        let all = work.range.len();
+        let Self { done, before, .. } = self;
+        eprintln!(
+            "{done} tasks done now, {before} before, {} failed, {all} in all",
+            self.failed.len()
+        );
+        if self.interrupted {
+            eprintln!("interrupted: the same command goes on");
+            return Err(Failure::Interrupted);
+        }
+        if let Some(identity) = self.failed.keys().next() {
+            return Err(Failure::system(format!(
+                "{} of {all} tasks failed, {} first: the same command tries them again",
+                self.failed.len(),
+                hexadecimal(*identity)
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// Writes bytes whole or not at all.
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
+}

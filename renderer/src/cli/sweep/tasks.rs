@@ -1,0 +1,146 @@
+//! Tasks as commands, and the number that tells what a task makes.
+
+use std::ops::Range;
+use std::path::Path;
+
+use clap::Parser as _;
+use rayon::prelude::*;
+
+use crate::checkpoint::PROGRAM;
+use crate::cli::arguments::{Arguments, Command};
+use crate::cli::{Failure, colour, grow};
+use crate::scene::fingerprint::{fingerprint, fnv1a};
+use crate::scene::load::load;
+use crate::sweep::{Refused, Sweep, Target, Task};
+use leafmodel::document::report::DocumentErrors;
+
+/// Tasks that are looked at between two looks at the errors.
+const BATCH: usize = 2048;
+
+/// The words behind `lamina` that do a task, but for its outputs.
+pub(super) fn words_of(sweep: &Sweep, task: &Task<'_>, cache: Option<&Path>) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut add = |flag: &str, value: String| words.extend([flag.to_owned(), value]);
+    let flag = match &sweep.target {
+        Target::Scene(path) => {
+            let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+            add("render", whole.display().to_string());
+            "-D"
+        }
+        Target::Leaf(leaf) => {
+            let whole = std::path::absolute(leaf).ok();
+            let file = whole.filter(|_| leaf.contains(['.', '/', '\\', '#']));
+            add(
+                "grow",
+                file.map_or_else(|| leaf.clone(), |file| file.display().to_string()),
+            );
+            "--set"
+        }
+    };
+    for setting in &sweep.fixed {
+        add("-D", setting.clone());
+    }
+    for setting in task.overrides() {
+        add(flag, setting);
+    }
+    if let Some(seed) = task.seed {
+        add("--seed", seed.to_string());
+    }
+    if let Target::Scene(_) = &sweep.target {
+        if let Some(spp) = sweep.spp {
+            add("--spp", spp.to_string());
+        }
+        if let Some(noise) = sweep.noise {
+            add("--noise", noise.to_string());
+        }
+        if let Some(cache) = cache {
+            add("--cache", cache.display().to_string());
+        }
+    }
+    words
+}
+
+/// What a task makes, told by a number: everything that its outputs depend on, the version of the
+/// program among it. For a scene that is its [fingerprint], samples, seed, noise and the picture's
+/// tone; for a leaf its plan.
+///
+/// All tasks of the range are read, so that no error waits for its turn.
+pub(super) fn identities(sweep: &Sweep, range: Range<usize>) -> Result<Vec<u64>, Failure> {
+    let mut found = Vec::with_capacity(range.len());
+    let mut refused = Refused::default();
+    for start in range.clone().step_by(BATCH) {
+        let numbers = start..(start + BATCH).min(range.end);
+        let read: Vec<(usize, Result<u64, Why>)> = numbers
+            .into_par_iter()
+            .map(|number| (number, identity(sweep, &sweep.task(number))))
+            .collect();
+        for (number, result) in read {
+            match result {
+                Ok(identity) => found.push(identity),
+                Err(Why::Document(errors)) => refused.add(sweep, &sweep.task(number), &errors),
+                Err(Why::Failure(failure)) => return Err(failure),
+            }
+        }
+        if refused.is_enough() {
+            break;
+        }
+    }
+    if refused.is_empty() {
+        Ok(found)
+    } else {
+        Err(Failure::BadInput(refused.render(sweep, colour())))
+    }
+}
+
+/// Why a task cannot be done.
+enum Why {
+    Document(DocumentErrors),
+    Failure(Failure),
+}
+
+fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
+    let text = match &sweep.target {
+        Target::Scene(path) => {
+            let overrides: Vec<String> = sweep
+                .fixed
+                .iter()
+                .cloned()
+                .chain(task.overrides())
+                .collect();
+            let loaded = load(path, &overrides).map_err(Why::Document)?;
+            let print =
+                fingerprint(&loaded, path).map_err(|error| Why::Failure(Failure::bad(error)))?;
+            let scene = &loaded.description;
+            let film = &scene.film;
+            format!(
+                "{PROGRAM} scene {} {print:016x} {} {} {:?} {:?}",
+                scene.name,
+                sweep.spp.unwrap_or(film.spp),
+                task.seed.unwrap_or(film.seed),
+                sweep.noise.or(film.noise).filter(|noise| *noise > 0.0),
+                scene.picture
+            )
+        }
+        Target::Leaf(_) => {
+            let mut line = vec!["lamina".to_owned()];
+            line.extend(words_of(sweep, task, None));
+            let parsed = Arguments::try_parse_from(line);
+            let Ok(Some(Command::Grow(arguments))) = parsed.map(|parsed| parsed.command) else {
+                return Err(Why::Failure(Failure::bad(
+                    "the leaf's name is no word of a command",
+                )));
+            };
+            let (name, plan) = grow::named_plan(&arguments).map_err(|error| match error {
+                grow::NotChosen::Document(errors) => Why::Document(errors),
+                grow::NotChosen::Failure(failure) => Why::Failure(failure),
+            })?;
+            format!("{PROGRAM} leaf {name} {plan:?}")
+        }
+    };
+    Ok(fnv1a(text.as_bytes()))
+}
+
+/// An identity as files are named.
+pub(super) fn hexadecimal(identity: u64) -> String {
+    format!("{identity:016x}")
+}
