@@ -39,7 +39,7 @@ use crate::blade::contents_map::ContentsMap;
 use crate::blade::frame::UvFrame;
 use crate::blade::hairs::{HairMesh, HairPlan};
 use crate::blade::layers::Layer;
-use crate::blade::mesh::{BladeError, BladeMesh};
+use crate::blade::mesh::{BladeError, BladeMesh, Displacement};
 use crate::blade::petiole::PetiolePlan;
 use crate::blade::senescence::Senescence;
 use crate::blade::stalk::StalkMesh;
@@ -176,7 +176,8 @@ impl LeafPlan {
             layers: Vec::new(),
             mosaic: None,
             senescence: None,
-            surface: None,
+            // The bulge displaces the mesh.
+            surface: self.surface.as_ref().map(SurfacePlan::displacement_alone),
             unevenness: None,
             map_size: 16,
             ..self.clone()
@@ -271,7 +272,12 @@ impl Leaf {
                 .map_or(0.0, |wounds| wounds.height(p))
         };
         let cut = (outline, holes, &frame);
-        let mut mesh = BladeMesh::build_holed(cut, network, &plan.form, settled, &lips)?;
+        let bulge = plan.meshed_bulge(&lamina, &frame);
+        let displaced = Displacement {
+            lips: &lips,
+            bulge: &|p| bulge.as_ref().map_or(0.0, |bulge| bulge.height(p)),
+        };
+        let mut mesh = BladeMesh::build_holed(cut, network, &plan.form, settled, displaced)?;
         let mut petiole = plan
             .petiole
             .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
@@ -280,7 +286,8 @@ impl Leaf {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
         }
         let contents = plan.paint(&lamina, is_stopped)?;
-        let surface = plan.surface_of(&lamina, &frame, [contents.width, contents.height])?;
+        let size = [contents.width, contents.height];
+        let surface = plan.surface_of(&lamina, &mesh, &frame, size)?;
         let hairs = plan.hairs_of(&lamina, &mesh)?;
         Ok(Self {
             lamina,
@@ -445,7 +452,8 @@ mod tests {
         let form = Leaf::grow(&plan.form_alone().expect("good numbers")).expect("a good plan");
         assert_eq!(form.mesh, whole.mesh);
         assert_eq!(form.petiole, whole.petiole);
-        assert!(form.contents.texels.len() <= 256 && form.surface.is_none());
+        assert!(form.contents.texels.len() <= 256);
+        assert!(form.surface.is_some_and(|map| map.texels.len() <= 256));
         plan.tissue.mottle = -1.0;
         assert!(plan.form_alone().is_err());
     }

@@ -26,6 +26,7 @@ pub mod absorption;
 pub mod betalains;
 pub mod constituent;
 pub mod contents;
+pub mod dust;
 pub mod fast;
 pub mod interface;
 pub mod per_constituent;

@@ -28,6 +28,7 @@ SCENES = (
     "furnace",
     "two-leaves",
     "textured-veins",
+    "relief",
     "solid-fruit",
     "instances",
     "spots",
@@ -37,7 +38,7 @@ SCENES = (
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the seven")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the eight")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"
@@ -85,9 +86,9 @@ def render_lamina(program: Path, scene: Path, spp: int, seeds: int, work: Path) 
 
 def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
     """Renders a scene twice and compares; gives the scene's name and the comparison."""
-    from . import compare, render, solid_bsdf
+    from . import compare, relief_bsdf, render
 
-    solid_bsdf.register()
+    relief_bsdf.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     exported = work / "exported"
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", exported)
@@ -104,9 +105,9 @@ def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
 
 def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
     """Seconds that both programs take for one picture at equal samples a pixel."""
-    from . import render, solid_bsdf
+    from . import relief_bsdf, render
 
-    solid_bsdf.register()
+    relief_bsdf.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", work / "exported")
     scene, facts = render.load(work / "exported")

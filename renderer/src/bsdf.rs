@@ -30,6 +30,7 @@ use crate::spectrum::Lanes;
 pub mod coat_table;
 pub mod dielectric;
 pub mod directional_albedo;
+pub mod dust;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
@@ -177,10 +178,15 @@ impl<'a, const N: usize> Bsdf<'a, N> {
         }
     }
 
-    /// The same surface with the relief of its faces; a surface that is no leaf has none.
-    pub fn with_relief(self, faces: [ReliefFace<'a>; 2]) -> Self {
+    /// The same surface with the relief of its faces, on which grains of dust have these albedos; a
+    /// surface that is no leaf has none.
+    pub fn with_relief(self, faces: [ReliefFace<'a>; 2], grains: Lanes<N>) -> Self {
         match self {
-            Self::Leaf(leaf) => Self::Relief(ReliefBsdf { leaf, faces }),
+            Self::Leaf(leaf) => Self::Relief(ReliefBsdf {
+                leaf,
+                faces,
+                grains,
+            }),
             Self::Diffuse(_) | Self::Dielectric(_) | Self::Relief(_) => self,
         }
     }
@@ -216,7 +222,7 @@ impl<'a, const N: usize> Bsdf<'a, N> {
             Self::Diffuse(reflectance) => *reflectance,
             Self::Dielectric(_) => Lanes::ONE,
             Self::Leaf(leaf) => leaf.albedo(wo),
-            Self::Relief(relief) => relief.leaf.albedo(wo),
+            Self::Relief(relief) => relief.albedo(wo),
         }
     }
 

@@ -6,120 +6,53 @@
 //! - adaxial: bulge − `impressed` · 2r · mound, with a groove along each vein of radius r;
 //! - abaxial: bulge − `raised` · 2r · mound, so that each vein stands out below.
 //!
-//! The mound across a vein is that of the mesh's relief, which carries part of it on the major
-//! veins: what the mesh carries is subtracted here. The bulge is that of a sheet that swells and
-//! that veins hold down (`bulge`).
+//! The mound across a vein is that of the mesh's relief. The bulge is that of a sheet that swells and
+//! that veins hold down (`bulge`). The mesh's vertices are displaced by as much of both as its edges
+//! can carry; the slopes that its normals have by that are subtracted here (`carried`), so that mesh
+//! and map together always have the slopes of the two heights.
 //!
-//! - **In**: a [`SurfacePlan`], the veins, the frame of the contents map.
+//! - **In**: a [`SurfacePlan`], the veins, the mesh, the frame of the contents map.
 //! - **Out**: a [`SurfaceMap`]: for each texel and face the mean slopes and the mean squares of
 //!   slopes. The squares are averaged within texels, so that veins finer than a texel still make
-//!   the surface rougher (LEAN moments, \[olano2010\]).
+//!   the surface rougher (LEAN moments, \[olano2010\]). Where there are stomata or dust, also how
+//!   far it is to the next vein, and how thick the dust lies.
 //! - **Always true**: a mean square is at least the square of the mean. The same input gives the
 //!   same bits.
 //! - **Left out**: shadows of the relief on itself.
 
 mod bulge;
+mod carried;
+pub mod dust;
 mod mounds;
+mod plan;
+pub mod stomata;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::bulge::Bulge;
+pub(crate) use self::bulge::{Bulge, HeldSheet};
+use self::carried::{Carried, PLACES};
+use self::dust::{Gathering, optical_thicknesses};
 use self::mounds::Mounds;
-use super::BladeForm;
+pub use self::plan::SurfacePlan;
 use super::coverage::Coverage;
+use super::distances::Distances;
 use super::frame::UvFrame;
+use super::mesh::BladeMesh;
+use super::senescence::Withering;
 use super::tissue::{Tissue, TissueError};
 use crate::venation::network::VeinSegment;
-
-/// How the faces of a blade differ from smooth sheets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacePlan {
-    /// Depth of the groove over a vein on the adaxial face, over the vein's diameter, −2 (raised)
-    /// to 2.
-    pub impressed: f64,
-    /// Height of a vein on the abaxial face over its diameter, −2 to 2.
-    pub raised: f64,
-    /// Height to which the lamina bulges far from veins, towards the adaxial side, mm, 0 to 5.
-    pub bulge_mm: f64,
-    /// Distance from a vein within which the lamina rises to that height, mm, 0.05 to 100.
-    pub bulge_width_mm: f64,
-    /// GGX roughness that the coat has over a fully developed vein beside its own: the squares add
-    /// up; 0 to 1.
-    pub vein_roughness: f64,
-    /// Mean width of the cells of the epidermis, µm; 0 for none, else 5 to 500.
-    pub cells_um: f64,
-    /// Length of these cells along the leaf over their width, 1 to 30.
-    pub cell_elongation: f64,
-    /// Share of the coat's roughness, as a square, that the cells' own bulges make, 0 to 1.
-    pub cell_share: f64,
-    /// Optical thickness of the wax bloom on the adaxial and the abaxial face, 0 to 10.
-    pub bloom: [f64; 2],
-}
-
-impl SurfacePlan {
-    /// A surface of which nothing is said: smooth.
-    pub const SMOOTH: Self = Self {
-        impressed: 0.0,
-        raised: 0.0,
-        bulge_mm: 0.0,
-        bulge_width_mm: 1.0,
-        vein_roughness: 0.0,
-        cells_um: 0.0,
-        cell_elongation: 1.0,
-        cell_share: 0.2,
-        bloom: [0.0; 2],
-    };
-
-    /// Checks every field.
-    ///
-    /// # Errors
-    ///
-    /// [`TissueError`] for the first field out of range, by name.
-    pub fn validate(&self) -> Result<(), TissueError> {
-        let fields = [
-            ("impressed", self.impressed, -2.0..=2.0, "from -2 to 2"),
-            ("raised", self.raised, -2.0..=2.0, "from -2 to 2"),
-            ("bulge_mm", self.bulge_mm, 0.0..=5.0, "from 0 to 5"),
-            (
-                "bulge_width_mm",
-                self.bulge_width_mm,
-                0.05..=100.0,
-                "from 0.05 to 100",
-            ),
-            (
-                "vein_roughness",
-                self.vein_roughness,
-                0.0..=1.0,
-                "from 0 to 1",
-            ),
-            (
-                "cells_um",
-                self.cells_um,
-                0.0..=500.0,
-                "0, or from 5 to 500",
-            ),
-            (
-                "cell_elongation",
-                self.cell_elongation,
-                1.0..=30.0,
-                "from 1 to 30",
-            ),
-            ("cell_share", self.cell_share, 0.0..=1.0, "from 0 to 1"),
-            ("adaxial_bloom", self.bloom[0], 0.0..=10.0, "from 0 to 10"),
-            ("abaxial_bloom", self.bloom[1], 0.0..=10.0, "from 0 to 10"),
-        ];
-        for (field, value, range, text) in fields {
-            TissueError::unless(range.contains(&value), field, value, text)?;
-        }
-        let valid = self.cells_um == 0.0 || self.cells_um >= 5.0;
-        TissueError::unless(valid, "cells_um", self.cells_um, "0, or from 5 to 500")
-    }
-}
 
 /// Moments of the slopes of one face over a texel: `[mean ∂z/∂x, mean ∂z/∂y, mean (∂z/∂x)², mean
 /// (∂z/∂y)²]`, z towards the adaxial side.
 pub type SlopeMoments = [f32; 4];
+
+/// What lies on or in a face besides its slopes: optical thickness of the dust on the adaxial and on
+/// the abaxial face, and the distance to the axis of the nearest vein, mm.
+pub type Cover = [f32; 3];
+
+/// The distance to veins where there are none, mm.
+const NO_VEIN_MM: f32 = 1e3;
 
 /// The slopes of both faces over a [`UvFrame`], as texels of a map with the layout of the contents
 /// map.
@@ -131,6 +64,8 @@ pub struct SurfaceMap {
     pub height: u32,
     /// Row by row from `v = 0`; adaxial and abaxial face.
     pub texels: Vec<[SlopeMoments; 2]>,
+    /// As many texels of dust and stomata; empty if there are neither.
+    pub cover: Vec<Cover>,
     /// Sides of the frame, mm.
     pub size_mm: [f32; 2],
 }
@@ -146,12 +81,13 @@ pub struct SurfaceOf<'a> {
     pub veins: &'a [VeinSegment],
     /// The tissue, for the radius of a fully developed vein.
     pub tissue: &'a Tissue,
-    /// The blade, whose mesh carries part of the relief.
-    pub form: &'a BladeForm,
+    /// The blade's mesh, whose relief is not repeated; without one the map has all of it.
+    pub mesh: Option<&'a BladeMesh>,
+    /// How the tissue has aged.
+    pub withering: Option<&'a Withering>,
+    /// Decides where dust lies.
+    pub seed: u64,
 }
-
-/// Places within a texel, per side, at which its slopes are taken.
-const PLACES: usize = 3;
 
 impl SurfaceMap {
     /// The slopes of a blade on a map of `[width, height]` texels.
@@ -166,30 +102,97 @@ impl SurfaceMap {
     ) -> Result<Self, TissueError> {
         plan.validate()?;
         let frame = blade.frame;
+        let size = [width as usize, height as usize];
         let texel = frame.size / DVec2::new(f64::from(width), f64::from(height));
-        let bulge = Bulge::of(plan, blade, texel.max_element());
+        let sheet = HeldSheet {
+            frame,
+            veins: blade.veins,
+            full_vein_radius_mm: blade.tissue.full_vein_radius_mm,
+        };
+        let bulge = Bulge::of(plan, &sheet, texel.max_element());
         let mounds = Mounds::new(plan, blade, texel.max_element());
-        let coverage = Coverage::new(blade.margin, frame, [width as usize, height as usize]);
-        let mut texels = vec![[[0.0; 4]; 2]; width as usize * height as usize];
-        let rows = texels.par_chunks_mut(width as usize).enumerate();
+        // Faces whose veins have no heights of their own keep those of the mesh.
+        let with_veins = [plan.impressed, plan.raised] != [0.0; 2];
+        let carried = blade
+            .mesh
+            .and_then(|mesh| Carried::new(mesh, with_veins, frame, size));
+        let withering = blade.withering.filter(|_| plan.dead_roughness > 0.0);
+        let coverage = Coverage::new(blade.margin, frame, size);
+        let mut texels = vec![[[0.0; 4]; 2]; size[0] * size[1]];
+        let rows = texels.par_chunks_mut(size[0]).enumerate();
         rows.for_each(|(row, texels)| {
             let covered = coverage.row(row);
+            let carried = carried.as_ref().map(|carried| carried.row(row));
             for (column, out) in texels.iter_mut().enumerate().filter(|(c, _)| covered[*c]) {
                 let corner = frame.min + texel * DVec2::new(column as f64, row as f64);
-                *out = moments(&bulge, &mounds, corner, texel);
+                let carried = |place: [usize; 2]| {
+                    carried.as_ref().map_or(DVec2::ZERO, |slopes| {
+                        slopes[(place[1] * size[0] + column) * PLACES + place[0]]
+                    })
+                };
+                let dead = withering.map_or(0.0, |aged| aged.dead_share(corner + 0.5 * texel));
+                // As the renderer has it, a variance σ² of slopes adds 3 σ² to the square of a
+                // roughness.
+                let rough = dead * plan.dead_roughness * plan.dead_roughness / 3.0;
+                *out = moments(&bulge, &mounds, (corner, texel), rough, &carried);
             }
         });
         Ok(Self {
             width,
             height,
             texels,
+            cover: cover(plan, blade, size, &coverage),
             size_mm: frame.size.as_vec2().to_array(),
         })
     }
 }
 
-/// The moments of both faces over the texel at `corner`.
-fn moments(bulge: &Bulge, mounds: &Mounds, corner: DVec2, texel: DVec2) -> [SlopeMoments; 2] {
+/// Dust and the distance to veins for each texel; nothing if neither is needed.
+fn cover(
+    plan: &SurfacePlan,
+    blade: &SurfaceOf<'_>,
+    [width, height]: [usize; 2],
+    coverage: &Coverage,
+) -> Vec<Cover> {
+    let (has_dust, has_stomata) = (plan.dust.is_there(), plan.stomata.are_there());
+    if !has_dust && !has_stomata {
+        return Vec::new();
+    }
+    let frame = blade.frame;
+    let texel = frame.size / DVec2::new(width as f64, height as f64);
+    let gathering = Gathering::new(plan.dust, frame, blade.veins, blade.margin, blade.seed);
+    let lines = blade.veins.iter().map(|vein| [vein.from, vein.to]);
+    let veins =
+        (has_stomata && !blade.veins.is_empty()).then(|| Distances::new(lines.collect(), frame));
+    let mut loads = vec![f64::NAN; width * height];
+    let mut away = vec![NO_VEIN_MM; width * height];
+    let rows = loads.par_chunks_mut(width).zip(away.par_chunks_mut(width));
+    rows.enumerate().for_each(|(row, (loads, away))| {
+        let covered = coverage.row(row);
+        for column in (0..width).filter(|column| covered[*column]) {
+            let p = frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5);
+            loads[column] = if has_dust { gathering.at(p) } else { 0.0 };
+            if let Some(veins) = &veins {
+                away[column] = veins.at(p) as f32;
+            }
+        }
+    });
+    let taus = optical_thicknesses(&plan.dust, &loads);
+    let texels = taus.into_iter().zip(away);
+    texels
+        .map(|([above, below], away)| [above, below, away])
+        .collect()
+}
+
+/// The moments of both faces over the texel at a corner and of a size, mm, whose coats are `rough`
+/// by age; `carried` are the slopes of the mesh at each place in it.
+fn moments(
+    bulge: &Bulge,
+    mounds: &Mounds,
+    (corner, texel): (DVec2, DVec2),
+    rough: f64,
+    carried: &dyn Fn([usize; 2]) -> DVec2,
+) -> [SlopeMoments; 2] {
     let mut sums = [[0.0_f64; 4]; 2];
     let mut add = |slopes: [DVec2; 2], rough: f64, weight: f64| {
         for (sum, slope) in sums.iter_mut().zip(slopes) {
@@ -206,16 +209,19 @@ fn moments(bulge: &Bulge, mounds: &Mounds, corner: DVec2, texel: DVec2) -> [Slop
     };
     let veins = mounds.near(corner + 0.5 * texel);
     if veins.is_empty() {
-        let slope = bulge.slope(corner + 0.5 * texel);
-        add([slope; 2], 0.0, 1.0);
+        let middle = [PLACES / 2; 2];
+        let slope = bulge.slope(corner + 0.5 * texel) - carried(middle);
+        add([slope; 2], rough, 1.0);
     } else {
         for number in 0..PLACES * PLACES {
-            let place = DVec2::new((number % PLACES) as f64, (number / PLACES) as f64);
-            let p = corner + texel * (place + 0.5) / PLACES as f64;
-            let slope = bulge.slope(p);
+            let place = [number % PLACES, number / PLACES];
+            let share = DVec2::new(place[0] as f64, place[1] as f64);
+            let p = corner + texel * (share + 0.5) / PLACES as f64;
+            let slope = bulge.slope(p) - carried(place);
             let vein = mounds.slopes(veins, p);
             let faces = vein.slopes.map(|own| own + slope);
-            add(faces, vein.roughness, 1.0 / (PLACES * PLACES) as f64);
+            let rough = rough + vein.roughness;
+            add(faces, rough, 1.0 / (PLACES * PLACES) as f64);
         }
     }
     // Rounding to single precision must not bring a mean square below the square of the mean.

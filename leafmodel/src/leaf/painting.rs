@@ -9,12 +9,15 @@ use crate::blade::frame::UvFrame;
 use crate::blade::hairs::HairMesh;
 use crate::blade::mesh::BladeMesh;
 use crate::blade::senescence::Withering;
-use crate::blade::surface::{SurfaceMap, SurfaceOf};
+use crate::blade::surface::{Bulge, HeldSheet, SurfaceMap, SurfaceOf};
 use crate::blade::tissue::TissueError;
 use crate::mosaic::pattern::LaminaPattern;
 use crate::optics::Contents;
 use crate::shape::tips::Knob;
 use crate::venation::network::VeinSegment;
+
+/// Spacing of the heights that displace a mesh, over its longest edge: that of the edges themselves.
+const MESHED_WAVE: f64 = 0.75;
 
 impl LeafPlan {
     /// What the tissue of a lamina that the plan has brought forth holds, over the [`UvFrame`]
@@ -101,26 +104,46 @@ impl LeafPlan {
         Ok(map)
     }
 
-    /// The slopes of the faces of a lamina over `frame`, with `size` texels, if the plan has a
-    /// surface.
+    /// The bulge of a lamina over `frame`, as far as edges of its mesh can carry it.
+    pub(super) fn meshed_bulge(&self, lamina: &Lamina, frame: &UvFrame) -> Option<Bulge> {
+        let plan = self.surface.as_ref().filter(|plan| plan.bulge_mm > 0.0)?;
+        let veins: Vec<VeinSegment> = lamina.network.segments().collect();
+        let sheet = HeldSheet {
+            frame,
+            veins: &veins,
+            full_vein_radius_mm: self.tissue.full_vein_radius_mm,
+        };
+        Some(Bulge::of(plan, &sheet, MESHED_WAVE * self.form.max_edge_mm))
+    }
+
+    /// The slopes of the faces of a lamina over `frame`, with `size` texels, that its mesh does not
+    /// carry, if the plan has a surface.
     pub(super) fn surface_of(
         &self,
         lamina: &Lamina,
+        mesh: &BladeMesh,
         frame: &UvFrame,
         size: [u32; 2],
-    ) -> Result<Option<SurfaceMap>, TissueError> {
+    ) -> Result<Option<SurfaceMap>, LeafError> {
         let Some(plan) = &self.surface else {
             return Ok(None);
         };
         let veins: Vec<VeinSegment> = lamina.network.segments().collect();
+        let withering = if plan.dead_roughness > 0.0 {
+            self.withering(lamina, &lamina.place(frame, &veins))?
+        } else {
+            None
+        };
         let blade = SurfaceOf {
             frame,
             margin: lamina.outline.points(),
             veins: &veins,
             tissue: &self.tissue,
-            form: &self.form,
+            mesh: Some(mesh),
+            withering: withering.as_ref(),
+            seed: self.seed,
         };
-        SurfaceMap::of(plan, &blade, size).map(Some)
+        Ok(Some(SurfaceMap::of(plan, &blade, size)?))
     }
 
     /// The hairs of the blade made of a lamina, by kind.

@@ -52,10 +52,7 @@ impl Bloom {
         };
         if tau > 0.0 {
             bloom.mean = 1.0 - mean_over(|mu| 1.0 - bloom.sent_back(mu));
-            let rows = table.rows.iter();
-            bloom.passed = rows
-                .map(|row| mean_over(|mu| (1.0 - along(row, mu)) * (1.0 - bloom.sent_back(mu))))
-                .collect();
+            bloom.passed = table.passed_means(&bloom, |_| 1.0);
         }
         bloom
     }
@@ -140,6 +137,16 @@ impl CoatTable {
         }
     }
 
+    /// Means over diffuse light of `1 − E` of bloom over coat times a weight at each cosine, for
+    /// each roughness of the table.
+    pub(super) fn passed_means(&self, bloom: &Bloom, weight: impl Fn(f32) -> f32) -> Box<[f32]> {
+        let passed = |row: &[f32; MU_NODES], mu: f32| {
+            (1.0 - along(row, mu)) * (1.0 - bloom.sent_back(mu)) * weight(mu)
+        };
+        let rows = self.rows.iter();
+        rows.map(|row| mean_over(|mu| passed(row, mu))).collect()
+    }
+
     /// The coat of this roughness under a bloom; beyond the table's range that of its end.
     pub fn coat<'a>(
         &'a self,
@@ -207,8 +214,13 @@ impl LocalCoat<'_> {
     /// `1 − Ē` of coat and bloom.
     #[inline]
     pub fn passed_mean(&self) -> f32 {
-        let passed = &self.bloom.passed;
-        passed[self.row] * (1.0 - self.share) + passed[self.row + 1] * self.share
+        self.along_roughness(&self.bloom.passed)
+    }
+
+    /// The value at the coat's roughness of a list with one for each roughness of the table.
+    #[inline]
+    pub(super) fn along_roughness(&self, values: &[f32]) -> f32 {
+        values[self.row] * (1.0 - self.share) + values[self.row + 1] * self.share
     }
 
     /// The lobe's value and its sampling density for two directions on the side +z.

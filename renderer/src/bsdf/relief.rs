@@ -10,6 +10,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::coat_table::LocalCoat;
+use super::dust::{LocalDust, between};
 use super::leaf::LeafBsdf;
 use super::{BsdfSample, Scattered};
 use crate::sampling::warp;
@@ -29,6 +30,8 @@ pub struct ReliefFace<'a> {
     pub slope: Vec2,
     /// The coat, with the roughness of slopes that are not resolved.
     pub coat: LocalCoat<'a>,
+    /// The dust on it, if there is any.
+    pub dust: Option<LocalDust>,
 }
 
 /// A leaf at a point of its relief.
@@ -38,6 +41,8 @@ pub struct ReliefBsdf<'a, const N: usize> {
     pub leaf: LeafBsdf<'a, N>,
     /// Adaxial and abaxial.
     pub faces: [ReliefFace<'a>; 2],
+    /// Albedo of a grain of dust.
+    pub grains: Lanes<N>,
 }
 
 /// The same, seen from one direction.
@@ -51,12 +56,32 @@ pub struct ReliefView<'a, const N: usize> {
     /// Normal of the other face.
     other: Vec3,
     coats: [LocalCoat<'a>; 2],
+    /// Dust of the side of the view, and of the other.
+    dusts: [Option<LocalDust>; 2],
+    grains: Lanes<N>,
+    /// What of light from `wo` goes on through the dust.
+    onward: Lanes<N>,
     lambda: f32,
     /// What the bloom sends back of light from `wo`.
     sent_back: f32,
     reflecting: Lanes<N>,
     through: Lanes<N>,
     lobes: [f32; 3],
+}
+
+impl ReliefFace<'_> {
+    /// What a face passes of diffuse light from within, once it has left the tissue for good.
+    fn passed_mean(&self) -> f32 {
+        self.dust.map_or(self.coat.passed_mean(), |dust| {
+            dust.passed_mean / (1.0 - dust.sent_mean)
+        })
+    }
+}
+
+/// What goes on through dust, if there is any, at a cosine.
+#[inline]
+fn onward<const N: usize>(dust: Option<LocalDust>, grains: Lanes<N>, mu: f32) -> Lanes<N> {
+    dust.map_or(Lanes::ONE, |dust| LocalDust::onward(grains, dust.sent(mu)))
 }
 
 /// The adaxial unit normal of a slope.
@@ -119,6 +144,19 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         normal_of(self.seen_slope(wo)) * 1.0_f32.copysign(wo.z)
     }
 
+    /// Share of the diffuse light on the face that `wo` sees which the leaf scatters, to either
+    /// side; that of a dusty leaf is near.
+    pub fn albedo(&self, wo: Vec3) -> Lanes<N> {
+        let clean = self.leaf.albedo(wo);
+        match &self.faces[usize::from(wo.z < 0.0)].dust {
+            Some(dust) => {
+                let onward = LocalDust::onward(self.grains, dust.sent_mean);
+                clean * onward + self.grains * dust.sent_mean
+            }
+            None => clean,
+        }
+    }
+
     /// The leaf seen from `wo`; `None` from within its plane.
     pub fn seen_from(&self, wo: Vec3) -> Option<ReliefView<'a, N>> {
         if wo.z == 0.0 {
@@ -131,18 +169,31 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
         let sent_back = own.coat.sent_back(outward.z);
         let albedo = own.coat.reflected(outward.z);
         let passed = 1.0 - albedo;
-        let [to_own, to_other] = [own.coat.passed_mean(), other.coat.passed_mean()];
-        let (reflectance, [t_own, t_other]) = self.leaf.tissue().seen(side);
+        let dusts = [own.dust, other.dust];
+        let grains = self.grains;
+        let dusted =
+            |dust: Option<LocalDust>| dust.map_or(Lanes::ZERO, |dust| grains * dust.sent_mean);
+        let onward = onward(own.dust, grains, outward.z);
+        let [to_own, to_other] = [own, other].map(ReliefFace::passed_mean);
+        let tissue = self.leaf.tissue();
+        let (own_reflectance, t) = tissue.seen(side);
+        let (other_reflectance, _) = tissue.seen(1 - side);
+        let r = [own_reflectance, other_reflectance];
+        let (reflectance, [t_own, t_other]) = between(r, t, dusts.map(dusted));
         // The coats differ from those for which the tissue was made. The lesser of the two keeps
         // light from either side within bounds, and both directions alike.
         let mut through = t_own;
         for lane in 0..N {
             through.0[lane] = (t_own.0[lane] / to_other).min(t_other.0[lane] / to_own);
         }
-        // Bloom is sampled as the tissue is.
-        let shining = albedo - sent_back;
-        let reflected = passed * reflectance.mean() + sent_back;
-        let transmitted = passed * through.mean() * to_other;
+        // Bloom and dust are sampled as the tissue is.
+        let missed = own.dust.map_or(1.0, |dust| dust.missed(outward.z));
+        let shining = (albedo - sent_back) * missed * missed;
+        let grainy = own
+            .dust
+            .map_or(0.0, |dust| grains.mean() * dust.sent(outward.z));
+        let reflected = passed * (reflectance * onward).mean() + sent_back + grainy;
+        let transmitted = passed * (through * onward).mean() * to_other;
         let total = shining + reflected + transmitted;
         let share = if total > 0.0 { 1.0 / total } else { 0.0 };
         let other_normal = normal_of(other.slope);
@@ -153,8 +204,11 @@ impl<'a, const N: usize> ReliefBsdf<'a, N> {
             frame,
             other: other_normal,
             lambda: own.coat.ggx.lambda(outward),
-            reflecting: reflectance * (passed * FRAC_1_PI * back[0] / to_own),
-            through: through * (passed * FRAC_1_PI * back[1]),
+            reflecting: reflectance * onward * (passed * FRAC_1_PI * back[0] / to_own),
+            through: through * onward * (passed * FRAC_1_PI * back[1]),
+            dusts,
+            grains,
+            onward,
             sent_back,
             lobes: [shining, reflected, transmitted].map(|lobe| lobe * share),
             coats: [own.coat.clone(), other.coat.clone()],
@@ -184,17 +238,27 @@ impl<const N: usize> ReliefView<'_, N> {
         }
         let tilted = local.z / wi.z;
         let cosine = local.z.abs() * FRAC_1_PI;
+        let mu = local.z.abs();
         if through {
+            let onward = onward(self.dusts[1], self.grains, mu);
             return Scattered {
-                f: self.through * ((1.0 - other.reflected(local.z.abs())) * tilted),
+                f: self.through * onward * ((1.0 - other.reflected(mu)) * tilted),
                 pdf: transmitted * cosine,
             };
         }
-        let sent_back = coat.sent_back(local.z.abs());
+        let sent_back = coat.sent_back(mu);
         let bloom = coat.bloom(self.sent_back, sent_back);
-        let below = self.reflecting * (1.0 - coat.reflected(local.z.abs()));
+        let below = self.reflecting * (1.0 - coat.reflected(mu));
+        let mut f = (below + self.onward * bloom) * tilted;
+        let mut missed = 1.0;
+        if let Some(dust) = &self.dusts[0] {
+            let (from_wo, from_wi) = (dust.sent(self.outward.z), dust.sent(mu));
+            f = f * LocalDust::onward(self.grains, from_wi)
+                + dust.lobe(self.grains, from_wo, from_wi) * tilted;
+            missed = dust.missed(self.outward.z) * dust.missed(mu);
+        }
         let diffuse = Scattered {
-            f: (below + Lanes::splat(bloom)) * tilted,
+            f,
             pdf: reflected * cosine,
         };
         if !coat.shines() {
@@ -203,7 +267,7 @@ impl<const N: usize> ReliefView<'_, N> {
         let unveiled = (1.0 - self.sent_back) * (1.0 - sent_back);
         let (lobe, pdf) = coat.lobe(self.outward, self.lambda, above(local));
         Scattered {
-            f: diffuse.f + Lanes::splat(lobe * unveiled * tilted),
+            f: diffuse.f + Lanes::splat(lobe * unveiled * missed * tilted),
             pdf: diffuse.pdf + shining * pdf,
         }
     }

@@ -1,8 +1,8 @@
 //! A folder that Mitsuba 3 renders: `scene.xml`, meshes, content maps, and the data for the
 //! comparison.
 //!
-//! Leaves become the plugin `lamina_leaf`, solid tissue `lamina_solid`; `reference/` registers
-//! both. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
+//! Leaves become the plugin `lamina_leaf`, those with a relief `lamina_relief`, solid tissue
+//! `lamina_solid`; `reference/` registers them. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
 //! irradiance differs by 2e-5 over the scene. Environment pictures are upsampled to spectra by
 //! Mitsuba's own method, so scenes with one cannot be compared band by band.
 
@@ -26,6 +26,7 @@ use thiserror::Error;
 use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palette;
+use crate::material::relief::Relief;
 use crate::scene::description::{Band, Description, FilmKind, Light, Named};
 use crate::scene::world::World;
 
@@ -150,6 +151,10 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             ));
             openexr::write(&map_picture(map), &path)?;
         }
+        if let Some(relief) = material.relief() {
+            let id = units::material_id(scene, world, number);
+            openexr::write(&relief_picture(relief), &folder.join(relief_file(&id)))?;
+        }
     }
     for light in &scene.lights {
         if let Light::Environment { file, .. } = &light.value {
@@ -189,6 +194,28 @@ pub fn map_picture(map: &ContentsTexture) -> Picture {
         width: width as u32,
         height: height as u32,
         layers: layers.into(),
+        attributes: Vec::new(),
+    }
+}
+
+/// Path, within the export, of the relief of a material.
+fn relief_file(id: &str) -> String {
+    format!("maps/{id}.relief.exr")
+}
+
+/// The slopes of a relief as a picture whose first row is v = 0.
+fn relief_picture(relief: &Relief) -> Picture {
+    let ([width, height], texels) = relief.finest();
+    let faces = ["adaxial", "abaxial"].into_iter();
+    let names = faces.flat_map(|face| ["x", "y", "xx", "yy"].map(|of| format!("{face}.{of}")));
+    let layers = names.enumerate().map(|(channel, name)| Layer {
+        name,
+        data: texels.iter().map(|texel| texel[channel]).collect(),
+    });
+    Picture {
+        width: width as u32,
+        height: height as u32,
+        layers: layers.collect(),
         attributes: Vec::new(),
     }
 }

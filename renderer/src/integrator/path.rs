@@ -159,7 +159,8 @@ impl<const N: usize> Paths<'_, N> {
                 let scale = world.geometry.texture_scale(&hit);
                 let facing = ray.direction.dot(surface.shading_normal);
                 let footprint = cone::footprint(width, facing);
-                bsdf = bsdf.with_relief(relief.at(surface.uv, scale, footprint));
+                let faces = relief.at(surface.uv, scale, footprint);
+                bsdf = bsdf.with_relief(faces, relief.grains(wavelengths));
             }
             let frame = Frame::new(surface.shading_normal, surface.tangent);
             let wo = frame.to_local(-ray.direction);

@@ -1,5 +1,5 @@
-//! The relief of a leaf's faces: slopes from a map, filtered to the width of a ray, and the cells
-//! of the epidermis.
+//! The relief of a leaf's faces: slopes from a map, filtered to the width of a ray, the cells of the
+//! epidermis with its stomata, and the dust on it.
 //!
 //! Each level of the map halves the one before and averages slopes and squares of slopes. What a
 //! level no longer resolves is the variance of slopes, mean square less square of the mean; it makes
@@ -7,16 +7,25 @@
 //! from nearby and nothing flickers (LEAN mapping, \[olano2010\]).
 
 mod cells;
+mod levels;
+mod stomata;
 
 use std::sync::Arc;
 
 use glam::Vec2;
+use leafmodel::blade::surface::stomata::StomataPlan;
+use leafmodel::blade::surface::{Cover, SlopeMoments};
+use leafmodel::optics::dust::grain_albedo;
 
 use self::cells::Cells;
+use self::levels::Levels;
+use self::stomata::{Place, Stomata};
 use crate::bsdf::coat_table::{Bloom, CoatTable};
+use crate::bsdf::dust::DustTable;
 use crate::bsdf::leaf::Coat;
 use crate::bsdf::relief::ReliefFace;
 use crate::geometry::TextureScale;
+use crate::spectrum::{Curve, Lanes, Wavelengths};
 
 /// By how much the square of a GGX roughness grows with the variance of slopes.
 ///
@@ -25,16 +34,20 @@ use crate::geometry::TextureScale;
 /// coat's own and for 2.9 at `σ² = α²/2`.
 const SPREAD: f32 = 3.0;
 
-/// The moments of both faces: for each the means of ∂z/∂x and ∂z/∂y and of their squares.
-type Moments = [[f32; 4]; 2];
-
 /// The relief of a leaf's faces.
 #[derive(Clone, Debug)]
 pub struct Relief {
-    /// From the finest to one texel.
-    levels: Vec<Level>,
+    /// Of the adaxial and then the abaxial face the means of ∂z/∂x and ∂z/∂y and of their squares.
+    moments: Levels<8>,
+    /// Dust and the distance to veins.
+    cover: Option<Levels<3>>,
     faces: [FaceCoat; 2],
     cells: Option<Cells>,
+    /// Of the adaxial and the abaxial face.
+    stomata: [Option<Stomata>; 2],
+    /// Albedo of a grain of dust.
+    grains: Option<Curve>,
+    size_mm: Vec2,
 }
 
 /// The coat of a face where it is smooth.
@@ -45,13 +58,7 @@ struct FaceCoat {
     alphas: [f32; 2],
     table: Arc<CoatTable>,
     bloom: Bloom,
-}
-
-#[derive(Clone, Debug)]
-struct Level {
-    width: usize,
-    height: usize,
-    texels: Box<[Moments]>,
+    dust: Option<DustTable>,
 }
 
 /// What a leaf's relief is made from.
@@ -60,7 +67,9 @@ pub struct ReliefMap {
     /// Texels along u and v.
     pub size: [usize; 2],
     /// Row by row from v = 0.
-    pub texels: Vec<Moments>,
+    pub texels: Vec<[SlopeMoments; 2]>,
+    /// As many texels of dust and distances to veins; empty if there is neither dust nor stoma.
+    pub cover: Vec<Cover>,
     /// Sides of the map, mm.
     pub size_mm: [f32; 2],
     /// Width of epidermal cells, µm, 0 for none; their length over it; and their share of the
@@ -68,141 +77,131 @@ pub struct ReliefMap {
     pub cells: [f32; 3],
     /// Optical thickness of the bloom on the adaxial and the abaxial face.
     pub bloom: [f32; 2],
+    /// The stomata of both faces.
+    pub stomata: StomataPlan,
+    /// Factor on the reflectance of the soil that dust comes from; `None` if the faces are clean.
+    pub dust_brightness: Option<f64>,
 }
 
 impl Relief {
     /// The relief of a map under an adaxial and an abaxial coat.
     pub fn new(map: ReliefMap, coats: &[Coat; 2]) -> Self {
-        let [width, height] = map.size;
-        let mut levels = vec![Level {
-            width,
-            height,
-            texels: map.texels.into(),
-        }];
-        while let Some(next) = levels.last().and_then(Level::half) {
-            levels.push(next);
-        }
+        let is_dusty = map.dust_brightness.is_some();
         let face = |side: usize| {
             let (eta, alphas) = coats[side].numbers();
             let table = CoatTable::of(eta);
+            let bloom = Bloom::new(map.bloom[side], &table);
             FaceCoat {
                 eta,
                 alphas,
-                bloom: Bloom::new(map.bloom[side], &table),
+                dust: is_dusty.then(|| DustTable::new(&table, &bloom)),
+                bloom,
                 table,
             }
         };
         let faces = [face(0), face(1)];
+        let flat = map.texels.iter().map(|[above, below]| {
+            std::array::from_fn(|i| if i < 4 { above[i] } else { below[i - 4] })
+        });
+        let soil = |brightness: f64| {
+            Curve::uniform(300.0, 50.0, 46, move |nm| grain_albedo(nm, brightness))
+        };
         Self {
-            levels,
+            moments: Levels::new(map.size, flat.collect()),
+            cover: (!map.cover.is_empty()).then(|| Levels::new(map.size, map.cover)),
             faces,
             cells: Cells::new(map.cells, map.size_mm),
+            stomata: [0, 1].map(|face| Stomata::new(&map.stomata, face)),
+            grains: map.dust_brightness.map(soil),
+            size_mm: Vec2::from(map.size_mm),
         }
+    }
+
+    /// Texels along u and v, and of the adaxial and then the abaxial face the means of ∂z/∂x and
+    /// ∂z/∂y and of their squares, row by row from v = 0.
+    pub fn finest(&self) -> ([usize; 2], &[[f32; 8]]) {
+        (self.moments.size(), self.moments.finest())
+    }
+
+    /// Albedo of a grain of dust at a path's wavelengths.
+    #[inline]
+    pub fn grains<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Lanes<N> {
+        let grains = self.grains.as_ref();
+        grains.map_or(Lanes::ZERO, |grains| grains.lanes(wavelengths))
     }
 
     /// The adaxial and the abaxial face at `uv`, seen by a ray of this width on the surface, m.
     pub fn at(&self, uv: Vec2, scale: Option<TextureScale>, footprint: f32) -> [ReliefFace<'_>; 2] {
         let metres_per_v = scale.map_or(1.0, |scale| scale.metres_per_v);
-        let texel = metres_per_v / self.levels[0].height as f32;
+        let texel = metres_per_v / self.moments.size()[1] as f32;
         let level = (footprint / texel).log2();
-        let moments = self.moments(uv, level);
+        let moments = self.moments.at(uv, level);
+        let cover = self.cover.as_ref().map(|cover| cover.at(uv, level));
+        let width = footprint / metres_per_v;
         let cells = self.cells.as_ref();
-        let cells = cells.and_then(|cells| cells.at(uv, footprint / metres_per_v));
+        let cells = cells.and_then(|cells| cells.at(uv, width));
         let mirrored = scale.is_some_and(|scale| scale.is_mirrored);
         let face = |side: usize| {
-            let [x, y, xx, yy] = moments[side];
+            let [x, y, xx, yy] = [0, 1, 2, 3].map(|i| moments[4 * side + i]);
             let coat = &self.faces[side];
             let mut slope = Vec2::new(x, y);
             let mut squares = [
                 coat.alphas[0] * coat.alphas[0] + SPREAD * (xx - x * x).max(0.0),
                 coat.alphas[1] * coat.alphas[1] + SPREAD * (yy - y * y).max(0.0),
             ];
+            // Cells bulge outwards on either face, and stomata are sunk.
+            let outward = if side == 0 { 1.0 } else { -1.0 };
             if let Some(cells) = &cells {
-                // Cells bulge outwards on either face.
-                let outward = if side == 0 { 1.0 } else { -1.0 };
                 let alphas = Vec2::from(coat.alphas);
                 slope += outward * cells.slope * alphas;
                 for axis in 0..2 {
                     squares[axis] -= cells.resolved[axis] * alphas[axis] * alphas[axis];
                 }
             }
+            let stomata = &self.stomata[side];
+            if let Some(stomata) = stomata.filter(|s| s.are_seen(width * self.size_mm.y)) {
+                let pit = stomata.at(&self.place(uv, width), squares);
+                slope += outward * pit.slope;
+                for (axis, square) in squares.iter_mut().enumerate() {
+                    *square -= pit.resolved[axis];
+                }
+            }
             if mirrored {
                 slope.x = -slope.x;
             }
             let alphas = squares.map(|square| square.max(0.0).sqrt());
+            let dust = cover.map_or(0.0, |cover| cover[side]);
+            let coated = coat.table.coat(coat.eta, alphas, &coat.bloom);
+            let table = coat.dust.as_ref().filter(|_| dust > 0.0);
             ReliefFace {
                 slope,
-                coat: coat.table.coat(coat.eta, alphas, &coat.bloom),
+                dust: table.map(|table| table.dust(dust, &coated)),
+                coat: coated,
             }
         };
         [face(0), face(1)]
     }
 
-    /// Moments at a level, linear between levels.
-    fn moments(&self, uv: Vec2, level: f32) -> Moments {
-        let last = self.levels.len() - 1;
-        // Not a number, of a ray without width, is the finest level.
-        let level = if level > 0.0 {
-            level.min(last as f32)
-        } else {
-            0.0
+    /// The place at `uv` as stomata see it, for a ray that is `width` wide in units of v.
+    fn place(&self, uv: Vec2, width: f32) -> Place {
+        let [columns, rows] = self.moments.size().map(|count| count as f32);
+        let away = |uv: Vec2| {
+            let cover = self.cover.as_ref();
+            cover.map_or(f32::INFINITY, |cover| cover.at(uv, 0.0)[2])
         };
-        let low = level as usize;
-        let share = level - low as f32;
-        let fine = self.levels[low].at(uv);
-        if share == 0.0 {
-            return fine;
+        let texel = Vec2::new(columns, rows).recip();
+        let difference = |step: Vec2| away(uv + step) - away(uv - step);
+        let rise = Vec2::new(
+            difference(Vec2::new(texel.x, 0.0)) / (texel.x * self.size_mm.x),
+            difference(Vec2::new(0.0, texel.y)) / (texel.y * self.size_mm.y),
+        );
+        Place {
+            mm: uv * self.size_mm,
+            from_vein_mm: away(uv),
+            // Without a vein, NaN: any direction is as good.
+            away: rise.try_normalize().unwrap_or(Vec2::X),
+            width_mm: width * self.size_mm.y,
         }
-        mix(&fine, &self.levels[(low + 1).min(last)].at(uv), share)
-    }
-}
-
-fn mix(a: &Moments, b: &Moments, share: f32) -> Moments {
-    std::array::from_fn(|face| {
-        std::array::from_fn(|i| a[face][i] + (b[face][i] - a[face][i]) * share)
-    })
-}
-
-impl Level {
-    /// The level of half as many texels on each side; `None` for one texel.
-    fn half(&self) -> Option<Self> {
-        if self.width == 1 && self.height == 1 {
-            return None;
-        }
-        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
-        let mut texels = vec![[[0.0; 4]; 2]; width * height];
-        for (row, texels) in texels.chunks_mut(width).enumerate() {
-            for (column, texel) in texels.iter_mut().enumerate() {
-                let pick = |dx: usize, dy: usize| {
-                    let x = (2 * column + dx).min(self.width - 1);
-                    let y = (2 * row + dy).min(self.height - 1);
-                    &self.texels[y * self.width + x]
-                };
-                let upper = mix(pick(0, 0), pick(1, 0), 0.5);
-                let lower = mix(pick(0, 1), pick(1, 1), 0.5);
-                *texel = mix(&upper, &lower, 0.5);
-            }
-        }
-        Some(Self {
-            width,
-            height,
-            texels: texels.into(),
-        })
-    }
-
-    /// Bilinear between texel centres, clamped at the border.
-    fn at(&self, uv: Vec2) -> Moments {
-        let place = |share: f32, count: usize| {
-            let at = (share * count as f32 - 0.5).clamp(0.0, (count - 1) as f32);
-            let low = at as usize;
-            (low, (low + 1).min(count - 1), at - low as f32)
-        };
-        let (x0, x1, share_x) = place(uv.x, self.width);
-        let (y0, y1, share_y) = place(uv.y, self.height);
-        let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
-        let below = mix(texel(x0, y0), texel(x1, y0), share_x);
-        let above = mix(texel(x0, y1), texel(x1, y1), share_x);
-        mix(&below, &above, share_y)
     }
 }
 

@@ -92,7 +92,8 @@ pub fn grow(
         Some(cache) => cache.take_or_grow(&leaf.plan, grow)?,
         None => grow()?,
     };
-    let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &leaf.faces);
+    let faces = leaf.faces_by_age();
+    let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &faces);
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
     let blade = |map: MapParts| {
@@ -107,9 +108,12 @@ pub fn grow(
             (Some(parts), Some(plan)) => blade.with_relief(ReliefMap {
                 size,
                 texels: parts.texels,
+                cover: parts.cover,
                 size_mm: parts.size_mm,
                 cells: [plan.cells_um, plan.cell_elongation, plan.cell_share].map(|n| n as f32),
                 bloom: plan.bloom.map(|tau| tau as f32),
+                stomata: plan.stomata,
+                dust_brightness: plan.dust.is_there().then_some(plan.dust.brightness),
             }),
             (_, _) => blade,
         }
@@ -157,6 +161,7 @@ impl LeafParts {
                 texels: grown.contents.texels,
                 surface: grown.surface.map(|map| SurfaceParts {
                     texels: map.texels,
+                    cover: map.cover,
                     size_mm: map.size_mm,
                 }),
             });

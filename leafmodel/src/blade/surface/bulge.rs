@@ -15,7 +15,8 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::frame::UvFrame;
-use super::{SurfaceOf, SurfacePlan};
+use super::SurfacePlan;
+use crate::venation::network::VeinSegment;
 
 /// Strength of a fully developed vein, in 1/L.
 const STRENGTH: f64 = 20.0;
@@ -24,9 +25,20 @@ const PLACES_WITHIN: f64 = 8.0;
 /// Sweeps of successive over-relaxation. Errors fall to 0.84 in each on the finest grid.
 const SWEEPS: usize = 48;
 
+/// A sheet that veins hold down.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeldSheet<'a> {
+    /// Where it lies.
+    pub(crate) frame: &'a UvFrame,
+    /// The veins.
+    pub(crate) veins: &'a [VeinSegment],
+    /// Radius from which a vein is fully developed, mm.
+    pub(crate) full_vein_radius_mm: f64,
+}
+
 /// Heights on a grid.
 #[derive(Debug)]
-pub(super) struct Bulge {
+pub(crate) struct Bulge {
     origin: DVec2,
     spacing: f64,
     columns: usize,
@@ -35,16 +47,18 @@ pub(super) struct Bulge {
 }
 
 impl Bulge {
-    /// The bulge of a blade on a grid that is not much finer than texels of a map.
-    pub(super) fn of(plan: &SurfacePlan, blade: &SurfaceOf<'_>, texel: f64) -> Self {
+    /// The bulge of a blade on a grid that is not much finer than `finest`, mm: texels of a map, or
+    /// edges of a mesh. On a grid coarser than the width what is left is the mean height of many
+    /// areoles.
+    pub(crate) fn of(plan: &SurfacePlan, sheet: &HeldSheet<'_>, finest: f64) -> Self {
         let (height, width) = (plan.bulge_mm, plan.bulge_width_mm);
-        let spacing = texel.max(width / PLACES_WITHIN);
-        let mut bulge = Self::flat(blade.frame, spacing);
+        let spacing = finest.max(width / PLACES_WITHIN);
+        let mut bulge = Self::flat(sheet.frame, spacing);
         if height == 0.0 {
             return bulge;
         }
-        let rows = (blade.frame.size.y / spacing).ceil() as usize + 3;
-        let held = bulge.held(blade, STRENGTH / width, rows);
+        let rows = (sheet.frame.size.y / spacing).ceil() as usize + 3;
+        let held = bulge.held(sheet, STRENGTH / width, rows);
         bulge.heights = vec![0.5 * height; bulge.columns * rows];
         bulge.relax(&held, height, spacing * spacing / (width * width));
         bulge
@@ -60,15 +74,15 @@ impl Bulge {
     }
 
     /// The strength of the veins times their length about each place of the grid.
-    fn held(&self, blade: &SurfaceOf<'_>, strength: f64, rows: usize) -> Vec<f64> {
+    fn held(&self, sheet: &HeldSheet<'_>, strength: f64, rows: usize) -> Vec<f64> {
         let mut held = vec![0.0; self.columns * rows];
-        for vein in blade.veins {
+        for vein in sheet.veins {
             let along = vein.to - vein.from;
             let pieces = (2.0 * along.length() / self.spacing).ceil().max(1.0);
             for piece in 0..pieces as usize {
                 let t = (piece as f64 + 0.5) / pieces;
                 let radius = vein.radius_from + t * (vein.radius_to - vein.radius_from);
-                let grown = (radius / blade.tissue.full_vein_radius_mm).min(1.0);
+                let grown = (radius / sheet.full_vein_radius_mm).min(1.0);
                 let amount = strength * grown * along.length() / pieces;
                 let place = (vein.from + t * along - self.origin) / self.spacing;
                 // Veins beyond the frame hold nothing within it.
@@ -128,7 +142,7 @@ impl Bulge {
     }
 
     /// Slopes at a point, bilinear between places of central differences.
-    pub(super) fn slope(&self, p: DVec2) -> DVec2 {
+    pub(crate) fn slope(&self, p: DVec2) -> DVec2 {
         if self.heights.is_empty() {
             return DVec2::ZERO;
         }
@@ -150,12 +164,16 @@ impl Bulge {
         low.lerp(high, share.y)
     }
 
-    /// Height at a point, mm, bilinear.
-    #[cfg(test)]
-    pub(super) fn height(&self, p: DVec2) -> f64 {
+    /// Height at a point, mm, bilinear; beyond the frame that at its border.
+    pub(crate) fn height(&self, p: DVec2) -> f64 {
+        if self.heights.is_empty() {
+            return 0.0;
+        }
+        let rows = self.heights.len() / self.columns;
         let place = (p - self.origin) / self.spacing;
-        let low = place.floor();
-        let share = place - low;
+        let most = DVec2::new((self.columns - 2) as f64, (rows - 2) as f64);
+        let low = place.floor().clamp(DVec2::ZERO, most);
+        let share = (place - low).clamp(DVec2::ZERO, DVec2::ONE);
         let (column, row) = (low.x as usize, low.y as usize);
         let mix = |row| self.at(column, row) * (1.0 - share.x) + self.at(column + 1, row) * share.x;
         mix(row) * (1.0 - share.y) + mix(row + 1) * share.y

@@ -4,19 +4,16 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::super::relief::{HALF_WIDTH, developed};
+use super::super::relief::HALF_WIDTH;
 use super::super::vein_grid::VeinGrid;
 use super::super::vein_profile::strength;
 use super::{SurfaceOf, SurfacePlan};
 
-/// The mounds of all veins, as far as the mesh does not carry them.
+/// The mounds of all veins.
 #[derive(Debug)]
 pub(super) struct Mounds {
     /// Height over diameter towards −z, of the adaxial and the abaxial face.
     heights: [f64; 2],
-    /// Height over diameter of the mesh's relief, and the least radius that it has.
-    meshed: f64,
-    least_radius: f64,
     /// Variance of slope that the coat has more over a fully developed vein.
     roughness: f64,
     full_radius: f64,
@@ -43,8 +40,6 @@ impl Mounds {
         };
         Self {
             heights,
-            meshed: blade.form.relief,
-            least_radius: blade.form.meshed_vein_radius_mm,
             // As the renderer has it, a variance σ² of slopes adds 3 σ² to the square of a roughness.
             roughness: plan.vein_roughness * plan.vein_roughness / 3.0,
             full_radius: blade.tissue.full_vein_radius_mm,
@@ -78,14 +73,11 @@ impl Mounds {
                 continue;
             }
             highest = height;
-            let carried = self.meshed * developed(near.radius, self.least_radius);
             // Downwards over the distance; the mound itself points to −z.
             let steepness = near.radius * PI / width * libm::sin(PI * away);
             let outward = (p - near.foot).normalize_or_zero();
             mound = Mound {
-                slopes: self
-                    .heights
-                    .map(|own| outward * ((own - carried) * steepness)),
+                slopes: self.heights.map(|own| outward * (own * steepness)),
                 roughness: self.roughness * profile * strength(near.radius, self.full_radius),
             };
         }

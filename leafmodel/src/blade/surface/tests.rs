@@ -1,7 +1,6 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::blade::tests::flat;
 use crate::blade::tissue::tests::GREEN;
 use crate::testing::fixed;
 
@@ -20,21 +19,28 @@ fn vein(from: [f64; 2], to: [f64; 2], radius: f64) -> VeinSegment {
     }
 }
 
-fn map(plan: &SurfacePlan, veins: &[VeinSegment], form: &BladeForm, size: u32) -> SurfaceMap {
-    let blade = SurfaceOf {
+fn map(plan: &SurfacePlan, veins: &[VeinSegment], size: u32) -> SurfaceMap {
+    SurfaceMap::of(plan, &bare(veins), [size; 2]).expect("a good plan")
+}
+
+/// A blade without a mesh.
+fn bare(veins: &[VeinSegment]) -> SurfaceOf<'_> {
+    SurfaceOf {
         frame: &FRAME,
         margin: &[],
         veins,
         tissue: &GREEN,
-        form,
-    };
-    SurfaceMap::of(plan, &blade, [size; 2]).expect("a good plan")
+        mesh: None,
+        withering: None,
+        seed: 1,
+    }
 }
 
-fn smooth_form() -> BladeForm {
-    BladeForm {
-        relief: 0.0,
-        ..flat()
+fn sheet(veins: &[VeinSegment]) -> HeldSheet<'_> {
+    HeldSheet {
+        frame: &FRAME,
+        veins,
+        full_vein_radius_mm: GREEN.full_vein_radius_mm,
     }
 }
 
@@ -60,12 +66,7 @@ fn a_vein_is_a_groove_above_and_a_ridge_below_of_the_asked_height() {
         ..SurfacePlan::SMOOTH
     };
     for radius in [0.4, 0.15] {
-        let map = map(
-            &plan,
-            &[vein([0.0, -1.0], [0.0, 11.0], radius)],
-            &smooth_form(),
-            400,
-        );
+        let map = map(&plan, &[vein([0.0, -1.0], [0.0, 11.0], radius)], 400);
         let heights = profile(&map, 200);
         for (face, over) in [(0, 0.25), (1, 0.5)] {
             let lowest = heights.iter().map(|h| h[face]).fold(0.0, f64::min);
@@ -86,36 +87,6 @@ fn a_vein_is_a_groove_above_and_a_ridge_below_of_the_asked_height() {
 }
 
 #[test]
-fn what_the_mesh_carries_is_not_there_twice() {
-    let plan = SurfacePlan {
-        impressed: 0.5,
-        raised: 0.5,
-        ..SurfacePlan::SMOOTH
-    };
-    let form = BladeForm {
-        relief: 0.5,
-        meshed_vein_radius_mm: 0.1,
-        ..flat()
-    };
-    let wide = map(&plan, &[vein([0.0, -1.0], [0.0, 11.0], 0.3)], &form, 200);
-    assert!(
-        wide.texels
-            .iter()
-            .flatten()
-            .flatten()
-            .all(|&value| value == 0.0)
-    );
-    let fine = map(&plan, &[vein([0.0, -1.0], [0.0, 11.0], 0.08)], &form, 200);
-    assert!(
-        fine.texels
-            .iter()
-            .flatten()
-            .flatten()
-            .any(|&value| value != 0.0)
-    );
-}
-
-#[test]
 fn veins_below_a_texel_keep_the_mean_square_of_their_slopes() {
     let plan = SurfacePlan {
         raised: 0.4,
@@ -128,7 +99,7 @@ fn veins_below_a_texel_keep_the_mean_square_of_their_slopes() {
         })
         .collect();
     let total = |size: u32| {
-        let map = map(&plan, &veins, &smooth_form(), size);
+        let map = map(&plan, &veins, size);
         let sum: f64 = map.texels.iter().map(|faces| f64::from(faces[1][2])).sum();
         sum / f64::from(size * size)
     };
@@ -162,15 +133,7 @@ fn between_two_veins_the_bulge_is_that_of_the_equation() {
             vein([x, -40.0], [x, 50.0], 0.3)
         })
         .collect();
-    let form = smooth_form();
-    let blade = SurfaceOf {
-        frame: &FRAME,
-        margin: &[],
-        veins: &veins,
-        tissue: &GREEN,
-        form: &form,
-    };
-    let bulge = bulge::Bulge::of(&plan, &blade, 0.05);
+    let bulge = bulge::Bulge::of(&plan, &sheet(&veins), 0.05);
     // GREEN's veins are full from 0.25 mm on: σ = 20/L. At a vein 2 h' = σ h₀.
     let (half, sigma) = (1.0, 20.0 / width);
     let tanh = (half / width).tanh();
@@ -192,7 +155,6 @@ fn a_wide_areole_bulges_more_than_a_small_one() {
         bulge_width_mm: 0.5,
         ..SurfacePlan::SMOOTH
     };
-    let form = smooth_form();
     let height = |spacing: f64| {
         let veins: Vec<_> = (0..=(20.0 / spacing) as i32)
             .map(|i| {
@@ -200,14 +162,7 @@ fn a_wide_areole_bulges_more_than_a_small_one() {
                 vein([x, -1.0], [x, 11.0], 0.3)
             })
             .collect();
-        let blade = SurfaceOf {
-            frame: &FRAME,
-            margin: &[],
-            veins: &veins,
-            tissue: &GREEN,
-            form: &form,
-        };
-        bulge::Bulge::of(&plan, &blade, 0.05).height(DVec2::new(0.5 * spacing, 5.0))
+        bulge::Bulge::of(&plan, &sheet(&veins), 0.05).height(DVec2::new(0.5 * spacing, 5.0))
     };
     assert!(height(0.5) < 0.5 * height(2.0));
 }
@@ -223,12 +178,12 @@ proptest! {
     ) {
         let plan = SurfacePlan { impressed, raised, bulge_mm, vein_roughness, ..SurfacePlan::SMOOTH };
         let veins: Vec<_> = ends.into_iter().map(|(from, to, r)| vein(from, to, r)).collect();
-        let one = map(&plan, &veins, &flat(), 48);
+        let one = map(&plan, &veins, 48);
         for [x, y, xx, yy] in one.texels.iter().flatten() {
             prop_assert!([x, y, xx, yy].iter().all(|value| value.is_finite()));
             prop_assert!(*xx >= x * x && *yy >= y * y);
         }
-        prop_assert_eq!(one, map(&plan, &veins, &flat(), 48));
+        prop_assert_eq!(one, map(&plan, &veins, 48));
     }
 }
 
@@ -257,5 +212,11 @@ fn numbers_out_of_range_are_refused_by_name() {
         }),
         "cells_um"
     );
+    let mut pitted = smooth;
+    pitted.stomata.row_um = 5.0;
+    assert_eq!(refused(pitted), "stomata.row_um");
+    let mut dusty = smooth;
+    dusty.dust.load_g_per_m2 = [0.0, 51.0];
+    assert_eq!(refused(dusty), "dust.abaxial_g_per_m2");
     assert_eq!(smooth.validate(), Ok(()));
 }

@@ -6,6 +6,8 @@ use crate::blade::hairs::{HairPlace, HairPlan};
 use crate::blade::petiole::{Course, Section};
 use crate::blade::stance::{Drying, MarginGrowth, Stance, Wilting};
 use crate::blade::surface::SurfacePlan;
+use crate::blade::surface::dust::DustPlan;
+use crate::blade::surface::stomata::StomataPlan;
 use crate::blade::unevenness::Unevenness;
 use crate::optics::{Constituent, Contents, VeinFactors};
 
@@ -215,7 +217,14 @@ pub(super) fn surface() -> impl Strategy<Value = Option<SurfacePlan>> {
     let veins = (-2.0..2.0, -2.0..2.0, 0.0..1.0);
     let bulge = (0.0..5.0, 0.05..100.0);
     let cells = (prop_oneof![Just(0.0), 5.0..500.0], 1.0..30.0, 0.0..1.0);
-    let any = (veins, bulge, cells).prop_map(|(veins, bulge, cells)| SurfacePlan {
+    let age = (0.0..1.0, 0.0..1.0, 0.2..1.5);
+    let any = (veins, bulge, cells, age, stomata(), dust());
+    let any = any.prop_map(|(veins, bulge, cells, age, stomata, dust)| SurfacePlan {
+        dead_roughness: age.0,
+        maturity: age.1,
+        young_roughness: age.2,
+        stomata,
+        dust,
         impressed: veins.0,
         raised: veins.1,
         vein_roughness: veins.2,
@@ -227,6 +236,36 @@ pub(super) fn surface() -> impl Strategy<Value = Option<SurfacePlan>> {
         bloom: [bulge.0, veins.2],
     });
     prop::option::of(any)
+}
+
+fn stomata() -> impl Strategy<Value = StomataPlan> {
+    let densities = [0, 1].map(|_| prop_oneof![Just(0.0), 1.0..2000.0]);
+    let row = prop_oneof![Just(0.0), 20.0..1000.0];
+    let any = (densities, 5.0..120.0, 0.2..1.0, 0.0..30.0, row);
+    any.prop_map(
+        |(per_mm2, length_um, aspect, depth_um, row_um)| StomataPlan {
+            per_mm2,
+            length_um,
+            aspect,
+            depth_um,
+            row_um,
+        },
+    )
+}
+
+fn dust() -> impl Strategy<Value = DustPlan> {
+    let grains = ([0.0..50.0, 0.0..50.0], 1.0..100.0, 0.1..1.5);
+    let places = (0.0..1.0, 0.2..200.0, 0.0..10.0, 0.0..10.0, 0.05..50.0);
+    (grains, places).prop_map(|(grains, places)| DustPlan {
+        load_g_per_m2: grains.0,
+        grain_um: grains.1,
+        brightness: grains.2,
+        patchiness: places.0,
+        patch_mm: places.1,
+        at_veins: places.2,
+        at_margin: places.3,
+        reach_mm: places.4,
+    })
 }
 
 pub(super) fn unevenness() -> impl Strategy<Value = Option<Unevenness>> {

@@ -2,6 +2,7 @@ use std::f32::consts::{PI, TAU};
 
 use super::*;
 use crate::bsdf::coat_table::{Bloom, CoatTable};
+use crate::bsdf::dust::DustTable;
 use crate::bsdf::leaf::{Coat, Tissue, usual_abaxial_ratio};
 
 const ALPHA: f32 = 0.3;
@@ -23,7 +24,28 @@ fn with_leaf<T>(
         faces: slopes.map(|slope| ReliefFace {
             slope,
             coat: table.coat(eta, [alpha; 2], &bloom),
+            dust: None,
         }),
+        grains: Lanes::ZERO,
+    })
+}
+
+/// The same with dust of these optical thicknesses on its faces, whose grains have this albedo.
+fn with_dust<T>(
+    leaf: [f32; 2],
+    [eta, alpha, bloom]: [f32; 3],
+    (taus, albedo): ([f32; 2], f32),
+    then: impl Fn(&ReliefBsdf<'_, 1>) -> T,
+) -> T {
+    with_leaf(leaf, [Vec2::ZERO; 2], [eta, alpha, bloom], |clean| {
+        let table = CoatTable::of(eta);
+        let dusty = DustTable::new(&table, &Bloom::new(bloom, &table));
+        let mut leaf = clean.clone();
+        leaf.grains = Lanes([albedo]);
+        for (face, tau) in leaf.faces.iter_mut().zip(taus) {
+            face.dust = (tau > 0.0).then(|| dusty.dust(tau, &face.coat));
+        }
+        then(&leaf)
     })
 }
 
@@ -136,7 +158,9 @@ fn a_level_face_is_the_plain_leaf() {
         faces: [ALPHA, 0.45].map(|alpha| ReliefFace {
             slope: Vec2::ZERO,
             coat: table.coat(1.45, [alpha; 2], &bloom),
+            dust: None,
         }),
+        grains: Lanes::ZERO,
     };
     for wo in [direction(0.3, 0.2), -direction(1.0, 2.0)] {
         for wi in [direction(0.6, 1.0), -direction(0.9, 4.0)] {
@@ -194,4 +218,97 @@ fn bloom_is_reciprocal_and_brightens_a_dark_leaf_by_what_it_sends_back() {
     });
     let expected = 0.5 * (1.0 - libm::expf(-0.3));
     assert!((sent / expected - 1.0).abs() < 0.01, "{sent} {expected}");
+}
+
+#[test]
+fn a_white_leaf_under_white_dust_sends_out_what_comes_in_and_never_more() {
+    for taus in [[0.02, 0.0], [0.3, 0.0], [0.5, 0.2], [3.0, 8.0]] {
+        for (eta, bloom, most_lost) in [(1.0, 0.0, 0.004), (1.45, 0.0, 0.06), (1.45, 0.3, 0.08)] {
+            for rt in [[0.6, 0.4], [1.0, 0.0], [0.2, 0.8]] {
+                with_dust(rt, [eta, 0.3, bloom], (taus, 1.0), |leaf| {
+                    for theta in [0.1, 0.7, 1.2, 1.5] {
+                        for wo in [direction(theta, 1.0), -direction(theta, 1.0)] {
+                            let sent = sent_out(leaf, wo);
+                            let about = format!("{sent} at {taus:?} {eta} {bloom} {rt:?} {wo}");
+                            assert!(sent <= 1.003, "{about}");
+                            // The veiled part of the gloss is lost, more of it at grazing angles;
+                            // and where coats are dissimilar, what passes.
+                            let lost = most_lost * if theta > 1.0 { 4.0 } else { 1.0 };
+                            assert!(sent >= 1.0 - lost || rt[1] > 0.5, "{about}");
+                        }
+                    }
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn dust_is_reciprocal() {
+    let at = |wo: Vec3, wi: Vec3| {
+        with_dust([0.3, 0.2], [1.45, 0.3, 0.1], ([0.4, 0.2], 0.6), |leaf| {
+            leaf.seen_from(wo).expect("it is seen").scatter(wi).f.0[0]
+        })
+    };
+    for wi in [direction(1.1, 2.0), -direction(1.1, 2.0)] {
+        let wo = direction(0.4, 0.3);
+        assert!((at(wo, wi) / at(wi, wo) - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn samples_of_a_dusty_leaf_have_the_value_that_they_say() {
+    with_dust([0.4, 0.3], [1.45, 0.3, 0.0], ([0.6, 0.3], 0.7), |leaf| {
+        for wo in [direction(0.5, 1.0), -direction(1.1, 3.0)] {
+            let view = leaf.seen_from(wo).expect("it is not edge-on");
+            let (mut mean, count) = (0.0, 20_000);
+            for i in 0..count {
+                let at = |step: f64| ((f64::from(i) + 0.5) * step).fract() as f32;
+                let lobe = (i as f32 + 0.5) / count as f32;
+                let u = Vec2::new(at(0.754_877_666_246_7), at(0.569_840_290_998_05));
+                if let Some(sample) = view.sample(lobe, u) {
+                    mean += sample.weight.0[0] / count as f32;
+                }
+            }
+            let expected = sent_out(leaf, wo);
+            assert!((mean / expected - 1.0).abs() < 0.01, "{mean} {expected}");
+        }
+    });
+}
+
+#[test]
+fn dust_brightens_a_green_leaf_in_the_visible_and_darkens_it_beyond_the_red_edge() {
+    // R and T of a green leaf, and the albedo of grains of a dry soil, by wavelength.
+    use leafmodel::optics::dust::grain_albedo;
+    for (nm, leaf, sign) in [
+        (450.0, [0.05, 0.01], 1.0),
+        (550.0, [0.11, 0.10], 1.0),
+        (680.0, [0.05, 0.01], 1.0),
+        (800.0, [0.47, 0.48], -1.0),
+        (900.0, [0.46, 0.48], -1.0),
+        (1940.0, [0.07, 0.04], 1.0),
+    ] {
+        let albedo = grain_albedo(nm, 1.0) as f32;
+        let sent = |tau: f32| {
+            with_dust(leaf, [1.45, 0.3, 0.0], ([tau, 0.0], albedo), |leaf| {
+                let view = direction(0.1, 0.0);
+                let (mut back, rings) = (0.0, 180);
+                let seen = leaf.seen_from(view).expect("it is seen");
+                for i in 0..rings {
+                    let theta = 0.5 * PI * (i as f32 + 0.5) / rings as f32;
+                    for j in 0..120 {
+                        let wi = direction(theta, TAU * (j as f32 + 0.5) / 120.0);
+                        let patch = 0.5 * PI / rings as f32 * TAU / 120.0;
+                        let cosine = wi.z * libm::sinf(theta);
+                        back += seen.scatter(wi).f.0[0] * cosine * patch;
+                    }
+                }
+                back
+            })
+        };
+        let [clean, some, more] = [0.0, 0.15, 0.4].map(sent);
+        let about = format!("{clean} {some} {more} at {nm} nm");
+        assert!(sign * (some - clean) > 0.004, "{about}");
+        assert!(sign * (more - some) > 0.004, "{about}");
+    }
 }

@@ -6,12 +6,14 @@ use crate::material::held::Held;
 use crate::scene::description::{Description, LeafFaces, LeafTissue, Material, SolidOptics};
 use crate::scene::world::{MaterialOwner, World};
 
-use super::absorption_file;
 use super::spectra::Spectra;
 use super::units::material_id;
+use super::{absorption_file, relief_file};
 
 /// Plugin for leaves, in `reference/`.
 const LEAF: &str = "lamina_leaf";
+/// Plugin for leaves with a relief, in `reference/`.
+const RELIEF: &str = "lamina_relief";
 /// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
@@ -31,8 +33,12 @@ pub(super) fn bsdf(
     let number = match world.owners[material] {
         MaterialOwner::Leaf { leaf, .. } => {
             let leaf = &scene.leaves[leaf].value;
-            let bsdf = light_spread(plugin(LEAF, leaf.extrapolate), own);
-            return leaf_faces(bsdf, &leaf.faces, spectra);
+            let kind = if own.relief().is_some() { RELIEF } else { LEAF };
+            let mut bsdf = light_spread(plugin(kind, leaf.extrapolate), own);
+            if own.relief().is_some() {
+                bsdf = bsdf.string("relief", relief_file(&id));
+            }
+            return leaf_faces(bsdf, &leaf.faces_by_age(), spectra);
         }
         MaterialOwner::Solid(solid) => {
             let solid = &scene.solids[solid].value;

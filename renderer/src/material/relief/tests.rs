@@ -26,6 +26,9 @@ fn waves(steep: f32) -> ReliefMap {
         size_mm: [20.0; 2],
         cells: [0.0, 1.0, 0.5],
         bloom: [0.0; 2],
+        cover: Vec::new(),
+        stomata: StomataPlan::NONE,
+        dust_brightness: None,
     }
 }
 
@@ -71,6 +74,7 @@ fn mean(relief: &Relief, wo: Vec3, wi: Vec3, width: f32) -> f32 {
         let bsdf = ReliefBsdf {
             leaf: LeafBsdf::new(&coats, tissue),
             faces: relief.at(at, Some(scale(false)), width * texel),
+            grains: Lanes::ZERO,
         };
         let view = bsdf.seen_from(wo).expect("it is seen");
         sum += view.scatter(wi).f.0[0] * wi.z.abs();

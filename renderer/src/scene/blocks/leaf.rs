@@ -1,5 +1,6 @@
 //! `[leaves.NAME]`: a grown leaf, and the keys for faces that leaves share with materials.
 
+use leafmodel::blade::surface::SurfacePlan;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::Number;
@@ -15,6 +16,9 @@ const COAT_ETA: f64 = 1.45;
 /// GGX roughness of the adaxial and the abaxial coat: satin on the adaxial, matt on the abaxial
 /// face.
 const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
+
+/// Least GGX roughness of a coat.
+const LEAST_ALPHA: f64 = 0.02;
 
 impl From<LeafPlan> for Leaf {
     /// A leaf with the default surface.
@@ -39,6 +43,21 @@ impl LeafFaces {
                 alpha_along: alpha,
             }),
         }
+    }
+}
+
+impl Leaf {
+    /// Its faces at its age: coats are as rough as the leaf is mature.
+    pub(crate) fn faces_by_age(&self) -> LeafFaces {
+        let mut faces = self.faces.clone();
+        let surface = self.plan.surface.as_ref();
+        let factor = surface.map_or(1.0, SurfacePlan::roughness_by_age);
+        for coat in &mut faces.coats {
+            for alpha in [&mut coat.alpha_across, &mut coat.alpha_along] {
+                *alpha = (*alpha * factor).clamp(LEAST_ALPHA, 1.0);
+            }
+        }
+        faces
     }
 }
 
@@ -82,7 +101,7 @@ pub(super) fn faces(faces: &mut LeafFaces, keys: &mut Keys<'_>) {
 
 /// The keys of the coat of one face.
 fn coat(coat: &mut Coat, keys: &mut Keys<'_>) {
-    const ALPHA: Number = Number(Limits::closed(0.02, 1.0));
+    const ALPHA: Number = Number(Limits::closed(LEAST_ALPHA, 1.0));
     let limits = Number(Limits::closed(1.0, 2.5));
     keys.key(
         "eta",

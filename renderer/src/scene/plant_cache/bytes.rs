@@ -37,6 +37,8 @@ pub(super) fn to_bytes(parts: &LeafParts) -> Vec<u8> {
             floats(&mut out, surface.size_mm.into_iter());
             let moments = surface.texels.as_flattened().as_flattened();
             floats(&mut out, moments.iter().copied());
+            count(&mut out, surface.cover.len());
+            floats(&mut out, surface.cover.as_flattened().iter().copied());
         }
     }
     count(&mut out, usize::from(parts.stalk.is_some()));
@@ -94,10 +96,13 @@ pub(super) fn parts_from(bytes: &[u8]) -> Option<LeafParts> {
                 texels: rest.floats(width.checked_mul(height)?, |flat: [f32; 8]| {
                     [0, 4].map(|face| std::array::from_fn(|i| flat[face + i]))
                 })?,
+                cover: rest.counted(|cover: [f32; 3]| cover)?,
             }),
             _ => return None,
         };
-        (!texels.is_empty()).then_some(MapParts {
+        let covered = surface.as_ref().map_or(0, |surface| surface.cover.len());
+        let is_whole = covered == 0 || covered == texels.len();
+        (!texels.is_empty() && is_whole).then_some(MapParts {
             width,
             height,
             size_mm,

@@ -1,7 +1,7 @@
 //! Grown leaves as plain data, which can be stored.
 
 use glam::{DAffine3, Vec2, Vec3};
-use leafmodel::blade::surface::SlopeMoments;
+use leafmodel::blade::surface::{Cover, SlopeMoments};
 use leafmodel::compound::CompoundError;
 use leafmodel::leaf::LeafError;
 use leafmodel::optics::{Contents, Texel};
@@ -75,5 +75,7 @@ pub(in crate::scene) struct MapParts {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct SurfaceParts {
     pub(in crate::scene) texels: Vec<[SlopeMoments; 2]>,
+    /// As many texels, or none.
+    pub(in crate::scene) cover: Vec<Cover>,
     pub(in crate::scene) size_mm: [f32; 2],
 }

@@ -1,0 +1,127 @@
+//! Slopes that the mesh carries: those of its shading normals, against the blade without relief.
+
+use glam::{DVec2, DVec3};
+
+use super::super::frame::UvFrame;
+use super::super::mesh::{BladeMesh, vertex_normals};
+
+/// Places within a texel, per side, at which slopes are taken.
+pub(super) const PLACES: usize = 3;
+
+/// The slopes of a mesh's relief over a map, row by row.
+#[derive(Debug)]
+pub(super) struct Carried<'a> {
+    mesh: &'a BladeMesh,
+    /// The relief's normal at each vertex, for a blade that is otherwise flat.
+    normals: Vec<DVec3>,
+    frame: &'a UvFrame,
+    size: [usize; 2],
+    /// Where each row's list begins in `members`; one more than there are rows.
+    starts: Vec<u32>,
+    /// Numbers of the triangles that reach into each row.
+    members: Vec<u32>,
+}
+
+impl<'a> Carried<'a> {
+    /// The relief of veins, if `with_veins`, and of the bulge on a map of `size` texels; `None` if
+    /// the mesh has none.
+    pub(super) fn new(
+        mesh: &'a BladeMesh,
+        with_veins: bool,
+        frame: &'a UvFrame,
+        size: [usize; 2],
+    ) -> Option<Self> {
+        let height = |relief: &[f64; 2]| relief[1] + if with_veins { relief[0] } else { 0.0 };
+        let heights: Vec<f64> = mesh.relief_mm.iter().map(height).collect();
+        if heights.windows(2).all(|pair| pair[0] == pair[1]) {
+            return None;
+        }
+        let places = mesh.lamina.iter().zip(&heights);
+        let places: Vec<DVec3> = places.map(|(p, z)| p.extend(*z)).collect();
+        let mut carried = Self {
+            mesh,
+            normals: vertex_normals(&places, &mesh.triangles),
+            frame,
+            size,
+            starts: vec![0; size[1] + 1],
+            members: Vec::new(),
+        };
+        carried.sort();
+        Some(carried)
+    }
+
+    /// Counting sort of the triangles into the rows of the map.
+    fn sort(&mut self) {
+        let triangles = &self.mesh.triangles;
+        let rows = |triangle: &[u32; 3]| {
+            let ys = triangle.map(|v| self.place(v).y);
+            let (low, high) = (ys[0].min(ys[1]).min(ys[2]), ys[0].max(ys[1]).max(ys[2]));
+            let last = self.size[1] - 1;
+            (low.max(0.0) as usize).min(last)..=(high.max(0.0) as usize).min(last)
+        };
+        let mut starts = vec![0_u32; self.size[1] + 1];
+        for row in triangles.iter().flat_map(rows) {
+            starts[row + 1] += 1;
+        }
+        for row in 1..starts.len() {
+            starts[row] += starts[row - 1];
+        }
+        let mut free = starts.clone();
+        let mut members = vec![0; starts[starts.len() - 1] as usize];
+        for (number, triangle) in triangles.iter().enumerate() {
+            for row in rows(triangle) {
+                members[free[row] as usize] = number as u32;
+                free[row] += 1;
+            }
+        }
+        (self.starts, self.members) = (starts, members);
+    }
+
+    /// A vertex in texels.
+    fn place(&self, vertex: u32) -> DVec2 {
+        let size = DVec2::new(self.size[0] as f64, self.size[1] as f64);
+        (self.mesh.lamina[vertex as usize] - self.frame.min) / self.frame.size * size
+    }
+
+    /// Slopes at `PLACES²` places of each texel of a row, `PLACES` lines of `PLACES · width`; 0
+    /// beyond the mesh.
+    pub(super) fn row(&self, row: usize) -> Vec<DVec2> {
+        let across = PLACES * self.size[0];
+        let mut slopes = vec![DVec2::ZERO; PLACES * across];
+        let step = 1.0 / PLACES as f64;
+        let members = self.starts[row] as usize..self.starts[row + 1] as usize;
+        for &number in &self.members[members] {
+            let triangle = self.mesh.triangles[number as usize];
+            let [a, b, c] = triangle.map(|v| self.place(v));
+            let normals = triangle.map(|v| self.normals[v as usize]);
+            let doubled = (b - a).perp_dot(c - a);
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            let first = (low.x / step - 0.5).ceil().max(0.0) as usize;
+            let end = ((high.x / step + 0.5).floor().max(0.0) as usize).min(across);
+            for line in 0..PLACES {
+                let y = row as f64 + (line as f64 + 0.5) * step;
+                if y < low.y || y > high.y {
+                    continue;
+                }
+                for column in first..end {
+                    let p = DVec2::new((column as f64 + 0.5) * step, y);
+                    let weights = [
+                        (c - b).perp_dot(p - b),
+                        (a - c).perp_dot(p - c),
+                        (b - a).perp_dot(p - a),
+                    ]
+                    .map(|area| area / doubled);
+                    // A place on an edge belongs to both of its triangles, which agree there.
+                    if weights.iter().all(|weight| *weight >= -1e-9) {
+                        let normal: DVec3 = (0..3).map(|i| normals[i] * weights[i]).sum();
+                        slopes[line * across + column] = -normal.truncate() / normal.z;
+                    }
+                }
+            }
+        }
+        slopes
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+//! A map whose levels halve in size.
+
+use glam::Vec2;
+
+/// Maps of `K` numbers a texel, from the finest to one texel; each level averages the one before.
+#[derive(Clone, Debug)]
+pub(super) struct Levels<const K: usize>(Vec<Level<K>>);
+
+#[derive(Clone, Debug)]
+struct Level<const K: usize> {
+    width: usize,
+    height: usize,
+    texels: Box<[[f32; K]]>,
+}
+
+impl<const K: usize> Levels<K> {
+    /// The levels above a map of this size, row by row from v = 0.
+    pub(super) fn new([width, height]: [usize; 2], texels: Vec<[f32; K]>) -> Self {
+        let mut levels = vec![Level {
+            width,
+            height,
+            texels: texels.into(),
+        }];
+        while let Some(next) = levels.last().and_then(Level::half) {
+            levels.push(next);
+        }
+        Self(levels)
+    }
+
+    /// Texels of the finest level along u and v.
+    pub(super) fn size(&self) -> [usize; 2] {
+        [self.0[0].width, self.0[0].height]
+    }
+
+    /// Texels of the finest level.
+    pub(super) fn finest(&self) -> &[[f32; K]] {
+        &self.0[0].texels
+    }
+
+    /// The numbers at `uv`, linear between levels; level 0 is the finest, and that of a ray without
+    /// width.
+    pub(super) fn at(&self, uv: Vec2, level: f32) -> [f32; K] {
+        let last = self.0.len() - 1;
+        // Not a number, of a ray without width, is the finest level.
+        let level = if level > 0.0 {
+            level.min(last as f32)
+        } else {
+            0.0
+        };
+        let low = level as usize;
+        let share = level - low as f32;
+        let fine = self.0[low].at(uv);
+        if share == 0.0 {
+            return fine;
+        }
+        mix(&fine, &self.0[(low + 1).min(last)].at(uv), share)
+    }
+}
+
+fn mix<const K: usize>(a: &[f32; K], b: &[f32; K], share: f32) -> [f32; K] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
+}
+
+impl<const K: usize> Level<K> {
+    /// The level of half as many texels on each side; `None` for one texel.
+    fn half(&self) -> Option<Self> {
+        if self.width == 1 && self.height == 1 {
+            return None;
+        }
+        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
+        let mut texels = vec![[0.0; K]; width * height];
+        for (row, texels) in texels.chunks_mut(width).enumerate() {
+            for (column, texel) in texels.iter_mut().enumerate() {
+                let pick = |dx: usize, dy: usize| {
+                    let x = (2 * column + dx).min(self.width - 1);
+                    let y = (2 * row + dy).min(self.height - 1);
+                    &self.texels[y * self.width + x]
+                };
+                let upper = mix(pick(0, 0), pick(1, 0), 0.5);
+                let lower = mix(pick(0, 1), pick(1, 1), 0.5);
+                *texel = mix(&upper, &lower, 0.5);
+            }
+        }
+        Some(Self {
+            width,
+            height,
+            texels: texels.into(),
+        })
+    }
+
+    /// Bilinear between texel centres, clamped at the border.
+    fn at(&self, uv: Vec2) -> [f32; K] {
+        let place = |share: f32, count: usize| {
+            let at = (share * count as f32 - 0.5).clamp(0.0, (count - 1) as f32);
+            let low = at as usize;
+            (low, (low + 1).min(count - 1), at - low as f32)
+        };
+        let (x0, x1, share_x) = place(uv.x, self.width);
+        let (y0, y1, share_y) = place(uv.y, self.height);
+        let texel = |x: usize, y: usize| &self.texels[y * self.width + x];
+        let below = mix(texel(x0, y0), texel(x1, y0), share_x);
+        let above = mix(texel(x0, y1), texel(x1, y1), share_x);
+        mix(&below, &above, share_y)
+    }
+}
