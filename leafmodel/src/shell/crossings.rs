@@ -5,6 +5,7 @@ use glam::DVec3;
 /// Pairs of triangles that cross and share no vertex, each ascending, in ascending order.
 ///
 /// Boxes around the triangles, in the order in which they begin along x, say which pairs are near.
+#[cfg(test)]
 pub(crate) fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
     let mut boxes: Vec<(Extent, u32)> = (0..triangles.len() as u32)

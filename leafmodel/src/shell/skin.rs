@@ -1,6 +1,6 @@
 //! The sheet as flat pieces that may touch each other.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
@@ -60,12 +60,12 @@ impl Skin {
             let at = (p - grid.origin()) / side;
             [at.x, at.y].map(|x| x.floor() as i32)
         };
-        let mut there: BTreeMap<[i32; 2], bool> = BTreeMap::new();
+        let mut touched: BTreeSet<[i32; 2]> = BTreeSet::new();
         for (i, &a) in margin.iter().enumerate() {
             let b = margin[(i + 1) % margin.len()];
             let steps = (a.distance(b) / (0.2 * side)).ceil().max(1.0) as usize;
             for step in 0..steps {
-                there.insert(place(a.lerp(b, step as f64 / steps as f64)), true);
+                touched.insert(place(a.lerp(b, step as f64 / steps as f64)));
             }
         }
         let mut skin = Self {
@@ -82,10 +82,9 @@ impl Skin {
                 let at = DVec2::new(x as f64, y as f64);
                 let on = |s: f64, t: f64| grid.origin() + side * (at + DVec2::new(s, t));
                 let key = [x as i32, y as i32];
-                if !there.contains_key(&key) && !contains(on(0.5, 0.5)) {
+                if !touched.contains(&key) && !contains(on(0.5, 0.5)) {
                     continue;
                 }
-                there.entry(key).or_insert(false);
                 let around = (0..9).map(|k| radius(on(0.5 * (k % 3) as f64, 0.5 * (k / 3) as f64)));
                 let thickest = around.fold(0.0, f64::max);
                 skin.pieces.push(Piece {
@@ -105,15 +104,15 @@ impl Skin {
 
     /// Finds the pieces that speak for each corner, and the sides on the margin.
     fn own(&mut self, places: &[[i32; 2]]) {
-        let exist: BTreeMap<[i32; 2], ()> = places.iter().map(|&place| (place, ())).collect();
-        let mut spoken = BTreeMap::new();
+        let exist: BTreeSet<[i32; 2]> = places.iter().copied().collect();
+        let mut spoken = BTreeSet::new();
         for (piece, &[x, y]) in self.pieces.iter_mut().zip(places) {
             for (corner, [i, j]) in CORNERS.into_iter().enumerate() {
                 let at = [x + i as i32, y + j as i32];
-                piece.owns[corner] = spoken.insert(at, ()).is_none();
+                piece.owns[corner] = spoken.insert(at);
             }
             let beside = [[x, y - 1], [x + 1, y], [x, y + 1], [x - 1, y]];
-            piece.margin = beside.map(|place| !exist.contains_key(&place));
+            piece.margin = beside.map(|place| !exist.contains(&place));
         }
     }
 
