@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -25,6 +26,7 @@ from lamina.report import report
 from lamina_reference.program import program
 from lamina_reference.testing import run_tests
 
+os.environ["LAMINA"] = str(program())
 FURNACE = ROOT / "scenes" / "furnace" / "scene.toml"
 SMALL = {"film.spectral.size": [12, 8]}
 VOID = {"meta", "img", "input", "link", "br", "hr"}
