@@ -29,6 +29,7 @@ from lamina.listing import list_tasks
 from lamina_reference.program import program
 from lamina_reference.testing import run_tests
 
+os.environ["LAMINA"] = str(program())
 FURNACE = ROOT / "scenes" / "furnace" / "scene.toml"
 RADIUS = "film.spectral.filter_radius_px"
 SMALL = {"film.spectral.size": [12, 8]}
@@ -37,7 +38,6 @@ SMALL = {"film.spectral.size": [12, 8]}
 @contextmanager
 def cluster() -> Iterator[Client]:
     """Two workers, each a process of its own with one thread."""
-    os.environ["LAMINA"] = str(program())
     with (
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as machines,
         Client(machines) as client,

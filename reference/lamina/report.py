@@ -89,7 +89,10 @@ def two_pictures(first: Path, second: Path) -> tuple[str, str, list[Section]]:
     layer = next((name for name in ("radiance", "colour") if name in a and name in b), None)
     if layer is None or a[layer].shape != b[layer].shape:
         raise ValueError(f"{first} and {second} are no pictures of one size and kind of film")
-    bands = [str(label) for label in a[layer][a[layer].dims[-1]].values]
+    bands = [
+        f"{label:g} nm" if layer == "radiance" else str(label)
+        for label in a[layer][a[layer].dims[-1]].values
+    ]
     mine, other = (picture[layer].values.astype(float) for picture in (a, b))
     variances = [picture[f"{layer}_variance"].values.astype(float) for picture in (a, b)]
     variance = variances[0] + variances[1]

@@ -148,6 +148,12 @@ def part(group: zarr.Group, name: str, chosen: slice = slice(None)) -> Array:
     return np.asarray(cast("zarr.Array[Any]", group[name])[chosen])
 
 
+def array(group: zarr.Group, name: str) -> zarr.Array[Any] | None:
+    """An array, if the store has it."""
+    found = group.get(name)
+    return found if isinstance(found, zarr.Array) else None
+
+
 def put(group: zarr.Group, name: str, chosen: slice, values: Array) -> None:
     """Writes some tasks of an array."""
     cast("zarr.Array[Any]", group[name])[chosen] = values

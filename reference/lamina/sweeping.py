@@ -16,6 +16,7 @@ from lamina.program import LaminaError, Value, program, run
 from lamina.rendered import read
 
 if TYPE_CHECKING:
+    import zarr
     from distributed import Client
 
 # Results that a worker holds at a time, bytes.
@@ -163,7 +164,10 @@ def work(
     listed = tasks_at(tasks, offset, len(done))
     identities = np.array([int(task["id"], 16) for task in listed], np.uint64)
     version = str(group.attrs["software"]).removeprefix("Lamina ")
+    was_done = bool(done.any())
     failed: list[tuple[int, str, int]] = []
+    # Each is looked up once: to open an array takes as long as to write a small one.
+    arrays: dict[str, zarr.Array[Any] | None] = {}
     blocks: dict[str, stores.Array] = {}
     for index in np.flatnonzero(done != identities):
         try:
@@ -172,10 +176,15 @@ def work(
             failed.append((first + int(index), str(failure), failure.code))
             continue
         for name, layer in layers.items():
-            if name not in group:
+            if name not in arrays:
+                arrays[name] = stores.array(group, name)
+            there = arrays[name]
+            if there is None:
                 continue
             if name not in blocks:
-                blocks[name] = stores.part(group, name, chosen)
+                # What nobody has written need not be read.
+                empty = np.full((len(done), *there.shape[1:]), np.nan, there.dtype)
+                blocks[name] = np.asarray(there[chosen]) if was_done else empty
             if blocks[name].shape[1:] != layer.shape:
                 shapes = f"{layer.shape}, the others {blocks[name].shape[1:]}"
                 text = f"{name} has the shape {shapes}: one store holds pictures of one size"
@@ -185,7 +194,8 @@ def work(
         else:
             done[index] = identities[index]
     for name, block in sorted(blocks.items()):
-        stores.put(group, name, chosen, block)
+        if (there := arrays[name]) is not None:
+            there[chosen] = block
     # What this says to be there is there.
     stores.put(group, "done", chosen, done)
     return failed
