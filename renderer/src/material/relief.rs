@@ -13,12 +13,11 @@ mod stomata;
 use std::sync::Arc;
 
 use glam::Vec2;
-use leafmodel::blade::surface::stomata::StomataPlan;
-use leafmodel::blade::surface::{Cover, SlopeMoments};
 use leafmodel::optics::dust::grain_albedo;
 
 use self::cells::Cells;
 use self::levels::Levels;
+pub use self::stomata::StomataNumbers;
 use self::stomata::{Place, Stomata};
 use crate::bsdf::coat_table::{Bloom, CoatTable};
 use crate::bsdf::dust::DustTable;
@@ -66,10 +65,12 @@ struct FaceCoat {
 pub struct ReliefMap {
     /// Texels along u and v.
     pub size: [usize; 2],
-    /// Row by row from v = 0.
-    pub texels: Vec<[SlopeMoments; 2]>,
-    /// As many texels of dust and distances to veins; empty if there is neither dust nor stoma.
-    pub cover: Vec<Cover>,
+    /// Row by row from v = 0, of the adaxial and the abaxial face: means of ∂z/∂x and ∂z/∂y and of
+    /// their squares.
+    pub texels: Vec<[[f32; 4]; 2]>,
+    /// As many texels of the optical thickness of dust on either face and of the distance to the
+    /// nearest vein's axis, mm; empty if there is neither dust nor stoma.
+    pub cover: Vec<[f32; 3]>,
     /// Sides of the map, mm.
     pub size_mm: [f32; 2],
     /// Width of epidermal cells, µm, 0 for none; their length over it; and their share of the
@@ -78,7 +79,7 @@ pub struct ReliefMap {
     /// Optical thickness of the bloom on the adaxial and the abaxial face.
     pub bloom: [f32; 2],
     /// The stomata of both faces.
-    pub stomata: StomataPlan,
+    pub stomata: StomataNumbers,
     /// Factor on the reflectance of the soil that dust comes from; `None` if the faces are clean.
     pub dust_brightness: Option<f64>,
 }

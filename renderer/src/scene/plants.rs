@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, Vec2};
 use leafmodel::blade::stalk::StalkMesh;
+use leafmodel::blade::surface::stomata::StomataPlan;
 use leafmodel::compound::WholeLeaf;
 use leafmodel::leaf::{Leaf, LeafPlan};
 use leafmodel::optics::solid::ReflectanceTable;
@@ -20,7 +21,7 @@ use crate::material::contents_texture::ContentsTexture;
 use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
-use crate::material::relief::ReliefMap;
+use crate::material::relief::{ReliefMap, StomataNumbers};
 use crate::material::solid::SolidMaterial;
 use crate::scene::description;
 use crate::scene::plant_cache::PlantCache;
@@ -112,7 +113,7 @@ pub fn grow(
                 size_mm: parts.size_mm,
                 cells: [plan.cells_um, plan.cell_elongation, plan.cell_share].map(|n| n as f32),
                 bloom: plan.bloom.map(|tau| tau as f32),
-                stomata: plan.stomata,
+                stomata: stomata(&plan.stomata),
                 dust_brightness: plan.dust.is_there().then_some(plan.dust.brightness),
             }),
             (_, _) => blade,
@@ -130,6 +131,17 @@ pub fn grow(
         materials: blades.chain(stalk).chain(hairs).collect(),
         pieces: parts.pieces,
     })
+}
+
+/// Stomata as the renderer has them.
+fn stomata(plan: &StomataPlan) -> StomataNumbers {
+    StomataNumbers {
+        per_mm2: plan.per_mm2.map(|density| density as f32),
+        length_um: plan.length_um as f32,
+        aspect: plan.aspect as f32,
+        depth_um: plan.depth_um as f32,
+        row_um: plan.row_um as f32,
+    }
 }
 
 impl LeafParts {

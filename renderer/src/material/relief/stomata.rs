@@ -8,7 +8,6 @@
 use std::f32::consts::{PI, TAU};
 
 use glam::{IVec2, Vec2};
-use leafmodel::blade::surface::stomata::StomataPlan;
 
 use super::SPREAD;
 
@@ -20,6 +19,32 @@ const SEEN: [f32; 2] = [0.3, 1.2];
 const MOST_SHARE: f32 = 0.5;
 /// Distances to a vein between which scattered stomata set in, in their lengths.
 const SET_IN: [f32; 2] = [1.0, 2.0];
+
+/// Numbers of the stomata of both faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StomataNumbers {
+    /// Stomata per mm² of the adaxial and the abaxial face.
+    pub per_mm2: [f32; 2],
+    /// Length of a pit, µm.
+    pub length_um: f32,
+    /// Its width over its length.
+    pub aspect: f32,
+    /// Its depth, µm.
+    pub depth_um: f32,
+    /// Distance between rows along veins, µm; 0 if stomata lie scattered.
+    pub row_um: f32,
+}
+
+impl StomataNumbers {
+    /// Faces without stomata.
+    pub const NONE: Self = Self {
+        per_mm2: [0.0; 2],
+        length_um: 25.0,
+        aspect: 0.6,
+        depth_um: 0.0,
+        row_um: 0.0,
+    };
+}
 
 /// The stomata of one face.
 #[derive(Clone, Copy, Debug)]
@@ -60,15 +85,15 @@ pub(super) struct Resolved {
 
 impl Stomata {
     /// The stomata of face 0 (adaxial) or 1; `None` if it has none.
-    pub(super) fn new(plan: &StomataPlan, face: usize) -> Option<Self> {
-        let density = plan.per_mm2[face] as f32;
+    pub(super) fn new(plan: &StomataNumbers, face: usize) -> Option<Self> {
+        let density = plan.per_mm2[face];
         if density == 0.0 || plan.depth_um == 0.0 {
             return None;
         }
-        let length = plan.length_um as f32 * 1e-3;
-        let half_mm = 0.5 * Vec2::new(length * plan.aspect as f32, length);
-        let depth_mm = plan.depth_um as f32 * 1e-3;
-        let row = plan.row_um as f32 * 1e-3;
+        let length = plan.length_um * 1e-3;
+        let half_mm = 0.5 * Vec2::new(length * plan.aspect, length);
+        let depth_mm = plan.depth_um * 1e-3;
+        let row = plan.row_um * 1e-3;
         let in_rows = row > 0.0;
         let cell_mm = if in_rows {
             Vec2::new(row, 1.0 / (density * row))
@@ -198,7 +223,7 @@ fn mixed(cell: IVec2, other: i32) -> u64 {
 mod tests {
     use super::*;
 
-    const PLAN: StomataPlan = StomataPlan {
+    const PLAN: StomataNumbers = StomataNumbers {
         per_mm2: [60.0, 250.0],
         length_um: 25.0,
         aspect: 0.5,
@@ -235,12 +260,12 @@ mod tests {
     #[test]
     fn a_face_has_as_many_pits_as_it_should_and_they_take_their_slopes_from_the_roughness() {
         for (row_um, face) in [(0.0, 0), (0.0, 1), (120.0, 0), (120.0, 1)] {
-            let plan = StomataPlan { row_um, ..PLAN };
+            let plan = StomataNumbers { row_um, ..PLAN };
             let stomata = Stomata::new(&plan, face).expect("it has stomata");
             let (mean, squares, covered) = moments(&stomata);
             // An ellipse each.
             let area = PI / 4.0 * 0.025 * 0.0125;
-            let expected = plan.per_mm2[face] as f32 * area;
+            let expected = plan.per_mm2[face] * area;
             let about = format!("{row_um} {face}: {mean} {squares} {covered}");
             // The border cuts some.
             assert!(
@@ -258,7 +283,7 @@ mod tests {
 
     #[test]
     fn stomata_in_rows_keep_away_from_the_vein_and_lie_in_lines() {
-        let plan = StomataPlan {
+        let plan = StomataNumbers {
             row_um: 120.0,
             ..PLAN
         };

@@ -27,7 +27,7 @@ fn waves(steep: f32) -> ReliefMap {
         cells: [0.0, 1.0, 0.5],
         bloom: [0.0; 2],
         cover: Vec::new(),
-        stomata: StomataPlan::NONE,
+        stomata: StomataNumbers::NONE,
         dust_brightness: None,
     }
 }
