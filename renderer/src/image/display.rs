@@ -19,7 +19,7 @@ use crate::spectrum::wavelengths::seen_at;
 pub struct Display {
     /// Exposure: a factor of 2^EV on radiance.
     pub exposure_ev: f64,
-    /// Whether light is brought to a middle grey first: see [`meter`].
+    /// Whether light is brought to a middle grey first, by its mean logarithm.
     pub auto_exposure: bool,
     /// The light that comes out white.
     pub white: White,

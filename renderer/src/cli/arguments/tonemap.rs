@@ -16,7 +16,7 @@ pub struct TonemapArguments {
     /// Radiance is multiplied by 2 to this power, instead of the scene's
     #[arg(long, value_name = "EV", allow_hyphen_values = true)]
     exposure_ev: Option<String>,
-    /// Whether light is brought to middle grey first; exposure_ev is then more or less than that
+    /// Whether light is brought to middle grey first; the exposure is then more or less than that
     #[arg(long, value_name = "true|false", num_args = 0..=1, default_missing_value = "true")]
     auto_exposure: Option<String>,
     /// The light that comes out white: d65, or a colour temperature in K

@@ -26,7 +26,11 @@ impl Kind for WhiteKind {
                 Number(KELVIN).read(cx, node, key).map(White::Kelvin)
             }
             Value::Text(text) if text == "d65" => Some(White::D65),
-            _ => {
+            Value::Text(_)
+            | Value::Flag(_)
+            | Value::Other(..)
+            | Value::List(_)
+            | Value::Table(_) => {
                 wrong_type(cx, node, key, WANTED);
                 None
             }
