@@ -5,6 +5,7 @@
 //! middle; the flora of New Zealand (\[nzflora\]) an entire margin that often is sinuate. The rest
 //! is by eye: depth and places of its undulations, the net, contents, surface and form.
 
+use super::trees::dense_net;
 use super::{contours, green_leaf};
 use crate::blade::MarginThickness;
 use crate::blade::petiole::{Course, PetiolePlan, Section};
@@ -17,7 +18,7 @@ use crate::venation::architecture::{
     Agrophic, Architecture, Arrangement, Attachment, Primaries, PrimaryPattern, Secondaries,
     SecondaryCourse, SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,
 };
-use crate::venation::plan::{AuxinPlan, Growth, Neighbourhood, Pattern};
+use crate::venation::plan::AuxinPlan;
 
 /// From the petiole to the apex, mm.
 const LENGTH_MM: f64 = 50.0;
@@ -93,27 +94,10 @@ fn architecture() -> Architecture {
 }
 
 pub(super) fn nasturtium() -> LeafPlan {
-    // A segment is a quarter of the distance between veins.
-    let final_length = 4.0 * 3.4 * LENGTH_MM;
-    let initial_length = 0.3 * final_length;
+    let net = dense_net(LENGTH_MM, architecture(), 3.4);
     let venation = AuxinPlan {
-        final_length,
-        pattern: Pattern::Closed(Neighbourhood::Bipolar),
-        axis_along_vein: 0.15,
-        tension_rounds: 120,
-        kill_distance: 0.75,
-        source_birth_distance: 2.0,
-        vein_birth_distance: 2.0,
-        darts_per_area: 0.0004,
-        growth: Growth::Isogonic {
-            initial_length,
-            length_step: (final_length - initial_length) / 280.0,
-        },
-        murray_exponent: 2.0,
-        murray_exponent_finest: Some(3.0),
-        veinlet_radius_mm: 0.09 * LENGTH_MM / final_length,
-        architecture: Some(architecture()),
-        ..AuxinPlan::default()
+        veinlet_radius_mm: 0.09 * LENGTH_MM / net.final_length,
+        ..net
     };
     let mut leaf = green_leaf(LENGTH_MM, 1, outline(), venation);
     // The blade is a shield, which undulates at its rim; it has no halves to fold.

@@ -45,8 +45,13 @@ pub(super) fn leaf(
 /// A net as dense as nature's between the veins of an architecture; `density` is about what comes
 /// out, mm of vein per mm² of blade.
 pub(super) fn dense(traits: &LeafTraits, architecture: Architecture, density: f64) -> AuxinPlan {
+    dense_net(traits.length_mm.value, architecture, density)
+}
+
+/// The same for a leaf of this length, mm.
+pub(super) fn dense_net(length_mm: f64, architecture: Architecture, density: f64) -> AuxinPlan {
     // A segment is so much shorter than veins are apart.
-    let final_length = 4.0 * density * traits.length_mm.value;
+    let final_length = 4.0 * density * length_mm;
     let initial_length = 0.3 * final_length;
     AuxinPlan {
         final_length,

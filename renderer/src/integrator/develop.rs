@@ -9,6 +9,7 @@ use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Source};
 use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::{Camera as CameraBlock, FilmKind};
+use crate::scene::fingerprint::fnv1a;
 use crate::spectrum::WavelengthSampler;
 
 /// The picture with all its [layers](crate::integrator::layers::LAYERS) and attributes, computed on
@@ -184,11 +185,4 @@ fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
     ]);
     let flat = |matrix: glam::DMat4| matrix.to_cols_array().map(|value| value as f32);
     (flat(to_camera), flat(projection * to_camera))
-}
-
-/// The 64-bit FNV-1a hash. It distinguishes scenes; it is not a cryptographic hash.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }

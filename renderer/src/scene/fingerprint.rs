@@ -49,7 +49,7 @@ pub fn fingerprint(loaded: &Loaded, path: &Path) -> Result<u64, AssetError> {
 
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// The 64-bit FNV-1a hash of some bytes.
+/// The 64-bit FNV-1a hash of some bytes. It distinguishes them; it is not a cryptographic hash.
 pub fn fnv1a(bytes: &[u8]) -> u64 {
     go_on(OFFSET, bytes)
 }
