@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::BladeForm;
-use super::vein_grid::VeinGrid;
+use super::vein_grid::{OrderedVeinGrid, VeinGrid};
 use crate::venation::network::VeinSegment;
 
 /// Edge length over a vein's radius where the vein has relief: five vertices across its mound.
@@ -18,12 +18,15 @@ const PLATEAU: f64 = 1.5;
 const AIM: f64 = 0.75;
 /// Shortest target edge at a vein, as a share of the longest edge.
 const SHORTEST: f64 = 1.0 / 16.0;
+/// Cells of the grid of veins over their mean reach.
+const CELL: f64 = 0.25;
 
 /// Target edge length over the lamina, mm.
 #[derive(Debug)]
 pub(super) struct SizeField {
     longest: f64,
-    veins: VeinGrid,
+    /// By the least target that a vein may ask for in a cell.
+    veins: OrderedVeinGrid,
     /// A bound for each vein.
     bounds: Vec<Bound>,
 }
@@ -38,10 +41,15 @@ impl SizeField {
             let radius = segment.radius_from.max(segment.radius_to);
             PLATEAU * radius + (longest - on_axis(longest, radius)).max(0.0) / GRADING
         };
+        let bounds: Vec<Bound> = shaping.iter().map(|s| Bound::new(s, longest)).collect();
+        let veins = VeinGrid::with_cells(CELL, shaping.to_vec(), reach);
+        let least = |number: u32, middle, half_diagonal| {
+            bounds[number as usize].least_near(middle, half_diagonal)
+        };
         Self {
             longest,
-            bounds: shaping.iter().map(|s| Bound::new(s, longest)).collect(),
-            veins: VeinGrid::new(shaping.to_vec(), reach),
+            veins: veins.order_by(least),
+            bounds,
         }
     }
 
@@ -49,8 +57,8 @@ impl SizeField {
     pub(super) fn at(&self, p: DVec2) -> f64 {
         let shortest = SHORTEST * self.longest;
         let mut target = self.longest;
-        for &number in self.veins.members(p) {
-            if target <= shortest {
+        for (least, number) in self.veins.members(p) {
+            if target <= shortest.max(least) {
                 break;
             }
             if self.bounds[number as usize].is_too_far(p, target, self.longest) {
@@ -88,6 +96,13 @@ impl Bound {
             reach: 0.5 * (segment.to - segment.from).length() + PLATEAU * thickest,
             least: on_axis(longest, thinnest),
         }
+    }
+
+    /// A bound on the vein's target from below, within this distance of a place.
+    fn least_near(&self, place: DVec2, within: f64) -> f64 {
+        let away = (place - self.middle).length() - within - self.reach;
+        let spare = 1e-9 * (self.least + within + self.reach);
+        self.least + GRADING * away.max(0.0) - spare
     }
 
     /// Whether the vein's target at `p` is certainly not below `target`, with a margin above

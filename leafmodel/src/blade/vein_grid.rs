@@ -1,5 +1,8 @@
 //! The veins that matter at a point: a grid of cells, each with the segments that reach into it.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::Range;
+
 use glam::DVec2;
 
 use crate::venation::network::VeinSegment;
@@ -34,6 +37,15 @@ const MOST_CELLS: f64 = 1024.0;
 impl VeinGrid {
     /// Sorts segments. A query within the distance `reach(segment)` of a segment finds it.
     pub(super) fn new(segments: Vec<VeinSegment>, reach: impl Fn(&VeinSegment) -> f64) -> Self {
+        Self::with_cells(1.0, segments, reach)
+    }
+
+    /// As [`VeinGrid::new`], with cells of this share of the mean reach.
+    pub(super) fn with_cells(
+        share: f64,
+        segments: Vec<VeinSegment>,
+        reach: impl Fn(&VeinSegment) -> f64,
+    ) -> Self {
         let reaches: Vec<f64> = segments.iter().map(reach).collect();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for (segment, &reach) in segments.iter().zip(&reaches) {
@@ -45,7 +57,9 @@ impl VeinGrid {
         }
         let mean_reach = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
         let extent = (high - low).max_element();
-        let cell = mean_reach.max(extent / MOST_CELLS).max(f64::MIN_POSITIVE);
+        let cell = (share * mean_reach)
+            .max(extent / MOST_CELLS)
+            .max(f64::MIN_POSITIVE);
         let cells = |length: f64| (length / cell).floor() as usize + 1;
         let mut grid = Self {
             origin: low,
@@ -98,23 +112,76 @@ impl VeinGrid {
         members.map(move |&index| self.nearest(index, p))
     }
 
-    /// The numbers of the veins that may reach a point, ascending.
+    /// The numbers of the veins that may reach a point, ascending unless they were ordered.
     pub(super) fn members(&self, p: DVec2) -> &[u32] {
+        &self.members[self.places(p)]
+    }
+
+    /// Where the veins that may reach a point stand in the list of all members.
+    fn places(&self, p: DVec2) -> Range<usize> {
         let place = ((p - self.origin) / self.cell).floor();
         let inside = place.cmpge(DVec2::ZERO).all()
             && place.x < self.columns as f64
             && place.y < self.rows as f64;
         if inside {
             let cell = place.y as usize * self.columns + place.x as usize;
-            &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+            self.starts[cell] as usize..self.starts[cell + 1] as usize
         } else {
-            &[]
+            0..0
         }
+    }
+
+    /// Orders the members of each cell by a key: that of a vein's number for the cell with this
+    /// middle and half diagonal.
+    pub(super) fn order_by(mut self, key: impl Fn(u32, DVec2, f64) -> f64) -> OrderedVeinGrid {
+        let half_diagonal = self.cell * FRAC_1_SQRT_2;
+        let mut keys = Vec::with_capacity(self.members.len());
+        let mut keyed = Vec::new();
+        for cell in 0..self.columns * self.rows {
+            let place = DVec2::new((cell % self.columns) as f64, (cell / self.columns) as f64);
+            let middle = self.origin + (place + 0.5) * self.cell;
+            let members = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+            let members = &mut self.members[members];
+            keyed.clear();
+            keyed.extend(
+                members
+                    .iter()
+                    .map(|&number| (key(number, middle, half_diagonal), number)),
+            );
+            keyed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            for (member, &(key, number)) in members.iter_mut().zip(&keyed) {
+                *member = number;
+                keys.push(key);
+            }
+        }
+        OrderedVeinGrid { veins: self, keys }
     }
 
     /// The point of a vein that is nearest to `p`.
     pub(super) fn nearest(&self, number: u32, p: DVec2) -> NearVein {
         nearest(&self.segments[number as usize], p)
+    }
+}
+
+/// A [`VeinGrid`] whose cells list their veins by a key.
+#[derive(Debug)]
+pub(super) struct OrderedVeinGrid {
+    veins: VeinGrid,
+    /// One for each member.
+    keys: Vec<f64>,
+}
+
+impl OrderedVeinGrid {
+    /// Keys and numbers of the veins that may reach a point, by ascending key.
+    pub(super) fn members(&self, p: DVec2) -> impl Iterator<Item = (f64, u32)> + '_ {
+        let places = self.veins.places(p);
+        let keys = self.keys[places.clone()].iter().copied();
+        keys.zip(self.veins.members[places].iter().copied())
+    }
+
+    /// As [`VeinGrid::nearest`].
+    pub(super) fn nearest(&self, number: u32, p: DVec2) -> NearVein {
+        self.veins.nearest(number, p)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a simulation has grown, and the network that it becomes: widths, orders, millimetres.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::conformal_map::ConformalMap;
 use super::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
@@ -72,7 +73,7 @@ impl Grown {
         let law = plan.width_law();
         let radius = |flow: f64| plan.veinlet_radius_mm * law.radius(flow);
         let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
-        let mut radii: Vec<f64> = flows.edges.iter().map(|&flow| radius(flow)).collect();
+        let mut radii: Vec<f64> = flows.edges.par_iter().map(|&flow| radius(flow)).collect();
         let orders = order::orders(
             &topology,
             &self.positions,
@@ -86,11 +87,11 @@ impl Grown {
                 let bears = topology.entering(node).iter().any(|&edge| major(edge));
                 if bears { plan.unseen_veinlets } else { 0.0 }
             });
-            radii = flows.edges.iter().map(|&flow| radius(flow)).collect();
+            radii = flows.edges.par_iter().map(|&flow| radius(flow)).collect();
         }
         let edges: Vec<VeinEdge> = self
             .edges
-            .iter()
+            .par_iter()
             .enumerate()
             .map(|(i, &[from, to])| {
                 // A lateral starts with its own radius; only a vein that continues tapers between

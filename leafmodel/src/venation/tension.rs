@@ -44,8 +44,10 @@ pub(super) fn relaxed(
         .enumerate()
         .map(|(node, &degree)| degree > 1 && is_free(node))
         .collect();
-    let before = crossings(positions, edges);
-    let mut now = moved(positions, edges, &moves, rounds);
+    let (before, mut now) = rayon::join(
+        || crossings(positions, edges),
+        || moved(positions, edges, &moves, rounds),
+    );
     for attempt in 0..TRIES {
         let new: Vec<[u32; 2]> = crossings(&now, edges)
             .into_iter()
@@ -249,8 +251,8 @@ fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
     };
     let place = |node: u32| positions[node as usize];
     let mean = mean_length(positions, edges);
-    let mut found = Vec::new();
-    for near in EdgeGrid::new(positions, edges, mean).lists() {
+    let grid = EdgeGrid::new(positions, edges, mean);
+    let pairs = |near: &[u32], found: &mut Vec<[u32; 2]>| {
         for (i, &first) in near.iter().enumerate() {
             let [a, b] = ends(first);
             for &second in &near[i + 1..] {
@@ -261,7 +263,16 @@ fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
                 }
             }
         }
-    }
+    };
+    let mut found: Vec<[u32; 2]> = grid
+        .lists_at_once()
+        .with_min_len(BLOCK)
+        .fold(Vec::new, |mut found, near| {
+            pairs(near, &mut found);
+            found
+        })
+        .flatten()
+        .collect();
     found.sort_unstable();
     found.dedup();
     found

@@ -1,6 +1,7 @@
 //! A grid of square cells over the leaf, and the edges that pass through each.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::VeinEdge;
 
@@ -132,9 +133,16 @@ impl EdgeGrid {
 
     /// The edges of each cell in turn, ascending.
     pub(crate) fn lists(&self) -> impl Iterator<Item = &[u32]> {
-        self.starts
-            .windows(2)
-            .map(|pair| &self.edges[pair[0] as usize..pair[1] as usize])
+        self.starts.windows(2).map(|pair| self.between(pair))
+    }
+
+    /// As [`EdgeGrid::lists`], on all threads.
+    pub(crate) fn lists_at_once(&self) -> impl IndexedParallelIterator<Item = &[u32]> {
+        self.starts.par_windows(2).map(|pair| self.between(pair))
+    }
+
+    fn between(&self, pair: &[u32]) -> &[u32] {
+        &self.edges[pair[0] as usize..pair[1] as usize]
     }
 
     fn list(&self, column: usize, row: usize) -> &[u32] {
