@@ -139,7 +139,7 @@ fn renew(
     let at: Vec<DVec2> = near.iter().map(|&node| positions[node as usize]).collect();
     let free: Vec<bool> = near.iter().map(|&node| moves[node as usize]).collect();
     let shortest = SHORTEST * mean_length(positions, edges);
-    let found = moved_from(at, &part, &free, rounds, shortest);
+    let found = moved_from(&at, &part, &free, rounds, shortest);
     for (&node, place) in near.iter().zip(found) {
         if away[node as usize] <= rounds {
             now[node as usize] = place;
@@ -149,7 +149,7 @@ fn renew(
 
 fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -> Vec<DVec2> {
     let shortest = SHORTEST * mean_length(positions, edges);
-    moved_from(positions.to_vec(), edges, moves, rounds, shortest)
+    moved_from(positions, edges, moves, rounds, shortest)
 }
 
 /// As [`moved`]; edges shorter than `shortest` do not pull.
@@ -158,13 +158,13 @@ fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -
 /// thread. Nodes are worked on strip by strip of the blade, since what lies near in memory is
 /// fetched sooner: three times as fast as in the order of birth.
 fn moved_from(
-    positions: Vec<DVec2>,
+    positions: &[DVec2],
     edges: &[VeinEdge],
     moves: &[bool],
     rounds: u32,
     shortest: f64,
 ) -> Vec<DVec2> {
-    let sorted = by_strips(&positions, 8.0 * mean_length(&positions, edges));
+    let sorted = by_strips(positions, 8.0 * mean_length(positions, edges));
     let mut places = vec![0_u32; positions.len()];
     for (place, &node) in (0..).zip(&sorted) {
         places[node as usize] = place;
