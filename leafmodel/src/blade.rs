@@ -26,6 +26,7 @@
 
 pub mod ageing;
 pub mod ageing_courses;
+mod closed;
 pub mod contents_map;
 mod coverage;
 pub(crate) mod distances;
@@ -87,6 +88,8 @@ pub struct BladeForm {
     pub thickness_mm: f64,
     /// How it falls towards the margin.
     pub margin: MarginThickness,
+    /// Whether it has two faces and a rim, and not one sheet that stands for both.
+    pub closed: bool,
     /// Longest edge of the mesh, mm, 0.001 to 10000.
     pub max_edge_mm: f64,
     /// Veins of at least this radius, mm, are edges of the mesh and have relief, 0.0001 to 1000.
@@ -105,6 +108,7 @@ impl BladeForm {
             relief: 0.5,
             thickness_mm: 0.2,
             margin: MarginThickness::EVEN,
+            closed: false,
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.1,
         }

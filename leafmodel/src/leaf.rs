@@ -388,6 +388,7 @@ mod tests {
                 relief: 0.5,
                 thickness_mm: 0.2,
                 margin: crate::blade::MarginThickness::EVEN,
+                closed: false,
                 max_edge_mm: 2.0,
                 meshed_vein_radius_mm: 0.1,
             },

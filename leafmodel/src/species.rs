@@ -150,6 +150,7 @@ fn green_leaf(length_mm: f64, seed: u64, outline: OutlinePlan, venation: AuxinPl
             relief: 0.6,
             thickness_mm: 0.2,
             margin: crate::blade::MarginThickness::EVEN,
+            closed: false,
             max_edge_mm: length_mm / 80.0,
             meshed_vein_radius_mm: 0.12,
         },

@@ -13,6 +13,7 @@ Parameters of the plugin:
 - `spread_u`, `spread_v`: one thickness of the blade in texture coordinates, for maps whose light
   spreads sideways (`docs/src/theory/light-spread.md`);
 - `abaxial_ratio`: a spectrum; if absent, the page's ratio by absorptance;
+- `half`: `adaxial` or `abaxial`, if this is one face of a closed blade;
 - `adaxial_eta`, `adaxial_alpha_across`, `adaxial_alpha_along`, and the same for `abaxial_`.
 
 Import it after the variant is chosen; `register()` makes the plugin known.
@@ -129,6 +130,31 @@ class Tissue:
         self.t_ba = self.t_ab * back
         self.through = self.t_ab / (1.0 - bottom.mean)
 
+    def cut(self, face: int, coats: tuple[Coat, Coat]) -> None:
+        """Leaves one face with half of the tissue; the page's section "A closed blade"."""
+        p = [1.0 - float(coat.mean) for coat in coats]
+        k = [float(1.0 / np.sqrt(share) - np.sqrt(share)) for share in p]
+        t = dr.minimum(dr.sqrt(self.t_ab * self.t_ba), 0.999)
+        r = [self.r_a, self.r_b]
+        rest = dr.rcp(1.0 - t * t)
+        s = [(r[i] - t * r[1 - i]) * rest for i in (0, 1)]
+        q = [(k[i] - t * k[1 - i]) * rest for i in (0, 1)]
+        a = 1.0 + t * q[0] * q[1]
+        b = t * (s[0] * q[1] + s[1] * q[0])
+        c = t * (s[0] * s[1] - 1.0)
+        tau = (dr.sqrt(dr.maximum(b * b - 4.0 * a * c, 0.0)) - b) / (2.0 * a)
+        tau = dr.clip(tau, 0.0, float(np.sqrt(min(p))))
+        root = float(np.sqrt(p[face]))
+        sigma = dr.clip(s[face] + q[face] * tau, 0.0, 1.0 - root * tau)
+        rho = dr.clip(sigma - k[face] * tau, 0.0, dr.maximum(1.0 - tau / root, 0.0))
+        outside, inside = (rho, tau / root), (sigma, tau * root)
+        (self.r_a, self.t_ab), (self.r_b, self.t_ba) = (
+            (outside, inside) if face == 0 else (inside, outside)
+        )
+        passed = [p[0], 1.0] if face == 0 else [1.0, p[1]]
+        self.through = self.t_ab / passed[1]
+        self.back_a, self.back_b = self.r_a / passed[0], self.r_b / passed[1]
+
     def c(self, same: Any, adaxial: Any) -> Any:
         """c for two directions: on the same face or not, and on which one."""
         return dr.select(same, dr.select(adaxial, self.back_a, self.back_b), self.through)
@@ -153,8 +179,15 @@ class LeafBSDF(mi.BSDF):
             )
             for face in FACES
         )
+        # A cut through the tissue has no coat.
+        self.half = None
+        self.outer = self.coats
+        if props.has_property("half"):
+            self.half = FACES.index(str(props.get("half")))
+            none = Coat(1.0, 1.0, 1.0)
+            self.outer = (self.coats[0], none) if self.half == 0 else (none, self.coats[1])
         # Both faces in one table, the abaxial one behind the adaxial one.
-        self.albedo = Table(np.stack([coat.table for coat in self.coats]))
+        self.albedo = Table(np.stack([coat.table for coat in self.outer]))
         self.kind = str(props.get("tissue"))
         self.abaxial_ratio = None
         self.spread = None
@@ -210,6 +243,8 @@ class LeafBSDF(mi.BSDF):
         tissue = Tissue(r, t, self.ratio(si, r, t, active), self.coats)
         if self.spread is not None:
             tissue.passing(self.spread_transmittance(si), self.coats)
+        if self.half is not None:
+            tissue.cut(self.half, self.coats)
         return tissue
 
     def spread_transmittance(self, si: Any) -> Any:
@@ -258,7 +293,7 @@ class LeafBSDF(mi.BSDF):
 
     def face(self, adaxial: Any, name: str) -> Any:
         """A number of the face's coat."""
-        return dr.select(adaxial, getattr(self.coats[0], name), getattr(self.coats[1], name))
+        return dr.select(adaxial, getattr(self.outer[0], name), getattr(self.outer[1], name))
 
     def coat_albedo(self, w: Any, adaxial: Any) -> Any:
         """E of a face's coat."""

@@ -78,15 +78,24 @@ class ReliefMap:
 class RoughCoat:
     """One face's coat at one place."""
 
-    def __init__(self, eta: float, alpha_x: Any, alpha_y: Any, tables: tuple[Table, Table]) -> None:
+    def __init__(
+        self,
+        eta: float,
+        alpha_x: Any,
+        alpha_y: Any,
+        tables: tuple[Table, Table],
+        there: bool = True,
+    ) -> None:
         self.eta, self.alpha_x, self.alpha_y = eta, alpha_x, alpha_y
+        # A cut through the tissue has no coat.
+        self.there = mi.Float(1.0 if there else 0.0)
         # Albedos are those of the coat alike in all directions with the same mean square.
         alpha = dr.sqrt(0.5 * (alpha_x * alpha_x + alpha_y * alpha_y))
         self.table, means = tables
         low, high = float(ALPHAS[0]), float(ALPHAS[-1])
         place = (alpha - low) / (high - low) * (len(ALPHAS) - 1.0)
         self.row, self.share = cell(mi.Float, place, len(ALPHAS))
-        self.mean = dr.lerp(
+        self.mean = self.there * dr.lerp(
             means.at(mi.Float, self.row), means.at(mi.Float, self.row + 1), self.share
         )
 
@@ -97,7 +106,7 @@ class RoughCoat:
         low = dr.lerp(self.table.at(mi.Float, at), self.table.at(mi.Float, at + 1), a)
         at = at + COUNT_MU
         high = dr.lerp(self.table.at(mi.Float, at), self.table.at(mi.Float, at + 1), a)
-        return dr.lerp(low, high, self.share)
+        return self.there * dr.lerp(low, high, self.share)
 
     def smith(self, w: Any) -> Any:
         """Smith's Λ."""
@@ -115,13 +124,13 @@ class RoughCoat:
         h = dr.normalize(view + light)
         f, _, _, _ = mi.fresnel(dr.dot(view, h), self.eta)
         g = dr.rcp(1.0 + self.smith(view) + self.smith(light))
-        return self.distribution(h) * g * f / (4.0 * view.z)
+        return self.there * self.distribution(h) * g * f / (4.0 * view.z)
 
 
 def chosen(condition: Any, a: RoughCoat, b: RoughCoat) -> RoughCoat:
     """One of two coats."""
     coat = RoughCoat.__new__(RoughCoat)
-    for name in ("alpha_x", "alpha_y", "row", "share", "mean"):
+    for name in ("alpha_x", "alpha_y", "row", "share", "mean", "there"):
         setattr(coat, name, dr.select(condition, getattr(a, name), getattr(b, name)))
     if a.eta != b.eta:
         raise ValueError("both coats must have one refractive index")
@@ -146,6 +155,12 @@ class ReliefBSDF(LeafBSDF):
         moments = self.relief.at(si.uv)
         faces = []
         for number, coat in enumerate(self.coats):
+            if self.half == 1 - number:
+                own = self.coats[1 - number]
+                alphas = mi.Float(own.alpha_x), mi.Float(own.alpha_y)
+                none = RoughCoat(own.eta, *alphas, self.rough[1 - number], there=False)
+                faces.append((mi.Vector2f(0.0, 0.0), none))
+                continue
             x, y, xx, yy = moments[4 * number : 4 * number + 4]
             rough = [
                 dr.sqrt(alpha * alpha + SPREAD * dr.maximum(square - mean * mean, 0.0))

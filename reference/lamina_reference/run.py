@@ -29,6 +29,7 @@ SCENES = (
     "two-leaves",
     "textured-veins",
     "relief",
+    "closed-blade",
     "solid-fruit",
     "instances",
     "spots",
@@ -38,7 +39,7 @@ SCENES = (
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the eight")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the nine")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"

@@ -27,6 +27,7 @@ use glam::{Vec2, Vec3};
 
 use crate::spectrum::Lanes;
 
+pub mod coat;
 pub mod coat_table;
 pub mod dielectric;
 pub mod directional_albedo;
@@ -34,6 +35,7 @@ pub mod dust;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
+pub mod leaf_tissue;
 pub mod relief;
 
 use crate::sampling::warp;

@@ -37,6 +37,8 @@ pub struct BladeMesh {
     /// How far each vertex is displaced along the blade's normal, mm: by veins (≤ 0) and by the
     /// bulge of the lamina between them.
     pub relief_mm: Vec<[f64; 2]>,
+    /// Unit directions through the blade from the abaxial to the adaxial face, whatever its relief.
+    pub across: Vec<DVec3>,
     /// Vertices of each triangle, counter-clockwise seen from the adaxial side.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -56,6 +58,14 @@ impl Displacement<'_> {
         lips: &|_| 0.0,
         bulge: &|_| 0.0,
     };
+}
+
+/// A point of the flat lamina in space.
+struct Raised {
+    position: DVec3,
+    across: DVec3,
+    thickness: f64,
+    relief: [f64; 2],
 }
 
 impl BladeMesh {
@@ -163,11 +173,16 @@ impl BladeMesh {
             } else {
                 form.margin.at(outline.distance_to_margin(p))
             };
-            (
-                posture.place(p, (displaced.lips)(p) + bulge - height),
-                form.thickness_mm * thinner + height,
-                [-height, bulge],
-            )
+            let raised = (displaced.lips)(p) + bulge - height;
+            let thickness = form.thickness_mm * thinner + height;
+            let [above, below] =
+                [0.5, -0.5].map(|side| posture.place(p, raised + side * thickness));
+            Raised {
+                position: posture.place(p, raised),
+                across: (above - below).normalize_or(DVec3::Z),
+                thickness,
+                relief: [-height, bulge],
+            }
         });
         if is_settled {
             mesh.smooth_turned_over();
@@ -179,21 +194,18 @@ impl BladeMesh {
         Ok(mesh)
     }
 
-    /// A flat triangulation brought into space by `place`, which gives position, thickness and
-    /// relief.
-    fn raised(
-        flat: Triangulation,
-        frame: &UvFrame,
-        place: impl Fn(DVec2) -> (DVec3, f64, [f64; 2]),
-    ) -> Self {
+    /// A flat triangulation brought into space by `place`.
+    fn raised(flat: Triangulation, frame: &UvFrame, place: impl Fn(DVec2) -> Raised) -> Self {
         let mut positions = Vec::with_capacity(flat.points.len());
         let mut thickness_mm = Vec::with_capacity(flat.points.len());
         let mut relief_mm = Vec::with_capacity(flat.points.len());
+        let mut across = Vec::with_capacity(flat.points.len());
         for &p in &flat.points {
-            let (position, thickness, relief) = place(p);
-            positions.push(position);
-            thickness_mm.push(thickness);
-            relief_mm.push(relief);
+            let raised = place(p);
+            positions.push(raised.position);
+            thickness_mm.push(raised.thickness);
+            relief_mm.push(raised.relief);
+            across.push(raised.across);
         }
         let normals = vertex_normals(&positions, &flat.triangles);
         Self {
@@ -203,12 +215,13 @@ impl BladeMesh {
             uvs: flat.points.iter().map(|&p| frame.uv(p)).collect(),
             lamina: flat.points,
             relief_mm,
+            across,
             triangles: flat.triangles,
         }
     }
 
     /// The triangles that face away from a normal of their corners.
-    fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
+    pub(super) fn turned_over(&self) -> impl Iterator<Item = &[u32; 3]> {
         self.triangles.iter().filter(|t| !self.faces_out(t))
     }
 
@@ -221,7 +234,7 @@ impl BladeMesh {
     }
 
     /// Area of a triangle on the flat lamina, mm², > 0 if counter-clockwise.
-    fn flat_area(&self, triangle: &[u32; 3]) -> f64 {
+    pub(super) fn flat_area(&self, triangle: &[u32; 3]) -> f64 {
         let [a, b, c] = triangle.map(|v| self.lamina[v as usize]);
         0.5 * (b - a).perp_dot(c - a)
     }

@@ -29,6 +29,7 @@ pub(crate) fn even_sheet(
         relief: 0.0,
         thickness_mm: 0.2,
         margin: super::MarginThickness::EVEN,
+        closed: false,
         max_edge_mm,
         meshed_vein_radius_mm: 1.0,
     };

@@ -20,6 +20,7 @@ pub(super) fn flat() -> BladeForm {
         relief: 0.0,
         thickness_mm: 0.2,
         margin: MarginThickness::EVEN,
+        closed: false,
         max_edge_mm: 1.0,
         meshed_vein_radius_mm: 0.05,
     }

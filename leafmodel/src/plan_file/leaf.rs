@@ -23,7 +23,7 @@ use crate::blade::unevenness::Unevenness;
 use crate::blade::vein_body::VeinBody;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
-use crate::document::value_kind::{Degrees, Integer, Number};
+use crate::document::value_kind::{Degrees, Flag, Integer, Number};
 use crate::leaf::LeafPlan;
 use crate::leaf::damage::Damage;
 use crate::leaf::outline_plan::Contour;
@@ -280,6 +280,9 @@ fn form_keys(form: &mut BladeForm, keys: &mut Keys<'_>, length_mm: f64) {
     let limits = Number(Limits::closed(0.01, 100.0));
     let about = "Distance from the margin within which the thickness falls to that.";
     keys.key("margin_width_mm", &mut form.margin.width_mm, limits, about);
+    let about = "Whether the blade has two faces and a rim, for pictures from close by, and not one \
+        sheet that stands for both.";
+    keys.key("closed", &mut form.closed, Flag, about);
     // A finer mesh than this has more than some ten million triangles.
     let edges = Number(Limits::closed((length_mm / 2000.0).max(0.001), length_mm));
     let about = "Longest edge of the mesh.";

@@ -279,6 +279,7 @@ impl LeafTraits {
                 relief: surfaces::meshed_relief(self.preset, self.lie.relief),
                 thickness_mm: self.thickness_mm.value,
                 margin: crate::blade::MarginThickness::EVEN,
+                closed: false,
                 max_edge_mm: length_mm / 80.0,
                 meshed_vein_radius_mm: 0.12,
             },

@@ -7,6 +7,7 @@ use super::conformal_map::ConformalMap;
 use super::network::{Ending, VeinEdge, VeinNode, VenationNetwork};
 use super::plan::AuxinPlan;
 use super::topology::Topology;
+use super::width::RadiusTable;
 use super::{order, tension, width};
 
 /// A simulation's state, in segments of its step, base at the origin, without widths.
@@ -71,9 +72,14 @@ impl Grown {
             .base_to_tip()
             .expect("children and junctions are younger than what leads to them, so no edges run in a circle");
         let law = plan.width_law();
-        let radius = |flow: f64| plan.veinlet_radius_mm * law.radius(flow);
         let mut flows = width::flows(&topology, &base_to_tip, |_| 0.0);
-        let mut radii: Vec<f64> = flows.edges.par_iter().map(|&flow| radius(flow)).collect();
+        let mut table = RadiusTable::new(law, &flows);
+        let radius = |table: &RadiusTable, flow| plan.veinlet_radius_mm * table.radius(flow);
+        let of_edges = |table: &RadiusTable, flows: &width::Flows| -> Vec<f64> {
+            let flows = flows.edges.par_iter();
+            flows.map(|&flow| radius(table, flow)).collect()
+        };
+        let mut radii = of_edges(&table, &flows);
         let orders = order::orders(
             &topology,
             &self.positions,
@@ -87,7 +93,8 @@ impl Grown {
                 let bears = topology.entering(node).iter().any(|&edge| major(edge));
                 if bears { plan.unseen_veinlets } else { 0.0 }
             });
-            radii = flows.edges.par_iter().map(|&flow| radius(flow)).collect();
+            table = RadiusTable::new(law, &flows);
+            radii = of_edges(&table, &flows);
         }
         let edges: Vec<VeinEdge> = self
             .edges
@@ -98,7 +105,7 @@ impl Grown {
                 // its nodes.
                 let continues = orders.continuations[from as usize] == Some(i as u32);
                 let start = if continues {
-                    radius(flows.nodes[from as usize])
+                    radius(&table, flows.nodes[from as usize])
                 } else {
                     radii[i]
                 };

@@ -11,6 +11,8 @@
 //! The paper walks from the veinlets to the base; with loops that is well defined since edges run
 //! from older to younger tissue: every node is processed after all nodes to which it leads.
 
+use rayon::prelude::*;
+
 use super::topology::Topology;
 
 /// Flows in units of a veinlet's `rⁿ`, all ≥ 1.
@@ -89,6 +91,31 @@ impl WidthLaw {
             }
         }
         libm::exp(x)
+    }
+}
+
+/// Radii over a veinlet's of all flows in a net. A net has a hundred times fewer different flows
+/// than veins, and a radius is found by iteration.
+#[derive(Debug)]
+pub(crate) struct RadiusTable {
+    /// Ascending, each once.
+    flows: Vec<f64>,
+    radii: Vec<f64>,
+}
+
+impl RadiusTable {
+    pub(crate) fn new(law: WidthLaw, flows: &Flows) -> Self {
+        let mut flows: Vec<f64> = flows.nodes.iter().chain(&flows.edges).copied().collect();
+        flows.par_sort_unstable_by(f64::total_cmp);
+        flows.dedup();
+        let radii = flows.par_iter().map(|&flow| law.radius(flow)).collect();
+        Self { flows, radii }
+    }
+
+    /// The radius of a flow of the net.
+    pub(crate) fn radius(&self, flow: f64) -> f64 {
+        let place = self.flows.binary_search_by(|other| other.total_cmp(&flow));
+        self.radii[place.expect("every flow of the net is in the table")]
     }
 }
 

@@ -226,7 +226,7 @@ impl LocalCoat<'_> {
     /// The lobe's value and its sampling density for two directions on the side +z.
     #[inline]
     pub fn lobe(&self, wo: Vec3, lambda: f32, wi: Vec3) -> (f32, f32) {
-        super::leaf::coat_lobe(self.ggx, self.eta, wo, lambda, wi)
+        super::coat::coat_lobe(self.ggx, self.eta, wo, lambda, wi)
     }
 }
 

@@ -323,10 +323,16 @@ impl Grown {
                 Failure::bad(error)
             }
         })?;
-        let whole = match (&plan.compound, compound) {
+        let mut whole = match (&plan.compound, compound) {
             (Some(form), Some(flat)) => WholeLeaf::assembled(plan, form, flat, blades),
             _ => WholeLeaf::simple(blades.remove(0)),
         };
+        if plan.form.closed {
+            for blade in &mut whole.blades {
+                let frame = &blade.frame;
+                blade.mesh = blade.mesh.body(|place| frame.uv(place));
+            }
+        }
         Ok(Self::Whole(Box::new(whole)))
     }
 

@@ -47,6 +47,8 @@ pub struct Relief {
     /// Albedo of a grain of dust.
     grains: Option<Curve>,
     size_mm: Vec2,
+    /// The side that is a cut through the tissue and no face.
+    cut: Option<usize>,
 }
 
 /// The coat of a face where it is smooth.
@@ -115,7 +117,17 @@ impl Relief {
             stomata: [0, 1].map(|face| Stomata::new(&map.stomata, face)),
             grains: map.dust_brightness.map(soil),
             size_mm: Vec2::from(map.size_mm),
+            cut: None,
         }
+    }
+
+    /// The same with one side smooth, clean and without a coat.
+    #[must_use]
+    pub fn without(mut self, side: usize) -> Self {
+        let face = &mut self.faces[side];
+        face.bloom = Bloom::new(0.0, &face.table);
+        self.cut = Some(side);
+        self
     }
 
     /// Texels along u and v, and of the adaxial and then the abaxial face the means of ∂z/∂x and
@@ -145,6 +157,13 @@ impl Relief {
         let face = |side: usize| {
             let [x, y, xx, yy] = [0, 1, 2, 3].map(|i| moments[4 * side + i]);
             let coat = &self.faces[side];
+            if self.cut == Some(side) {
+                return ReliefFace {
+                    slope: Vec2::ZERO,
+                    coat: coat.table.coat(coat.eta, coat.alphas, &coat.bloom),
+                    dust: None,
+                };
+            }
             let mut slope = Vec2::new(x, y);
             let mut squares = [
                 coat.alphas[0] * coat.alphas[0] + SPREAD * (xx - x * x).max(0.0),

@@ -6,10 +6,11 @@ pub(super) mod parts;
 use std::sync::Arc;
 
 use glam::{DAffine3, Vec2};
+use leafmodel::blade::BladeMesh;
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::blade::surface::stomata::StomataPlan;
 use leafmodel::compound::WholeLeaf;
-use leafmodel::leaf::{Leaf, LeafPlan};
+use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::solid::ReflectanceTable;
 use leafmodel::solid::{Solid, SolidError as GrowthError};
 use thiserror::Error;
@@ -33,7 +34,8 @@ pub struct GrownLeaf {
     /// Blades and stalks, metres; a blade's base is at the origin, its midrib along +y, its adaxial
     /// side +z.
     pub meshes: Vec<TriangleMesh>,
-    /// Materials (maps of contents and coats) of the different blades, then the material of the
+    /// Materials (maps of contents and coats) of the different blades, two for one that is closed,
+    /// then the material of the
     /// stalks, if there are any, then those of hairs by kind.
     pub materials: Vec<LeafMaterial>,
     /// The pieces with their places; at least one.
@@ -97,13 +99,18 @@ pub fn grow(
     let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &faces);
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
-    let blade = |map: MapParts| {
+    let is_closed = leaf.plan.form.closed;
+    let blade = |map: MapParts, half: Option<usize>| {
         let size = [map.width, map.height];
         let spread_uv = map.size_mm.map(|side_mm| (spread_mm / side_mm) as f32);
         let texture = ContentsTexture::new(map.width, map.height, map.texels);
         let mut blade = material(Held::Map(texture));
-        if spread_mm > 0.0 {
+        // In a closed blade light spreads on its way from one face to the other.
+        if spread_mm > 0.0 && half.is_none() {
             blade = blade.spreading(Vec2::from(spread_uv));
+        }
+        if let Some(face) = half {
+            blade = blade.half(face);
         }
         match (map.surface, surface) {
             (Some(parts), Some(plan)) => blade.with_relief(ReliefMap {
@@ -119,7 +126,13 @@ pub fn grow(
             (_, _) => blade,
         }
     };
-    let blades = parts.maps.into_iter().map(blade);
+    let blades = parts.maps.into_iter().flat_map(|map| {
+        if is_closed {
+            vec![blade(map.clone(), Some(0)), blade(map, Some(1))]
+        } else {
+            vec![blade(map, None)]
+        }
+    });
     let uniform = |contents| material(Held::Uniform(contents));
     let stalk = parts.stalk.map(uniform);
     let hairs = parts.hairs.into_iter().map(uniform);
@@ -149,13 +162,20 @@ impl LeafParts {
         let whole = WholeLeaf::grow(plan)?;
         let stalk_contents = whole.stalk_contents(plan)?;
         let (mut meshes, mut maps) = (Vec::new(), Vec::new());
-        // The mesh of each blade, whether its stalk's follows, and how many of hairs after it.
+        // The first mesh of each blade, whether its stalk's follows, and how many of hairs after it.
         let mut own = Vec::new();
-        let stalk_material = whole.blades.len();
+        let halves = if plan.form.closed { 2 } else { 1 };
+        let stalk_material = halves * whole.blades.len();
         for grown in whole.blades {
             let hairy: Vec<bool> = grown.hairs.iter().map(|hairs| hairs.count() > 0).collect();
             own.push((meshes.len(), grown.petiole.is_some(), hairy));
-            meshes.push(blade(&grown));
+            if plan.form.closed {
+                let frame = &grown.frame;
+                let closed = grown.mesh.closed(|place| frame.uv(place));
+                meshes.extend(closed.iter().map(blade));
+            } else {
+                meshes.push(blade(&grown.mesh));
+            }
             if let Some(petiole) = &grown.petiole {
                 meshes.push(stalk(petiole));
             }
@@ -191,11 +211,13 @@ impl LeafParts {
                 material,
                 to_leaf,
             };
-            pieces.push(piece(mesh, placement.blade));
-            pieces.extend(has_stalk.then(|| piece(mesh + 1, stalk_material)));
+            let faces = 0..halves;
+            pieces.extend(faces.map(|face| piece(mesh + face, halves * placement.blade + face)));
+            let mesh = mesh + halves;
+            pieces.extend(has_stalk.then(|| piece(mesh, stalk_material)));
             let kinds = hairy.iter().enumerate().filter(|(_, there)| **there);
             for (after, (kind, _)) in kinds.enumerate() {
-                let mesh = mesh + 1 + usize::from(has_stalk) + after;
+                let mesh = mesh + usize::from(has_stalk) + after;
                 // Their materials come after that of stalks, if there is one.
                 pieces.push(piece(mesh, stalk_material + 1 + kind));
             }
@@ -226,8 +248,7 @@ impl LeafParts {
     }
 }
 
-fn blade(grown: &Leaf) -> MeshParts {
-    let blade = &grown.mesh;
+fn blade(blade: &BladeMesh) -> MeshParts {
     MeshParts {
         positions: metres(&blade.positions),
         normals: directions(&blade.normals),

@@ -51,6 +51,7 @@ pub(super) fn tissue_and_form() -> impl Strategy<Value = (Tissue, BladeForm)> {
                     share: 1.0 - ruffle,
                     width_mm: 0.2 + relief,
                 },
+                closed: relief > 0.5,
                 max_edge_mm: relief,
                 ..default
             }

@@ -157,6 +157,7 @@ fn blades_of_all_kinds_are_supplied_and_can_be_meshed() {
             relief: 0.5,
             thickness_mm: 0.2,
             margin: crate::blade::MarginThickness::EVEN,
+            closed: false,
             max_edge_mm: outline.length() / 20.0,
             meshed_vein_radius_mm: 0.1,
         };

@@ -17,6 +17,9 @@ const RELIEF: &str = "lamina_relief";
 /// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
+/// The faces of a leaf.
+const FACES: [&str; 2] = ["adaxial", "abaxial"];
+
 /// The material with this number.
 pub(super) fn bsdf(
     scene: &Description,
@@ -37,6 +40,11 @@ pub(super) fn bsdf(
             let mut bsdf = light_spread(plugin(kind, leaf.extrapolate), own);
             if own.relief().is_some() {
                 bsdf = bsdf.string("relief", relief_file(&id));
+            }
+            if let material::Material::Leaf(leaf) = own
+                && let Some(face) = leaf.half_face()
+            {
+                bsdf = bsdf.string("half", FACES[face]);
             }
             return leaf_faces(bsdf, &leaf.faces_by_age(), spectra);
         }
@@ -135,7 +143,7 @@ fn light_spread(bsdf: Element, material: &material::Material) -> Element {
 }
 
 fn leaf_faces(bsdf: Element, faces: &LeafFaces, spectra: &mut Spectra) -> Element {
-    let coats = ["adaxial", "abaxial"].into_iter().zip(&faces.coats);
+    let coats = FACES.into_iter().zip(&faces.coats);
     let bsdf = coats.fold(bsdf, |bsdf, (face, coat)| {
         bsdf.float(&format!("{face}_eta"), coat.eta)
             .float(&format!("{face}_alpha_across"), coat.alpha_across)
