@@ -110,6 +110,8 @@ def test_a_sweep_has_its_tasks_pictures_and_plots() -> None:
         )
         page = checked(report([made], Path(folder, "page.html")))
         assert "3 of 3 tasks are done" in page.text
+        assert "--over film.spectral.filter_radius_px=0.5,1,2 -D " in page.text
+        assert "film.spectral.size=[12, 8]&#39; --spp 2 --out made" in page.text
         assert len(page.pictures) == 3 + 2
         # A plot for each of the four bands, each with three points.
         assert page.text.count("<circle") == 4 * 3
@@ -124,6 +126,9 @@ def test_results_of_the_comparison_are_told_as_they_are() -> None:
     with tempfile.TemporaryDirectory() as folder:
         page = checked(report([results], Path(folder, "page.html")))
         assert "flat-leaf" in page.text and "ΔE2000" in page.text
+        # Results from before they had both pictures go without the border.
+        pairs = len(list(results.glob("*-mitsuba.png")))
+        assert page.text.count('class="cut"') == pairs
         assert f"<td>{told['bands'][0]['z']:+.2f}</td>" in page.text
         # A result that differs is told so.
         told |= {"passed": False, "failures": ["[mean] 450 nm <off>"]}

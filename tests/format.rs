@@ -10,7 +10,6 @@ use tempfile::TempDir;
 mod accepted;
 mod book;
 mod leaves;
-mod mutations;
 mod refused;
 mod schema;
 mod tissues;

@@ -197,8 +197,7 @@ def of_sweep(folder: Path) -> tuple[str, str, list[Section]]:
             "head": ["task", *(shorts[key] for key in keys), "picture", "state", *outputs],
             "rows": rows,
             "reproduce": f"# Lamina {about['program']}\n"
-            + shlex.join(["lamina", "sweep", about["what"], "--out", folder.name])
-            + "\n# with the --over, --seeds, -D, --spp and --noise that were given beside it",
+            + shlex.join(["lamina", "sweep", about["what"], *about["words"], "--out", folder.name]),
         },
     ]
     return f"Sweep of {Path(about['what']).name}", f"{len(tasks)} tasks.", sections
@@ -233,7 +232,11 @@ def of_comparison(folder: Path) -> tuple[str, str, list[Section]]:
         told = json.loads(file.read_text(encoding="utf-8"))
         if not isinstance(told, dict) or not {"scene", "bands", "passed"} <= told.keys():
             continue
-        names = {"z": "z by band, full at ±4", "delta-e": "ΔE2000, white at 4"}
+        names = {
+            "difference": "difference by band, full at ±20 % of its mean",
+            "z": "z by band, full at ±4",
+            "delta-e": "ΔE2000, white at 4",
+        }
         maps = [
             embedded(file.with_name(f"{file.stem}-{name}.png"), words)
             for name, words in names.items()

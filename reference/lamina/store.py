@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -143,20 +144,20 @@ def opened(path: str | Path) -> zarr.Group:
     return zarr.open_group(str(path), mode="r+", zarr_format=FORMAT, use_consolidated=False)
 
 
+@lru_cache(maxsize=4)
+def arrays(path: str, call: str) -> tuple[zarr.Group, dict[str, zarr.Array[Any]]]:
+    """A store that is there and its arrays, looked up once for each call of `sweep` in a process:
+    to open an array takes as long as to write a small one.
+
+    `call` names the call: a later one may have made the store longer, or another one.
+    """
+    group = opened(path)
+    return group, dict(group.arrays())
+
+
 def part(group: zarr.Group, name: str, chosen: slice = slice(None)) -> Array:
     """Some tasks of an array."""
     return np.asarray(cast("zarr.Array[Any]", group[name])[chosen])
-
-
-def array(group: zarr.Group, name: str) -> zarr.Array[Any] | None:
-    """An array, if the store has it."""
-    found = group.get(name)
-    return found if isinstance(found, zarr.Array) else None
-
-
-def put(group: zarr.Group, name: str, chosen: slice, values: Array) -> None:
-    """Writes some tasks of an array."""
-    cast("zarr.Array[Any]", group[name])[chosen] = values
 
 
 def results(path: Path) -> xr.Dataset:

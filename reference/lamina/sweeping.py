@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 import numpy as np
 import xarray as xr
@@ -16,7 +17,6 @@ from lamina.program import LaminaError, Value, program, run
 from lamina.rendered import read
 
 if TYPE_CHECKING:
-    import zarr
     from distributed import Client
 
 # Results that a worker holds at a time, bytes.
@@ -78,8 +78,9 @@ def sweep(
         for start in range(0, len(listing.ids), length)
         if is_open[start : start + length].any()
     ]
+    call = uuid4().hex
     calls = [
-        (str(place), str(listing.file), listing.offsets[start], start, length, command)
+        (str(place), call, str(listing.file), listing.offsets[start], start, length, command)
         for start in starts
     ]
     if client is None:
@@ -132,7 +133,7 @@ def on_cluster(
     from distributed import as_completed
 
     futures = [client.submit(work, *call, threads, pure=False, retries=2) for call in calls]
-    starts = {future.key: call[3] for future, call in zip(futures, calls, strict=True)}
+    starts = {future.key: call[4] for future, call in zip(futures, calls, strict=True)}
     failed: list[tuple[int, str, int]] = []
     for future in as_completed(futures):  # type: ignore[no-untyped-call]
         if future.status == "finished":
@@ -145,6 +146,7 @@ def on_cluster(
 
 def work(
     store: str,
+    call: str,
     tasks: str,
     offset: int,
     first: int,
@@ -158,16 +160,14 @@ def work(
     """
     from lamina import store as stores
 
-    group = stores.opened(store)
+    group, arrays = stores.arrays(store, call)
     chosen = slice(first, first + count)
-    done = stores.part(group, "done", chosen)
+    done = np.asarray(arrays["done"][chosen])
     listed = tasks_at(tasks, offset, len(done))
     identities = np.array([int(task["id"], 16) for task in listed], np.uint64)
     version = str(group.attrs["software"]).removeprefix("Lamina ")
     was_done = bool(done.any())
     failed: list[tuple[int, str, int]] = []
-    # Each is looked up once: to open an array takes as long as to write a small one.
-    arrays: dict[str, zarr.Array[Any] | None] = {}
     blocks: dict[str, stores.Array] = {}
     for index in np.flatnonzero(done != identities):
         try:
@@ -176,10 +176,7 @@ def work(
             failed.append((first + int(index), str(failure), failure.code))
             continue
         for name, layer in layers.items():
-            if name not in arrays:
-                arrays[name] = stores.array(group, name)
-            there = arrays[name]
-            if there is None:
+            if (there := arrays.get(name)) is None:
                 continue
             if name not in blocks:
                 # What nobody has written need not be read.
@@ -194,10 +191,9 @@ def work(
         else:
             done[index] = identities[index]
     for name, block in sorted(blocks.items()):
-        if (there := arrays[name]) is not None:
-            there[chosen] = block
+        arrays[name][chosen] = block
     # What this says to be there is there.
-    stores.put(group, "done", chosen, done)
+    arrays["done"][chosen] = done
     return failed
 
 

@@ -76,12 +76,11 @@ def delta_e_of_hex(ours: str, theirs: str) -> float:
     return delta_e_of_xyz(*(science.sRGB_to_XYZ(srgb_of_hex(text)) for text in (ours, theirs)))
 
 
-def delta_e_2000(ours: Array, theirs: Array, bands: list[float]) -> Array | None:
-    """ΔE2000 per pixel of two pictures `[height, width, bands]`, or `None` without colour.
+def xyz_of_bands(bands: list[float]) -> Array | None:
+    """XYZ of light of 1 in each band, `[bands, 3]`, or `None` without colour.
 
     The bands (centres in nm) stand for a spectrum that is linear between them and constant
-    beyond. The white is the brightest pixel of `theirs`, at L* = 100, of the chromaticity of
-    equal energy. Three bands between 430 and 680 nm are asked for at least.
+    beyond. Three bands between 430 and 680 nm are asked for at least.
     """
     centres = np.asarray(bands)
     if ((centres > 430.0) & (centres < 680.0)).sum() < 3:
@@ -89,7 +88,40 @@ def delta_e_2000(ours: Array, theirs: Array, bands: list[float]) -> Array | None
     nm = np.arange(380.0, 780.1, 5.0)
     observer = np.asarray(_OBSERVER.copy().align(science.SpectralShape(380, 780, 5)).values)
     hats = np.stack([np.interp(nm, centres, row) for row in np.eye(centres.size)])
-    to_xyz = hats @ observer / observer[:, 1].sum()
+    return np.asarray(hats @ observer / observer[:, 1].sum(), dtype=np.float64)
+
+
+def shown(ours: Array, theirs: Array, bands: list[float]) -> list[Array]:
+    """Two pictures `[height, width, bands]` to look at, `[height, width, 3]` within 0 to 1.
+
+    Both have one exposure: all but 0.5 % of the pixels of `theirs` are below white. Light of equal
+    energy is white; bands without colour are shown as grey, by their mean.
+    """
+    to_xyz = xyz_of_bands(bands)
+    if to_xyz is None:
+        pair = [np.repeat(picture.mean(axis=2)[..., None], 3, axis=2) for picture in (ours, theirs)]
+    else:
+        white = science.XYZ_to_sRGB(to_xyz.sum(axis=0), apply_cctf_encoding=False)
+        pair = [
+            science.XYZ_to_sRGB(picture @ to_xyz, apply_cctf_encoding=False) / white
+            for picture in (ours, theirs)
+        ]
+    bright = max(float(np.percentile(pair[1], 99.5)), np.finfo(float).tiny)
+    return [
+        np.asarray(science.cctf_encoding(np.clip(picture / bright, 0.0, 1.0)), dtype=np.float64)
+        for picture in pair
+    ]
+
+
+def delta_e_2000(ours: Array, theirs: Array, bands: list[float]) -> Array | None:
+    """ΔE2000 per pixel of two pictures `[height, width, bands]`, or `None` without colour.
+
+    The bands are those of `xyz_of_bands`. The white is the brightest pixel of `theirs`, at
+    L* = 100, of the chromaticity of equal energy.
+    """
+    to_xyz = xyz_of_bands(bands)
+    if to_xyz is None:
+        return None
     white = to_xyz.sum(axis=0)
     pair = [picture @ to_xyz for picture in (ours, theirs)]
     brightest = max(float(pair[1][:, :, 1].max()), np.finfo(float).tiny)

@@ -103,20 +103,31 @@ class Comparison:
         return {"mean": float(delta.mean()), "p95": float(np.percentile(delta, 95.0))}
 
     def write_pictures(self, folder: Path, stem: str) -> None:
-        """Writes `stem-z.png` (bands side by side) and, if there is colour, `stem-delta-e.png`."""
-        # ±4 σ from blue over white to red.
-        level = np.clip(self.z / 4.0, -1.0, 1.0)
-        tiles = [level[:, :, band] for band in range(level.shape[2])]
-        flat = np.concatenate(tiles, axis=1)
-        rgb = np.stack(
-            [1.0 + np.minimum(flat, 0.0), 1.0 - np.abs(flat), 1.0 - np.maximum(flat, 0.0)]
-        )
-        write_png(folder / f"{stem}-z.png", np.moveaxis(rgb, 0, -1))
+        """Writes what a report shows: `stem-lamina.png` and `stem-mitsuba.png` at one exposure,
+        `stem-difference.png` and `stem-z.png` (bands side by side) and, if there is colour,
+        `stem-delta-e.png`.
+        """
+        names = [float(band.name) for band in self.bands]
+        pair = colour.shown(self.ours.mean, self.theirs.mean, names)
+        for whose, picture in zip(("lamina", "mitsuba"), pair, strict=True):
+            write_png(folder / f"{stem}-{whose}.png", picture)
+        mean = np.maximum(self.theirs.mean.mean(axis=(0, 1)), np.finfo(float).tiny)
+        difference = (self.ours.mean - self.theirs.mean) / mean
+        for what, level in (("difference", difference / 0.2), ("z", self.z / 4.0)):
+            write_png(folder / f"{stem}-{what}.png", diverging(level))
         delta = self.delta_e()
         if delta is not None:
             # Black to white at ΔE 4; 1 is about what an eye can tell.
             grey = np.clip(delta / 4.0, 0.0, 1.0)
             write_png(folder / f"{stem}-delta-e.png", np.repeat(grey[:, :, None], 3, axis=2))
+
+
+def diverging(levels: Array) -> Array:
+    """Bands side by side, −1 to 1 from blue over white to red."""
+    level = np.clip(levels, -1.0, 1.0)
+    flat = np.concatenate([level[:, :, band] for band in range(level.shape[2])], axis=1)
+    rgb = np.stack([1.0 + np.minimum(flat, 0.0), 1.0 - np.abs(flat), 1.0 - np.maximum(flat, 0.0)])
+    return np.moveaxis(rgb, 0, -1)
 
 
 def compare(ours: Picture, theirs: Picture, names: list[str]) -> Comparison:

@@ -180,6 +180,23 @@ fn check_size(
     Ok(())
 }
 
+/// Most that compression makes data smaller: DEFLATE 1032 times, PXR24 a third more.
+const MOST_EXPANSION: u64 = 1500;
+
+/// Refuses a header that claims more bytes of pixels than the file's bytes can hold, before memory
+/// is taken for them.
+fn check_held(claimed: u64, held: usize) -> Result<(), ImageError> {
+    if claimed / MOST_EXPANSION > held as u64 {
+        return Err(ImageError::Malformed {
+            what: format!(
+                "its header claims {claimed} bytes of pixels, more than {held} bytes can hold: \
+                 the file is damaged or cut short"
+            ),
+        });
+    }
+    Ok(())
+}
+
 /// Reads a file and passes its bytes to `decode`; adds the path to errors.
 fn read_file(
     path: &Path,

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::directional_albedo::reflected_share;
+use super::directional_albedo::{lattice_on_disc, reflected_share};
 use super::ggx::Ggx;
 
 const ALPHA_NODES: usize = 16;
@@ -116,6 +116,7 @@ impl CoatTable {
     }
 
     fn new(eta: f32) -> Self {
+        let points = lattice_on_disc(LATTICE);
         let row = |node: usize| {
             let alpha = alpha_of(node);
             let ggx = Ggx {
@@ -126,7 +127,7 @@ impl CoatTable {
                 if eta == 1.0 {
                     0.0
                 } else {
-                    reflected_share(ggx, eta, mu_of(i), 0.0, LATTICE)
+                    reflected_share(ggx, eta, mu_of(i), 0.0, &points)
                 }
             })
         };

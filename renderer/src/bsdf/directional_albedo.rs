@@ -3,9 +3,11 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
+use crate::sampling::warp;
 
 /// `E(ω)`, the share of light from ω that the coat's lobe reflects, and its mean `Ē`.
 ///
@@ -38,14 +40,16 @@ impl DirectionalAlbedo {
         } else {
             AZIMUTH_NODES
         };
-        let values: Box<[[f32; MU_NODES]]> = (0..azimuths)
-            .map(|azimuth| {
-                let sin2 = azimuth as f32 / (azimuths.max(2) - 1) as f32;
-                std::array::from_fn(|node| {
-                    reflected_share(ggx, eta, mu_of(node as f32), sin2, LATTICE)
-                })
-            })
-            .collect();
+        let points = lattice_on_disc(LATTICE);
+        let entry = |number: usize| {
+            let sin2 = (number / MU_NODES) as f32 / (azimuths.max(2) - 1) as f32;
+            let mu = mu_of((number % MU_NODES) as f32);
+            reflected_share(ggx, eta, mu, sin2, &points)
+        };
+        // Collected by number, so that it is the same on any number of threads.
+        let entries = (0..azimuths * MU_NODES).into_par_iter().map(entry);
+        let entries: Vec<f32> = entries.collect();
+        let values: Box<[[f32; MU_NODES]]> = entries.as_chunks().0.into();
         let mean = mean_of(&values);
         Self { values, mean }
     }
@@ -89,31 +93,35 @@ fn mu_of(node: f32) -> f32 {
     x * x
 }
 
-/// `E` at one direction, by a rank-1 lattice (two consecutive Fibonacci numbers) over the visible
-/// normals: the integrand `F G₂ / G₁` is smooth.
-pub(super) fn reflected_share(
-    ggx: Ggx,
-    eta: f32,
-    mu: f32,
-    sin2_phi: f32,
-    lattice: (u32, u32),
-) -> f32 {
+/// The points of a rank-1 lattice (two consecutive Fibonacci numbers), on the unit disc.
+pub(super) fn lattice_on_disc((count, step): (u32, u32)) -> Vec<Vec2> {
+    let point = |i: u32| {
+        let x = (i as f32 + 0.5) / count as f32;
+        let y = ((u64::from(i) * u64::from(step)) % u64::from(count)) as f32 + 0.5;
+        warp::disc(Vec2::new(x, y / count as f32))
+    };
+    (0..count).map(point).collect()
+}
+
+/// `E` at one direction, by a lattice over the visible normals: the integrand `F G₂ / G₁` is smooth.
+pub(super) fn reflected_share(ggx: Ggx, eta: f32, mu: f32, sin2_phi: f32, points: &[Vec2]) -> f32 {
     // At exactly grazing incidence the limit is taken from close by.
     let mu = mu.max(0.25 * mu_of(1.0));
     let sin = (1.0 - mu * mu).max(0.0).sqrt();
     let wo = Vec3::new(sin * (1.0 - sin2_phi).sqrt(), sin * sin2_phi.sqrt(), mu);
+    let visible = ggx.seen_from(wo);
+    let (lambda, g1) = (ggx.lambda(wo), ggx.g1(wo));
     let mut sum = 0.0_f64;
-    for i in 0..lattice.0 {
-        let x = (i as f32 + 0.5) / lattice.0 as f32;
-        let y = ((u64::from(i) * u64::from(lattice.1)) % u64::from(lattice.0)) as f32 + 0.5;
-        let h = ggx.sample_visible(wo, Vec2::new(x, y / lattice.0 as f32));
+    for point in points {
+        let h = visible.normal(*point);
         let cos = wo.dot(h);
         let wi = 2.0 * cos * h - wo;
         if cos > 0.0 && wi.z > 0.0 {
-            sum += f64::from(fresnel::dielectric(cos, eta) * ggx.g2(wo, wi) / ggx.g1(wo));
+            let g2 = 1.0 / (1.0 + lambda + ggx.lambda(wi));
+            sum += f64::from(fresnel::dielectric(cos, eta) * g2 / g1);
         }
     }
-    (sum / f64::from(lattice.0)) as f32
+    (sum / points.len() as f64) as f32
 }
 
 /// `2/π ∫₀^{π/2} dφ ∫ 2 E µ dµ` of the table as interpolated.

@@ -45,6 +45,12 @@ impl Ggx {
 
     /// A microfacet normal drawn from those visible from `wo` (Heitz, JCGT 7(4), 2018).
     pub fn sample_visible(&self, wo: Vec3, u: Vec2) -> Vec3 {
+        self.seen_from(wo).normal(warp::disc(u))
+    }
+
+    /// What the normals visible from one direction share.
+    #[inline]
+    pub(super) fn seen_from(self, wo: Vec3) -> Visible {
         let stretched = Vec3::new(self.alpha_x * wo.x, self.alpha_y * wo.y, wo.z).normalize();
         let length2 = stretched.x * stretched.x + stretched.y * stretched.y;
         let t1 = if length2 > 0.0 {
@@ -52,23 +58,44 @@ impl Ggx {
         } else {
             Vec3::X
         };
-        let t2 = stretched.cross(t1);
-        let point = warp::disc(u);
-        let lift = 0.5 * (1.0 + stretched.z);
-        let y = (1.0 - lift) * (1.0 - point.x * point.x).max(0.0).sqrt() + lift * point.y;
-        let z = (1.0 - point.x * point.x - y * y).max(0.0).sqrt();
-        let normal = point.x * t1 + y * t2 + z * stretched;
-        Vec3::new(
-            self.alpha_x * normal.x,
-            self.alpha_y * normal.y,
-            normal.z.max(1e-6),
-        )
-        .normalize()
+        Visible {
+            ggx: self,
+            stretched,
+            t1,
+            t2: stretched.cross(t1),
+            lift: 0.5 * (1.0 + stretched.z),
+        }
     }
 
     /// Density of [`Ggx::sample_visible`] over solid angle of the normal, sr⁻¹.
     pub fn visible_density(&self, wo: Vec3, h: Vec3) -> f32 {
         self.g1(wo) * wo.dot(h).max(0.0) * self.d(h) / wo.z
+    }
+}
+
+/// The microfacet normals visible from one direction.
+pub(super) struct Visible {
+    ggx: Ggx,
+    /// The direction where the facets are a hemisphere, and the two tangents there.
+    stretched: Vec3,
+    t1: Vec3,
+    t2: Vec3,
+    lift: f32,
+}
+
+impl Visible {
+    /// The normal for a point of the unit disc.
+    #[inline]
+    pub(super) fn normal(&self, point: Vec2) -> Vec3 {
+        let y = (1.0 - self.lift) * (1.0 - point.x * point.x).max(0.0).sqrt() + self.lift * point.y;
+        let z = (1.0 - point.x * point.x - y * y).max(0.0).sqrt();
+        let normal = point.x * self.t1 + y * self.t2 + z * self.stretched;
+        Vec3::new(
+            self.ggx.alpha_x * normal.x,
+            self.ggx.alpha_y * normal.y,
+            normal.z.max(1e-6),
+        )
+        .normalize()
     }
 }
 

@@ -257,7 +257,30 @@ impl Work<'_> {
     fn about(&self) -> serde_json::Value {
         let mut about = list::about(self.sweep);
         about["what"] = json!(self.arguments.what);
+        about["words"] = json!(self.words());
         about
+    }
+
+    /// What the command line adds to a sweep file, or says instead of one.
+    fn words(&self) -> Vec<String> {
+        let arguments = self.arguments;
+        let mut words = Vec::new();
+        let mut add = |flag: &str, value: String| words.extend([flag.to_owned(), value]);
+        for (flag, values) in [("--over", &arguments.over), ("-D", &arguments.overrides)] {
+            for value in values {
+                add(flag, value.clone());
+            }
+        }
+        if let Some(seeds) = arguments.seeds {
+            add("--seeds", seeds.to_string());
+        }
+        if let Some(spp) = arguments.spp {
+            add("--spp", spp.to_string());
+        }
+        if let Some(noise) = arguments.noise {
+            add("--noise", noise.to_string());
+        }
+        words
     }
 }
 

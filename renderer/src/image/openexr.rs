@@ -17,7 +17,8 @@ use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{
-    Attribute, ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_size,
+    Attribute, ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_held,
+    check_size,
 };
 
 /// Attributes that describe the structure of the file. They cannot be set and are not reported.
@@ -258,7 +259,7 @@ fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
     let meta =
         guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
-    let mut total: u64 = 0;
+    let (mut total, mut claimed) = (0_u64, 0_u64);
     for header in &meta.headers {
         let size = header.layer_size;
         let channels = header.channels.list.len() as u64;
@@ -275,7 +276,14 @@ fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
                 most,
             });
         }
+        // Pixels of deep data may hold nothing.
+        if !header.deep {
+            let stored = header.channels.bytes_per_pixel as u64;
+            claimed =
+                claimed.saturating_add((size.0 as u64 * size.1 as u64).saturating_mul(stored));
+        }
     }
+    check_held(claimed, bytes.len())?;
 
     let image = guard(|| {
         exr::prelude::read()

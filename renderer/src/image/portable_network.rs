@@ -9,7 +9,8 @@ use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageRea
 use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
 use super::{
-    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709, atomic, check_size,
+    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709, atomic, check_held,
+    check_size,
 };
 
 /// White D65 and the primaries of Rec. 709, x and y of each times 100 000: what sRGB means.
@@ -190,6 +191,15 @@ fn decode_stored(bytes: &[u8], channels: u64) -> Result<DynamicImage, ImageError
     let (width, height) = reader().into_dimensions().map_err(malformed)?;
     let (across, down) = (u64::from(width), u64::from(height));
     check_size(across, down, channels, 12, MOST_TEXTURE_BYTES)?;
+    // The header, which was just read, is always in the same place: depth, then kind of colour.
+    let stored = u64::from(bytes[24])
+        * match bytes[25] {
+            2 => 3,
+            4 => 2,
+            6 => 4,
+            _ => 1,
+        };
+    check_held(across * down / 8 * stored, bytes.len())?;
     let mut reader = reader();
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
