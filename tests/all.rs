@@ -8,5 +8,6 @@ mod golden;
 mod lights;
 mod optics;
 mod radiometry;
+mod random_plans;
 mod scattering;
 mod solid_tissue;

@@ -49,6 +49,11 @@ const PLAIN_EDGE: f64 = 0.02;
 /// are searched face by face.
 const MOST_PER_SPACING: f64 = 3.0;
 
+/// Memory of a triangle of a body and of a texel of its map, bytes: what their arrays hold, twice,
+/// since they are made from others.
+const OF_A_TRIANGLE: f64 = 300.0;
+const OF_A_TEXEL: f64 = 120.0;
+
 /// The parameters of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidPlan {
@@ -128,6 +133,36 @@ impl SolidError {
     }
 }
 
+impl SolidPlan {
+    /// Longest edge of its triangles, mm.
+    fn edge_mm(&self, area: f64) -> f64 {
+        let smooth_mm = PLAIN_EDGE * area.sqrt();
+        self.mosaic.as_ref().map_or(smooth_mm, |pattern| {
+            let suits_mm = pattern.edge_mm(area);
+            suits_mm.min(smooth_mm.max(suits_mm / MOST_PER_SPACING))
+        })
+    }
+
+    /// Estimates the memory that the body takes, bytes, and refuses what [`Solid::grow`] would
+    /// refuse for its size.
+    ///
+    /// # Errors
+    ///
+    /// [`SolidError::TooFine`], and errors of the numbers of shape and mosaic.
+    pub fn memory_bytes(&self) -> Result<f64, SolidError> {
+        if let Some(pattern) = &self.mosaic {
+            pattern.validate()?;
+        }
+        let area = self.shape.area()?;
+        let triangles = self.shape.count_of_triangles(self.edge_mm(area), area)?;
+        let texels = f64::from(self.map_size) * f64::from(self.map_size);
+        let painted = self.mosaic.as_ref().map_or(0.0, |pattern| {
+            pattern.plan.memory_bytes() + texels * OF_A_TEXEL
+        });
+        Ok(triangles * OF_A_TRIANGLE + painted)
+    }
+}
+
 impl Solid {
     /// Grows the body of a plan, or stops when `is_stopped` returns true.
     ///
@@ -139,11 +174,7 @@ impl Solid {
             pattern.validate()?;
         }
         let area = plan.shape.area()?;
-        let smooth_mm = PLAIN_EDGE * area.sqrt();
-        let edge_mm = plan.mosaic.as_ref().map_or(smooth_mm, |pattern| {
-            let suits_mm = pattern.edge_mm(area);
-            suits_mm.min(smooth_mm.max(suits_mm / MOST_PER_SPACING))
-        });
+        let edge_mm = plan.edge_mm(area);
         let shape = plan.shape.triangles(edge_mm)?;
         let Some(pattern) = &plan.mosaic else {
             return Ok(Self::plain(shape, plan.contents));

@@ -82,6 +82,15 @@ pub enum MosaicError {
         /// The greatest number of cells.
         most: usize,
     },
+    /// The cells crowd so much that growth would take hours.
+    #[error(
+        "cells would push each other apart {pairs:.1e} times, at most 1e10 are allowed, which takes an hour; make the days fewer, the \
+         divisions rarer, or let `radius = \"daily\"` shrink their reach as they divide"
+    )]
+    TooManyPairs {
+        /// How many pairs, in all relaxations together.
+        pairs: f64,
+    },
     /// A type divides so often that there would be more cells than allowed.
     #[error(
         "cells of type \"{name}\" divide every {division_days} days: after {days} days there would be more than {most}; make the days \

@@ -12,6 +12,16 @@ pub(super) const MOST_CELLS: usize = 4_000_000;
 /// actual number may be smaller.
 const OVERCROWDED: f64 = 4.0;
 
+/// Greatest number of pairs of cells in all relaxations together, by an estimate from below. A
+/// processor gets through a few million of them a second, so that more would take an hour.
+const MOST_PAIRS: f64 = 1e10;
+/// Memory of the surface around an initial cell, bytes: its triangles are as fine as the initial
+/// cells. Measured on a leaf with 20 000 and 100 000 of them.
+const OF_A_FIRST_CELL: f64 = 12e3;
+/// Memory of a cell of the grown mosaic, bytes; measured on a sphere on which 50 cells divided into
+/// 26 000 and 102 000.
+const OF_A_CELL: f64 = 3e3;
+
 /// A kind of cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellType {
@@ -177,23 +187,14 @@ impl MosaicPlan {
     }
 
     /// Refuses plans that are bound to end in [`MosaicError::TooManyCells`], which may take
-    /// minutes. The effect of controls and of the growth of the surface is not known beforehand.
+    /// minutes, or to take hours. The effect of controls and of the growth of the surface is not
+    /// known beforehand.
     fn has_room(&self) -> Result<(), MosaicError> {
-        let steered = self.controls.iter().any(|control| match control.steers {
-            Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
-            Steered::Adhesion { .. } | Steered::Blocked => false,
-        });
-        if steered || self.growth != SurfaceGrowth::None {
+        if self.is_steered() {
             return Ok(());
         }
         for (number, kind) in self.types.iter().enumerate() {
-            // A lower estimate: only descendants of the same type, all dividing after the mean time
-            // (Poisson scatter makes them more) plus one relaxation. Each division turns one cell
-            // into 1 + s of the type.
-            let wait = kind.division_days + 1.0 / f64::from(self.relaxations_per_day);
-            let times = libm::exp(self.days * libm::log1p(kind.switching[number]) / wait);
-            let cells = self.initial_cells as f64 * kind.initial_probability * times;
-            if cells > OVERCROWDED * MOST_CELLS as f64 {
+            if self.cells_of(number, self.days) > OVERCROWDED * MOST_CELLS as f64 {
                 return Err(MosaicError::Overcrowded {
                     name: kind.name.clone(),
                     division_days: kind.division_days,
@@ -202,7 +203,56 @@ impl MosaicPlan {
                 });
             }
         }
+        let pairs = self.pairs();
+        if pairs > MOST_PAIRS {
+            return Err(MosaicError::TooManyPairs { pairs });
+        }
         Ok(())
+    }
+
+    /// Whether the number of cells depends on controls or on the growth of the surface.
+    fn is_steered(&self) -> bool {
+        let steered = self.controls.iter().any(|control| match control.steers {
+            Steered::DivisionRate { .. } | Steered::InitialType(_) => true,
+            Steered::Adhesion { .. } | Steered::Blocked => false,
+        });
+        steered || self.growth != SurfaceGrowth::None
+    }
+
+    /// A lower estimate of the number of cells of a type after some days: only descendants of the
+    /// same type, all dividing after the mean time (Poisson scatter makes them more) plus one
+    /// relaxation. Each division turns one cell into 1 + s of the type.
+    fn cells_of(&self, number: usize, days: f64) -> f64 {
+        let kind = &self.types[number];
+        let wait = kind.division_days + 1.0 / f64::from(self.relaxations_per_day);
+        let times = libm::exp(days * libm::log1p(kind.switching[number]) / wait);
+        self.initial_cells as f64 * kind.initial_probability * times
+    }
+
+    fn cells(&self, days: f64) -> f64 {
+        (0..self.types.len()).fold(0.0, |sum, number| sum + self.cells_of(number, days))
+    }
+
+    /// About how many pairs of cells push each other apart in all: every cell sees those within the
+    /// repulsion radius, and more of them the more divide while the radius stays.
+    fn pairs(&self) -> f64 {
+        let seen = std::f64::consts::PI * self.radius_weight * self.radius_weight;
+        let of_a_day = |day: u32| {
+            let cells = self.cells(f64::from(day).min(self.days));
+            let crowding = match self.radius {
+                RadiusRule::Initial => cells / self.initial_cells as f64,
+                RadiusRule::Daily => 1.0,
+            };
+            cells * seen * crowding.max(1.0) * f64::from(self.relaxations_per_day)
+        };
+        (1..=self.days.ceil() as u32).fold(0.0, |sum, day| sum + of_a_day(day))
+    }
+
+    /// About how much memory the mosaic takes while it grows, bytes.
+    pub fn memory_bytes(&self) -> f64 {
+        let last = if self.is_steered() { 0.0 } else { self.days };
+        let cells = self.cells(last).min(MOST_CELLS as f64);
+        self.initial_cells as f64 * OF_A_FIRST_CELL + cells * OF_A_CELL
     }
 
     fn adhesion_is_symmetric(&self) -> Result<(), MosaicError> {

@@ -113,8 +113,8 @@ pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeEr
         positive("semi_axes_mm", axis)?;
     }
     positive("max_edge_mm", max_edge_mm)?;
-    let cuts = libm::ceil(ICOSAHEDRON_EDGE * semi_axes_mm.max_element() / max_edge_mm).max(1.0);
-    affordable(20.0 * cuts * cuts)?;
+    ellipsoid_triangles(semi_axes_mm, max_edge_mm)?;
+    let cuts = ellipsoid_cuts(semi_axes_mm, max_edge_mm);
     let (directions, faces) = divided_icosahedron(cuts as u32);
     Ok(Shape {
         positions: directions.iter().map(|&d| d * semi_axes_mm).collect(),
@@ -124,6 +124,23 @@ pub fn ellipsoid(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<Shape, ShapeEr
             .collect(),
         faces,
     })
+}
+
+/// Pieces into which each edge of an icosahedron is cut for an ellipsoid.
+fn ellipsoid_cuts(semi_axes_mm: DVec3, max_edge_mm: f64) -> f64 {
+    libm::ceil(ICOSAHEDRON_EDGE * semi_axes_mm.max_element() / max_edge_mm).max(1.0)
+}
+
+/// The number of triangles of an ellipsoid.
+///
+/// # Errors
+///
+/// [`ShapeError::TooFine`].
+pub fn ellipsoid_triangles(semi_axes_mm: DVec3, max_edge_mm: f64) -> Result<f64, ShapeError> {
+    let cuts = ellipsoid_cuts(semi_axes_mm, max_edge_mm);
+    let triangles = 20.0 * cuts * cuts;
+    affordable(triangles)?;
+    Ok(triangles)
 }
 
 /// A cube around the origin with rounded edges and corners.

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::mosaic::shapes::{Shape, ShapeError, ellipsoid, lathe, rounded_cube};
+use crate::mosaic::shapes::{
+    Shape, ShapeError, ellipsoid, ellipsoid_triangles, lathe, rounded_cube,
+};
 
 /// The shape of a body, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +64,26 @@ impl SolidShape {
             Self::Mesh(mesh) => return Ok(area(&mesh.shape)),
         };
         self.triangles(0.1 * size).map(|shape| area(&shape))
+    }
+
+    /// About how many triangles [`SolidShape::triangles`] makes of a shape of this area, mm².
+    ///
+    /// # Errors
+    ///
+    /// [`ShapeError::TooFine`].
+    pub(super) fn count_of_triangles(
+        &self,
+        max_edge_mm: f64,
+        area: f64,
+    ) -> Result<f64, ShapeError> {
+        match self {
+            Self::Ellipsoid { semi_axes_mm } => ellipsoid_triangles(*semi_axes_mm, max_edge_mm),
+            // Even ones, half as large as those whose edges are all as long as they may be.
+            Self::RoundedCube { .. } | Self::Lathe { .. } => {
+                Ok(area / (0.2 * max_edge_mm * max_edge_mm))
+            }
+            Self::Mesh(mesh) => Ok(mesh.shape.faces.len() as f64),
+        }
     }
 
     /// The shape as triangles with edges of at most `max_edge_mm`; imported meshes are not changed.

@@ -229,7 +229,7 @@ pub enum ExportCommand {
 }
 
 /// `lamina export mitsuba`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, PartialEq)]
 pub struct MitsubaArguments {
     /// Scene and overrides.
     #[command(flatten)]
@@ -237,6 +237,9 @@ pub struct MitsubaArguments {
     /// Folder to write into
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Memory that building the scene may take; the default is what the machine has free
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    pub memory: Option<f64>,
 }
 
 /// `lamina compare`.
@@ -271,7 +274,7 @@ pub struct SchemaArguments {
 }
 
 /// `lamina grow`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct GrowArguments {
     /// A preset, or a file with leaves or a scene, and which leaf if there are several:
@@ -335,6 +338,9 @@ pub struct GrowArguments {
     /// Threads; the default is one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Memory that growing may take; the default is what the machine has free
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    pub memory: Option<f64>,
     /// Pixels along the longer side of a png
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
     pub size: u32,

@@ -2,6 +2,7 @@
 //! the size of the scene once built.
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
+use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
@@ -82,7 +83,9 @@ fn read_files(description: &Description) -> Result<(), Failure> {
 
 /// Builds the scene and prints its size.
 fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
+    let patience = Patience::new("growing and building the scene");
     let world = World::build(description).map_err(Failure::bad)?;
+    drop(patience);
     for note in &world.notes {
         eprintln!("note: {note}");
     }

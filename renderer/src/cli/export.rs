@@ -1,13 +1,17 @@
 //! `lamina export`: a scene for another renderer.
 
 use crate::cli::arguments::MitsubaArguments;
-use crate::cli::{Failure, load_scene, say};
+use crate::cli::progress::Patience;
+use crate::cli::{Failure, load_scene, needs, say};
 use crate::export::mitsuba;
 use crate::scene::world::World;
 
 pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?.description;
+    needs::check_geometry(&scene, arguments.memory)?;
+    let patience = Patience::new("growing and building the scene");
     let world = World::build(&scene).map_err(Failure::bad)?;
+    drop(patience);
     mitsuba::write(&scene, &world, &arguments.out).map_err(Failure::system)?;
     say(arguments.out.display());
     Ok(())

@@ -40,7 +40,7 @@ use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
-use crate::cli::{Failure, say, stats};
+use crate::cli::{Failure, needs, say, stats};
 use crate::export::drawing::{Style, draw_within};
 use crate::image::{atomic, portable_network};
 
@@ -74,6 +74,9 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     }
     if arguments.ages.is_some() {
         ages::check(&chosen.plan)?;
+    }
+    if outputs.veins {
+        needs::check_growth(&chosen.plan, outputs.blade, arguments.memory)?;
     }
     let signals = Signals::listen()?;
     signals.begin_work();

@@ -1,4 +1,6 @@
-//! Memory that a render needs, said before it begins.
+//! Memory that a render, an export or the growth of a leaf needs, said before it begins.
+
+use leafmodel::leaf::{LeafMemory, LeafPlan};
 
 use crate::cli::Failure;
 use crate::film::Film;
@@ -16,9 +18,9 @@ const OF_A_TRIANGLE: f64 = 290.0;
 /// Copies of a picture's layers while its file is made: values, compressed blocks, the file.
 const COPIES: f64 = 3.0;
 
-/// Fails if a render needs more memory than `allowed` (GiB), or than the machine has free, or has
-/// a film that cannot be made. The estimate takes in the film, its pictures and spheres; not what
-/// is grown or read, which is small beside a large film.
+/// Fails if a scene, once grown and built, and its picture need more memory than `allowed` (GiB),
+/// or than the machine has free, or has a film that cannot be made. Meshes and pictures that are
+/// read are not counted: their files tell how large they are.
 pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Failure> {
     let film = &scene.film;
     let layout = Layout::new(&WavelengthSampler::new(&film.kind));
@@ -30,13 +32,66 @@ pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Fai
         .sum();
     let pixels = f64::from(film.width) * f64::from(film.height);
     let pictures = COPIES * 4.0 * channels as f64 * pixels;
+    let mut needs = vec![(sums, "the film"), (pictures, "its pictures")];
+    needs.extend(of_geometry(scene)?);
+    compare("render", &needs, allowed)
+}
+
+/// As [`check`], for what is built of a scene whose picture another program makes.
+pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Result<(), Failure> {
+    compare("export", &of_geometry(scene)?, allowed)
+}
+
+/// Fails if the growth of a leaf needs more memory than `allowed`; a blade is made and painted only
+/// if `has_blade`.
+pub(super) fn check_growth(
+    plan: &LeafPlan,
+    has_blade: bool,
+    allowed: Option<f64>,
+) -> Result<(), Failure> {
+    let memory = plan.memory().map_err(Failure::bad)?;
+    let mut needs = vec![(memory.veins, "veins")];
+    if has_blade {
+        needs.push((memory.blade, "the blade and its contents"));
+    }
+    compare("growth", &needs, allowed)
+}
+
+/// Memory of what a scene builds and grows, bytes, with what it is for.
+fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
     let spheres = scene.meshes.iter().map(|mesh| match mesh.value {
         Mesh::Sphere { segments, .. } => f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
     });
-    // The sum starts from 0, since an empty sum is -0.
-    let spheres = spheres.fold(0.0, |sum, bytes: f64| sum + bytes);
-    let needed = sums + pictures + spheres;
+    let mut leaves: Vec<LeafMemory> = Vec::new();
+    for leaf in &scene.leaves {
+        let memory = leaf.value.plan.memory();
+        leaves
+            .push(memory.map_err(|error| Failure::bad(format!("leaves.{}: {error}", leaf.name)))?);
+    }
+    let kept = leaves.iter().map(|leaf| leaf.kept);
+    // As many leaves grow at once as there are threads; the largest may be among them.
+    let mut growing: Vec<f64> = leaves.iter().map(|leaf| leaf.veins + leaf.blade).collect();
+    growing.sort_by(|a, b| b.total_cmp(a));
+    growing.truncate(rayon::current_num_threads());
+    let mut bodies = 0.0;
+    for solid in &scene.solids {
+        let of_one = solid.value.plan.memory_bytes();
+        bodies +=
+            of_one.map_err(|error| Failure::bad(format!("solids.{}: {error}", solid.name)))?;
+    }
+    // The sums start from 0, since an empty sum is -0.
+    let sum = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |sum, bytes| sum + bytes);
+    Ok(vec![
+        (sum(&mut { spheres }), "spheres"),
+        (sum(&mut { kept }) + sum(&mut growing.into_iter()), "leaves"),
+        (bodies, "bodies"),
+    ])
+}
+
+/// Fails if what is needed is more than what is allowed.
+fn compare(work: &str, needs: &[(f64, &'static str)], allowed: Option<f64>) -> Result<(), Failure> {
+    let needed = needs.iter().fold(0.0, |sum, (bytes, _)| sum + bytes);
     let free = || free_bytes().unwrap_or(f64::INFINITY);
     if needed <= allowed.map_or_else(free, |allowed| allowed * GIB) {
         return Ok(());
@@ -45,13 +100,17 @@ pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Fai
         Some(allowed) => format!("the {allowed} GiB of --memory"),
         None => format!("the {} that are free", shown(free())),
     };
+    let parts = needs.iter().filter(|(bytes, _)| *bytes >= MIB);
+    let parts: Vec<String> = parts
+        .map(|(bytes, what)| format!("{} for {what}", shown(*bytes)))
+        .collect();
+    let parts = match parts.as_slice() {
+        [] => String::new(),
+        parts => format!(" ({})", parts.join(", ")),
+    };
     Err(Failure::bad(format!(
-        "this render needs about {} of memory ({} for the film, {} for its pictures, {} for spheres), \
-         more than {limit}: make it smaller, or allow it with --memory {}",
+        "this {work} needs about {} of memory{parts}, more than {limit}: make it smaller, or allow it with --memory {}",
         shown(needed),
-        shown(sums),
-        shown(pictures),
-        shown(spheres),
         (needed / GIB).ceil(),
     )))
 }

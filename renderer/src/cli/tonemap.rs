@@ -2,6 +2,7 @@
 
 use crate::cli::arguments::TonemapArguments;
 use crate::cli::{Failure, check_writable, say};
+use crate::image::ImageError;
 use crate::image::display::FileKind;
 use crate::image::{Attribute, openexr};
 use crate::scene::load::parse_picture;
@@ -25,6 +26,10 @@ pub(super) fn run(arguments: &TonemapArguments) -> Result<(), Failure> {
     display.check(kind).map_err(Failure::bad)?;
     check_writable(out)?;
     display.write(&picture, kind, out).map_err(|error| {
+        if matches!(error, ImageError::File { .. }) {
+            // The disk's fault, not the picture's: the error names the file that is written.
+            return Failure::system(error);
+        }
         let place = arguments.picture.display();
         Failure::bad(format!("{place}: {error}"))
     })?;
