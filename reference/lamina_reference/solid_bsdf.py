@@ -37,7 +37,7 @@ class SolidBSDF(LeafBSDF):
         mi.BSDF.__init__(self, props)
         alpha = props.get("coat_alpha")
         self.coats = (Coat(props.get("coat_eta"), alpha, alpha),) * 2
-        self.outer = self.coats
+        self.half, self.outer = None, self.coats
         self.albedo = Table(np.stack([coat.table for coat in self.coats]))
         self.depth = float(props.get("depth_mm"))
         self.scattering = float(props.get("scattering_per_mm"))
