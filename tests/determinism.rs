@@ -9,7 +9,7 @@ use renderer::integrator::develop::develop;
 use renderer::integrator::effort::Effort;
 use renderer::integrator::render::{Ended, Halt, Job, Rendered, begin, render_until};
 use renderer::simd::Level;
-use support::picture::world_of;
+use support::picture::{mean_of, picture_of, world_of};
 
 const SCENE: &str = "
 format = 1
@@ -212,5 +212,38 @@ fn a_picture_that_ran_out_of_time_is_that_of_its_sample_count() {
         }
         let (_, again) = rendered(1, most, Halt { noise, time: None });
         assert!(bytes == again, "{most} samples, noise {noise:?}");
+    }
+}
+
+#[test]
+fn a_scene_a_thousand_kilometres_away_is_the_scene_at_the_origin() {
+    let moved = |offset: [f64; 3]| {
+        let place = |line: &str| {
+            let (key, list) = line.split_once(" = ")?;
+            let list = list.strip_prefix('[')?.strip_suffix(']')?;
+            let numbers = list.split(", ").map(|n| n.parse::<f64>().ok());
+            let numbers: Option<Vec<f64>> = numbers.collect();
+            let sums = numbers?.into_iter().zip(offset).map(|(n, by)| n + by);
+            let sums: Vec<String> = sums.map(|sum| format!("{sum:?}")).collect();
+            let is_place = matches!(key, "position_m" | "look_at_m");
+            is_place.then(|| format!("{key} = [{}]", sums.join(", ")))
+        };
+        // The ball has its place by default.
+        let text = SCENE.replace(
+            "mesh = \"ball\"\n",
+            "mesh = \"ball\"\nposition_m = [0, 0, 0]\n",
+        );
+        let lines = text.lines();
+        let lines = lines.map(|line| place(line).unwrap_or_else(|| line.to_owned()));
+        picture_of(&lines.collect::<Vec<_>>().join("\n"), 3)
+    };
+    let here = moved([0.0; 3]);
+    let away = moved([999_999.0, -999_999.0, 999_999.0]);
+    for channel in 0..3 {
+        let [here, away] = [&here, &away].map(|rendered| mean_of(rendered, channel));
+        assert!(
+            (away / here - 1.0).abs() < 1e-5,
+            "channel {channel}: {away} and {here}"
+        );
     }
 }

@@ -83,8 +83,8 @@ fn read_files(description: &Description) -> Result<(), Failure> {
 
 /// Builds the scene and prints its size.
 fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), Failure> {
-    let patience = Patience::new("growing and building the scene");
-    let world = World::build(description).map_err(Failure::bad)?;
+    let patience = Patience::building(description.leaves.len());
+    let world = World::build_with(description, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     for note in &world.notes {
         eprintln!("note: {note}");

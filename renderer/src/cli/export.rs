@@ -9,8 +9,8 @@ use crate::scene::world::World;
 pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?.description;
     needs::check_geometry(&scene, arguments.memory)?;
-    let patience = Patience::new("growing and building the scene");
-    let world = World::build(&scene).map_err(Failure::bad)?;
+    let patience = Patience::building(scene.leaves.len());
+    let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
     mitsuba::write(&scene, &world, &arguments.out).map_err(Failure::system)?;
     say(arguments.out.display());

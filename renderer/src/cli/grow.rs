@@ -113,7 +113,7 @@ fn carry_out(
         return Ok(());
     }
     let growing = Instant::now();
-    let patience = Patience::new("growing");
+    let patience = Patience::growing();
     let grown = if arguments.contents.is_some() && arguments.ages.is_none() {
         Grown::new(plan, outputs.blade, stop)?
     } else {

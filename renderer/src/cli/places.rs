@@ -29,7 +29,8 @@ pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
         )));
     }
     atomic::sweep(folder);
-    tempfile::NamedTempFile::new_in(folder).map_err(|error| {
+    // A file without a name: a program that is killed here leaves none behind.
+    tempfile::tempfile_in(folder).map_err(|error| {
         Failure::system(format!(
             "nothing can be written into {}: {error}",
             folder.display()

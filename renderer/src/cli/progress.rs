@@ -1,13 +1,15 @@
 //! The progress of a render, on a terminal or in a log.
 
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::cli::on_a_screen;
 use crate::integrator::render::Progress;
+use crate::scene::world::BuildOptions;
 
 /// A bar on a terminal, a line every ten seconds elsewhere.
 pub(super) struct Reporter {
@@ -20,20 +22,50 @@ pub(super) struct Reporter {
 
 /// Prints a line every ten seconds about work whose length nobody knows, until it is dropped.
 pub(super) struct Patience {
+    grown: Arc<AtomicUsize>,
     /// Nothing is sent: the thread ends when this is dropped.
     _until: Sender<()>,
 }
 
 impl Patience {
-    pub(super) fn new(work: &'static str) -> Self {
+    /// About the growth of one leaf.
+    pub(super) fn growing() -> Self {
+        Self::new("growing", 0)
+    }
+
+    /// About the building of a scene with so many leaves.
+    pub(super) fn building(leaves: usize) -> Self {
+        Self::new("growing and building the scene", leaves)
+    }
+
+    fn new(work: &'static str, leaves: usize) -> Self {
         let (until, dropped) = channel();
+        let grown = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&grown);
         std::thread::spawn(move || {
             let started = Instant::now();
             while dropped.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
-                eprintln!("{work}: {:.0} s", started.elapsed().as_secs_f64());
+                let seconds = started.elapsed().as_secs_f64();
+                if leaves > 0 {
+                    let grown = counted.load(Ordering::Relaxed);
+                    eprintln!("{work}: {seconds:.0} s, {grown} of {leaves} leaves");
+                } else {
+                    eprintln!("{work}: {seconds:.0} s");
+                }
             }
         });
-        Self { _until: until }
+        Self {
+            grown,
+            _until: until,
+        }
+    }
+
+    /// So that the leaves that have grown are counted.
+    pub(super) fn options(&self) -> BuildOptions<'_> {
+        BuildOptions {
+            cache: None,
+            grown: Some(&self.grown),
+        }
     }
 }
 

@@ -22,7 +22,7 @@ use crate::integrator::layers::Layout;
 use crate::integrator::render::{Begun, Contact, Ended, Rendered, begin, go_on};
 use crate::scene::description::Description;
 use crate::scene::plant_cache::PlantCache;
-use crate::scene::world::World;
+use crate::scene::world::{BuildOptions, World};
 
 pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), Failure> {
     let started = Instant::now();
@@ -38,8 +38,8 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
     let scene = loaded.description;
     let job = plan.heading.job;
-    let patience = Patience::new("growing and building the scene");
-    let world = pool.install(|| build_world(&scene, arguments))?;
+    let patience = Patience::building(scene.leaves.len());
+    let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
     for note in &world.notes {
         eprintln!("note: {note}");
@@ -183,10 +183,18 @@ impl Traced<'_> {
     }
 }
 
-fn build_world(scene: &Description, arguments: &RenderArguments) -> Result<World, Failure> {
+fn build_world(
+    scene: &Description,
+    arguments: &RenderArguments,
+    patience: &Patience,
+) -> Result<World, Failure> {
     let cache = arguments.cache.as_deref().map(PlantCache::open);
     let cache = cache.transpose().map_err(Failure::bad)?;
-    World::build_with(scene, cache.as_ref()).map_err(Failure::bad)
+    let options = BuildOptions {
+        cache: cache.as_ref(),
+        ..patience.options()
+    };
+    World::build_with(scene, &options).map_err(Failure::bad)
 }
 
 /// The command that goes on from a checkpoint.

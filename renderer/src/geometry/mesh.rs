@@ -12,6 +12,13 @@ use super::scramble::scramble;
 /// overflow.
 const FARTHEST: f32 = 1e9;
 
+/// Size of a mesh over its distance from its origin below which lost faces are laid to that: a
+/// hundred steps of `f32`.
+const LEAST_DETAIL: f32 = 1e-5;
+
+/// Largest coordinate below which lost faces are not laid to distance, m.
+const FAR: f32 = 100.0;
+
 /// Face numbers and tree nodes share 32 bits.
 const MOST_FACES: usize = 1 << 29;
 
@@ -58,8 +65,9 @@ impl fmt::Display for DroppedFaces {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} faces left out ({} not finite, {} without area, {} duplicate)",
+            "{} {} left out ({} not finite, {} without area, {} duplicate)",
             self.total(),
+            if self.total() == 1 { "face" } else { "faces" },
             self.not_finite,
             self.degenerate,
             self.duplicate
@@ -140,6 +148,17 @@ pub enum MeshError {
         /// Number of the face.
         face: usize,
         /// Largest coordinate in it.
+        reach: f32,
+    },
+    /// Most of its detail is lost in `f32`, since it is small and far from its origin.
+    #[error(
+        "the mesh is {extent:.1e} m large and reaches {reach:.1e} m from its origin: 32-bit numbers keep no \
+         detail of it there, move it to its origin"
+    )]
+    DetailLost {
+        /// Longest side of its box, m.
+        extent: f32,
+        /// Largest coordinate, m.
         reach: f32,
     },
     /// There are more faces than can be numbered.
@@ -224,10 +243,21 @@ impl TriangleMesh {
         }
         kept.retain(|face| duplicates.binary_search(face).is_err());
 
+        let is_refused = kept.is_empty() || dropped.total() * 100 > given * MOST_DROPPED_PERCENT;
+        if is_refused && dropped.degenerate > 0 {
+            let corners = triangles.iter().flatten();
+            let corners = corners.map(|&index| positions[index as usize]);
+            let bounds = Bounds::around(corners.filter(|corner| corner.is_finite()));
+            let extent = (bounds.max - bounds.min).max_element();
+            let reach = bounds.max.abs().max(bounds.min.abs()).max_element();
+            if reach > FAR && extent < LEAST_DETAIL * reach {
+                return Err(MeshError::DetailLost { extent, reach });
+            }
+        }
         if kept.is_empty() {
             return Err(MeshError::Empty { given, dropped });
         }
-        if dropped.total() * 100 > given * MOST_DROPPED_PERCENT {
+        if is_refused {
             return Err(MeshError::TooManyDropped { given, dropped });
         }
         let mut faces = 0_u32..;

@@ -11,6 +11,7 @@ mod tests;
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DVec3};
 use leafmodel::optics::solid::ReflectanceTable;
@@ -138,6 +139,15 @@ pub enum WorldError {
     Geometry(#[from] GeometryError),
 }
 
+/// What a world is built with besides its description.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BuildOptions<'a> {
+    /// Leaves are read from it if they are there; those that are not are stored.
+    pub cache: Option<&'a PlantCache>,
+    /// Counts the leaves that have grown.
+    pub grown: Option<&'a AtomicUsize>,
+}
+
 impl World {
     /// Builds what a scene describes: reads meshes and pictures, grows leaves, builds the trees.
     ///
@@ -145,21 +155,20 @@ impl World {
     ///
     /// [`WorldError`], which names the block of the scene.
     pub fn build(scene: &Description) -> Result<Self, WorldError> {
-        Self::build_with(scene, None)
+        Self::build_with(scene, &BuildOptions::default())
     }
 
-    /// As [`World::build`], but reads leaves from `cache` if they are there, and stores those that
-    /// are not.
+    /// As [`World::build`], with options.
     ///
     /// # Errors
     ///
     /// As [`World::build`]; a cache that fails only gives a note.
-    pub fn build_with(scene: &Description, cache: Option<&PlantCache>) -> Result<Self, WorldError> {
+    pub fn build_with(scene: &Description, options: &BuildOptions<'_>) -> Result<Self, WorldError> {
         let origin = scene.camera.origin();
         if origin == DVec3::ZERO {
-            Self::build_around(scene, origin, cache)
+            Self::build_around(scene, origin, options)
         } else {
-            Self::build_around(&recentred::moved(scene, -origin), origin, cache)
+            Self::build_around(&recentred::moved(scene, -origin), origin, options)
         }
     }
 
@@ -168,7 +177,7 @@ impl World {
     fn build_around(
         scene: &Description,
         origin: DVec3,
-        cache: Option<&PlantCache>,
+        options: &BuildOptions<'_>,
     ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
         let mut meshes = Vec::new();
@@ -193,10 +202,15 @@ impl World {
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
         let (grown_leaves, grown_solids) = rayon::join(
-            || grow_leaves(scene, for_leaves, cache),
+            || grow_leaves(scene, for_leaves, options),
             || grow_solids(scene, for_solids),
         );
-        notes.extend(cache.map(PlantCache::take_notes).unwrap_or_default());
+        notes.extend(
+            options
+                .cache
+                .map(PlantCache::take_notes)
+                .unwrap_or_default(),
+        );
         // The pieces of each leaf, with the scene's numbers of meshes and materials.
         let mut leaves: Vec<Vec<Piece>> = Vec::new();
         for (number, grown) in grown_leaves?.into_iter().enumerate() {
@@ -278,14 +292,20 @@ impl World {
 fn grow_leaves(
     scene: &Description,
     palettes: Vec<Palette>,
-    cache: Option<&PlantCache>,
+    options: &BuildOptions<'_>,
 ) -> Result<Vec<plants::GrownLeaf>, WorldError> {
     let grown = scene.leaves.par_iter().zip(palettes).with_max_len(1);
     let grown = grown.map(|(leaf, palette)| {
-        plants::grow(&leaf.value, &palette, cache).map_err(|source| WorldError::Plant {
-            name: leaf.name.clone(),
-            source: Box::new(source),
-        })
+        let leaf = plants::grow(&leaf.value, &palette, options.cache).map_err(|source| {
+            WorldError::Plant {
+                name: leaf.name.clone(),
+                source: Box::new(source),
+            }
+        });
+        if let Some(grown) = options.grown {
+            grown.fetch_add(1, Ordering::Relaxed);
+        }
+        leaf
     });
     // Of several errors the first in the scene's order is returned, whichever occurred first.
     let grown: Vec<Result<_, _>> = grown.collect();

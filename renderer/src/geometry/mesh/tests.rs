@@ -111,6 +111,25 @@ fn a_corner_at_the_end_of_the_world_is_refused() {
 }
 
 #[test]
+fn a_small_mesh_far_from_its_origin_is_told_that_it_has_lost_its_detail() {
+    let far = |x: f32, y: f32| Vec3::new(1e7 + x, y, 0.0);
+    let error = refused(
+        vec![far(0.0, 0.0), far(0.3, 0.0), far(0.0, 0.3)],
+        vec![[0, 1, 2]],
+    );
+    assert_eq!(
+        error,
+        MeshError::DetailLost {
+            extent: 0.3,
+            reach: 1e7
+        }
+    );
+    // A line near by is only a line.
+    let error = refused(vec![Vec3::ZERO, Vec3::X, 2.0 * Vec3::X], vec![[0, 1, 2]]);
+    assert!(matches!(error, MeshError::Empty { .. }), "{error}");
+}
+
+#[test]
 fn the_same_three_positions_are_one_face_whatever_the_vertices() {
     let mesh = blade(10, 10, 1.0, 1.0, Vec3::ZERO);
     let (mut positions, mut triangles) = (mesh.positions().to_vec(), mesh.triangles().to_vec());

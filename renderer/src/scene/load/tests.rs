@@ -181,7 +181,7 @@ fn faces_that_a_mesh_of_a_body_loses_are_told() {
     let told = warnings(&(text + "f 1 1 2\n"));
     assert_eq!(told.len(), 1, "{told:?}");
     for part in [
-        "1 faces left out (0 not finite, 1 without area, 0 duplicate)",
+        "1 face left out (0 not finite, 1 without area, 0 duplicate)",
         "path = \"ball.obj\"",
     ] {
         assert!(told[0].contains(part), "{}", told[0]);
