@@ -279,7 +279,19 @@ impl Leaf {
             lips: &lips,
             bulge: &|p| bulge.as_ref().map_or(0.0, |bulge| bulge.height(p)),
         };
-        let mut mesh = BladeMesh::build_holed(cut, network, &plan.form, settled, displaced)?;
+        // The mesh is mostly the work of one thread, the map of all.
+        let mut mesh = None;
+        let contents = rayon::in_place_scope(|scope| {
+            let mesh = &mut mesh;
+            scope.spawn(move |_| {
+                *mesh = Some(BladeMesh::build_holed(
+                    cut, network, &plan.form, settled, displaced,
+                ));
+            });
+            plan.paint(&lamina, is_stopped)
+        });
+        let mut mesh = mesh.expect("the scope has ended")?;
+        let contents = contents?;
         let mut petiole = plan
             .petiole
             .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
@@ -287,7 +299,6 @@ impl Leaf {
         if plan.stance.on_ground {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
         }
-        let contents = plan.paint(&lamina, is_stopped)?;
         let size = [contents.width, contents.height];
         let surface = plan.surface_of(&lamina, &mesh, &frame, size)?;
         let hairs = plan.hairs_of(&lamina, &mesh)?;

@@ -19,7 +19,7 @@ use super::mesh::vertex_normals;
 const ROWS: u32 = 3;
 
 impl BladeMesh {
-    /// The blade as one closed body; normals and triangles face outwards.
+    /// The blade, whose form is closed, as one closed body; normals and triangles face outwards.
     #[must_use]
     pub fn body(&self, uv: impl Fn(DVec2) -> DVec2) -> Self {
         let [mut body, below] = self.closed(uv);
@@ -37,7 +37,7 @@ impl BladeMesh {
         body
     }
 
-    /// The adaxial and the abaxial half of the blade as a closed body. `uv` gives the texture
+    /// The adaxial and the abaxial half of the blade, whose form is closed, as a closed body. `uv` gives the texture
     /// coordinates of a flat place, which may lie beyond the margin by the width of the rim.
     #[must_use]
     pub fn closed(&self, uv: impl Fn(DVec2) -> DVec2) -> [Self; 2] {
@@ -169,6 +169,7 @@ mod tests {
     fn a_flat_leaf_has_the_volume_of_its_area_and_a_round_rim() {
         let form = BladeForm {
             thickness_mm: 0.4,
+            closed: true,
             ..flat()
         };
         let (sheet, _, body) = leaf(&form);
@@ -199,6 +200,7 @@ mod tests {
             fold: 0.4,
             curl: 0.7,
             relief: 0.5,
+            closed: true,
             ..flat()
         };
         let (sheet, halves, body) = leaf(&form);

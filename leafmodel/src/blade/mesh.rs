@@ -6,6 +6,7 @@ mod smoothing;
 pub use self::defects::MeshDefect;
 pub use super::error::BladeError;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::BladeForm;
 use super::frame::UvFrame;
@@ -37,7 +38,8 @@ pub struct BladeMesh {
     /// How far each vertex is displaced along the blade's normal, mm: by veins (≤ 0) and by the
     /// bulge of the lamina between them.
     pub relief_mm: Vec<[f64; 2]>,
-    /// Unit directions through the blade from the abaxial to the adaxial face, whatever its relief.
+    /// Unit directions through the blade from the abaxial to the adaxial face, whatever its relief;
+    /// none unless its form is closed.
     pub across: Vec<DVec3>,
     /// Vertices of each triangle, counter-clockwise seen from the adaxial side.
     pub triangles: Vec<[u32; 3]>,
@@ -47,9 +49,9 @@ pub struct BladeMesh {
 #[derive(Clone, Copy)]
 pub struct Displacement<'a> {
     /// The lips of tears: continuous but across cuts.
-    pub lips: &'a dyn Fn(DVec2) -> f64,
+    pub lips: &'a (dyn Fn(DVec2) -> f64 + Sync),
     /// The bulge of the lamina, as smooth as the mesh's edges are long.
-    pub bulge: &'a dyn Fn(DVec2) -> f64,
+    pub bulge: &'a (dyn Fn(DVec2) -> f64 + Sync),
 }
 
 impl Displacement<'_> {
@@ -63,7 +65,7 @@ impl Displacement<'_> {
 /// A point of the flat lamina in space.
 struct Raised {
     position: DVec3,
-    across: DVec3,
+    across: Option<DVec3>,
     thickness: f64,
     relief: [f64; 2],
 }
@@ -175,11 +177,14 @@ impl BladeMesh {
             };
             let raised = (displaced.lips)(p) + bulge - height;
             let thickness = form.thickness_mm * thinner + height;
-            let [above, below] =
-                [0.5, -0.5].map(|side| posture.place(p, raised + side * thickness));
+            let across = form.closed.then(|| {
+                let [above, below] =
+                    [0.5, -0.5].map(|side| posture.place(p, raised + side * thickness));
+                (above - below).normalize_or(DVec3::Z)
+            });
             Raised {
                 position: posture.place(p, raised),
-                across: (above - below).normalize_or(DVec3::Z),
+                across,
                 thickness,
                 relief: [-height, bulge],
             }
@@ -195,27 +200,22 @@ impl BladeMesh {
     }
 
     /// A flat triangulation brought into space by `place`.
-    fn raised(flat: Triangulation, frame: &UvFrame, place: impl Fn(DVec2) -> Raised) -> Self {
-        let mut positions = Vec::with_capacity(flat.points.len());
-        let mut thickness_mm = Vec::with_capacity(flat.points.len());
-        let mut relief_mm = Vec::with_capacity(flat.points.len());
-        let mut across = Vec::with_capacity(flat.points.len());
-        for &p in &flat.points {
-            let raised = place(p);
-            positions.push(raised.position);
-            thickness_mm.push(raised.thickness);
-            relief_mm.push(raised.relief);
-            across.push(raised.across);
-        }
+    fn raised(
+        flat: Triangulation,
+        frame: &UvFrame,
+        place: impl Fn(DVec2) -> Raised + Sync,
+    ) -> Self {
+        let raised: Vec<Raised> = flat.points.par_iter().map(|&p| place(p)).collect();
+        let positions: Vec<DVec3> = raised.iter().map(|raised| raised.position).collect();
         let normals = vertex_normals(&positions, &flat.triangles);
         Self {
             normals,
             positions,
-            thickness_mm,
+            thickness_mm: raised.iter().map(|raised| raised.thickness).collect(),
             uvs: flat.points.iter().map(|&p| frame.uv(p)).collect(),
             lamina: flat.points,
-            relief_mm,
-            across,
+            relief_mm: raised.iter().map(|raised| raised.relief).collect(),
+            across: raised.iter().filter_map(|raised| raised.across).collect(),
             triangles: flat.triangles,
         }
     }

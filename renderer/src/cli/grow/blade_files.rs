@@ -5,8 +5,12 @@ use std::fmt::Write as _;
 use glam::{DAffine3, DVec2, DVec3};
 use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::compound::WholeLeaf;
+use rayon::prelude::*;
 
 use crate::checkpoint::PROGRAM;
+
+/// Vertices or faces that one thread writes at a time.
+const LINES: usize = 4096;
 
 /// A blade or tubes, with their place.
 struct Part<'l> {
@@ -144,23 +148,38 @@ pub(super) fn ply(parts: &Parts<'_>) -> Vec<u8> {
 /// OBJ with an object and a material, `blade-1` and so on or `stalks`, for each run of faces of one
 /// part.
 pub(super) fn obj(parts: &Parts<'_>) -> String {
-    let mut text = format!("# Lamina {PROGRAM}, lengths in mm\n");
-    for (position, normal, uv, _) in parts.0.iter().flat_map(Part::vertices) {
-        let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
-        let _ = writeln!(text, "vt {} {}", uv.x, uv.y);
-        let _ = writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z);
-    }
-    let mut before = None;
-    for (part, triangle) in parts.faces() {
-        if before.replace(part) != Some(part) {
-            let name = match part {
-                0 => "stalks".to_owned(),
-                number => format!("blade-{number}"),
-            };
-            let _ = writeln!(text, "o {name}\nusemtl {name}");
+    let vertices: Vec<_> = parts.0.iter().flat_map(Part::vertices).collect();
+    let vertices = vertices.par_chunks(LINES).map(|some| {
+        let mut text = String::new();
+        for (position, normal, uv, _) in some {
+            let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
+            let _ = writeln!(text, "vt {} {}", uv.x, uv.y);
+            let _ = writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z);
         }
-        let [a, b, c] = triangle.map(|index| index + 1);
-        let _ = writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}");
-    }
-    text
+        text
+    });
+    let faces: Vec<_> = parts.faces().collect();
+    let faces = faces.par_chunk_by(|(one, _), (next, _)| one == next);
+    let faces = faces.flat_map(|run| {
+        let name = match run[0].0 {
+            0 => "stalks".to_owned(),
+            number => format!("blade-{number}"),
+        };
+        let head = format!("o {name}\nusemtl {name}\n");
+        let lines = run.par_chunks(LINES).map(|some| {
+            let mut text = String::new();
+            for (_, triangle) in some {
+                let [a, b, c] = triangle.map(|index| index + 1);
+                let _ = writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}");
+            }
+            text
+        });
+        rayon::iter::once(head).chain(lines)
+    });
+    let head = format!("# Lamina {PROGRAM}, lengths in mm\n");
+    let all: Vec<String> = rayon::iter::once(head)
+        .chain(vertices)
+        .chain(faces)
+        .collect();
+    all.concat()
 }
