@@ -191,6 +191,9 @@ fn try_plans(range: Range<u64>) -> (usize, BTreeMap<String, usize>) {
     while left > 0 {
         if let Ok((seed, took, outcome)) = outcomes.recv_timeout(Duration::from_secs(1)) {
             left -= 1;
+            if left.is_multiple_of(500) {
+                eprintln!("{left} plans are left, {rendered} were rendered");
+            }
             if took > NOTEWORTHY {
                 eprintln!("plan {seed} took {:.1} s", took.as_secs_f64());
             }
@@ -202,18 +205,19 @@ fn try_plans(range: Range<u64>) -> (usize, BTreeMap<String, usize>) {
                 Err(panic) => {
                     let words = panic.downcast_ref::<String>().map(String::as_str);
                     let words = words.or(panic.downcast_ref::<&str>().copied());
-                    failed.push((seed, words.unwrap_or("a panic").to_owned()));
+                    let words = words.unwrap_or("a panic").to_owned();
+                    // At once, since a long run may be stopped before its end.
+                    eprintln!("plan {seed}: {words}");
+                    failed.push((seed, words));
                 }
             }
         }
         while let Some(seed) = trial.give_up() {
             left -= 1;
+            eprintln!("plan {seed}: takes too long");
             failed.push((seed, "takes too long".to_owned()));
             trial.work(told.clone());
         }
-    }
-    for (seed, why) in &failed {
-        eprintln!("plan {seed}: {why}");
     }
     if let Some((seed, why)) = failed.first() {
         let text = plan::text(*seed);

@@ -8,6 +8,7 @@ use renderer::sampling::stream::Stream;
 use renderer::spectrum::Lanes;
 use support::chi_square::{ChiSquare, sidak};
 use support::directional::{Scattered, directions, integrate};
+use support::picture::picture_of;
 
 const POINTS: u32 = 1 << 15;
 
@@ -289,4 +290,51 @@ fn a_smooth_dielectric_splits_light_without_loss() {
         });
         assert!((found.total() - 1.0).abs() < 1e-3, "{wo}: {found:?}");
     }
+}
+
+/// Standard deviation over mean of the middle pixels of a leaf while the camera moves by a pixel in
+/// eight steps; the leaf with its relief, or smooth.
+fn unrest(has_relief: bool) -> f64 {
+    let scene = include_str!("../scenes/relief/scene.toml");
+    let (before, behind) = scene
+        .split_once("[leaves.close.surface]")
+        .expect("a surface");
+    let (surface, behind) = behind.split_once("[leaves.close.adaxial]").expect("coats");
+    let surface = if has_relief {
+        format!("[leaves.close.surface]{surface}")
+    } else {
+        String::new()
+    };
+    let scene = format!("{before}{surface}[leaves.close.adaxial]{behind}");
+    // 24 pixels over 70 mm, each as wide as twenty texels.
+    let pixel_m = 0.07 / 24.0;
+    let pictures: Vec<Vec<f64>> = (0..8)
+        .map(|step| {
+            let x = f64::from(step) / 8.0 * pixel_m;
+            let text = scene
+                .replace("[0.012, 0.002, 0.075]", &format!("[{x}, 0.025, 1.0]"))
+                .replace("[0.003, 0.022, 0]", &format!("[{x}, 0.025, 0.0]"))
+                .replace("size = [72, 72]", "size = [24, 24]");
+            let rendered = picture_of(&text, 1);
+            let values = rendered.film.map(|pixel| pixel.mean(1));
+            let middle = (10..14).flat_map(|y| (10..14).map(move |x| 24 * y + x));
+            middle.map(|at| values[at]).collect()
+        })
+        .collect();
+    let count = pictures[0].len();
+    let means = (0..count).map(|at| pictures.iter().map(|p| p[at]).sum::<f64>() / 8.0);
+    let means: Vec<f64> = means.collect();
+    let squares = pictures.iter().flat_map(|picture| {
+        let values = picture.iter().zip(&means);
+        values.map(|(value, mean)| (value - mean) * (value - mean))
+    });
+    let variance = squares.sum::<f64>() / (7 * count) as f64;
+    variance.sqrt() / (means.iter().sum::<f64>() / count as f64)
+}
+
+#[test]
+fn a_relief_far_below_a_pixel_flickers_no_more_than_a_smooth_leaf() {
+    let [smooth, relief] = [false, true].map(unrest);
+    eprintln!("smooth {smooth:.4}, with relief {relief:.4}");
+    assert!(relief < 1.2 * smooth + 0.002, "{relief}, smooth {smooth}");
 }
