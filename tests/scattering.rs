@@ -314,7 +314,12 @@ fn unrest(has_relief: bool) -> f64 {
             let text = scene
                 .replace("[0.012, 0.002, 0.075]", &format!("[{x}, 0.025, 1.0]"))
                 .replace("[0.003, 0.022, 0]", &format!("[{x}, 0.025, 0.0]"))
-                .replace("size = [72, 72]", "size = [24, 24]");
+                .replace("size = [72, 72]", "size = [24, 24]")
+                .replace("spp = 64", "spp = 16")
+                // Gloss that only slopes of a tenth and more throw into the camera.
+                .replace("alpha = 0.3", "alpha = 0.1")
+                .replace("[0.8, 0.3, 0.6]", "[0.5, 0.2, 1.0]")
+                .replace("_per_cm2 = ", "_per_cm2 = 0.0 # ");
             let rendered = picture_of(&text, 1);
             let values = rendered.film.map(|pixel| pixel.mean(1));
             let middle = (10..14).flat_map(|y| (10..14).map(move |x| 24 * y + x));
@@ -333,8 +338,10 @@ fn unrest(has_relief: bool) -> f64 {
 }
 
 #[test]
-fn a_relief_far_below_a_pixel_flickers_no_more_than_a_smooth_leaf() {
+fn a_relief_far_below_a_pixel_does_not_flicker() {
     let [smooth, relief] = [false, true].map(unrest);
     eprintln!("smooth {smooth:.4}, with relief {relief:.4}");
-    assert!(relief < 1.2 * smooth + 0.002, "{relief}, smooth {smooth}");
+    // The relief spreads the gloss that passes over the smooth leaf: 0.47 of its unrest. With the
+    // finest level of the map at any distance it is 0.79.
+    assert!(relief < 0.6 * smooth, "{relief}, smooth {smooth}");
 }
