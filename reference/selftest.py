@@ -30,7 +30,6 @@ import drjit as dr
 import jsonschema_rs
 import mitsuba as mi
 import numpy as np
-
 from lamina_reference import (
     colour,
     colours,
@@ -141,7 +140,10 @@ def test_prospect_gives_the_reference_spectra() -> None:
 
     model = prospect.Prospect(TABLE, kind, False)
     names = ("N", "Cab", "Car", "Ant", "Cbrown", "Cw", "Cm")
-    contents = {ours: column(theirs) for ours, theirs in zip(("structure", *prospect.PROSPECT_D), names, strict=True)}
+    contents = {
+        ours: column(theirs)
+        for ours, theirs in zip(("structure", *prospect.PROSPECT_D), names, strict=True)
+    }
     r, t = model.spectra(column("wavelength_nm"), contents)
     # The reference is printed with ten decimals.
     for ours, name in ((r, "R"), (t, "T")):

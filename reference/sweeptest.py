@@ -19,10 +19,9 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 sys.path.insert(0, str(HERE))
 
+import lamina
 import numpy as np
 from distributed import Client, LocalCluster
-
-import lamina
 from lamina import store as stores
 from lamina import sweeping
 from lamina.listing import list_tasks

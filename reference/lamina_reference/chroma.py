@@ -106,9 +106,7 @@ def seen(binary: Path, scene: str) -> tuple[tuple[float, float], tuple[float, fl
         toned = pixels(out.with_suffix(".png"))
     leaf, white = (np.s_[8:16, 8:16], np.s_[8:16, 32:40])
     share = linear[leaf].mean((0, 1)) / linear[white].mean()
-    return colour.lightness_chroma(share), colour.lightness_chroma_of_srgb(
-        toned[leaf].mean((0, 1))
-    )
+    return colour.lightness_chroma(share), colour.lightness_chroma_of_srgb(toned[leaf].mean((0, 1)))
 
 
 def markdown(binary: Path) -> str:

@@ -64,7 +64,9 @@ class ContentsMap:
         size = self.width * self.height
         self.mean = {
             name: float(
-                table.host.reshape(-1, self.stride)[: self.height, : self.width].sum(dtype=np.float64)
+                table.host.reshape(-1, self.stride)[: self.height, : self.width].sum(
+                    dtype=np.float64
+                )
                 / size
             )
             for name, table in self.tables.items()
@@ -82,7 +84,6 @@ class ContentsMap:
             high = dr.lerp(table.at(mi.Float, corner_up), table.at(mi.Float, corner_up + 1), a)
             result[name] = dr.lerp(low, high, b)
         return result
-
 
     def drawn(self, kind: type, u: Any, v: Any, within: tuple[Any, Any]) -> dict[str, Any]:
         """One texel of four at `u`, `v` of type `kind`, by the weights of bilinear interpolation."""

@@ -79,7 +79,11 @@ def diffuse(count: int, rng: np.random.Generator) -> np.ndarray:
 def scattered(w: np.ndarray, g: float, rng: np.random.Generator) -> np.ndarray:
     """Directions after scattering by Henyey and Greenstein's phase function."""
     x = rng.random(w.shape[1])
-    cos = (1.0 + g * g - ((1.0 - g * g) / (1.0 - g + 2.0 * g * x)) ** 2) / (2.0 * g) if g else 2.0 * x - 1.0
+    cos = (
+        (1.0 + g * g - ((1.0 - g * g) / (1.0 - g + 2.0 * g * x)) ** 2) / (2.0 * g)
+        if g
+        else 2.0 * x - 1.0
+    )
     sin, turn = np.sqrt(np.maximum(1.0 - cos * cos, 0.0)), 2.0 * np.pi * rng.random(len(x))
     # An orthonormal frame without a pole (Duff et al. 2017).
     sign = np.copysign(1.0, w[2])
@@ -160,7 +164,11 @@ def diffusion_rms(reduced: float, absorbed: float) -> float:
     beyond = 2.0 * d * (1.0 + KEPT) / (1.0 - KEPT)
     kappa = np.sqrt(absorbed / d)
     near, whole = 2.0 / (3.0 * reduced) + beyond, 1.0 + 2.0 * beyond
-    slope = near / np.tanh(kappa * near) + beyond * np.tanh(kappa * beyond) - whole / np.tanh(kappa * whole)
+    slope = (
+        near / np.tanh(kappa * near)
+        + beyond * np.tanh(kappa * beyond)
+        - whole / np.tanh(kappa * whole)
+    )
     return float(np.sqrt(-2.0 / kappa * slope))
 
 
@@ -194,7 +202,16 @@ def report(count: int) -> str:
                 cells = [1.0 - LIT + LIT * back.share, r, LIT * through.share, t]
                 cells += [s, length(n, a), off, through.within(0.5), through.rms, back.within(0.5)]
                 shown.append([f"{n}", f"{a}"] + [f"{value:.3f}" for value in cells])
-    heads = ["*N*", "Σ C k", "R slab", "R PROSPECT", "T slab", "T PROSPECT", "*s*", "*s* by formula"]
+    heads = [
+        "*N*",
+        "Σ C k",
+        "R slab",
+        "R PROSPECT",
+        "T slab",
+        "T PROSPECT",
+        "*s*",
+        "*s* by formula",
+    ]
     heads += ["off the kernel", "median through", "rms through", "median reflected"]
     out = ["## How far light spreads sideways in a leaf", "", table(heads, shown), ""]
     out.append(
@@ -206,7 +223,9 @@ def report(count: int) -> str:
     rows = []
     for g in (0.0, 0.5, 0.8, 0.9):
         found = paths(PER_PLATE * 0.6, g, count, rng)
-        rows.append([f"{g}"] + [f"{Leaving(found, 1.0, a).kernel()[0]:.3f}" for a in (0.03, 0.4, 1.5)])
+        rows.append(
+            [f"{g}"] + [f"{Leaving(found, 1.0, a).kernel()[0]:.3f}" for a in (0.03, 0.4, 1.5)]
+        )
     out.append(table(["*g*", *(f"*s* at Σ C k = {a}" for a in (0.03, 0.4, 1.5))], rows))
     out += ["", "### Against diffusion theory", ""]
     rows = []
@@ -214,13 +233,29 @@ def report(count: int) -> str:
         found = paths(reduced, 0.0, count // 2, rng)
         for a in (0.1, 0.5):
             simulated, closed = Leaving(found, 1.0, a).rms, diffusion_rms(reduced, a)
-            rows.append([f"{reduced:g}", f"{a}", f"{simulated:.3f}", f"{closed:.3f}", f"{100 * (closed / simulated - 1):+.1f} %"])
+            rows.append(
+                [
+                    f"{reduced:g}",
+                    f"{a}",
+                    f"{simulated:.3f}",
+                    f"{closed:.3f}",
+                    f"{100 * (closed / simulated - 1):+.1f} %",
+                ]
+            )
     out.append(table(["µs′ d", "µa d", "rms, simulated", "rms, diffusion", "difference"], rows))
-    out += ["", "### In leaves", "", "Length *s*, mm; half of the light comes from within 1.68 *s*.", ""]
+    out += [
+        "",
+        "### In leaves",
+        "",
+        "Length *s*, mm; half of the light comes from within 1.68 *s*.",
+        "",
+    ]
     rows = []
     for name, contents in LEAVES.items():
         for thickness in (0.1, 0.2, 0.4):
-            lengths = [thickness * length(contents[0], leaf_absorption(contents, nm)) for nm in WAVELENGTHS]
+            lengths = [
+                thickness * length(contents[0], leaf_absorption(contents, nm)) for nm in WAVELENGTHS
+            ]
             rows.append([name, f"{thickness}"] + [f"{value:.3f}" for value in lengths])
     out.append(table(["leaf", "thickness, mm", *(f"{nm} nm" for nm in WAVELENGTHS)], rows))
     return "\n".join(out) + "\n"

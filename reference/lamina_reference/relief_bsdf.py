@@ -207,9 +207,7 @@ class ReliefBSDF(LeafBSDF):
         bright = cosine * light.z > 0.0
         cosine = dr.abs(cosine)
         lit.z = dr.select(bright & same, dr.abs(lit.z), 1.0)
-        back = dr.rcp(
-            1.0 - 0.5 * GIVEN_BACK * (1.0 - dr.select(same, normal.z, beyond.z))
-        )
+        back = dr.rcp(1.0 - 0.5 * GIVEN_BACK * (1.0 - dr.select(same, normal.z, beyond.z)))
 
         e_view = own.albedo(seen.z)
         e_light = dr.select(same, own.albedo(cosine), other.albedo(cosine))

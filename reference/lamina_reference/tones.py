@@ -112,9 +112,7 @@ def working_space(turns: list[float], insets: list[float]) -> Array:
     primaries = []
     for corner, turn, inset in zip(corners, np.radians(turns), insets, strict=True):
         x, y = corner - white
-        ray = np.array(
-            [x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)]
-        )
+        ray = np.array([x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)])
         reach = []
         for one, other in zip(corners, np.roll(corners, -1, axis=0), strict=True):
             along, share = np.linalg.solve(np.stack([ray, one - other], axis=1), one - white)
@@ -140,7 +138,9 @@ def agx_curve(light: Array) -> Array:
 
 def agx(linear: Array) -> Array:
     """AgX of colours inside sRGB, before anything is done about hue and gamut."""
-    inset = working_space([2.13976149, -1.22827335, -3.05174246], [0.32965205, 0.28051336, 0.12475368])
+    inset = working_space(
+        [2.13976149, -1.22827335, -3.05174246], [0.32965205, 0.28051336, 0.12475368]
+    )
     outset = np.linalg.inv(working_space([0.0, 0.0, 0.0], [0.32317438, 0.28325605, 0.0374326]))
     wide = colour.RGB_to_RGB(linear, SRGB, REC2020)
     shown = np.einsum("ij,...j->...i", outset, agx_curve(np.einsum("ij,...j->...i", inset, wide)))
@@ -161,9 +161,18 @@ def check_chart(binary: Path, folder: Path) -> tuple[list[str], list[str]]:
     ]
     wrong = []
     for tone in TONES:
-        shown, spec = tonemap(binary, source, folder / f"{tone}.png", "--tone", tone, "--sixteen-bits")
-        if spec.get_string_attribute("oiio:ColorSpace") not in ("sRGB", "srgb_rec709_scene", "srgb_rec709_display", "srgb_tx"):
-            wrong.append(f"{tone}: the PNG's colours are said to be {spec.get_string_attribute('oiio:ColorSpace')}")
+        shown, spec = tonemap(
+            binary, source, folder / f"{tone}.png", "--tone", tone, "--sixteen-bits"
+        )
+        if spec.get_string_attribute("oiio:ColorSpace") not in (
+            "sRGB",
+            "srgb_rec709_scene",
+            "srgb_rec709_display",
+            "srgb_tx",
+        ):
+            wrong.append(
+                f"{tone}: the PNG's colours are said to be {spec.get_string_attribute('oiio:ColorSpace')}"
+            )
         if str(spec.format) != "uint16":
             wrong.append(f"{tone}: {spec.format} instead of 16 bits")
         linear = colour.models.eotf_sRGB(shown)
@@ -211,7 +220,9 @@ def check_chart(binary: Path, folder: Path) -> tuple[list[str], list[str]]:
     shown, _ = tonemap(binary, inside, encoded, "--tone", "agx", "--sixteen-bits")
     expected = agx(grid)
     of_ours, of_theirs = oklab(colour.models.eotf_sRGB(shown)), oklab(expected)
-    on_colours = max(np.abs(of_ours[0] - of_theirs[0]).max(), np.abs(of_ours[1] - of_theirs[1])[pale].max())
+    on_colours = max(
+        np.abs(of_ours[0] - of_theirs[0]).max(), np.abs(of_ours[1] - of_theirs[1])[pale].max()
+    )
     lines.append(
         f"`agx` against a second evaluation: greys differ by at most {on_greys:.1e} in sRGB values, lightness and "
         f"chroma of colours by {on_colours:.1e} in Oklab."
