@@ -232,8 +232,9 @@ fn try_plans(range: Range<u64>) -> (usize, BTreeMap<String, usize>) {
 /// The plans that the environment asks for instead.
 fn asked() -> Option<Range<u64>> {
     let asked = std::env::var("LAMINA_PLANS").ok()?;
-    let (start, end) = asked.split_once("..")?;
-    Some(start.parse().ok()?..end.parse().ok()?)
+    let numbers = asked.split_once("..");
+    let numbers = numbers.and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?));
+    Some(numbers.unwrap_or_else(|| panic!("LAMINA_PLANS is {asked}, not like 0..5000")))
 }
 
 fn try_and_tell(range: Range<u64>) {
@@ -245,7 +246,7 @@ fn try_and_tell(range: Range<u64>) {
     }
     // A test that refuses nearly all would try nothing.
     assert!(
-        rendered as u64 * 2 >= count || count < 50,
+        rendered as u64 * 2 >= count || count < 10,
         "{rendered} of {count} were rendered"
     );
 }

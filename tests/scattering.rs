@@ -340,7 +340,6 @@ fn unrest(has_relief: bool) -> f64 {
 #[test]
 fn a_relief_far_below_a_pixel_does_not_flicker() {
     let [smooth, relief] = [false, true].map(unrest);
-    eprintln!("smooth {smooth:.4}, with relief {relief:.4}");
     // The relief spreads the gloss that passes over the smooth leaf: 0.47 of its unrest. With the
     // finest level of the map at any distance it is 0.79.
     assert!(relief < 0.6 * smooth, "{relief}, smooth {smooth}");

@@ -279,6 +279,10 @@ impl Leaf {
             lips: &lips,
             bulge: &|p| bulge.as_ref().map_or(0.0, |bulge| bulge.height(p)),
         };
+        let mut petiole = plan
+            .petiole
+            .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
+            .transpose()?;
         // The mesh is mostly the work of one thread, the map of all.
         let mut mesh = None;
         let contents = rayon::in_place_scope(|scope| {
@@ -292,10 +296,6 @@ impl Leaf {
         });
         let mut mesh = mesh.expect("the scope has ended")?;
         let contents = contents?;
-        let mut petiole = plan
-            .petiole
-            .map(|petiole| petiole.settled((outline, network), &plan.form, settled, plan.seed))
-            .transpose()?;
         if plan.stance.on_ground {
             settling::put_on_ground(&mut mesh, petiole.as_mut());
         }

@@ -143,7 +143,8 @@ class Tissue:
         a = 1.0 + t * q[0] * q[1]
         b = t * (s[0] * q[1] + s[1] * q[0])
         c = t * (s[0] * s[1] - 1.0)
-        tau = (dr.sqrt(dr.maximum(b * b - 4.0 * a * c, 0.0)) - b) / (2.0 * a)
+        root_of = dr.sqrt(dr.maximum(b * b - 4.0 * a * c, 0.0))
+        tau = dr.select(b > 0.0, -2.0 * c / (root_of + b), (root_of - b) / (2.0 * a))
         tau = dr.clip(tau, 0.0, float(np.sqrt(min(p))))
         root = float(np.sqrt(p[face]))
         sigma = dr.clip(s[face] + q[face] * tau, 0.0, 1.0 - root * tau)

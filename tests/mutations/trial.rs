@@ -61,14 +61,22 @@ pub(crate) fn run(parser: &Parser<'_>) {
         let said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
         assert!(is_read, "seed {number} of {}: {said}", parser.name);
     }
-    for file in files_of(&kept(), parser.name) {
-        (parser.read)(&fs::read(file).expect("a committed file"));
-    }
     let under_way = watch(parser.name);
-    // A case that ends the whole program can be told from this file.
-    let note = std::env::temp_dir().join(format!("lamina-mutations-{}", parser.name));
-    let mut note = File::create(note).expect("a place for temporary files");
     let mut totals = Totals::default();
+    for (number, file) in (0..).zip(files_of(&kept(), parser.name)) {
+        // Numbers that no changed file has.
+        under_way.store(u64::MAX - 1, Ordering::Relaxed);
+        let bytes = fs::read(file).expect("a committed file");
+        totals.add(parser, u64::MAX - 1 - number, &bytes);
+    }
+    totals.read = 0;
+    // A case that ends the whole program can be told from this file.
+    let place = std::env::temp_dir().join(format!(
+        "lamina-mutations-{}-{}",
+        parser.name,
+        std::process::id()
+    ));
+    let mut note = File::create(&place).expect("a place for temporary files");
     for case in 0..count {
         let mut bytes = changed(&parser.seeds, case);
         if let (Some(mend), 1) = (parser.mend, case % 2) {
@@ -79,6 +87,7 @@ pub(crate) fn run(parser: &Parser<'_>) {
         under_way.store(case, Ordering::Relaxed);
         totals.add(parser, case, &bytes);
     }
+    let _ = fs::remove_file(place);
     let Totals {
         read,
         longest,

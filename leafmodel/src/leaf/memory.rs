@@ -62,6 +62,8 @@ impl LeafPlan {
             .surface
             .as_ref()
             .map_or(0, |_| 2 * size_of::<SlopeMoments>());
+        // Each face of a closed blade has maps of its own.
+        let faces = if self.form.closed { 2.0 } else { 1.0 };
         let mut mosaic = 0.0;
         if let Some(pattern) = &self.mosaic {
             pattern.validate()?;
@@ -70,7 +72,7 @@ impl LeafPlan {
         Ok(LeafMemory {
             veins: count * nodes * OF_A_NODE,
             blade: OF_A_BLADE + texels * OF_A_PAINTED_TEXEL + mosaic,
-            kept: count * WIDTH * texels * (size_of::<Texel>() + surface) as f64,
+            kept: faces * count * WIDTH * texels * (size_of::<Texel>() + surface) as f64,
         })
     }
 }

@@ -29,8 +29,14 @@ impl LeafPlan {
 /// Lifts a leaf so that its lowest point touches the plane z = 0.
 pub(super) fn put_on_ground(mesh: &mut BladeMesh, mut petiole: Option<&mut StalkMesh>) {
     let stalk = petiole.iter().flat_map(|stalk| &stalk.positions);
-    let all = mesh.positions.iter().chain(stalk);
-    let lowest = all.map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let stalk = stalk.map(|p| p.z);
+    // A closed blade is half its thickness lower than its sheet.
+    let halves = mesh.across.iter().zip(&mesh.thickness_mm);
+    let halves = halves.map(|(across, thickness)| 0.5 * thickness * across.z.abs());
+    let halves = halves.chain(std::iter::repeat(0.0));
+    let blade = mesh.positions.iter().zip(halves);
+    let blade = blade.map(|(p, half)| p.z - half);
+    let lowest = blade.chain(stalk).fold(f64::INFINITY, f64::min);
     let stalk = petiole.iter_mut().flat_map(|stalk| &mut stalk.positions);
     for p in mesh.positions.iter_mut().chain(stalk) {
         p.z -= lowest;

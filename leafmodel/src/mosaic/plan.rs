@@ -12,7 +12,7 @@ pub(super) const MOST_CELLS: usize = 4_000_000;
 /// actual number may be smaller.
 const OVERCROWDED: f64 = 4.0;
 
-/// Greatest number of pairs of cells in all relaxations together, by an estimate from below. A
+/// Greatest number of pairs of cells in all relaxations together, about. A
 /// processor gets through a few million of them a second, so that more would take an hour.
 const MOST_PAIRS: f64 = 1e10;
 /// Memory of the surface around an initial cell, bytes: its triangles are as fine as the initial

@@ -111,8 +111,14 @@ impl<const N: usize> Tissue<N> {
             let linear = 0.5 * t * (s_a * q_b + s_b * q_a);
             let constant = t * (s_a * s_b - 1.0);
             let root_of = (linear * linear - square * constant).max(0.0).sqrt();
+            // Of the two forms of the root the one without a difference of equal numbers.
+            let positive = if linear > 0.0 {
+                -constant / (root_of + linear)
+            } else {
+                (root_of - linear) / square
+            };
             // A face takes in no more than there is: the clearest of leaves cannot be cut exactly.
-            let through = ((root_of - linear) / square).clamp(0.0, root[0].min(root[1]));
+            let through = positive.min(root[0].min(root[1])).max(0.0);
             let [s, q, k] = [[s_a, s_b][face], [q_a, q_b][face], [k_a, k_b][face]];
             let within = (s + q * through).clamp(0.0, 1.0 - through * root[face]);
             let inwards = through / root[face];
@@ -226,6 +232,12 @@ mod tests {
                     assert!(sum <= 1.0 + 1e-5, "{sum} of {leaf:?}");
                 }
             }
+        }
+        // What lets all through does so when it is cut.
+        let clear = sheet(&coats, 0.0, 1.0);
+        for face in 0..2 {
+            let [_, _, t_ab, t_ba] = clear.half(&coats, face).to_lanes();
+            assert!(t_ab.0[0].max(t_ba.0[0]) > 0.9, "{clear:?}");
         }
         let white = sheet(&coats, 0.6, 0.4);
         for face in 0..2 {

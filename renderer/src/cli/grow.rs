@@ -75,12 +75,21 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.ages.is_some() {
         ages::check(&chosen.plan)?;
     }
+    let grown = grown_plan(arguments, &chosen.plan)?;
     if outputs.veins {
-        needs::check_growth(&chosen.plan, outputs.blade, arguments.memory)?;
+        needs::check_growth(&grown, outputs.blade, arguments.memory)?;
     }
     let signals = Signals::listen()?;
     signals.begin_work();
-    let work = || carry_out(arguments, &chosen, &outputs, &signals.stop, started);
+    let work = || {
+        carry_out(
+            arguments,
+            (&chosen, &grown),
+            &outputs,
+            &signals.stop,
+            started,
+        )
+    };
     match arguments.threads {
         None => work(),
         Some(threads) => rayon::ThreadPoolBuilder::new()
@@ -88,6 +97,15 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             .build()
             .map_err(Failure::system)?
             .install(work),
+    }
+}
+
+/// What has to grow of a plan: its form alone where nothing of its contents is written.
+fn grown_plan(arguments: &GrowArguments, plan: &LeafPlan) -> Result<LeafPlan, Failure> {
+    if arguments.contents.is_some() && arguments.ages.is_none() {
+        Ok(plan.clone())
+    } else {
+        plan.form_alone().map_err(Failure::bad)
     }
 }
 
@@ -99,7 +117,7 @@ pub(super) fn named_plan(arguments: &GrowArguments) -> Result<(String, LeafPlan)
 
 fn carry_out(
     arguments: &GrowArguments,
-    chosen: &Chosen,
+    (chosen, to_grow): (&Chosen, &LeafPlan),
     outputs: &Outputs,
     stop: &AtomicBool,
     started: Instant,
@@ -114,13 +132,7 @@ fn carry_out(
     }
     let growing = Instant::now();
     let patience = Patience::growing();
-    let grown = if arguments.contents.is_some() && arguments.ages.is_none() {
-        Grown::new(plan, outputs.blade, stop)?
-    } else {
-        // Nothing of its contents is written.
-        let unpainted = plan.form_alone().map_err(Failure::bad)?;
-        Grown::new(&unpainted, outputs.blade, stop)?
-    };
+    let grown = Grown::new(to_grow, outputs.blade, stop)?;
     drop(patience);
     let build_seconds = growing.elapsed().as_secs_f64();
     let Lamina {

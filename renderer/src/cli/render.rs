@@ -28,13 +28,14 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let started = Instant::now();
     let signals = Signals::listen()?;
     let loaded = load_scene(&arguments.scene)?;
-    needs::check(&loaded.description, arguments.memory)?;
     let files = Files::of(arguments, &loaded, &signals)?;
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(Failure::system)?;
+    // As many leaves grow at a time as there are threads.
+    pool.install(|| needs::check(&loaded.description, arguments.memory))?;
     let plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
     let scene = loaded.description;
     let job = plan.heading.job;

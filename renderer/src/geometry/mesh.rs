@@ -152,12 +152,10 @@ pub enum MeshError {
     },
     /// Most of its detail is lost in `f32`, since it is small and far from its origin.
     #[error(
-        "the mesh is {extent:.1e} m large and reaches {reach:.1e} m from its origin: 32-bit numbers keep no \
-         detail of it there, move it to its origin"
+        "the mesh reaches {reach:e} m from its origin and is small: 32-bit numbers keep no detail of it \
+         there, move it to its origin"
     )]
     DetailLost {
-        /// Longest side of its box, m.
-        extent: f32,
         /// Largest coordinate, m.
         reach: f32,
     },
@@ -251,7 +249,7 @@ impl TriangleMesh {
             let extent = (bounds.max - bounds.min).max_element();
             let reach = bounds.max.abs().max(bounds.min.abs()).max_element();
             if reach > FAR && extent < LEAST_DETAIL * reach {
-                return Err(MeshError::DetailLost { extent, reach });
+                return Err(MeshError::DetailLost { reach });
             }
         }
         if kept.is_empty() {

@@ -94,6 +94,7 @@ impl LeafMaterial {
     /// One face (0 adaxial, 1 abaxial) of the same leaf cut along its middle.
     #[must_use]
     pub fn half(mut self, face: usize) -> Self {
+        debug_assert!(self.relief.is_none(), "a relief is added to the half");
         let mut coats = self.coats.clone();
         coats[1 - face] = Coat::none();
         self.half = Some(Half { face, coats });

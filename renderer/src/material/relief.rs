@@ -121,7 +121,7 @@ impl Relief {
         }
     }
 
-    /// The same with one side smooth, clean and without a coat.
+    /// The same with one side smooth and clean; that it has no coat is in what it was made with.
     #[must_use]
     pub fn without(mut self, side: usize) -> Self {
         let face = &mut self.faces[side];

@@ -35,8 +35,7 @@ pub struct GrownLeaf {
     /// side +z.
     pub meshes: Vec<TriangleMesh>,
     /// Materials (maps of contents and coats) of the different blades, two for one that is closed,
-    /// then the material of the
-    /// stalks, if there are any, then those of hairs by kind.
+    /// then the material of the stalks, if there are any, then those of hairs by kind.
     pub materials: Vec<LeafMaterial>,
     /// The pieces with their places; at least one.
     pub pieces: Vec<Piece>,

@@ -47,6 +47,12 @@ impl BladeMesh {
                 }
             }
             self.renew_normals(&moved);
+            // Where the blade is crumpled, only its surface tells the way across.
+            for (v, across) in self.across.iter_mut().enumerate() {
+                if moved[v] {
+                    *across = self.normals[v];
+                }
+            }
         }
     }
 
