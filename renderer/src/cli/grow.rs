@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     }
     let grown = grown_plan(arguments, &chosen.plan)?;
     if outputs.veins {
-        needs::check_growth(&grown, outputs.blade, arguments.memory)?;
+        check_memory(&grown, outputs.blade, arguments.memory)?;
     }
     let signals = Signals::listen()?;
     signals.begin_work();
@@ -98,6 +98,17 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
             .map_err(Failure::system)?
             .install(work),
     }
+}
+
+/// Fails if the growth of a leaf needs more memory than `allowed`; a blade is made and painted only
+/// if `has_blade`.
+fn check_memory(plan: &LeafPlan, has_blade: bool, allowed: Option<f64>) -> Result<(), Failure> {
+    let memory = plan.memory().map_err(Failure::bad)?;
+    let mut needs = vec![(memory.veins, "veins")];
+    if has_blade {
+        needs.push((memory.blade, "the blade and its contents"));
+    }
+    needs::compare("growth", &needs, allowed)
 }
 
 /// What has to grow of a plan: its form alone where nothing of its contents is written.

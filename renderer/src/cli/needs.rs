@@ -1,7 +1,5 @@
 //! Memory that a render, an export or the growth of a leaf needs, said before it begins.
 
-use leafmodel::leaf::{LeafMemory, LeafPlan};
-
 use crate::cli::Failure;
 use crate::film::Film;
 use crate::integrator::layers::Layout;
@@ -42,28 +40,13 @@ pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Resul
     compare("export", &of_geometry(scene)?, allowed)
 }
 
-/// Fails if the growth of a leaf needs more memory than `allowed`; a blade is made and painted only
-/// if `has_blade`.
-pub(super) fn check_growth(
-    plan: &LeafPlan,
-    has_blade: bool,
-    allowed: Option<f64>,
-) -> Result<(), Failure> {
-    let memory = plan.memory().map_err(Failure::bad)?;
-    let mut needs = vec![(memory.veins, "veins")];
-    if has_blade {
-        needs.push((memory.blade, "the blade and its contents"));
-    }
-    compare("growth", &needs, allowed)
-}
-
 /// Memory of what a scene builds and grows, bytes, with what it is for.
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
     let spheres = scene.meshes.iter().map(|mesh| match mesh.value {
         Mesh::Sphere { segments, .. } => f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
     });
-    let mut leaves: Vec<LeafMemory> = Vec::new();
+    let mut leaves = Vec::new();
     for leaf in &scene.leaves {
         let memory = leaf.value.plan.memory();
         leaves
@@ -90,7 +73,11 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
 }
 
 /// Fails if what is needed is more than what is allowed.
-fn compare(work: &str, needs: &[(f64, &'static str)], allowed: Option<f64>) -> Result<(), Failure> {
+pub(super) fn compare(
+    work: &str,
+    needs: &[(f64, &'static str)],
+    allowed: Option<f64>,
+) -> Result<(), Failure> {
     let needed = needs.iter().fold(0.0, |sum, (bytes, _)| sum + bytes);
     let free = || free_bytes().unwrap_or(f64::INFINITY);
     if needed <= allowed.map_or_else(free, |allowed| allowed * GIB) {
