@@ -144,8 +144,12 @@ impl Trial {
                     let started = Instant::now();
                     trial.under_way().insert(number, started);
                     let text = plan::text(number);
+                    // What ends the whole program leaves it here.
+                    let note = trial.folder.path().join(format!("{number}.plan"));
+                    std::fs::write(&note, &text).expect("a place for temporary files");
                     let tried = || carry_out(&text, trial.folder.path(), seed.is_multiple_of(3));
                     let outcome = catch_unwind(AssertUnwindSafe(tried));
+                    let _ = std::fs::remove_file(note);
                     // A plan that was given up has another thread in the place of this one.
                     if trial.under_way().remove(&number).is_none() {
                         return;

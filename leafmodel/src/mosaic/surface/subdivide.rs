@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::{NONE, Surface, SurfaceError, SurfacePoint, adjacency};
 
-/// Greatest number of faces.
-const MOST_FACES: usize = 1 << 28;
+/// Greatest number of faces: 6 GB of them while they are halved, enough for half a million cells at
+/// the start.
+const MOST_FACES: usize = 1 << 23;
 
 /// The places of the faces of a subdivided surface in the original one.
 #[derive(Clone, Debug)]
