@@ -1,5 +1,7 @@
 //! Files changed at random, the same for each number.
 
+use support::mixer;
+
 /// Bytes that mean something to one format or another.
 const BYTES: &[u8] =
     b"[]{}=\"'#,.-+_/\n\t 0123456789eEnxaifMLCQAZ<>&;\\\x00\x01\x7f\x80\x1b\xc3\xa4\xff";
@@ -40,10 +42,7 @@ const INTEGERS: [u64; 10] = [
 
 /// A well-mixed number for each counter.
 fn mixed(counter: u64) -> u64 {
-    let mut z = counter.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    mixer::mixed(counter.wrapping_mul(mixer::STEP))
 }
 
 /// Random numbers of one case.

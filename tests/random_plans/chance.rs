@@ -1,5 +1,7 @@
 //! Random numbers by counters, so that a plan's number is all that is needed to have it again.
 
+use support::mixer;
+
 /// The random numbers of one plan.
 pub(super) struct Chance(u64);
 
@@ -9,11 +11,8 @@ impl Chance {
     }
 
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0 = self.0.wrapping_add(mixer::STEP);
+        mixer::mixed(self.0)
     }
 
     /// A number in [0, 1).

@@ -160,3 +160,22 @@ fn dry_leaves_do_not_pass_through_themselves() {
         assert_eq!(crossed.len(), 0, "{name}");
     }
 }
+
+#[test]
+fn a_closed_blade_lies_on_its_abaxial_face() {
+    let mut plan = plan();
+    plan.form.closed = true;
+    plan.form.relief = 0.0;
+    plan.stance.on_ground = true;
+    let leaf = Leaf::grow(&plan).expect("a good plan");
+    let body = leaf.mesh.body(|place| place);
+    let bottom = body
+        .positions
+        .iter()
+        .map(|p| p.z)
+        .fold(f64::INFINITY, f64::min);
+    // The rim is round and tilted, so that it may reach a little less far down than its thickness.
+    let slack = 0.5 * plan.form.thickness_mm;
+    assert!((-1e-9..slack).contains(&bottom), "{bottom}");
+    assert!(lowest(&leaf) > 0.1 * slack, "the sheet is inside");
+}
