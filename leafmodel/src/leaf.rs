@@ -49,6 +49,7 @@ use crate::blade::stance::Stance;
 use crate::blade::surface::{SurfaceMap, SurfacePlan};
 use crate::blade::tissue::{Tissue, TissueError};
 use crate::blade::unevenness::Unevenness;
+use crate::blade::vein_field::VeinField;
 use crate::compound::form::CompoundForm;
 use crate::development::DevelopmentError;
 use crate::mosaic::pattern::{MosaicPattern, PatternError};
@@ -263,6 +264,8 @@ impl Leaf {
         let Lamina {
             outline, network, ..
         } = &lamina;
+        // Before the mesh and the map, which would tell it after all their work.
+        VeinField::check(network.segments())?;
         let settled = plan.settled(&lamina);
         let settled = settled.as_ref();
         let frame = UvFrame::around(lamina.intact().points());

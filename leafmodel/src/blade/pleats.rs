@@ -18,6 +18,8 @@ use crate::venation::network::VeinSegment;
 
 /// Places of the lattice along the leaf.
 const PLACES: f64 = 200.0;
+/// Most places along a side of the lattice, for leaves far wider than long.
+const MOST_PLACES: f64 = 1000.0;
 /// Least radius of a secondary, where it begins, over that of the thickest one.
 const STRONG: f64 = 0.4;
 /// Share of the leaf's length within which folds rise from the base.
@@ -38,8 +40,8 @@ impl Pleats {
     /// The folds that `form` gives to a leaf with these veins.
     pub(super) fn new(form: &BladeForm, outline: &Outline, veins: &[VeinSegment]) -> Self {
         let length = outline.length();
-        let spacing = length / PLACES;
         let (low, high) = outline.bounds();
+        let spacing = (length / PLACES).max((high - low).max_element() / MOST_PLACES);
         let origin = low - 2.0 * spacing;
         let count = ((high - low) / spacing).ceil() + 5.0;
         let mut pleats = Self {
@@ -139,6 +141,8 @@ impl Pleats {
     pub(super) fn seen_by(mut self, side: f64) -> Self {
         let half = (0.5 * side / self.spacing).round() as usize;
         let (columns, rows) = (self.columns, self.rows);
+        // Of the heights before each place of a line.
+        let mut sums: Vec<f64> = Vec::new();
         for (step, count, others) in [(1, columns, rows), (columns, rows, columns)] {
             let before = self.heights.clone();
             if before.is_empty() {
@@ -147,10 +151,14 @@ impl Pleats {
             for line in 0..others {
                 let from = line * if step == 1 { columns } else { 1 };
                 let at = |i: usize| before[from + i.min(count - 1) * step];
+                sums.clear();
+                sums.push(0.0);
+                for i in 0..count + half {
+                    sums.push(sums[i] + at(i));
+                }
                 for i in 0..count {
-                    let first = i.saturating_sub(half);
-                    let sum: f64 = (first..=i + half).map(at).sum();
-                    self.heights[from + i * step] = sum / (i + half + 1 - first) as f64;
+                    let (first, end) = (i.saturating_sub(half), i + half + 1);
+                    self.heights[from + i * step] = (sums[end] - sums[first]) / (end - first) as f64;
                 }
             }
         }

@@ -36,13 +36,17 @@ impl SizeField {
     /// up to the longest.
     pub(super) fn new(form: &BladeForm, veins: &[VeinSegment]) -> Self {
         let longest = AIM * form.max_edge_mm;
-        let shaping = if form.relief > 0.0 { veins } else { &[] };
+        // A vein so thick that the longest edge is short enough for it asks for nothing.
+        let asks = |vein: &&VeinSegment| {
+            form.relief > 0.0 && on_axis(longest, vein.radius_from.min(vein.radius_to)) < longest
+        };
+        let shaping: Vec<VeinSegment> = veins.iter().filter(asks).copied().collect();
         let reach = |segment: &VeinSegment| {
             let radius = segment.radius_from.max(segment.radius_to);
             PLATEAU * radius + (longest - on_axis(longest, radius)).max(0.0) / GRADING
         };
         let bounds: Vec<Bound> = shaping.iter().map(|s| Bound::new(s, longest)).collect();
-        let veins = VeinGrid::with_cells(CELL, shaping.to_vec(), reach);
+        let veins = VeinGrid::with_cells(CELL, shaping, reach);
         let least = |number: u32, middle, half_diagonal| {
             bounds[number as usize].least_near(middle, half_diagonal)
         };

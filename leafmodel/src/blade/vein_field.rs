@@ -80,18 +80,28 @@ impl Segment {
 }
 
 impl VeinField {
+    /// Whether a field of these veins can be made.
+    ///
+    /// # Errors
+    ///
+    /// [`TissueError`] for a vein that has a coordinate beyond 10⁵ mm or a radius not above 0 and up
+    /// to 1000 mm.
+    pub(crate) fn check(veins: impl IntoIterator<Item = VeinSegment>) -> Result<(), TissueError> {
+        veins.into_iter().try_for_each(|vein| check(&vein))
+    }
+
     /// Sorts the veins. With `texel_mm` > 0 the field is averaged over texels of that width, so
     /// that veins thinner than a texel are neither lost nor broken; with 0 it is not averaged.
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
-    /// a radius not above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
+    /// [`TissueError`] for a tissue out of range, for veins that [`VeinField::check`] refuses, and
+    /// for a texel below 0 or above 10⁵ mm.
     pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
         tissue.validate()?;
         let valid = (0.0..=1e5).contains(&texel_mm);
         TissueError::unless(valid, "texel width", texel_mm, "from 0 to 100000 mm")?;
-        veins.iter().try_for_each(check)?;
+        Self::check(veins.iter().copied())?;
         let profile = Profile {
             sheath: tissue.sheath_width_mm,
             texel: texel_mm,

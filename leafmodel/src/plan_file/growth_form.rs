@@ -13,6 +13,7 @@ use crate::shape::growth_form::{
     Axis, GrowthForm, GrowthFormError, GrowthFormProblem, HalfForm, LateralGrowth, SecondaryAxis,
     Side, VeinRow,
 };
+use crate::shape::outline::OutlineError;
 
 const SLOPES: Limits = Limits::closed(-20.0, 20.0);
 const BENDS: Limits = Limits::closed(-100.0, 100.0);
@@ -312,6 +313,10 @@ pub(super) fn report(keys: &Keys<'_>, error: &GrowthFormError) {
             "place the axis nearer to the middle of the blade, or widen its base",
         ),
         GrowthFormProblem::OutOfRange { .. } => (&["axes"], "use fewer axes"),
+        GrowthFormProblem::NoMargin(OutlineError::ShortMidrib { .. }) => (
+            &["axes", "lateral_rates", "rate_ratio"],
+            "use shorter axes, or lower lateral rates",
+        ),
         GrowthFormProblem::NoMargin(_) => (
             &["veins", "axes"],
             "put the veins farther apart, with slopes that differ less",

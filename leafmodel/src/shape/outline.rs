@@ -20,6 +20,9 @@ use super::tips::Knob;
 /// How far off the blade an end of the midrib may lie, as a share of the outline's extent: rounding
 /// only.
 const ON_BLADE: f64 = 1e-9;
+/// Least midrib as a share of the blade's extent. Edges, grids and veins are scaled by the midrib, so
+/// a blade of many times its size would take their squares.
+const SHORTEST_MIDRIB: f64 = 0.01;
 
 /// The margin of a lamina as a simple polygon, in millimetres.
 ///
@@ -75,6 +78,17 @@ pub enum OutlineError {
     /// Base and apex coincide.
     #[error("base and apex are the same point, so the midrib has no length")]
     NoMidrib,
+    /// The blade is far wider than its midrib is long.
+    #[error(
+        "the midrib is {length} mm long, which is less than a hundredth of the blade's extent of \
+         {extent} mm"
+    )]
+    ShortMidrib {
+        /// From base to apex, mm.
+        length: f64,
+        /// Greater side of the blade's bounds, mm.
+        extent: f64,
+    },
 }
 
 impl Outline {
@@ -133,6 +147,11 @@ impl Outline {
         }
         if outline.length() <= ON_BLADE * perimeter {
             return Err(OutlineError::NoMidrib);
+        }
+        let (low, high) = outline.bounds();
+        let (length, extent) = (outline.length(), (high - low).max_element());
+        if length < SHORTEST_MIDRIB * extent {
+            return Err(OutlineError::ShortMidrib { length, extent });
         }
         Ok(outline)
     }
@@ -371,6 +390,11 @@ mod tests {
             Outline::new(square(), DVec2::ZERO, DVec2::ZERO),
             Err(OutlineError::NoMidrib)
         );
+        let wide = square().into_iter().map(|p| p * DVec2::new(100.1, 1.0));
+        assert!(matches!(
+            Outline::new(wide.collect(), DVec2::ZERO, DVec2::new(0.0, 2.0)),
+            Err(OutlineError::ShortMidrib { .. })
+        ));
     }
 
     proptest! {

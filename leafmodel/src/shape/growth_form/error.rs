@@ -87,9 +87,9 @@ pub enum GrowthFormProblem {
         /// The slopes that would keep them apart.
         allowed: SlopeRange,
     },
-    /// A row grows to more than 1000 lengths of its axis.
+    /// A row grows to more than 50 lengths of its axis.
     #[error(
-        "rows: row {row} grows to {lengths:.0} times the length of its axis, above 1000; lower its lateral growth rate"
+        "rows: row {row} grows to {lengths:.0} times the length of its axis, above 50; lower its lateral growth rate"
     )]
     TooWide {
         /// Which row, from 1 at the base.
@@ -103,7 +103,7 @@ pub enum GrowthFormProblem {
     )]
     Apart,
     /// The area that the rows sweep over has no valid margin.
-    #[error("these growth rates and slopes bring forth no margin")]
+    #[error("these growth rates and slopes bring forth no margin: {0}")]
     NoMargin(#[source] OutlineError),
 }
 

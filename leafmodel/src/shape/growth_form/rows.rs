@@ -11,7 +11,7 @@ use super::{
 use crate::shape::outer_boundary::outer_boundary;
 
 /// Longest row, in lengths of its axis; longer ones are refused.
-const LONGEST: f64 = 1000.0;
+const LONGEST: f64 = 50.0;
 
 /// Number of points of a vein's line.
 #[cfg(test)]
