@@ -51,9 +51,7 @@ impl Feather {
         let pairs = f64::from(self.pairs);
         // A terminal leaflet is inserted one gap beyond the last pair; without one the last pair is
         // at the rachis' end.
-        let gaps =
-            (pairs - 1.0 + self.alternation + if self.terminal { 1.0 } else { 0.0 }).max(1e-9);
-        let gap = length / gaps;
+        let gaps = pairs - 1.0 + self.alternation + if self.terminal { 1.0 } else { 0.0 };
         let mut all = Vec::with_capacity(self.count());
         for i in 0..self.pairs {
             let share = if self.pairs > 1 {
@@ -62,7 +60,12 @@ impl Feather {
                 0.5
             };
             for (side, offset) in [(1.0, 0.0), (-1.0, self.alternation)] {
-                let along = ((f64::from(i) + offset) * gap).min(length);
+                // A single pair is at the end.
+                let along = if gaps > 0.0 {
+                    ((f64::from(i) + offset) * (length / gaps)).min(length)
+                } else {
+                    length
+                };
                 let (at, heading) = on_arc(base, heading, length, self.turn, along);
                 let [first, last] = self.angles;
                 all.push(Insertion {

@@ -1,5 +1,6 @@
 //! Ash and horse chestnut in space and in the plane.
 
+use super::super::Feather;
 use super::super::tests::{feather, leaflet, palmate};
 use super::*;
 use crate::compound::FlatLeaf;
@@ -166,4 +167,26 @@ fn stalks_age_as_the_base_of_the_blade_does() {
     assert!(living[Constituent::Chlorophyll] > 0.0 && living[Constituent::Brown] < 1.0);
     assert_eq!(end[Constituent::Chlorophyll], 0.0);
     assert!(end[Constituent::Brown] > living[Constituent::Brown]);
+}
+
+#[test]
+fn a_single_pair_is_at_the_end_of_its_rachis() {
+    // Found by a random plan: it was at the start, and the rest had a radius of 0.
+    let pair = |rachis| Feather {
+        pairs: 1,
+        terminal: false,
+        rachis,
+        ..feather()
+    };
+    let arrangement = Arrangement::Bipinnate {
+        pinnae: Feather {
+            pairs: 2,
+            ..feather()
+        },
+        leaflets: pair(0.03),
+        stalk: 100.0,
+    };
+    let whole = WholeLeaf::grow(&plan(arrangement, |_| ())).expect("a good plan");
+    let axes = whole.axes.expect("it has stalks");
+    assert_eq!(axes.validate(), Ok(()));
 }
