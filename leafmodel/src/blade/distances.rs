@@ -35,6 +35,9 @@ enum Square {
 const SHORT: usize = 12;
 /// Greatest depth of division, since many segments may meet in one point.
 const DEEPEST: u32 = 11;
+/// Length of all lists after which squares are divided no further: distances stay exact, only
+/// slower. A thousand segments far smaller than the last squares would fill millions of lists.
+const MOST_CANDIDATES: usize = 1 << 24;
 
 impl Distances {
     /// Builds the quadtree over the frame, within which distances may be queried.
@@ -74,7 +77,8 @@ impl Distances {
             .filter(|&(_, &distance)| distance <= reach)
             .map(|(&segment, _)| segment)
             .collect();
-        if own.len() <= SHORT || deeper == 0 {
+        let is_full = self.candidates.len() > MOST_CANDIDATES;
+        if own.len() <= SHORT || deeper == 0 || is_full {
             let first = self.candidates.len() as u32;
             self.candidates.extend(own);
             self.squares[place] = Square::Whole(first, self.candidates.len() as u32);
@@ -179,6 +183,19 @@ mod tests {
         let field = Distances::new(spokes.collect(), &FRAME);
         for step in 0..100 {
             let p = DVec2::new(0.1, 15.0) + 1e-4 * DVec2::from_angle(f64::from(step));
+            assert_eq!(field.at(p), exhaustive(&field, p));
+        }
+    }
+
+    #[test]
+    fn a_crowd_of_tiny_segments_does_not_fill_the_memory() {
+        let crowd = (0..3000).map(|i| {
+            let from = DVec2::new(0.1, 15.0) + 1e-6 * DVec2::from_angle(f64::from(i));
+            [from, from + DVec2::splat(1e-8)]
+        });
+        let field = Distances::new(crowd.collect(), &FRAME);
+        assert!(field.candidates.len() < 2 * MOST_CANDIDATES);
+        for p in [DVec2::new(9.0, 29.0), DVec2::new(-9.0, 1.0), DVec2::ZERO] {
             assert_eq!(field.at(p), exhaustive(&field, p));
         }
     }
