@@ -301,7 +301,7 @@ impl Place<'_> {
     pub(super) fn margin_distances(&self) -> Distances {
         let next = self.margin.iter().cycle().skip(1);
         let sides = self.margin.iter().zip(next).map(|(&a, &b)| [a, b]);
-        Distances::new(sides.collect(), self.frame)
+        Distances::new(sides.collect())
     }
 
     /// Distances to the axes of veins of some orders.
@@ -311,10 +311,7 @@ impl Place<'_> {
             .veins
             .iter()
             .filter(|vein| (first..=last).contains(&vein.order));
-        Distances::new(
-            counts.map(|vein| [vein.from, vein.to]).collect(),
-            self.frame,
-        )
+        Distances::new(counts.map(|vein| [vein.from, vein.to]).collect())
     }
 
     /// 0 at the base to 1 at the apex.

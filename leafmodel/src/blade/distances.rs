@@ -1,138 +1,128 @@
 //! How far it is to the nearest of many segments, fast at millions of points.
 
-use std::f64::consts::SQRT_2;
-
 use glam::DVec2;
 
-use super::frame::UvFrame;
-
-/// Distances to segments over a frame.
+/// Distances to segments.
 ///
-/// A quadtree over the frame keeps for each square the segments that may be nearest to one of its
-/// points. A distance changes by at most the way walked, so a segment can be nearest somewhere in a
-/// square of half diagonal *h* only if it is at most 2 *h* further from the centre than the nearest
-/// one is there. The lists of the last squares are short, and the least distance to a segment of
-/// the list is the exact one at every point of the frame.
+/// A binary tree of boxes halves the segments at the median of their middles, along the longer side
+/// of its box. A search goes into the nearer half first and leaves out boxes that are farther than
+/// what has been found, so it finds the exact least distance.
 #[derive(Clone, Debug)]
 pub(crate) struct Distances {
+    /// In the order of the tree's leaves.
     segments: Vec<[DVec2; 2]>,
-    centre: DVec2,
-    half_side: f64,
-    squares: Vec<Square>,
-    /// Numbers of segments, list after list.
-    candidates: Vec<u32>,
+    nodes: Vec<Node>,
 }
 
+/// A node. The first child comes next in the list.
 #[derive(Clone, Copy, Debug)]
-enum Square {
-    /// Place of the first of four quarters: west before east, south before north.
-    Parted(u32),
-    /// First candidate and the place after the last.
-    Whole(u32, u32),
+struct Node {
+    low: DVec2,
+    high: DVec2,
+    /// Place of the second child; of a leaf, of its first segment.
+    place: u32,
+    /// Number of a leaf's segments; 0 for an inner node.
+    count: u32,
 }
 
-/// Lists of this length or shorter are not divided further.
-const SHORT: usize = 12;
-/// Greatest depth of division, since many segments may meet in one point.
-const DEEPEST: u32 = 11;
-/// Length of all lists after which squares are divided no further: distances stay exact, only
-/// slower. A thousand segments far smaller than the last squares would fill millions of lists.
-const MOST_CANDIDATES: usize = 1 << 24;
+/// Most segments of a leaf.
+const SHORT: usize = 4;
+/// Boxes are left out only if they are farther than what has been found by this share, so that
+/// rounding hides no segment.
+const SPARE: f64 = 1e-9;
+/// Levels of the tree for 2³² segments, halved until they are short.
+const DEEPEST: usize = 32;
+
+impl Node {
+    /// Squared distance of a point to the box.
+    fn square(&self, p: DVec2) -> f64 {
+        (self.low - p).max(p - self.high).max(DVec2::ZERO).length_squared()
+    }
+}
 
 impl Distances {
-    /// Builds the quadtree over the frame, within which distances may be queried.
-    pub(crate) fn new(segments: Vec<[DVec2; 2]>, frame: &UvFrame) -> Self {
-        let all: Vec<u32> = (0..segments.len() as u32).collect();
-        let (centre, half_side) = (frame.min + 0.5 * frame.size, 0.5 * frame.size.max_element());
-        let mut field = Self {
-            segments,
-            centre,
-            half_side,
-            squares: vec![Square::Whole(0, 0)],
-            candidates: Vec::new(),
-        };
-        field.part(0, centre, half_side, &all, DEEPEST);
-        field
-    }
-
-    /// Fills the square at a place with those of its parent's candidates that can be nearest in it.
-    fn part(
-        &mut self,
-        place: usize,
-        centre: DVec2,
-        half_side: f64,
-        of_parent: &[u32],
-        deeper: u32,
-    ) {
-        let distances: Vec<f64> = of_parent
-            .iter()
-            .map(|&segment| self.square(segment, centre).sqrt())
-            .collect();
-        let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
-        // Rounding must not lose a segment at the very bound.
-        let reach = (least + 2.0 * SQRT_2 * half_side) * (1.0 + 1e-12);
-        let own: Vec<u32> = of_parent
-            .iter()
-            .zip(&distances)
-            .filter(|&(_, &distance)| distance <= reach)
-            .map(|(&segment, _)| segment)
-            .collect();
-        let is_full = self.candidates.len() > MOST_CANDIDATES;
-        if own.len() <= SHORT || deeper == 0 || is_full {
-            let first = self.candidates.len() as u32;
-            self.candidates.extend(own);
-            self.squares[place] = Square::Whole(first, self.candidates.len() as u32);
-            return;
+    /// Builds the tree.
+    pub(crate) fn new(mut segments: Vec<[DVec2; 2]>) -> Self {
+        let mut nodes = Vec::with_capacity(segments.len());
+        if !segments.is_empty() {
+            part(&mut nodes, &mut segments, 0);
         }
-        let quarters = self.squares.len();
-        self.squares[place] = Square::Parted(quarters as u32);
-        self.squares.resize(quarters + 4, Square::Whole(0, 0));
-        let quarter_side = 0.5 * half_side;
-        for (quarter, (east, north)) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
-            .into_iter()
-            .enumerate()
-        {
-            let centre = centre + quarter_side * DVec2::new(east, north);
-            self.part(quarters + quarter, centre, quarter_side, &own, deeper - 1);
-        }
+        Self { segments, nodes }
     }
 
-    /// Squared distance of a point to a segment.
-    fn square(&self, segment: u32, p: DVec2) -> f64 {
-        let [from, to] = self.segments[segment as usize];
-        let (along, offset) = (to - from, p - from);
-        let length = along.length_squared();
-        let share = if length > 0.0 {
-            (offset.dot(along) / length).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (offset - share * along).length_squared()
-    }
-
-    /// Distance of a point of the frame (mm) to the nearest segment; infinite if there are none.
+    /// Distance of a point (mm) to the nearest segment; infinite if there are none.
     pub(crate) fn at(&self, p: DVec2) -> f64 {
-        let (mut centre, mut half_side) = (self.centre, self.half_side);
-        let mut place = 0;
-        loop {
-            match self.squares[place] {
-                Square::Parted(quarters) => {
-                    let (east, north) = (p.x >= centre.x, p.y >= centre.y);
-                    place = quarters as usize + usize::from(east) + 2 * usize::from(north);
-                    half_side *= 0.5;
-                    let toward = |yes: bool| if yes { half_side } else { -half_side };
-                    centre += DVec2::new(toward(east), toward(north));
+        let mut best = f64::INFINITY;
+        // What waits, with the squared distance of its box.
+        let mut waiting = [(0.0, 0_u32); DEEPEST];
+        let mut height = usize::from(!self.nodes.is_empty());
+        while height > 0 {
+            height -= 1;
+            let (away, mut place) = waiting[height];
+            if away > best * (1.0 + SPARE) {
+                continue;
+            }
+            loop {
+                let node = &self.nodes[place as usize];
+                if node.count > 0 {
+                    let (first, count) = (node.place as usize, node.count as usize);
+                    for &segment in &self.segments[first..first + count] {
+                        best = best.min(square(segment, p));
+                    }
+                    break;
                 }
-                Square::Whole(first, end) => {
-                    return self.candidates[first as usize..end as usize]
-                        .iter()
-                        .map(|&segment| self.square(segment, p))
-                        .fold(f64::INFINITY, f64::min)
-                        .sqrt();
+                let children = [place + 1, node.place];
+                let [a, b] = children.map(|child| self.nodes[child as usize].square(p));
+                let (near, far) = if a <= b { (0, (b, 1)) } else { (1, (a, 0)) };
+                if far.0 <= best * (1.0 + SPARE) {
+                    waiting[height] = (far.0, children[far.1]);
+                    height += 1;
                 }
+                place = children[near];
             }
         }
+        best.sqrt()
     }
+}
+
+/// Adds the tree of these segments, whose first one has the number `first`.
+fn part(nodes: &mut Vec<Node>, segments: &mut [[DVec2; 2]], first: usize) {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for &[from, to] in &*segments {
+        low = low.min(from.min(to));
+        high = high.max(from.max(to));
+    }
+    let place = nodes.len();
+    nodes.push(Node {
+        low,
+        high,
+        place: first as u32,
+        count: segments.len() as u32,
+    });
+    if segments.len() <= SHORT {
+        return;
+    }
+    let axis = if high.x - low.x > high.y - low.y { 0 } else { 1 };
+    let key = |[from, to]: &[DVec2; 2]| from[axis] + to[axis];
+    let half = segments.len() / 2;
+    segments.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)));
+    let (left, right) = segments.split_at_mut(half);
+    part(nodes, left, first);
+    nodes[place].place = nodes.len() as u32;
+    nodes[place].count = 0;
+    part(nodes, right, first + half);
+}
+
+/// Squared distance of a point to a segment.
+fn square([from, to]: [DVec2; 2], p: DVec2) -> f64 {
+    let (along, offset) = (to - from, p - from);
+    let length = along.length_squared();
+    let share = if length > 0.0 {
+        (offset.dot(along) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (offset - share * along).length_squared()
 }
 
 #[cfg(test)]
@@ -142,16 +132,9 @@ mod tests {
     use super::*;
     use crate::testing::fixed;
 
-    const FRAME: UvFrame = UvFrame {
-        min: DVec2::new(-10.0, 0.0),
-        size: DVec2::new(20.0, 30.0),
-    };
-
-    fn exhaustive(field: &Distances, p: DVec2) -> f64 {
-        (0..field.segments.len() as u32)
-            .map(|segment| field.square(segment, p))
-            .fold(f64::INFINITY, f64::min)
-            .sqrt()
+    fn exhaustive(segments: &[[DVec2; 2]], p: DVec2) -> f64 {
+        let squares = segments.iter().map(|&segment| square(segment, p));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
     proptest! {
@@ -159,52 +142,42 @@ mod tests {
         #[test]
         fn distances_are_those_of_a_search_over_all_segments(
             ends in prop::collection::vec((-10.0..10.0, 0.0..30.0, -3.0..3.0, -3.0..3.0), 1..40),
-            points in prop::collection::vec((-10.0..10.0, 0.0..30.0), 50),
+            points in prop::collection::vec((-15.0..15.0, -5.0..35.0), 50),
         ) {
             let segments: Vec<[DVec2; 2]> = ends.iter()
                 .map(|&(x, y, dx, dy)| [DVec2::new(x, y), DVec2::new(x + dx, y + dy)]).collect();
-            let field = Distances::new(segments, &FRAME);
+            let field = Distances::new(segments.clone());
             for (x, y) in points {
                 let p = DVec2::new(x, y);
-                prop_assert_eq!(field.at(p), exhaustive(&field, p));
+                prop_assert_eq!(field.at(p), exhaustive(&segments, p));
             }
         }
     }
 
     #[test]
     fn segments_that_meet_in_one_point_are_all_kept() {
+        let middle = DVec2::new(0.1, 15.0);
         let spokes = (0..64).map(|spoke| {
-            let direction = DVec2::from_angle(f64::from(spoke) * 0.1);
-            [
-                DVec2::new(0.1, 15.0),
-                DVec2::new(0.1, 15.0) + 12.0 * direction,
-            ]
+            [middle, middle + 12.0 * DVec2::from_angle(f64::from(spoke) * 0.1)]
         });
-        let field = Distances::new(spokes.collect(), &FRAME);
+        let spokes: Vec<_> = spokes.collect();
+        let field = Distances::new(spokes.clone());
         for step in 0..100 {
-            let p = DVec2::new(0.1, 15.0) + 1e-4 * DVec2::from_angle(f64::from(step));
-            assert_eq!(field.at(p), exhaustive(&field, p));
+            let p = middle + 1e-4 * DVec2::from_angle(f64::from(step));
+            assert_eq!(field.at(p), exhaustive(&spokes, p));
         }
     }
 
     #[test]
-    fn a_crowd_of_tiny_segments_does_not_fill_the_memory() {
-        let crowd = (0..3000).map(|i| {
-            let from = DVec2::new(0.1, 15.0) + 1e-6 * DVec2::from_angle(f64::from(i));
-            [from, from + DVec2::splat(1e-8)]
-        });
-        let field = Distances::new(crowd.collect(), &FRAME);
-        assert!(field.candidates.len() < 2 * MOST_CANDIDATES);
-        for p in [DVec2::new(9.0, 29.0), DVec2::new(-9.0, 1.0), DVec2::ZERO] {
-            assert_eq!(field.at(p), exhaustive(&field, p));
-        }
+    fn a_crowd_of_equal_segments_takes_two_nodes_for_each_few() {
+        let crowd = vec![[DVec2::new(0.1, 15.0), DVec2::new(0.2, 15.0)]; 100_000];
+        let field = Distances::new(crowd);
+        assert!(field.nodes.len() <= 100_000);
+        assert_eq!(field.at(DVec2::new(0.1, 11.0)), 4.0);
     }
 
     #[test]
     fn without_segments_everything_is_infinitely_far() {
-        assert_eq!(
-            Distances::new(Vec::new(), &FRAME).at(DVec2::ONE),
-            f64::INFINITY
-        );
+        assert_eq!(Distances::new(Vec::new()).at(DVec2::ONE), f64::INFINITY);
     }
 }

@@ -243,7 +243,7 @@ impl<'a> MaskField<'a> {
             Mask::Veins { orders, .. } => distances = Some(place.vein_distances(*orders)),
             Mask::Midrib { .. } => {
                 let line = vec![[place.base, place.apex]];
-                distances = Some(Distances::new(line, place.frame));
+                distances = Some(Distances::new(line));
             }
             Mask::Noise {
                 scale_mm,

@@ -160,10 +160,9 @@ fn cover(
     }
     let frame = blade.frame;
     let texel = frame.size / DVec2::new(width as f64, height as f64);
-    let gathering = Gathering::new(plan.dust, frame, blade.veins, blade.margin, blade.seed);
+    let gathering = Gathering::new(plan.dust, blade.veins, blade.margin, blade.seed);
     let lines = blade.veins.iter().map(|vein| [vein.from, vein.to]);
-    let veins =
-        (has_stomata && !blade.veins.is_empty()).then(|| Distances::new(lines.collect(), frame));
+    let veins = (has_stomata && !blade.veins.is_empty()).then(|| Distances::new(lines.collect()));
     let mut loads = vec![f64::NAN; width * height];
     let mut away = vec![NO_VEIN_MM; width * height];
     let rows = loads.par_chunks_mut(width).zip(away.par_chunks_mut(width));

@@ -114,7 +114,7 @@ impl Unevenness {
             .filter(|vein| vein.order == 1)
             .map(|vein| [vein.from, vein.to])
             .collect();
-        let primaries = (!lines.is_empty()).then(|| Distances::new(lines, frame));
+        let primaries = (!lines.is_empty()).then(|| Distances::new(lines));
         let (mut before, mut after) = (0.0, 0.0);
         for (i, factor) in factors.iter_mut().enumerate() {
             let p = grid.place(i);
@@ -318,7 +318,7 @@ mod tests {
     fn distances(orders: [u8; 2]) -> Distances {
         let segments = LAMINA.network.segments();
         let those = segments.filter(|vein| (orders[0]..=orders[1]).contains(&vein.order));
-        Distances::new(those.map(|vein| [vein.from, vein.to]).collect(), &frame())
+        Distances::new(those.map(|vein| [vein.from, vein.to]).collect())
     }
 
     fn frame() -> UvFrame {

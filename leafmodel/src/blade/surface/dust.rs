@@ -16,7 +16,6 @@
 use glam::DVec2;
 
 use super::super::distances::Distances;
-use super::super::frame::UvFrame;
 use super::super::mottle::Mottle;
 use super::super::tissue::TissueError;
 use crate::venation::network::VeinSegment;
@@ -130,13 +129,12 @@ pub(super) struct Gathering {
 impl Gathering {
     pub(super) fn new(
         plan: DustPlan,
-        frame: &UvFrame,
         veins: &[VeinSegment],
         margin: &[DVec2],
         seed: u64,
     ) -> Self {
         let of = |lines: Vec<[DVec2; 2]>, more: f64| {
-            (more > 0.0 && !lines.is_empty()).then(|| Distances::new(lines, frame))
+            (more > 0.0 && !lines.is_empty()).then(|| Distances::new(lines))
         };
         let lines = veins.iter().filter(|vein| vein.order <= GATHERING);
         let lines = lines.map(|vein| [vein.from, vein.to]).collect();
@@ -203,10 +201,6 @@ mod tests {
             load_g_per_m2: [4.0, 1.0],
             ..DustPlan::NONE
         };
-        let frame = UvFrame {
-            min: DVec2::ZERO,
-            size: DVec2::splat(20.0),
-        };
         let vein = VeinSegment {
             from: DVec2::new(10.0, 0.0),
             to: DVec2::new(10.0, 20.0),
@@ -215,7 +209,7 @@ mod tests {
             order: 1,
         };
         let margin = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(DVec2::from);
-        let gathering = Gathering::new(plan, &frame, &[vein], &margin, 7);
+        let gathering = Gathering::new(plan, &[vein], &margin, 7);
         let loads: Vec<f64> = (0..10_000)
             .map(|i| {
                 let p = DVec2::new(f64::from(i % 100), f64::from(i / 100)) * 0.2 + 0.1;

@@ -139,7 +139,7 @@ impl Front {
         let length = outline.length();
         let noise = |number: u64, size: f64| Mottle::new(bits(seed, NOISE, number), size * length);
         let (coarse, fine) = (noise(0, PATCHES[0]), noise(1, PATCHES[1]));
-        let veins = vein_distances(network, &frame);
+        let veins = vein_distances(network);
         for (i, speed) in front.speeds.iter_mut().enumerate() {
             let p = place(i);
             let rough = plan.unevenness * (0.9 * coarse.at(p) + 0.35 * fine.at(p));
@@ -301,10 +301,10 @@ impl Front {
 }
 
 /// Distances to the larger veins, if there are any.
-fn vein_distances(network: &VenationNetwork, frame: &UvFrame) -> Option<Distances> {
+fn vein_distances(network: &VenationNetwork) -> Option<Distances> {
     let major: Vec<VeinSegment> = network.segments().filter(|vein| vein.order <= 2).collect();
     let lines: Vec<[DVec2; 2]> = major.iter().map(|vein| [vein.from, vein.to]).collect();
-    (!lines.is_empty()).then(|| Distances::new(lines, frame))
+    (!lines.is_empty()).then(|| Distances::new(lines))
 }
 
 /// 0 up to 0, 1 from 1 on, smooth between.
