@@ -59,7 +59,7 @@
 //! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs | [`measure`], [`export`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
-//! | leaflets on a rachis; fruits and caps | [`compound`], [`solid`] |
+//! | leaflets on a rachis; fruits and caps; boughs | [`compound`], [`solid`], [`plant`] |
 //! | variegation by cells that divide | [`mosaic`] |
 //! | reflectance and transmittance from contents | [`optics`] |
 //!
@@ -76,6 +76,7 @@ pub mod measure;
 pub mod mosaic;
 pub mod optics;
 pub mod plan_file;
+pub mod plant;
 pub mod shape;
 mod shell;
 pub mod solid;

@@ -42,6 +42,7 @@
 mod angle;
 pub mod assets;
 mod blocks;
+mod boughs;
 pub mod description;
 pub mod fingerprint;
 pub mod load;

@@ -140,6 +140,7 @@ fn names_become_indices_in_the_order_of_the_file() {
             ObjectShape::Solid { solid: 0 },
             ObjectShape::Solid { solid: 4 },
             mesh(0, 0),
+            mesh(scene.meshes.len() - 1, 0),
         ]
     );
     assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
@@ -170,6 +171,41 @@ fn instances_are_the_rows_of_their_file_in_the_frame_of_their_object() {
     );
     let places = moved.description.objects[9].value.instances.clone();
     assert_eq!(places.expect("it still has them")[1].to_world[11], 0.0);
+}
+
+#[test]
+fn a_plant_is_an_object_with_its_leaves_and_axes_as_instances() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let shoot = &scene.objects[10].value;
+    let plan = &scene.plants[0].value.plan;
+    assert_eq!((plan.seed, plan.individuals, plan.axis.nodes), (3, 2, 5));
+    assert_eq!(
+        (plan.axis.phyllotaxis.per_node, plan.posture.cluster),
+        (2, 3)
+    );
+    assert_near(
+        plan.axis.phyllotaxis.divergence,
+        100.0 * std::f64::consts::PI / 180.0,
+    );
+    let branching = plan.branching.expect("it has branches");
+    assert_eq!((branching.order, branching.share), (2, 0.8));
+    let buds = plan.buds.expect("it has buds");
+    assert_near(buds.length_mm, 3.0);
+    assert_near(plan.posture.light.y, 0.5_f64.sqrt());
+    // The axes of paper, then two individuals of both leaves.
+    assert!(matches!(
+        shoot.shapes[0],
+        ObjectShape::Mesh { mesh, material: 0 } if matches!(scene.meshes[mesh].value, Mesh::Axes(_))
+    ));
+    assert_eq!(shoot.shapes.len(), 5);
+    let names: Vec<&str> = scene.leaves.iter().map(|leaf| leaf.name.as_str()).collect();
+    assert!(
+        names.contains(&"simple.shoot.2") && names.contains(&"beech.shoot.2"),
+        "{names:?}"
+    );
+    let places = shoot.instances.as_ref().expect("it has many places");
+    assert!(places.len() > 30, "{}", places.len());
+    assert!(places.iter().all(|place| (place.shape as usize) < 5));
 }
 
 #[test]

@@ -122,6 +122,19 @@ pub(super) fn text(number: u64) -> String {
         text.push_str(&writer.text.replacen("[solids.body]\n", start, 1));
         text.push_str("[objects.body]\nsolid = \"body\"\n");
     }
+    if chance.is(0.2) {
+        let plant = SCHEMA.at(&["plants", "NAME"]).expect("scenes have plants");
+        let mut writer = Writer {
+            chance: &mut chance,
+            share,
+            tame,
+            text: String::new(),
+        };
+        writer.block("plants.bough", plant, false, &["leaf", "bark", "preset"]);
+        let start = "[plants.bough]\nleaf = \"one\"\n";
+        text.push_str(&writer.text.replacen("[plants.bough]\n", start, 1));
+        text.push_str("[objects.bough]\nplant = \"bough\"\n");
+    }
     text
 }
 

@@ -12,7 +12,7 @@ const NAMES: [&str; 2] = ["a", "b"];
 
 /// Greatest values of what costs time and nothing else: leaves are small and their veins coarse, so
 /// that thousands take minutes. Every other key has its whole documented range.
-const MOST: [(&str, f64); 39] = [
+const MOST: [(&str, f64); 41] = [
     ("abaxial_per_mm2", 20.0),
     ("adaxial_per_mm2", 20.0),
     ("arches", 3.0),
@@ -26,6 +26,7 @@ const MOST: [(&str, f64); 39] = [
     ("fringe_per_mm", 10.0),
     ("growth", 50.0),
     ("holes", 12.0),
+    ("individuals", 2.0),
     ("initial_length_segments", 80.0),
     ("initial_relaxations", 30.0),
     ("laterals", 20.0),
@@ -33,6 +34,7 @@ const MOST: [(&str, f64); 39] = [
     ("length_mm", 300.0),
     ("map_size", 48.0),
     ("most_cells", 3000.0),
+    ("nodes", 25.0),
     ("pairs", 6.0),
     ("per_mm2", 20.0),
     ("ratio_steps", 50.0),

@@ -36,7 +36,10 @@ const DEEPEST: usize = 32;
 impl Node {
     /// Squared distance of a point to the box.
     fn square(&self, p: DVec2) -> f64 {
-        (self.low - p).max(p - self.high).max(DVec2::ZERO).length_squared()
+        (self.low - p)
+            .max(p - self.high)
+            .max(DVec2::ZERO)
+            .length_squared()
     }
 }
 
@@ -102,7 +105,7 @@ fn part(nodes: &mut Vec<Node>, segments: &mut [[DVec2; 2]], first: usize) {
     if segments.len() <= SHORT {
         return;
     }
-    let axis = if high.x - low.x > high.y - low.y { 0 } else { 1 };
+    let axis = usize::from(high.x - low.x <= high.y - low.y);
     let key = |[from, to]: &[DVec2; 2]| from[axis] + to[axis];
     let half = segments.len() / 2;
     segments.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)));
@@ -158,7 +161,10 @@ mod tests {
     fn segments_that_meet_in_one_point_are_all_kept() {
         let middle = DVec2::new(0.1, 15.0);
         let spokes = (0..64).map(|spoke| {
-            [middle, middle + 12.0 * DVec2::from_angle(f64::from(spoke) * 0.1)]
+            [
+                middle,
+                middle + 12.0 * DVec2::from_angle(f64::from(spoke) * 0.1),
+            ]
         });
         let spokes: Vec<_> = spokes.collect();
         let field = Distances::new(spokes.clone());

@@ -232,6 +232,19 @@ impl PetiolePlan {
         Axis::new(&self.course, &petiole)
     }
 
+    /// Place and frame (columns across it, along it towards the blade, and to its adaxial side) of
+    /// the foot of this petiole in the frame of a leaf of this length, mm, and seed, that does not
+    /// wilt. A radius that is the midrib's counts as none: it limits how tightly a petiole bends.
+    pub(crate) fn foot(&self, leaf: f64, seed: u64) -> (DVec3, DMat3) {
+        let length = self.length * leaf;
+        if length <= 1e-6 * leaf {
+            return (DVec3::ZERO, DMat3::IDENTITY);
+        }
+        let radius = self.radius_mm.unwrap_or(1e-3);
+        self.axis(leaf, radius, 0.0, DMat3::IDENTITY, seed)
+            .at(length)
+    }
+
     /// The tube up to the base, from its foot on.
     fn stem(&self, joint: &Joint<'_>, radius: f64, leaf: f64, seed: u64) -> Vec<Station> {
         let length = self.length * leaf;

@@ -158,7 +158,8 @@ impl Pleats {
                 }
                 for i in 0..count {
                     let (first, end) = (i.saturating_sub(half), i + half + 1);
-                    self.heights[from + i * step] = (sums[end] - sums[first]) / (end - first) as f64;
+                    self.heights[from + i * step] =
+                        (sums[end] - sums[first]) / (end - first) as f64;
                 }
             }
         }

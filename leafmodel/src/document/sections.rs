@@ -52,6 +52,7 @@ pub fn singular(section: &str) -> &'static str {
         "objects" => "object",
         "lights" => "light",
         "solids" => "solid",
+        "plants" => "plant",
         _ => "block",
     }
 }

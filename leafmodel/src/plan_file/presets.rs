@@ -14,10 +14,10 @@ use crate::optics::{Contents, presets};
 use crate::species;
 
 /// One of many things by name.
-struct Chosen<T: 'static> {
-    kind: &'static str,
-    all: &'static [T],
-    name_of: fn(&T) -> &'static str,
+pub(super) struct Chosen<T: 'static> {
+    pub(super) kind: &'static str,
+    pub(super) all: &'static [T],
+    pub(super) name_of: fn(&T) -> &'static str,
 }
 
 impl<T> Kind for Chosen<T> {

@@ -22,6 +22,12 @@ pub(crate) enum Use {
     Damage = 8,
     /// Sizes of damage.
     DamageSize = 9,
+    /// How the axes of a plant stray.
+    Plant = 10,
+    /// Which axils of a plant bear branches.
+    Branch = 11,
+    /// How each leaf of a plant is turned.
+    BorneLeaf = 12,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.

@@ -44,6 +44,7 @@ pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Resul
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
     let spheres = scene.meshes.iter().map(|mesh| match mesh.value {
         Mesh::Sphere { segments, .. } => f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE,
+        Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
     });
     let mut leaves = Vec::new();

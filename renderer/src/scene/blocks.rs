@@ -17,6 +17,7 @@ mod mesh;
 mod object;
 mod picture;
 mod placement;
+mod plant;
 mod references;
 mod solid;
 mod spectrum;
@@ -36,14 +37,16 @@ use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
+use leafmodel::plant::PlantPlan;
 
 pub(crate) use self::solid::solid;
+use super::boughs;
 use super::description::{
-    Description, Leaf, Light, Material, Mesh, Object, Picture, Solid, Spectrum,
+    Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Solid, Spectrum,
 };
 
 /// All keys at the top of a scene file.
-const SECTIONS: [&str; 13] = [
+const SECTIONS: [&str; 14] = [
     "format",
     "name",
     "extrapolate",
@@ -55,6 +58,7 @@ const SECTIONS: [&str; 13] = [
     "meshes",
     "leaves",
     "solids",
+    "plants",
     "lights",
     "objects",
 ];
@@ -154,6 +158,9 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     sections(scene, keys);
     if keys.reader().is_some() {
         references::check(scene, keys);
+        if keys.is_sound() {
+            boughs::place(scene, keys);
+        }
     }
 }
 
@@ -192,6 +199,13 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
         about,
         solid,
     );
+    let about = "Boughs and shoots that bear leaves.";
+    let new = || Plant {
+        plan: PlantPlan::usual(),
+        leaves: Vec::new(),
+        bark: None,
+    };
+    section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     let about = "Lights; there is one at least.";
     let new = || Light::Constant {
         radiance: Spectrum::Constant(0.0),

@@ -4,11 +4,14 @@
 //! same input.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
+use leafmodel::blade::stalk::StalkMesh;
 pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
 use leafmodel::optics::Pigments;
+use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
 pub use crate::camera::view::View as Camera;
@@ -43,6 +46,9 @@ pub struct Description {
     pub leaves: Vec<Named<Leaf>>,
     /// Bodies of solid tissue that are grown, in the file's order.
     pub solids: Vec<Named<Solid>>,
+    /// Plants, in the file's order. Where objects are plants, their leaves, axes and bark stand
+    /// behind those of the file.
+    pub plants: Vec<Named<Plant>>,
     /// Lights, in the file's order.
     pub lights: Vec<Named<Light>>,
     /// The objects.
@@ -86,6 +92,7 @@ impl Description {
             meshes: Vec::new(),
             leaves: Vec::new(),
             solids: Vec::new(),
+            plants: Vec::new(),
             lights: Vec::new(),
             objects: Vec::new(),
         }
@@ -249,6 +256,8 @@ pub enum Mesh {
         /// Metres per unit of the file.
         scale: f64,
     },
+    /// The axes of a plant, mm.
+    Axes(Arc<StalkMesh>),
 }
 
 /// A grown leaf: mesh, content maps and coats.
@@ -273,6 +282,18 @@ pub struct Solid {
     pub optics: SolidOptics,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub extrapolate: bool,
+}
+
+/// A bough or shoot.
+#[derive(Clone, Debug)]
+pub struct Plant {
+    /// Its numbers.
+    pub plan: PlantPlan,
+    /// The leaves that it bears, from the foot of each axis to its tip: indices into
+    /// [`Description::leaves`].
+    pub leaves: Vec<usize>,
+    /// What its axes are made of: index into [`Description::materials`]; `None` is young bark.
+    pub bark: Option<usize>,
 }
 
 /// A light.
@@ -339,6 +360,8 @@ pub struct Object {
     pub to_world: DMat4,
     /// The places of instances; `None` means the single place `to_world`.
     pub instances: Option<Vec<InstancePlace>>,
+    /// The plant that it is, index into [`Description::plants`]. Its parts are the shapes then.
+    pub plant: Option<usize>,
 }
 
 /// The place and shape of one instance of an object.
@@ -351,6 +374,35 @@ pub struct InstancePlace {
     /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part,
     /// then the translation.
     pub to_world: [f32; 12],
+}
+
+impl InstancePlace {
+    /// A shape in the world, in single precision.
+    pub fn new(shape: u32, to_world: DMat4) -> Self {
+        let columns = [
+            to_world.x_axis,
+            to_world.y_axis,
+            to_world.z_axis,
+            to_world.w_axis,
+        ];
+        Self {
+            shape,
+            to_world: std::array::from_fn(|i| columns[i / 3][i % 3] as f32),
+        }
+    }
+
+    /// Local to world.
+    pub fn matrix(&self) -> DMat4 {
+        let column = |at: usize| {
+            DVec3::from_array(std::array::from_fn(|i| f64::from(self.to_world[at + i])))
+        };
+        DMat4::from_cols(
+            column(0).extend(0.0),
+            column(3).extend(0.0),
+            column(6).extend(0.0),
+            column(9).extend(1.0),
+        )
+    }
 }
 
 /// The shape of an object.

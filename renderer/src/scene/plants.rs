@@ -262,6 +262,11 @@ fn blade(blade: &BladeMesh) -> MeshParts {
     }
 }
 
+/// The places, m, and directions of tubes.
+pub(super) fn tube(tubes: &StalkMesh) -> (Vec<glam::Vec3>, Vec<glam::Vec3>) {
+    (metres(&tubes.positions), directions(&tubes.normals))
+}
+
 fn stalk(tubes: &StalkMesh) -> MeshParts {
     MeshParts {
         positions: metres(&tubes.positions),

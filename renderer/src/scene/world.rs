@@ -21,7 +21,6 @@ use thiserror::Error;
 use self::lights::build_lights;
 use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
-pub(crate) use self::placing::matrix_of;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
 use crate::camera::Camera;

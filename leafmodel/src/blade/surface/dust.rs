@@ -127,12 +127,7 @@ pub(super) struct Gathering {
 }
 
 impl Gathering {
-    pub(super) fn new(
-        plan: DustPlan,
-        veins: &[VeinSegment],
-        margin: &[DVec2],
-        seed: u64,
-    ) -> Self {
+    pub(super) fn new(plan: DustPlan, veins: &[VeinSegment], margin: &[DVec2], seed: u64) -> Self {
         let of = |lines: Vec<[DVec2; 2]>, more: f64| {
             (more > 0.0 && !lines.is_empty()).then(|| Distances::new(lines))
         };

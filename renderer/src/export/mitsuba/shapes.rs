@@ -16,7 +16,7 @@ use glam::{DMat4, DVec3};
 use crate::export::element::{Document, Element, Layout};
 use crate::scene::description::{Description, Light, Object, ObjectShape};
 use crate::scene::plants::Piece;
-use crate::scene::world::{World, matrix_of};
+use crate::scene::world::World;
 
 use super::emitter;
 use super::plugin::matrix;
@@ -125,7 +125,7 @@ fn places(object: &Object) -> impl Iterator<Item = (usize, Kind, DMat4)> {
         .is_none()
         .then_some((object.shapes[0], object.to_world));
     let instances = object.instances.iter().flatten();
-    let instances = instances.map(|place| (object.shapes[place.shape as usize], matrix_of(place)));
+    let instances = instances.map(|place| (object.shapes[place.shape as usize], place.matrix()));
     alone
         .into_iter()
         .chain(instances)

@@ -23,6 +23,7 @@ impl Object {
             shapes: Vec::new(),
             to_world: DMat4::IDENTITY,
             instances: None,
+            plant: None,
         }
     }
 }
@@ -64,7 +65,7 @@ pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
 /// Reads the shapes of the object; returns their names.
 fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
     let mut named: Vec<(usize, String)> = Vec::new();
-    let mut chosen = keys.one_of(&["mesh", "leaf", "solid"], None);
+    let mut chosen = keys.one_of(&["mesh", "leaf", "solid", "plant"], None);
     if keys.reader().is_some() && chosen.is_empty() {
         // Without a shape it is unknown which keys belong here.
         keys.leave(&["material"]);
@@ -80,6 +81,13 @@ fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
                 let about = "What it is made of.";
                 keys.needed("material", &mut materials, kind, about);
                 mesh_shapes(object, keys, &named, &materials);
+            }
+            "plant" => {
+                keys.exclude("plant", "material");
+                let kind = NamesIn("plants", "the name of a plant");
+                let about = "That plant instead: the foot of its main axis at the origin, z up.";
+                keys.needed("plant", &mut named, kind, about);
+                object.plant = named.first().map(|(plant, _)| *plant);
             }
             "solid" => {
                 keys.exclude("solid", "material");
@@ -132,7 +140,7 @@ fn mesh_shapes(
 
 /// Reads a name or a list of names of blocks of a section.
 #[derive(Clone, Copy, Debug)]
-struct NamesIn(&'static str, &'static str);
+pub(super) struct NamesIn(pub(super) &'static str, pub(super) &'static str);
 
 impl Kind for NamesIn {
     type Of = Vec<(usize, String)>;

@@ -9,7 +9,14 @@ use leafmodel::document::sections::{Names, singular};
 use crate::scene::description::{Description, Light, ObjectShape};
 
 /// Sections to whose blocks others refer.
-pub(super) const SECTIONS: [&str; 5] = ["meshes", "materials", "leaves", "solids", "objects"];
+pub(super) const SECTIONS: [&str; 6] = [
+    "meshes",
+    "materials",
+    "leaves",
+    "solids",
+    "plants",
+    "objects",
+];
 
 /// Checks the scene as a whole; `keys` are those at its top.
 pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
@@ -42,7 +49,9 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
             continue;
         };
         let shape = named.value.shapes.first();
-        let problem = if named.value.instances.is_some() {
+        let problem = if named.value.plant.is_some() {
+            "is a plant, and plants do not shine"
+        } else if named.value.instances.is_some() {
             "has instances, and those do not shine"
         } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
@@ -76,11 +85,11 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
         ObjectShape::Mesh { mesh, .. } => Some(*mesh),
         ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
     });
-    let materials = used(|shape| match shape {
+    let mut materials = used(|shape| match shape {
         ObjectShape::Mesh { material, .. } => Some(*material),
         ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
     });
-    let leaves = used(|shape| match shape {
+    let mut leaves = used(|shape| match shape {
         ObjectShape::Leaf { leaf } => Some(*leaf),
         ObjectShape::Mesh { .. } | ObjectShape::Solid { .. } => None,
     });
@@ -88,7 +97,14 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
         ObjectShape::Solid { solid } => Some(*solid),
         ObjectShape::Mesh { .. } | ObjectShape::Leaf { .. } => None,
     });
+    let objects = scene.objects.iter();
+    let plants: BTreeSet<usize> = objects.filter_map(|object| object.value.plant).collect();
+    for plant in plants.iter().filter_map(|&plant| scene.plants.get(plant)) {
+        leaves.extend(&plant.value.leaves);
+        materials.extend(plant.value.bark);
+    }
     for (section, used) in [
+        ("plants", plants),
         ("meshes", meshes),
         ("materials", materials),
         ("leaves", leaves),

@@ -6,6 +6,7 @@ use super::WorldError;
 use crate::geometry::{MeshError, TriangleMesh};
 use crate::scene::assets;
 use crate::scene::description;
+use crate::scene::plants::tube;
 
 pub(super) fn build_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, WorldError> {
     let named = |source| WorldError::Mesh {
@@ -25,6 +26,10 @@ pub(super) fn build_mesh(name: &str, mesh: &description::Mesh) -> Result<Triangl
             .map_err(named)
         }
         description::Mesh::Sphere { radius, segments } => sphere(*radius, *segments).map_err(named),
+        description::Mesh::Axes(axes) => {
+            let (positions, normals) = tube(axes);
+            TriangleMesh::new(positions, Some(normals), None, axes.triangles.clone()).map_err(named)
+        }
         description::Mesh::File { file, scale } => {
             let bytes = assets::read(file).map_err(|source| WorldError::Asset {
                 place: format!("meshes.{name}"),

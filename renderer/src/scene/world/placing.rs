@@ -2,10 +2,10 @@
 
 use std::ops::Index;
 
-use glam::{Affine3A, DAffine3, DMat4, DVec3};
+use glam::{Affine3A, DAffine3, DMat4};
 
 use crate::geometry::Instance;
-use crate::scene::description::{Description, InstancePlace, ObjectShape};
+use crate::scene::description::{Description, ObjectShape};
 use crate::scene::plants::Piece;
 
 /// The parts of every shape, with meshes and materials as numbers in the world.
@@ -169,7 +169,7 @@ pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
             })
             .collect();
         for (place, at) in places.iter().enumerate() {
-            let to_world = matrix_of(at);
+            let to_world = at.matrix();
             for (part, piece) in &shapes[at.shape as usize] {
                 placed.put(*part, place as u32, piece.mesh, carried(to_world, piece));
             }
@@ -181,16 +181,4 @@ pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
 /// The transform from a part's mesh to the world, given that of its shape.
 fn carried(to_world: DMat4, piece: &Piece) -> Affine3A {
     Affine3A::from_mat4((to_world * DMat4::from(piece.to_leaf)).as_mat4())
-}
-
-/// Local to world of one of an object's places.
-pub(crate) fn matrix_of(place: &InstancePlace) -> DMat4 {
-    let column =
-        |at: usize| DVec3::from_array(std::array::from_fn(|i| f64::from(place.to_world[at + i])));
-    DMat4::from_cols(
-        column(0).extend(0.0),
-        column(3).extend(0.0),
-        column(6).extend(0.0),
-        column(9).extend(1.0),
-    )
 }

@@ -184,12 +184,7 @@ impl Row {
         let linear = linear * DMat3::from_diagonal(three(AXES) * self.numbers[SCALE]);
         let local = DMat4::from_translation(three(POSITION)) * DMat4::from_mat3(linear);
         let world = table.frame * local;
-        let columns = [world.x_axis, world.y_axis, world.z_axis, world.w_axis];
-        let to_world = std::array::from_fn(|i| columns[i / 3][i % 3] as f32);
-        Ok(InstancePlace {
-            shape: self.shape,
-            to_world,
-        })
+        Ok(InstancePlace::new(self.shape, world))
     }
 }
 

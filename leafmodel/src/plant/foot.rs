@@ -1,0 +1,55 @@
+//! How a leaf is held: the foot of its petiole in the leaf's own frame.
+
+use glam::{DMat3, DVec3};
+use thiserror::Error;
+
+use crate::leaf::LeafPlan;
+use crate::shape::specimen::BaseShape;
+
+/// The foot of a leaf's petiole, in the leaf's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Its place, mm.
+    pub at: DVec3,
+    /// Directions across the petiole, along it towards the blade, and to its adaxial side.
+    pub frame: DMat3,
+}
+
+/// Why no plant can bear a leaf.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum NotBorne {
+    /// It has come to rest on the ground.
+    #[error("a leaf that rests on the ground is borne by no plant")]
+    OnTheGround,
+    /// Its petiole sags under a wilting blade, by how much is known only when it has grown.
+    #[error("where the petiole of a wilting leaf ends is known only when it has grown")]
+    Wilting,
+    /// Its petiole stands on the blade.
+    #[error("the petiole of a peltate leaf stands on its blade: no plant can bear that yet")]
+    Peltate,
+}
+
+impl Foot {
+    /// The foot of the leaf of this plan.
+    ///
+    /// # Errors
+    ///
+    /// [`NotBorne`].
+    pub fn of(plan: &LeafPlan) -> Result<Self, NotBorne> {
+        if plan.stance.on_ground {
+            return Err(NotBorne::OnTheGround);
+        }
+        if plan.stance.wilting.is_some() {
+            return Err(NotBorne::Wilting);
+        }
+        if matches!(plan.outline.specimen.base, Some(BaseShape::Peltate { .. })) {
+            return Err(NotBorne::Peltate);
+        }
+        // A compound leaf has the foot of its petiole at the origin.
+        let held = plan.petiole.filter(|_| plan.compound.is_none());
+        let (at, frame) = held.map_or((DVec3::ZERO, DMat3::IDENTITY), |petiole| {
+            petiole.foot(plan.length_mm, plan.seed)
+        });
+        Ok(Self { at, frame })
+    }
+}

@@ -1,0 +1,243 @@
+//! Boughs: places of leaves, closed axes, refusals.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DMat3;
+
+use super::*;
+use crate::species;
+
+/// A sessile leaf.
+const SESSILE: Foot = Foot {
+    at: DVec3::ZERO,
+    frame: DMat3::IDENTITY,
+};
+
+/// An upright straight shoot whose leaves stand out level and do not turn.
+fn shoot(phyllotaxis: Phyllotaxis) -> PlantPlan {
+    let mut plan = PlantPlan::usual();
+    plan.axis.phyllotaxis = phyllotaxis;
+    plan.axis.stray = 0.0;
+    plan.posture.angle = [FRAC_PI_2; 2];
+    plan.posture.to_light = 0.0;
+    plan.posture.stray = 0.0;
+    plan.posture.size = [1.0; 3];
+    plan
+}
+
+fn grown(plan: &PlantPlan) -> Plant {
+    let feet = vec![vec![SESSILE; plan.individuals as usize]];
+    Plant::grow(plan, &feet).expect("a good plan")
+}
+
+/// The angle about the axis at which a leaf stands.
+fn azimuth(leaf: &BorneLeaf) -> f64 {
+    let midrib = leaf.to_plant.matrix3.y_axis;
+    libm::atan2(midrib.y, midrib.x)
+}
+
+#[test]
+fn leaves_follow_one_another_by_their_divergence() {
+    for phyllotaxis in [
+        Phyllotaxis::DISTICHOUS,
+        Phyllotaxis::SPIRAL,
+        Phyllotaxis::DECUSSATE,
+        Phyllotaxis::WHORLED,
+    ] {
+        let plant = grown(&shoot(phyllotaxis));
+        let around = phyllotaxis.per_node as usize;
+        assert_eq!(plant.leaves.len(), 12 * around);
+        for pair in plant.leaves.windows(around + 1) {
+            let turned = azimuth(&pair[around]) - azimuth(&pair[0]) - phyllotaxis.divergence;
+            let off = turned - TAU * (turned / TAU).round();
+            assert!(off.abs() < 1e-9, "{off}");
+        }
+        for node in plant.leaves.chunks(around) {
+            for leaf in node {
+                assert!((leaf.node.z - node[0].node.z).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_golden_angle_is_that_of_the_golden_section() {
+    let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
+    let angle = TAU / (golden + 1.0);
+    assert!((Phyllotaxis::SPIRAL.divergence - angle).abs() < 1e-12);
+}
+
+#[test]
+fn internodes_shorten_as_asked_and_fill_the_axis() {
+    let mut plan = shoot(Phyllotaxis::DISTICHOUS);
+    plan.axis.shortening = 0.8;
+    plan.axis.bare = 0.25;
+    let plant = grown(&plan);
+    let heights: Vec<f64> = plant.leaves.iter().map(|leaf| leaf.node.z).collect();
+    assert!((heights[0] - 75.0).abs() < 1e-9, "{}", heights[0]);
+    assert!((heights[11] - 300.0).abs() < 1e-9);
+    for three in heights.windows(3) {
+        let ratio = (three[2] - three[1]) / (three[1] - three[0]);
+        assert!((ratio - 0.8).abs() < 1e-9, "{ratio}");
+    }
+}
+
+#[test]
+fn feet_of_petioles_stand_within_the_axis_whatever_the_leaf() {
+    for preset in presets::PRESETS {
+        let mut plan = preset.plan();
+        plan.individuals = 3;
+        for leaf in ["maple", "birch", "ginkgo", "aspen"] {
+            let leaf = species::find(leaf).expect("a preset").plan();
+            let feet = (0..3_u64).map(|number| Foot::of(&leaf.individual(None, number + 1)));
+            let feet: Vec<Foot> = feet.collect::<Result<_, _>>().expect("they are borne");
+            let plant = Plant::grow(&plan, std::slice::from_ref(&feet)).expect("a good plan");
+            assert_eq!(plant.axes.validate(), Ok(()), "{}", preset.name);
+            assert!(plant.leaves.len() > 12, "{}", preset.name);
+            for leaf in &plant.leaves {
+                let foot = feet[leaf.individual as usize].at;
+                let off = leaf.to_plant.transform_point3(foot).distance(leaf.node);
+                assert!(off < 1e-9, "{off}");
+                // A rotation with one factor, without a reflection.
+                let linear = leaf.to_plant.matrix3;
+                let size = linear.determinant().cbrt();
+                assert!((0.02..=2.0).contains(&size));
+                let rest = linear.transpose() * linear - DMat3::IDENTITY * (size * size);
+                assert!(rest.to_cols_array().iter().all(|one| one.abs() < 1e-9));
+            }
+        }
+    }
+}
+
+#[test]
+fn blades_turn_to_the_light_as_far_as_they_may() {
+    // The cosines between blades and light: their mean, and how many are 1.
+    let facing = |share: f64, light: DVec3| {
+        let mut plan = presets::find("maple-bough").expect("a preset").plan();
+        plan.posture.to_light = share;
+        plan.posture.light = light;
+        plan.posture.stray = 0.0;
+        let leaf = species::find("maple").expect("a preset").plan();
+        let feet = vec![Foot::of(&leaf).expect("it is borne"); 2];
+        let plant = Plant::grow(&plan, &[feet]).expect("a good plan");
+        let cosines = plant
+            .leaves
+            .iter()
+            .map(|leaf| leaf.to_plant.matrix3.z_axis.normalize().dot(light));
+        let cosines: Vec<f64> = cosines.collect();
+        let count = cosines.len() as f64;
+        let whole = cosines
+            .iter()
+            .filter(|cosine| **cosine > 1.0 - 1e-9)
+            .count();
+        [cosines.iter().sum::<f64>() / count, whole as f64 / count]
+    };
+    for light in [DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+        let [none, half, full] = [0.0, 0.5, 1.0].map(|share| facing(share, light));
+        // The others would bend into their axis.
+        assert!(
+            none[0] < half[0] && half[0] < full[0] && full[1] > 0.5,
+            "{none:?} {half:?} {full:?}"
+        );
+        assert_eq!(half[1], 0.0);
+    }
+}
+
+#[test]
+fn an_axis_turns_upwards_or_droops() {
+    let tip = |upward: f64| {
+        let mut plan = shoot(Phyllotaxis::DISTICHOUS);
+        plan.axis.inclination = FRAC_PI_2;
+        plan.axis.upward = upward;
+        grown(&plan).leaves[11].node.z
+    };
+    assert!(tip(0.0).abs() < 2.0);
+    assert!(tip(1.0) > 50.0 && tip(-1.0) < -50.0);
+}
+
+#[test]
+fn branches_are_of_the_order_asked_for() {
+    let mut plan = shoot(Phyllotaxis::DECUSSATE);
+    let bare = grown(&plan).leaves.len();
+    let mut counts = vec![bare];
+    for order in 1..=2 {
+        plan.branching = Some(Branching {
+            order,
+            ..Branching::USUAL
+        });
+        counts.push(grown(&plan).leaves.len());
+    }
+    assert!(counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
+}
+
+#[test]
+fn short_shoots_bear_clusters() {
+    let mut plan = shoot(Phyllotaxis::SPIRAL);
+    plan.posture.cluster = 5;
+    plan.posture.spur_mm = 10.0;
+    let plant = grown(&plan);
+    assert_eq!(plant.leaves.len(), 60);
+    for cluster in plant.leaves.chunks(5) {
+        for leaf in cluster {
+            assert!(leaf.node.distance(cluster[0].node) < 4.0);
+        }
+    }
+}
+
+#[test]
+fn neighbours_are_different_individuals_and_kinds_go_from_foot_to_tip() {
+    let plan = shoot(Phyllotaxis::SPIRAL);
+    let feet = vec![vec![SESSILE; 6]; 3];
+    let plant = Plant::grow(&plan, &feet).expect("a good plan");
+    for pair in plant.leaves.windows(2) {
+        assert!(pair[0].individual != pair[1].individual || pair[0].kind != pair[1].kind);
+        assert!(pair[0].kind <= pair[1].kind);
+    }
+    assert_eq!(plant.leaves[11].kind, 2);
+}
+
+#[test]
+fn the_same_plan_gives_the_same_plant_and_another_seed_another() {
+    let plan = presets::find("birch-twig").expect("a preset").plan();
+    let other = PlantPlan {
+        seed: 1,
+        ..plan.clone()
+    };
+    assert_eq!(grown(&plan), grown(&plan));
+    assert_ne!(grown(&plan).leaves, grown(&other).leaves);
+}
+
+#[test]
+fn what_no_plant_bears_and_what_has_no_room_is_refused() {
+    let mut leaf = species::find("maple").expect("a preset").plan();
+    leaf.stance.on_ground = true;
+    assert_eq!(Foot::of(&leaf), Err(NotBorne::OnTheGround));
+    let nasturtium = species::find("nasturtium").expect("a preset").plan();
+    assert_eq!(Foot::of(&nasturtium), Err(NotBorne::Peltate));
+    let mut plan = shoot(Phyllotaxis::SPIRAL);
+    plan.axis.nodes = 400;
+    assert!(matches!(plan.validate(), Err(PlantError::NoRoom { .. })));
+    plan = shoot(Phyllotaxis::SPIRAL);
+    plan.axis.length_mm = f64::NAN;
+    let wrong = plan.validate();
+    assert!(matches!(
+        wrong,
+        Err(PlantError::OutOfRange {
+            field: "length_mm",
+            ..
+        })
+    ));
+    plan = shoot(Phyllotaxis {
+        per_node: 12,
+        divergence: PI,
+    });
+    plan.axis.length_mm = 1e5;
+    plan.axis.nodes = 1000;
+    plan.axis.shortening = 1.0;
+    plan.branching = Some(Branching {
+        order: 4,
+        ..Branching::USUAL
+    });
+    let feet = vec![vec![SESSILE]];
+    assert_eq!(Plant::grow(&plan, &feet), Err(PlantError::TooManyLeaves));
+}
