@@ -77,6 +77,7 @@ pub mod mosaic;
 pub mod optics;
 pub mod plan_file;
 pub mod plant;
+mod rotation;
 pub mod shape;
 mod shell;
 pub mod solid;

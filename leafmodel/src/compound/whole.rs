@@ -1,6 +1,6 @@
 //! A whole leaf in space: blades, stalks and the place of each blade.
 
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{
     Arrangement, CompoundError, CompoundForm, CompoundLeaf, PlacedLeaflet, StalkKind, direction,
@@ -8,6 +8,7 @@ use super::{
 use crate::blade::petiole::{Course, PetiolePlan};
 use crate::blade::stalk::StalkMesh;
 use crate::leaf::{Leaf, LeafError, LeafPlan};
+use crate::rotation::about;
 use crate::venation::chance::{Use, bits, uniform};
 
 /// Random numbers for the tilts of leaflets come after those for their seeds.
@@ -233,17 +234,6 @@ impl Bend {
         }
         StalkMesh::tube(&placed, &thick).expect("an axis is an arc, its radii are above 0")
     }
-}
-
-/// The right-handed rotation about a unit vector.
-fn about(axis: DVec3, angle: f64) -> DMat3 {
-    let (sin, cos) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
-    DMat3::from_quat(DQuat::from_xyzw(
-        axis.x * sin,
-        axis.y * sin,
-        axis.z * sin,
-        cos,
-    ))
 }
 
 #[cfg(test)]

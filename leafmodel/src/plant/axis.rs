@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{AxisPlan, PlantError};
+use crate::rotation::about;
 use crate::shape::chance::{Use, bell};
 
 /// Pieces of an internode.
@@ -125,7 +126,7 @@ impl AxisPlan {
                 ways.push(way);
             }
             let turned = number as f64 * self.phyllotaxis.divergence;
-            let radial = DQuat::from_axis_angle(along, turned) * reference;
+            let radial = about(along, turned) * reference;
             axis.nodes.push(Node {
                 at,
                 along,

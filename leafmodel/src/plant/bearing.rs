@@ -1,6 +1,6 @@
 //! What the nodes of a plant bear: leaves, buds, short shoots and branches.
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::axis::{Axis, Node, Start};
 use super::posture::Stand;
@@ -9,6 +9,7 @@ use super::{
     PlantPlan,
 };
 use crate::blade::stalk::StalkMesh;
+use crate::rotation::about;
 use crate::shape::chance::{Use, uniform};
 
 /// How deep the foot of a petiole stands in its axis, as a share of the radius there.
@@ -85,7 +86,7 @@ impl Builder<'_> {
             let around = plan.phyllotaxis.per_node;
             for leaf in 0..around {
                 let turn = std::f64::consts::TAU * f64::from(leaf) / f64::from(around);
-                let radial = DQuat::from_axis_angle(node.along, turn) * node.radial;
+                let radial = about(node.along, turn) * node.radial;
                 let axil = start.number * 0x1_0000 + number * 16 + u64::from(leaf);
                 let branch = branching.filter(|branches| {
                     let [from, to] = branches.between;
@@ -179,7 +180,7 @@ impl Builder<'_> {
         for number in 0..count {
             let share = f64::from(number) / f64::from(count - 1).max(1.0);
             let turned = f64::from(number) * Phyllotaxis::SPIRAL.divergence;
-            let radial = DQuat::from_axis_angle(along, turned) * reference;
+            let radial = about(along, turned) * reference;
             let [first, last] = CLUSTER_ANGLES;
             let stand = Stand {
                 along,

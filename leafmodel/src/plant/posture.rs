@@ -1,8 +1,9 @@
 //! How a leaf stands on its axis: away from it, and towards the light.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::{Foot, Posture};
+use crate::rotation::about;
 use crate::shape::chance::{Use, bell};
 
 /// Least cosine of the petiole's foot to the direction away from the axis that turning to the light
@@ -48,13 +49,13 @@ impl Posture {
         let (from, to) = (flat(facing(&turn)), flat(self.light));
         if from.length() > 1e-6 && to.length() > 1e-6 {
             let twist = libm::atan2(from.cross(to).dot(petiole), from.dot(to));
-            turn = DMat3::from_axis_angle(petiole, self.to_light * twist) * turn;
+            turn = about(petiole, self.to_light * twist) * turn;
         }
-        let about = facing(&turn).cross(self.light);
-        if let Some(axis) = about.try_normalize() {
-            let angle = libm::atan2(about.length(), facing(&turn).dot(self.light));
+        let normal = facing(&turn).cross(self.light);
+        if let Some(axis) = normal.try_normalize() {
+            let angle = libm::atan2(normal.length(), facing(&turn).dot(self.light));
             let away = |angle: f64| {
-                let bent = DQuat::from_axis_angle(axis, angle) * petiole;
+                let bent = about(axis, angle) * petiole;
                 bent.dot(stand.radial)
             };
             // One that stands along its axis anyway bends no nearer.
@@ -67,12 +68,12 @@ impl Posture {
                 angle *= 0.5;
             }
             if away(angle) >= least {
-                turn = DMat3::from_axis_angle(axis, angle) * turn;
+                turn = about(axis, angle) * turn;
             }
         }
         let stray = |which: u64| self.stray * bell(seed, Use::BorneLeaf, 3 * stand.number + which);
         let [x, y, z] = [stray(0), stray(1), stray(2)];
-        let own = DMat3::from_rotation_x(x) * DMat3::from_rotation_y(y) * DMat3::from_rotation_z(z);
+        let own = about(DVec3::X, x) * about(DVec3::Y, y) * about(DVec3::Z, z);
         // About the foot, whose place does not change.
         turn * own
     }
