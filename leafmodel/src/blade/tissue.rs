@@ -8,6 +8,9 @@ use super::vein_body::VeinBody;
 use super::vein_cover::VeinCover;
 use crate::optics::{Constituent, Contents, PerConstituent, VeinFactors};
 
+/// Most that tissue may hold of anything, in the unit of its constituent.
+pub(crate) const MOST_HELD: f64 = 1000.0;
+
 /// Contents between veins, and factors on them in veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tissue {
@@ -107,7 +110,7 @@ impl Tissue {
                 let valid = (1.0..=100.0).contains(&value);
                 TissueError::unless(valid, field, value, "from 1 to 100")?;
             } else {
-                let valid = (0.0..=1000.0).contains(&value);
+                let valid = (0.0..=MOST_HELD).contains(&value);
                 TissueError::unless(valid, field, value, "from 0 to 1000")?;
             }
         }

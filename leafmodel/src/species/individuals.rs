@@ -9,6 +9,7 @@
 
 use super::leaf_traits::{self, LeafTraits};
 use crate::blade::senescence::AgeSource;
+use crate::blade::tissue::MOST_HELD;
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::Contour;
 use crate::leaf::venation_plan::VenationPlan;
@@ -121,6 +122,7 @@ impl LeafPlan {
                     Constituent::Water | Constituent::DryMatter => water,
                     Constituent::Structure | Constituent::Brown => 1.0,
                 };
+                *value = value.min(MOST_HELD);
             }
         };
         vary(&mut leaf.tissue.lamina);
@@ -261,6 +263,16 @@ mod tests {
                     "{name} {i}: {width} mm wide"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn no_individual_holds_more_than_tissue_may() {
+        let mut plan = find("birch").expect("a preset").plan();
+        plan.tissue.lamina[Constituent::Chlorophyll] = MOST_HELD;
+        for number in 1..=20 {
+            let leaf = plan.individual(None, number);
+            assert_eq!(leaf.tissue.validate(), Ok(()), "{number}");
         }
     }
 
