@@ -95,8 +95,8 @@ impl VeinField {
     ///
     /// # Errors
     ///
-    /// [`TissueError`] for a tissue out of range, for veins that [`VeinField::check`] refuses, and
-    /// for a texel below 0 or above 10⁵ mm.
+    /// [`TissueError`] for a tissue out of range, for a vein that has a coordinate beyond 10⁵ mm or
+    /// a radius not above 0 and up to 1000 mm, and for a texel below 0 or above 10⁵ mm.
     pub fn new(veins: &[VeinSegment], tissue: &Tissue, texel_mm: f64) -> Result<Self, TissueError> {
         tissue.validate()?;
         let valid = (0.0..=1e5).contains(&texel_mm);
