@@ -590,6 +590,7 @@ BEYOND_A_SCHEMA = """
     mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
+    plant_leaf plant_order plant_room plant_shines
     path_outside senescence_auxin solid_mesh solid_mosaic surface_cells surface_stomata table_file
     unknown_name unsorted
     venation_agrophic venation_cells venation_craspedodromous venation_origin venation_origins_meet

@@ -56,7 +56,7 @@ pub use self::contents::{changed_contents, contents};
 pub use self::leaf::{leaf, usual_leaf};
 pub use self::one_leaf::{LeafFile, LeafNotChosen, load_one_leaf};
 pub use self::pigments::pigments;
-pub use self::plant::{plant, plant_preset};
+pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
 pub use self::solid::{held_contents, solid, usual_solid};
 use crate::document::context::Context;

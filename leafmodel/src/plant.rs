@@ -21,14 +21,18 @@ pub mod presets;
 #[cfg(test)]
 mod tests;
 
+use std::f64::consts::PI;
+
 use glam::{DAffine3, DVec3};
 use thiserror::Error;
 
 pub use self::foot::{Foot, NotBorne};
-use crate::blade::stalk::StalkMesh;
+use crate::blade::stalk::{StalkError, StalkMesh};
 
 /// Most leaves of a plant.
 pub const MOST_LEAVES: usize = 100_000;
+/// Most vertices of its axes and buds.
+pub const MOST_VERTICES: usize = 1 << 23;
 
 /// The numbers of a plant. Angles are radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +47,7 @@ pub struct PlantPlan {
     pub branching: Option<Branching>,
     /// How leaves stand.
     pub posture: Posture,
-    /// The buds; none if there are none to be seen.
+    /// The buds; none if none are seen.
     pub buds: Option<Buds>,
 }
 
@@ -161,7 +165,7 @@ pub struct BorneLeaf {
     pub individual: u32,
     /// From the leaf's frame to the plant's.
     pub to_plant: DAffine3,
-    /// The place on the surface of the axis where its petiole stands.
+    /// The place within the axis where its petiole stands.
     pub node: DVec3,
 }
 
@@ -202,82 +206,110 @@ pub enum PlantError {
         /// The axis' radius there, mm.
         radius: f64,
     },
-    /// There are too many leaves.
-    #[error("the plant has more than {MOST_LEAVES} leaves")]
-    TooManyLeaves,
+    /// There is too much of it.
+    #[error(
+        "the plant has more than {MOST_LEAVES} leaves, or {MOST_VERTICES} vertices of axes and buds"
+    )]
+    TooLarge,
+    /// An axis bends so sharply that it is no tube.
+    #[error("an axis cannot be built: {0}")]
+    Bent(#[from] StalkError),
+    /// No leaf is given.
+    #[error("a plant bears one leaf at least")]
+    NoLeaf,
     /// A leaf cannot be borne.
     #[error(transparent)]
     NotBorne(#[from] NotBorne),
 }
 
 impl PlantPlan {
-    /// Checks every field.
+    /// Checks every number.
     ///
     /// # Errors
     ///
     /// [`PlantError::OutOfRange`] for the first field out of range, [`PlantError::NoRoom`].
     pub fn validate(&self) -> Result<(), PlantError> {
         let (axis, posture) = (&self.axis, &self.posture);
-        let [foot, tip] = axis.radius_mm;
-        let mut fields = vec![
-            (
-                "individuals",
-                f64::from(self.individuals),
-                1.0,
-                1000.0,
-                "1 to 1000",
-            ),
-            ("length_mm", axis.length_mm, 1.0, 1e5, "1 to 100000"),
-            ("nodes", f64::from(axis.nodes), 1.0, 1000.0, "1 to 1000"),
-            ("bare", axis.bare, 0.0, 0.99, "0 to 0.99"),
-            ("shortening", axis.shortening, 0.5, 1.5, "0.5 to 1.5"),
-            ("radius_mm", foot, 0.05, 1000.0, "0.05 to 1000"),
-            ("radius_mm", tip, 0.05, 1000.0, "0.05 to 1000"),
-            ("swelling", axis.swelling, 0.0, 1.0, "0 to 1"),
-            (
-                "per_node",
-                f64::from(axis.phyllotaxis.per_node),
-                1.0,
-                12.0,
-                "1 to 12",
-            ),
-            ("zigzag_deg", axis.zigzag, 0.0, 0.6, "0 to 34°"),
-            ("stray_deg", axis.stray, 0.0, 0.5, "0 to 28°"),
-            ("leaves.to_light", posture.to_light, 0.0, 1.0, "0 to 1"),
-            (
-                "leaves.cluster",
-                f64::from(posture.cluster),
-                1.0,
-                12.0,
-                "1 to 12",
-            ),
-            ("leaves.spur_mm", posture.spur_mm, 0.5, 200.0, "0.5 to 200"),
-        ];
-        fields.extend(
-            posture
-                .size
-                .map(|size| ("leaves.size", size, 0.02, 2.0, "0.02 to 2")),
-        );
+        let within = |field, value: f64, [least, most]: [f64; 2], range| {
+            let is_good = (least..=most).contains(&value);
+            is_good.then_some(()).ok_or(PlantError::OutOfRange {
+                field,
+                value,
+                range,
+            })
+        };
+        let each = |field, values: &[f64], limits, range| {
+            values
+                .iter()
+                .try_for_each(|&value| within(field, value, limits, range))
+        };
+        let many = f64::from(self.individuals);
+        within("individuals", many, [1.0, 1000.0], "1 to 1000")?;
+        within("length_mm", axis.length_mm, [1.0, 1e5], "1 to 100000")?;
+        within("nodes", f64::from(axis.nodes), [1.0, 1000.0], "1 to 1000")?;
+        within("bare", axis.bare, [0.0, 0.99], "0 to 0.99")?;
+        within("shortening", axis.shortening, [0.5, 1.5], "0.5 to 1.5")?;
+        each("radius_mm", &axis.radius_mm, [0.05, 1000.0], "0.05 to 1000")?;
+        within("swelling", axis.swelling, [0.0, 1.0], "0 to 1")?;
+        let leaves = axis.phyllotaxis;
+        within(
+            "per_node",
+            f64::from(leaves.per_node),
+            [1.0, 12.0],
+            "1 to 12",
+        )?;
+        within(
+            "divergence_deg",
+            leaves.divergence,
+            [-PI, PI],
+            "-180° to 180°",
+        )?;
+        within("zigzag_deg", axis.zigzag, [0.0, 0.6], "0 to 34°")?;
+        within("inclination_deg", axis.inclination, [0.0, PI], "0 to 180°")?;
+        within("upward_deg", axis.upward, [-3.0, 3.0], "-171° to 171°")?;
+        within("stray_deg", axis.stray, [0.0, 0.5], "0 to 28°")?;
+        each(
+            "posture.angle_deg",
+            &posture.angle,
+            [0.05, 3.0],
+            "3° to 171°",
+        )?;
+        each("posture.size", &posture.size, [0.02, 2.0], "0.02 to 2")?;
+        within("posture.to_light", posture.to_light, [0.0, 1.0], "0 to 1")?;
+        let length = posture.light.length();
+        within("posture.light", length, [0.999, 1.001], "a unit vector")?;
+        within("posture.stray_deg", posture.stray, [0.0, 0.7], "0 to 40°")?;
+        let cluster = f64::from(posture.cluster);
+        within("posture.cluster", cluster, [1.0, 12.0], "1 to 12")?;
+        within(
+            "posture.spur_mm",
+            posture.spur_mm,
+            [0.5, 200.0],
+            "0.5 to 200",
+        )?;
         if let Some(branches) = &self.branching {
-            fields.push((
-                "branches.order",
-                f64::from(branches.order),
-                1.0,
-                4.0,
-                "1 to 4",
-            ));
-            fields.extend(
-                (branches.length).map(|one| ("branches.length", one, 0.02, 1.0, "0.02 to 1")),
-            );
+            let order = f64::from(branches.order);
+            within("branches.order", order, [1.0, 4.0], "1 to 4")?;
+            each("branches.between", &branches.between, [0.0, 1.0], "0 to 1")?;
+            each(
+                "branches.length",
+                &branches.length,
+                [0.02, 1.0],
+                "0.02 to 1",
+            )?;
+            within(
+                "branches.angle_deg",
+                branches.angle,
+                [0.1, 2.0],
+                "6° to 114°",
+            )?;
+            let thickness = branches.thickness;
+            within("branches.thickness", thickness, [0.1, 1.0], "0.1 to 1")?;
+            within("branches.share", branches.share, [0.0, 1.0], "0 to 1")?;
         }
-        for (field, value, least, most, range) in fields {
-            if !(least..=most).contains(&value) {
-                return Err(PlantError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
+        if let Some(buds) = &self.buds {
+            within("buds.length_mm", buds.length_mm, [0.2, 50.0], "0.2 to 50")?;
+            within("buds.radius_mm", buds.radius_mm, [0.1, 20.0], "0.1 to 20")?;
         }
         axis.has_room()
     }
@@ -291,6 +323,9 @@ impl Plant {
     /// [`PlantError`].
     pub fn grow(plan: &PlantPlan, feet: &[Vec<Foot>]) -> Result<Self, PlantError> {
         plan.validate()?;
+        if feet.is_empty() || feet.iter().any(Vec::is_empty) {
+            return Err(PlantError::NoLeaf);
+        }
         bearing::grow(plan, feet)
     }
 }

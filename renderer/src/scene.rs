@@ -42,7 +42,6 @@
 mod angle;
 pub mod assets;
 mod blocks;
-mod boughs;
 pub mod description;
 pub mod fingerprint;
 pub mod load;

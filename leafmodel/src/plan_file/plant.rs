@@ -25,6 +25,11 @@ pub fn plant_preset(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     }
 }
 
+/// A plant of which nothing is said.
+pub fn usual_plant() -> PlantPlan {
+    PlantPlan::usual()
+}
+
 /// The keys of a plant's numbers.
 pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     let about = "Same plan and seed, same plant.";
@@ -66,9 +71,11 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
                 "use fewer nodes, a longer or thinner axis, or a \
                 `shortening` nearer to 1"
             }
-            PlantError::OutOfRange { .. } | PlantError::TooManyLeaves | PlantError::NotBorne(_) => {
-                "choose another"
-            }
+            PlantError::OutOfRange { .. }
+            | PlantError::TooLarge
+            | PlantError::NoLeaf
+            | PlantError::Bent(_)
+            | PlantError::NotBorne(_) => "choose another",
         };
         keys.refuse(&["nodes"], error.to_string(), help);
     }
@@ -143,6 +150,11 @@ fn branches(branches: &mut Branching, keys: &mut Keys<'_>) {
     keys.key("order", &mut branches.order, Integer::within(1, 4), about);
     let about = "The nodes with branches: from and up to these shares of their axis.";
     keys.key("between", &mut branches.between, Numbers::<2>(SHARE), about);
+    let [from, to] = branches.between;
+    if from > to {
+        let problem = format!("there is nothing from {from} up to {to}");
+        keys.refuse(&["between"], problem, "write the smaller share first");
+    }
     let limits = Numbers::<2>(Limits::closed(0.02, 1.0));
     let about = "Their lengths at both ends of that, over that of the axis that bears them.";
     keys.key("length", &mut branches.length, limits, about);

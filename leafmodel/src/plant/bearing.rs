@@ -5,8 +5,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::axis::{Axis, Node, Start};
 use super::posture::Stand;
 use super::{
-    AxisPlan, BorneLeaf, Branching, Buds, Foot, MOST_LEAVES, Phyllotaxis, Plant, PlantError,
-    PlantPlan,
+    AxisPlan, BorneLeaf, Branching, Buds, Foot, MOST_LEAVES, MOST_VERTICES, Phyllotaxis, Plant,
+    PlantError, PlantPlan,
 };
 use crate::blade::stalk::StalkMesh;
 use crate::rotation::about;
@@ -38,6 +38,8 @@ struct Builder<'a> {
     plant: Plant,
     /// Number of axes so far.
     axes: u64,
+    /// Which individual comes next on the present axis.
+    next: usize,
 }
 
 /// Grows a checked plan.
@@ -50,6 +52,7 @@ pub(super) fn grow(plan: &PlantPlan, feet: &[Vec<Foot>]) -> Result<Plant, PlantE
             leaves: Vec::new(),
         },
         axes: 0,
+        next: 0,
     };
     let (sin, cos) = (
         libm::sin(plan.axis.inclination),
@@ -77,7 +80,9 @@ impl Builder<'_> {
         };
         self.axes += 1;
         let axis = plan.grown(&start);
-        self.tube(&axis.points, &axis.radii);
+        self.tube(&axis.points, &axis.radii)?;
+        // Neighbours on an axis are different individuals, whatever its branches bear.
+        let on_parent = std::mem::replace(&mut self.next, start.number as usize);
         let branching = self
             .plan
             .branching
@@ -100,8 +105,8 @@ impl Builder<'_> {
                 }
             }
         }
-        self.terminal_bud(&axis);
-        Ok(())
+        self.next = on_parent;
+        self.terminal_bud(&axis)
     }
 
     /// A branch in the axil of a leaf that has fallen.
@@ -153,7 +158,7 @@ impl Builder<'_> {
             let upwards = node.along * BUD_UPRIGHT + stand.petiole() * (1.0 - BUD_UPRIGHT);
             let above = node.at + node.along * (1.2 * buds.radius_mm);
             let at = above + radial * (node.radius - SUNK * buds.radius_mm);
-            self.bud(&buds, at, upwards.normalize(), 1.0);
+            self.bud(&buds, at, upwards.normalize(), 1.0)?;
         }
         self.leaf(
             node.at + radial * node.radius * (1.0 - SUNK),
@@ -174,7 +179,7 @@ impl Builder<'_> {
         self.tube(
             &[node.at, node.at.lerp(end, 0.5), end],
             &[radius, 0.9 * radius, radius],
-        );
+        )?;
         let reference = super::axis::level(along);
         let count = posture.cluster;
         for number in 0..count {
@@ -196,7 +201,7 @@ impl Builder<'_> {
             )?;
         }
         if let Some(buds) = self.plan.buds {
-            self.bud(&buds, end, along, 1.0);
+            self.bud(&buds, end, along, 1.0)?;
         }
         Ok(())
     }
@@ -204,12 +209,12 @@ impl Builder<'_> {
     fn leaf(&mut self, at: DVec3, stand: &Stand, share: f64) -> Result<(), PlantError> {
         let leaves = &mut self.plant.leaves;
         if leaves.len() >= MOST_LEAVES {
-            return Err(PlantError::TooManyLeaves);
+            return Err(PlantError::TooLarge);
         }
         let kinds = self.feet.len();
         let kind = ((share * kinds as f64) as usize).min(kinds - 1);
-        // Neighbours are different individuals.
-        let individual = leaves.len() % self.feet[kind].len();
+        let individual = self.next % self.feet[kind].len();
+        self.next += 1;
         let foot = &self.feet[kind][individual];
         let turn = self.plan.posture.turned(stand, foot, self.plan.seed);
         let linear = turn * DMat3::from_diagonal(DVec3::splat(self.plan.posture.size_at(share)));
@@ -222,14 +227,14 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn terminal_bud(&mut self, axis: &Axis) {
+    fn terminal_bud(&mut self, axis: &Axis) -> Result<(), PlantError> {
         let (Some(buds), [.., before, end]) = (self.plan.buds, axis.points.as_slice()) else {
-            return;
+            return Ok(());
         };
-        self.bud(&buds, *end, (*end - *before).normalize(), 1.3);
+        self.bud(&buds, *end, (*end - *before).normalize(), 1.3)
     }
 
-    fn bud(&mut self, buds: &Buds, at: DVec3, along: DVec3, size: f64) {
+    fn bud(&mut self, buds: &Buds, at: DVec3, along: DVec3, size: f64) -> Result<(), PlantError> {
         let points: Vec<DVec3> = BUD
             .iter()
             .map(|[way, _]| at + along * (way * size * buds.length_mm))
@@ -238,12 +243,14 @@ impl Builder<'_> {
             .iter()
             .map(|[_, share]| share * size * buds.radius_mm)
             .collect();
-        self.tube(&points, &radii);
+        self.tube(&points, &radii)
     }
 
-    fn tube(&mut self, points: &[DVec3], radii: &[f64]) {
-        let tube = StalkMesh::tube(points, radii);
-        let tube = tube.expect("an axis turns little from point to point, and radii are above 0");
-        self.plant.axes.append(tube);
+    fn tube(&mut self, points: &[DVec3], radii: &[f64]) -> Result<(), PlantError> {
+        self.plant.axes.append(StalkMesh::tube(points, radii)?);
+        if self.plant.axes.positions.len() > MOST_VERTICES {
+            return Err(PlantError::TooLarge);
+        }
+        Ok(())
     }
 }

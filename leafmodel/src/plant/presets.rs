@@ -107,10 +107,7 @@ impl PlantPlan {
                 cluster: 1,
                 spur_mm: 5.0,
             },
-            buds: Some(Buds {
-                length_mm: 4.0,
-                radius_mm: 1.2,
-            }),
+            buds: None,
         }
     }
 }

@@ -197,6 +197,52 @@ fn neighbours_are_different_individuals_and_kinds_go_from_foot_to_tip() {
 }
 
 #[test]
+fn neighbours_differ_also_on_both_sides_of_a_branch() {
+    let mut plan = shoot(Phyllotaxis::SPIRAL);
+    plan.individuals = 2;
+    plan.axis.length_mm = 400.0;
+    plan.branching = Some(Branching {
+        share: 0.5,
+        ..Branching::USUAL
+    });
+    let plant = grown(&plan);
+    // Those of the main axis stand beside the z axis.
+    let on_main = plant
+        .leaves
+        .iter()
+        .filter(|leaf| leaf.node.truncate().length() < 3.0);
+    let on_main: Vec<u32> = on_main.map(|leaf| leaf.individual).collect();
+    assert!(on_main.len() > 6 && on_main.len() < plant.leaves.len());
+    assert!(
+        on_main.windows(2).all(|pair| pair[0] != pair[1]),
+        "{on_main:?}"
+    );
+}
+
+#[test]
+fn an_axis_that_bends_too_sharply_is_told() {
+    let mut plan = shoot(Phyllotaxis::SPIRAL);
+    plan.axis.length_mm = 1.0;
+    plan.axis.nodes = 1;
+    plan.axis.radius_mm = [3.0; 2];
+    plan.axis.swelling = 0.0;
+    plan.axis.inclination = 2.9;
+    plan.axis.upward = 2.9;
+    plan.axis.stray = 0.48;
+    let feet = [vec![SESSILE]];
+    for seed in 0..2000 {
+        let grown = Plant::grow(
+            &PlantPlan {
+                seed,
+                ..plan.clone()
+            },
+            &feet,
+        );
+        assert!(matches!(grown, Ok(_) | Err(PlantError::Bent(_))));
+    }
+}
+
+#[test]
 fn the_same_plan_gives_the_same_plant_and_another_seed_another() {
     let plan = presets::find("birch-twig").expect("a preset").plan();
     let other = PlantPlan {
@@ -239,5 +285,6 @@ fn what_no_plant_bears_and_what_has_no_room_is_refused() {
         ..Branching::USUAL
     });
     let feet = vec![vec![SESSILE]];
-    assert_eq!(Plant::grow(&plan, &feet), Err(PlantError::TooManyLeaves));
+    assert_eq!(Plant::grow(&plan, &feet), Err(PlantError::TooLarge));
+    assert_eq!(Plant::grow(&plan, &[]), Err(PlantError::NoLeaf));
 }

@@ -80,8 +80,8 @@ pub enum OutlineError {
     NoMidrib,
     /// The blade is far wider than its midrib is long.
     #[error(
-        "the midrib is {length} mm long, which is less than a hundredth of the blade's extent of \
-         {extent} mm"
+        "the midrib is {length:.3} mm long, which is less than a hundredth of the blade's extent of \
+         {extent:.3} mm"
     )]
     ShortMidrib {
         /// From base to apex, mm.

@@ -13,6 +13,10 @@ const GIB: f64 = 1024.0 * MIB;
 /// spheres of 16.8 million triangles (4.9 GB).
 const OF_A_TRIANGLE: f64 = 290.0;
 
+/// Memory of a place of an object of two parts, as a leaf with its petiole is, bytes: instances and
+/// placements with their shares of the upper tree.
+const OF_A_PLACE: f64 = 1200.0;
+
 /// Copies of a picture's layers while its file is made: values, compressed blocks, the file.
 const COPIES: f64 = 3.0;
 
@@ -42,10 +46,14 @@ pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Resul
 
 /// Memory of what a scene builds and grows, bytes, with what it is for.
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
-    let spheres = scene.meshes.iter().map(|mesh| match mesh.value {
+    let meshes = scene.meshes.iter().map(|mesh| match mesh.value {
         Mesh::Sphere { segments, .. } => f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
+    });
+    let places = scene.objects.iter().map(|object| {
+        let count = object.value.instances.as_ref().map_or(1, Vec::len);
+        count as f64 * OF_A_PLACE
     });
     let mut leaves = Vec::new();
     for leaf in &scene.leaves {
@@ -67,7 +75,8 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
     // The sums start from 0, since an empty sum is -0.
     let sum = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |sum, bytes| sum + bytes);
     Ok(vec![
-        (sum(&mut { spheres }), "spheres"),
+        (sum(&mut { meshes }), "meshes"),
+        (sum(&mut { places }), "places of objects"),
         (sum(&mut { kept }) + sum(&mut growing.into_iter()), "leaves"),
         (bodies, "bodies"),
     ])

@@ -37,13 +37,12 @@ use leafmodel::document::source::Place;
 use leafmodel::document::tree::Table;
 use leafmodel::document::value_kind::{FilePath, Flag, NamedFile, Text};
 use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
-use leafmodel::plant::PlantPlan;
 
 pub(crate) use self::solid::solid;
-use super::boughs;
 use super::description::{
     Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Solid, Spectrum,
 };
+use super::plants::boughs;
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 14] = [
@@ -201,7 +200,7 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
     );
     let about = "Boughs and shoots that bear leaves.";
     let new = || Plant {
-        plan: PlantPlan::usual(),
+        plan: plan_file::usual_plant(),
         leaves: Vec::new(),
         bark: None,
     };

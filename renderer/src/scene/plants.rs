@@ -1,6 +1,7 @@
 //! The interface to leafmodel: converts grown leaves and bodies to meshes and materials, and
 //! millimetres to metres.
 
+pub(super) mod boughs;
 pub(super) mod parts;
 
 use std::sync::Arc;

@@ -88,6 +88,10 @@ fn shapes(object: &mut Object, keys: &mut Keys<'_>) -> Vec<String> {
                 let about = "That plant instead: the foot of its main axis at the origin, z up.";
                 keys.needed("plant", &mut named, kind, about);
                 object.plant = named.first().map(|(plant, _)| *plant);
+                if named.len() > 1 {
+                    let problem = "an object is one plant".to_owned();
+                    keys.refuse(&["plant"], problem, "write an object for each");
+                }
             }
             "solid" => {
                 keys.exclude("solid", "material");

@@ -1,6 +1,7 @@
 //! `[plants.NAME]`: a bough or shoot that bears leaves of the scene.
 
 use leafmodel::document::keys::Keys;
+use leafmodel::document::names::NameIn;
 use leafmodel::plan_file;
 
 use super::object::NamesIn;
@@ -14,11 +15,8 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
     let about = "The leaf that it bears; of a list, those from the foot of each axis to its tip.";
     keys.needed("leaf", &mut leaves, kind, about);
     plant.leaves = leaves.into_iter().map(|(leaf, _)| leaf).collect();
-    let mut bark = None;
-    let kind = NamesIn("materials", "the name of a material");
+    let kind = NameIn("materials", "the name of a material");
     let about = "What its axes and buds are made of; left out, young brown bark.";
-    keys.optional("bark", &mut bark, kind, about);
-    let bark = bark.iter().flatten().next();
-    plant.bark = bark.map(|(material, _): &(usize, String)| *material);
+    keys.optional("bark", &mut plant.bark, kind, about);
     plan_file::plant(&mut plant.plan, keys);
 }

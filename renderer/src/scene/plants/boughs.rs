@@ -13,7 +13,7 @@ use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plant::{Foot, Plant as Grown, PlantError};
 
-use super::description::{
+use crate::scene::description::{
     Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Plant, SolidOptics,
 };
 
@@ -33,7 +33,7 @@ struct Parts {
 
 /// Replaces the plants of all objects; `keys` are those at the top of the file, to which what is
 /// wrong is reported.
-pub(super) fn place(scene: &mut Description, keys: &Keys<'_>) {
+pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
     let mut known: BTreeMap<usize, Parts> = BTreeMap::new();
     for number in 0..scene.objects.len() {
         let Some(plant) = scene.objects[number].value.plant else {
@@ -47,10 +47,13 @@ pub(super) fn place(scene: &mut Description, keys: &Keys<'_>) {
                     Ok(parts) => place.insert(parts),
                     Err(error) => {
                         let (key, help) = match error {
-                            PlantError::NotBorne(_) => ("leaf", "let it bear another leaf"),
+                            PlantError::NotBorne(_) | PlantError::NoLeaf => {
+                                ("leaf", "let it bear another leaf")
+                            }
+                            PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
                             PlantError::OutOfRange { .. }
                             | PlantError::NoRoom { .. }
-                            | PlantError::TooManyLeaves => ("nodes", "use fewer nodes or branches"),
+                            | PlantError::TooLarge => ("nodes", "use fewer nodes or branches"),
                         };
                         keys.refuse(&["plants", &name, key], error.to_string(), help);
                         return;
@@ -124,7 +127,7 @@ fn parts(scene: &mut Description, name: &str, plant: &Plant) -> Result<Parts, Pl
     let mut shapes: BTreeMap<(usize, u32), u32> = BTreeMap::new();
     for leaf in &grown.leaves {
         let shape = *shapes
-            .entry((leaf.kind, leaf.individual))
+            .entry((plant.leaves[leaf.kind], leaf.individual))
             .or_insert_with(|| {
                 let kind = plant.leaves[leaf.kind];
                 // The first individual is the leaf itself.
