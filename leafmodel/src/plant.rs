@@ -1,14 +1,14 @@
 //! Boughs and shoots: axes with nodes, and the place of each leaf, bud and branch.
 //!
 //! An axis grows node by node. Each node bears one leaf or several, turned against those of the
-//! node before (phyllotaxis); leaves of a node in the order of growth and their petioles come with
-//! the leaf. In the axil of a leaf there is a bud, a branch, or a short shoot with a cluster of
-//! leaves. A petiole twists and bends until its blade faces the light, as far as it may.
+//! node before (phyllotaxis). In its axil there may be a bud, in its place a branch, or a short shoot
+//! with a cluster of leaves. A petiole, which is part of the leaf, twists and bends until the blade
+//! faces the light, as far as it may.
 //!
 //! - **In**: a plan ([`PlantPlan`]) and how each leaf is held ([`Foot`]).
 //! - **Out**: the axes as closed tubes, and a transform for each leaf ([`Plant`]).
-//! - **Always true**: the foot of each petiole lies within its axis; neighbours are different
-//!   individuals; same plan and seed, same plant, bit for bit.
+//! - **Always true**: the foot of each petiole lies within its axis; neighbours on an axis are
+//!   different individuals; same plan and seed, same plant, bit for bit.
 //! - **Left out**: leaves may touch one another; wood does not bend under the weight of leaves.
 //!
 //! The plant's frame: the foot of its main axis is the origin, z is up. Lengths are millimetres.

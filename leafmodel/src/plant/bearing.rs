@@ -26,7 +26,7 @@ const BUD: [[f64; 2]; 7] = [
 ];
 /// Direction of a bud in the axil: share of the axis in the bisector with the petiole.
 const BUD_UPRIGHT: f64 = 0.55;
-/// Radius of a short shoot over that of the axis, at most.
+/// Radius of a short shoot over that of the axis.
 const SPUR_THICKNESS: f64 = 0.7;
 /// Angle of the leaves of a short shoot from it: the first and the last.
 const CLUSTER_ANGLES: [f64; 2] = [1.25, 0.6];

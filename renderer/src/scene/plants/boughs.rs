@@ -20,7 +20,8 @@ use crate::scene::description::{
 /// Most places of the leaves of one object's plants.
 const MOST_PLACES: usize = 1 << 24;
 
-/// What the bark of a young axis holds in its outer millimetre: browned, over a green cortex.
+/// What the bark of a young axis holds in its outer millimetre: browned, over a green cortex;
+/// by eye.
 const BARK: Contents = Contents::prospect_d([1.5, 10.0, 3.0, 6.0, 1.6, 0.02, 0.03]);
 /// GGX roughness of bark.
 const BARK_ALPHA: f64 = 0.5;
