@@ -1,0 +1,493 @@
+#!/usr/bin/env python3
+"""Tests of `reference/denoise`: run by `reference/self-test`.
+
+Pictures here are made of light that is known and noise of a fixed seed, so that what comes out can
+be held against the truth. Where Open Image Denoise is missing, what needs it is skipped and told.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import io
+import os
+import resource
+import struct
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import numpy as np
+import OpenImageIO as oiio
+from numpy.typing import NDArray
+
+from lamina_reference.denoise import ALBEDO, NORMAL, NOTE, REC2020, Denoiser, main
+from lamina_reference.denoise import read as read_film
+from lamina_reference.program import program
+from lamina_reference.testing import run_tests
+
+Array = NDArray[np.float64]
+HEIGHT, WIDTH = 64, 96
+BANDS = tuple(f"S0.{nm},000000nm" for nm in (450, 550, 650, 750))
+# A green that no mixture of the primaries of Rec. 709 gives, a grey, a dark red: Rec. 2020.
+LEAF, PAPER, STEM = (0.06, 0.3, 0.004), (0.5, 0.5, 0.5), (0.08, 0.03, 0.01)
+TOLD = {
+    "lamina:scene": 'format = 1\n[picture]\nexposure_ev = 1\ntone = "standard"\n',
+    "lamina:seed": "18446744073709551615",
+    "software": "Lamina 0.1.0",
+}
+SCENE = """
+format = 1
+[film.rgb]
+size = [48, 32]
+spp = 8
+[picture]
+exposure_ev = 2
+tone = "filmic"
+[camera.perspective]
+position_m = [0, 0, 1]
+look_at_m = [0, 0, 0]
+up = [0, 1, 0]
+vertical_fov_deg = 60
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 0.1
+[lights.lamp.distant]
+irradiance_w_m2_nm = 0.3
+towards = [0.3, 0.2, -1]
+angular_diameter_deg = 20
+[materials.paper.diffuse]
+reflectance = 0.5
+[meshes.sheet.rectangle]
+width_m = 0.6
+height_m = 0.6
+[objects.sheet]
+mesh = "sheet"
+material = "paper"
+"""
+
+
+def truth(colours: tuple[tuple[float, ...], ...]) -> Array:
+    """A ramp of the first, with a disc of the second and a bar of the third."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
+    field: Array = np.array(colours[0]) * (0.5 + x / WIDTH)[:, :, None]
+    field[np.hypot(x - 30, y - 30) < 16] = colours[1]
+    field[:, 70:76] = colours[2]
+    return field
+
+
+def noisy(light: Array, seed: int = 1, strength: float = 0.6) -> Array:
+    """Light with noise of mean 1 that is independent in all pixels and never below 0."""
+    shape = 1 / strength**2
+    return light * np.random.default_rng(seed).gamma(shape, 1 / shape, light.shape)
+
+
+def to_709(light: Array) -> Array:
+    """Linear Rec. 2020 to linear Rec. 709."""
+    made: Array = light @ np.linalg.inv(REC2020).T
+    return made
+
+
+def write(file: Path, layers: dict[str, Array], told: dict[str, str] | None = None) -> Path:
+    """An EXR of 32-bit floats."""
+    height, width = next(iter(layers.values())).shape
+    spec = oiio.ImageSpec(width, height, len(layers), oiio.FLOAT)
+    spec.channelnames = tuple(layers)
+    for name, value in (TOLD | (told or {})).items():
+        spec.attribute(name, value)
+    spec.attribute("lamina:spp", 16)
+    # Lamina writes no date, and OpenImageIO one of its own unless this is empty.
+    spec.attribute("DateTime", "")
+    # As matrices are written by Lamina: of 16 numbers.
+    spec.attribute("worldToCamera", oiio.TypeMatrix, np.arange(16, dtype=np.float32))
+    output = oiio.ImageOutput.create("openexr")
+    assert output is not None and output.open(str(file), spec), oiio.geterror()
+    pixels = np.stack(list(layers.values()), axis=2).astype(np.float32)
+    assert output.write_image(pixels) and output.close(), output.geterror()
+    return file
+
+
+def read(file: Path) -> dict[str, Array]:
+    """Channels of an EXR by name."""
+    image = oiio.ImageInput.open(str(file))
+    assert image is not None, oiio.geterror()
+    pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
+    names = image.spec().channelnames
+    image.close()
+    return {name: pixels[:, :, number] for number, name in enumerate(names)}
+
+
+def named(names: tuple[str, ...], values: Array) -> dict[str, Array]:
+    """Channels of an array as layers."""
+    return {name: values[:, :, number] for number, name in enumerate(names)}
+
+
+def stacked(layers: dict[str, Array], names: tuple[str, ...]) -> Array:
+    """Layers as the channels of an array."""
+    return np.stack([layers[name] for name in names], axis=2)
+
+
+def colour_film(light: Array, seed: int = 1) -> dict[str, Array]:
+    """Layers of a colour film of this light, in Rec. 2020, with guides."""
+    facing = np.broadcast_to([0.0, 0.0, 1.0], light.shape)
+    share = np.ones((HEIGHT, WIDTH))
+    return {
+        **named(("R", "G", "B"), to_709(noisy(light, seed))),
+        "A": share,
+        **named(ALBEDO, np.clip(to_709(light), 0, 1)),
+        **named(NORMAL, facing),
+        "samples.Y": 16 * share,
+        **named(("variance.R", "variance.G", "variance.B"), 0.36 * light**2),
+    }
+
+
+def spectral_film() -> tuple[Array, dict[str, Array]]:
+    """Light in four bands, and the layers of a spectral film of it."""
+    light = truth(((0.05, 0.2, 0.06, 3.0), (0.5, 0.5, 0.5, 0.6), (0.01, 0.02, 0.1, 1.0)))
+    facing = np.broadcast_to([0.0, 0.0, 1.0], (HEIGHT, WIDTH, 3))
+    variances = tuple(f"variance.{band}" for band in BANDS)
+    return light, {
+        **named(BANDS, noisy(light)),
+        "A": np.ones((HEIGHT, WIDTH)),
+        **named(NORMAL, facing),
+        **named(variances, 0.36 * light**2),
+    }
+
+
+def attributes(file: Path) -> dict[str, tuple[str, bytes]]:
+    """Type and bytes of each attribute in a file's header, but for those of its structure."""
+    data, at, found = file.read_bytes(), 8, {}
+    while data[at]:
+        name, kind = data.index(0, at), data.index(0, data.index(0, at) + 1)
+        start = kind + 5
+        end = start + struct.unpack("<i", data[kind + 1 : start])[0]
+        found[data[at:name].decode()] = (data[name + 1 : kind].decode(), data[start:end])
+        at = end
+    return {name: value for name, value in found.items() if name not in ("chunkCount", "type")}
+
+
+def call(*words: object) -> tuple[int, str, str]:
+    """Exit status, output and messages of the command."""
+    said, warned = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(warned):
+        try:
+            status = main([str(word) for word in words])
+        except SystemExit as end:
+            status = int(end.code or 0)
+    return status, said.getvalue(), warned.getvalue()
+
+
+def denoised(folder: Path, layers: dict[str, Array], *flags: str) -> tuple[dict[str, Array], str]:
+    """Layers of the denoised picture and what the command said."""
+    source, out = write(folder / "in.exr", layers), folder / "out.exr"
+    status, said, warned = call(source, "--out", out, *flags)
+    assert status == 0 and said == f"{out}\n", warned
+    return read(out), warned
+
+
+def error(light: Array, right: Array) -> float:
+    """Relative root mean square error, each channel by its mean."""
+    return float(np.sqrt((((light - right) / right.mean((0, 1))) ** 2).mean()))
+
+
+@contextlib.contextmanager
+def scratch() -> Iterator[Path]:
+    """A folder that must hold no temporary file at the end."""
+    with tempfile.TemporaryDirectory() as name:
+        yield Path(name)
+        left = [file.name for file in Path(name).iterdir() if file.name.startswith(".")]
+        assert not left, left
+
+
+@contextlib.contextmanager
+def lamina(named: str) -> Iterator[None]:
+    """Another program under LAMINA."""
+    kept = os.environ.get("LAMINA")
+    os.environ["LAMINA"] = named
+    try:
+        yield
+    finally:
+        os.environ.pop("LAMINA")
+        if kept is not None:
+            os.environ["LAMINA"] = kept
+
+
+def test_denoised_colours_are_nearer_to_the_truth() -> None:
+    light = truth((LEAF, PAPER, STEM))
+    right = to_709(light)
+    # The trap: a denoiser that takes negative blue for 0 changes every leaf's colour.
+    assert right[5, 5, 2] < -0.01
+    with scratch() as folder:
+        layers = colour_film(light)
+        for flags, least in (((), 4.0), (("--no-guides",), 3.0)):
+            clean, warned = denoised(folder, layers, *flags)
+            got = stacked(clean, ("R", "G", "B"))
+            before, after = (error(a, right) for a in (stacked(layers, ("R", "G", "B")), got))
+            assert before > least * after, (flags, before, after)
+            assert np.abs(got.mean((0, 1)) / right.mean((0, 1)) - 1).max() < 0.05
+            assert abs(got[:40, :10, 2].mean() / right[:40, :10, 2].mean() - 1) < 0.1
+            assert ("guided by albedo and N" in warned) == (not flags), warned
+
+
+def test_denoised_bands_are_nearer_to_the_truth() -> None:
+    light, layers = spectral_film()
+    with scratch() as folder:
+        clean, warned = denoised(folder, layers)
+    got = stacked(clean, BANDS)
+    for number, band in enumerate(BANDS):
+        one = (slice(None), slice(None), slice(number, number + 1))
+        before, after = error(stacked(layers, BANDS)[one], light[one]), error(got[one], light[one])
+        assert before > 3 * after, (band, before, after)
+    assert "without guides: the picture has no layer albedo" in warned
+
+
+def test_guides_keep_what_noise_hides() -> None:
+    # Veins of one pixel, of which each pixel of the picture alone tells little.
+    light = truth((PAPER, PAPER, PAPER))
+    light[:, ::6] *= 0.6
+    with scratch() as folder:
+        layers = colour_film(light)
+        errors = [
+            error(stacked(denoised(folder, layers, *flags)[0], ("R", "G", "B")), to_709(light))
+            for flags in ((), ("--no-guides",))
+        ]
+    assert errors[1] > 1.5 * errors[0], errors
+
+
+def test_guides_have_the_edges_of_the_light() -> None:
+    # Features are means over what was met; where a quarter of a pixel is covered, so is the guide.
+    layers = colour_film(truth((PAPER, PAPER, PAPER)))
+    layers |= named(ALBEDO, np.full((HEIGHT, WIDTH, 3), 0.8)) | {"A": 0.25 * layers["A"]}
+    with scratch() as folder:
+        guides = Denoiser().guides(read_film(write(folder / "in.exr", layers)))
+    assert abs(guides["albedo"].mean() - 0.2) < 0.01, guides["albedo"].mean()
+    assert abs(guides["normal"][:, :, 2].mean() - 0.25) < 0.0125, guides["normal"].mean((0, 1))
+
+
+def test_all_else_in_the_file_stays_and_the_note_is_added() -> None:
+    light, bands = spectral_film()
+    for layers, guides in ((colour_film(truth((LEAF, PAPER, STEM))), "albedo, N"), (bands, "none")):
+        with scratch() as folder:
+            clean, _ = denoised(folder, layers)
+            source, out = folder / "in.exr", folder / "out.exr"
+            before = read(source)
+            assert list(before) == list(clean)
+            for name, values in before.items():
+                same = np.array_equal(values, clean[name])
+                assert same == (name not in ("R", "G", "B", *BANDS)), name
+            old, new = attributes(source), attributes(out)
+            kind, note = new.pop(NOTE)
+            assert old == new, set(old.items()) ^ set(new.items())
+            words = note.decode()
+            assert kind == "string" and words.startswith("Open Image Denoise 2."), words
+            assert f"; guides: {guides}; " in words and "no measurement" in words, words
+
+
+def test_one_picture_gives_the_same_bytes_again_and_is_not_changed() -> None:
+    with scratch() as folder:
+        source = write(folder / "in.exr", colour_film(truth((LEAF, PAPER, STEM))))
+        bytes_in = source.read_bytes()
+        for name in ("a.exr", "b.exr"):
+            assert call(source, "--out", folder / name)[0] == 0
+        assert (folder / "a.exr").read_bytes() == (folder / "b.exr").read_bytes()
+        assert source.read_bytes() == bytes_in
+
+
+def test_a_band_without_light_stays_black() -> None:
+    _, layers = spectral_film()
+    layers[BANDS[2]] = np.zeros((HEIGHT, WIDTH))
+    with scratch() as folder:
+        clean, _ = denoised(folder, layers)
+    assert not clean[BANDS[2]].any() and clean[BANDS[1]].mean() > 0.1
+
+
+def test_what_is_below_zero_in_a_band_is_kept_in_the_mean() -> None:
+    light, layers = spectral_film()
+    layers[BANDS[0]] = layers[BANDS[0]].copy()
+    layers[BANDS[0]][:, :20] = -0.3
+    with scratch() as folder:
+        clean, _ = denoised(folder, layers)
+    assert np.abs(clean[BANDS[0]][:, :16] + 0.3).max() < 0.02
+
+
+def test_the_picture_to_look_at_is_shown_as_its_scene_says() -> None:
+    with scratch() as folder:
+        scene, stem = folder / "scene.toml", folder / "made"
+        scene.write_text(SCENE, encoding="utf-8")
+        line = [str(program()), "render", str(scene), "--out", str(stem), "--noise", "0"]
+        subprocess.run(line, check=True, capture_output=True)
+        out, png = folder / "out.exr", folder / "out.png"
+        status, said, warned = call(f"{stem}.exr", "--out", out, "--png", png)
+        assert status == 0 and said == f"{out}\n{png}\n", warned
+        assert "guided by albedo and N" in warned
+        old, new = attributes(Path(f"{stem}.exr")), attributes(out)
+        # Whether a channel is linear to the eye is nothing that a film of light says.
+        assert old.pop("channels")[0] == new.pop("channels")[0] == "chlist"
+        assert NOTE in new and old == {name: new[name] for name in new if name != NOTE}
+        own = folder / "own.png"
+        line = [str(program()), "tonemap", str(out), "--out", str(own)]
+        flags = ["--exposure-ev", "2", "--tone", "filmic"]
+        subprocess.run([*line, *flags], check=True, capture_output=True)
+        assert own.read_bytes() == png.read_bytes()
+        subprocess.run([*line, "--exposure-ev", "0"], check=True, capture_output=True)
+        assert own.read_bytes() != png.read_bytes()
+        # Of the render it is the same picture but for its noise.
+        shown, rendered = (read(file) for file in (png, Path(f"{stem}.png")))
+        assert np.abs(shown["G"] - rendered["G"]).mean() < 0.05
+
+
+def test_a_denoised_picture_is_refused() -> None:
+    with scratch() as folder:
+        _, layers = spectral_film()
+        denoised(folder, layers)
+        status, _, warned = call(folder / "out.exr", "--out", folder / "again.exr")
+        assert status == 2 and f"denoised already ({NOTE}: Open Image Denoise 2." in warned, warned
+        assert not (folder / "again.exr").exists()
+
+
+def refusals(folder: Path) -> list[tuple[list[object], int, str]]:
+    """Words that are refused, the exit status, and what is said."""
+    _, layers = spectral_film()
+    good = write(folder / "good.exr", layers)
+    other = write(folder / "other.exr", {"A": layers["A"], "depth.Z": layers["A"]})
+    broken = layers | {BANDS[1]: layers[BANDS[1]].copy()}
+    broken[BANDS[1]][7, 11] = np.nan
+    broken[BANDS[1]][8, 2] = np.inf
+    nan = write(folder / "nan.exr", broken)
+    again = write(folder / "again.exr", layers, {NOTE: "by someone"})
+    small = write(folder / "small.exr", {name: layers[name][:15, :40] for name in layers})
+    cut, text = folder / "cut.exr", folder / "text.exr"
+    cut.write_bytes(good.read_bytes()[:3000])
+    text.write_text("no picture")
+    link, inside = folder / "link.exr", folder / "text.exr" / "x.exr"
+    link.symlink_to(good)
+    new = folder / "new.exr"
+    return [
+        ([folder / "none.exr", "--out", new], 2, "none.exr: No such file"),
+        ([folder, "--out", new], 2, "Is a directory"),
+        ([text, "--out", new], 2, "text.exr: it is no EXR file"),
+        ([cut, "--out", new], 2, "cut.exr: it is damaged: "),
+        ([other, "--out", new], 2, "neither channels R, G, B nor bands"),
+        ([nan, "--out", new], 2, f"{BANDS[1]} is not finite in 2 pixels, the first at x = 11, y"),
+        ([again, "--out", new], 2, "denoised already (lamina:denoised: by someone)"),
+        ([small, "--out", new], 2, "it has less than 16 pixels across or down"),
+        ([good, "--out", good], 2, "good.exr: it is the input"),
+        ([good, "--out", link], 2, "link.exr: it is the input"),
+        ([link, "--out", good], 2, "good.exr: it is the input"),
+        ([good, "--out", folder / "new.tif"], 2, "the ending tells what is written: exr"),
+        ([good, "--out", folder / "no" / "x.exr"], 2, "there is no folder"),
+        ([good, "--out", inside], 2, "there is no folder"),
+        ([good, "--out", new, "--png", folder / "x.tif"], 2, "what is written: png or jpg"),
+        ([good, "--out", new, "--png", folder / "no" / "x.png"], 2, "there is no folder"),
+        ([good, "--out", new, "--quality", "best"], 2, "unrecognized arguments: --quality best"),
+        ([good], 2, "the following arguments are required: --out"),
+    ]  # fmt: skip
+
+
+def test_what_cannot_be_done_is_told_in_one_line_and_leaves_nothing() -> None:
+    with scratch() as folder:
+        for words, status, message in refusals(folder):
+            files = sorted(folder.iterdir())
+            got, said, warned = call(*words)
+            assert (got, said) == (status, ""), (words, got, said, warned)
+            last = warned.splitlines()[-1]
+            assert message in last and last.startswith("reference/denoise: "), warned
+            # argparse shows the usage first.
+            assert warned.count("\n") == 1 or warned.startswith("usage: "), warned
+            assert sorted(folder.iterdir()) == files, words
+
+
+def test_a_folder_that_cannot_be_written_is_told() -> None:
+    with scratch() as folder:
+        good = write(folder / "good.exr", spectral_film()[1])
+        # Whoever may do everything writes into any folder but those of the kernel.
+        out = Path("/proc/x.exr")
+        if os.geteuid() != 0:
+            closed = folder / "closed"
+            closed.mkdir(mode=0o500)
+            out = closed / "x.exr"
+        status, _, warned = call(good, "--out", out)
+        assert status == 1 and "x.exr: the folder cannot be written: " in warned, warned
+
+
+def test_a_program_for_the_picture_that_is_missing_is_told() -> None:
+    with scratch() as folder:
+        good = write(folder / "good.exr", spectral_film()[1])
+        out, png = folder / "out.exr", folder / "out.png"
+        with lamina("/no/such/lamina"):
+            status, _, warned = call(good, "--out", out, "--png", png)
+        assert status == 2 and "/no/such/lamina, which is not there" in warned, warned
+        # Before any work.
+        assert not out.exists()
+
+
+def test_a_program_for_the_picture_that_fails_leaves_the_exr() -> None:
+    with scratch() as folder:
+        good = write(folder / "good.exr", spectral_film()[1])
+        out, png = folder / "out.exr", folder / "out.png"
+        with lamina("/bin/false"):
+            status, said, warned = call(good, "--out", out, "--png", png)
+        assert status == 1 and "tonemap" in warned and said == f"{out}\n", warned
+        assert NOTE in attributes(out) and not png.exists()
+
+
+def test_a_missing_package_is_told_with_the_way_to_install_it() -> None:
+    kept = sys.modules.get("mitsuba_oidn")
+    # What Python holds for a module that must not be imported.
+    sys.modules["mitsuba_oidn"] = None  # type: ignore[assignment]
+    try:
+        with scratch() as folder:
+            good = write(folder / "good.exr", spectral_film()[1])
+            status, _, warned = call(good, "--out", folder / "out.exr")
+            assert status == 1 and "run reference/setup" in warned, warned
+            assert not (folder / "out.exr").exists()
+    finally:
+        del sys.modules["mitsuba_oidn"]
+        if kept is not None:
+            sys.modules["mitsuba_oidn"] = kept
+
+
+def test_a_full_disk_leaves_the_old_file() -> None:
+    with scratch() as folder:
+        good = write(folder / "good.exr", spectral_film()[1])
+        out = folder / "out.exr"
+        out.write_text("old")
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, limits[1]))
+        try:
+            status, said, warned = call(good, "--out", out)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        assert status == 1 and said == "" and "out.exr: " in warned, (status, warned)
+        assert out.read_text() == "old"
+        # And with room it is replaced.
+        assert call(good, "--out", out)[0] == 0 and NOTE in attributes(out)
+
+
+# What is told before the denoiser is asked for, or when it is missing.
+WITHOUT = """
+    what_cannot_be_done_is_told_in_one_line_and_leaves_nothing
+    a_folder_that_cannot_be_written_is_told
+    a_program_for_the_picture_that_is_missing_is_told
+    a_missing_package_is_told_with_the_way_to_install_it
+""".split()
+
+
+def run() -> int:
+    """Runs every test of this file, or those whose names hold the arguments."""
+    tests = globals()
+    if importlib.util.find_spec("mitsuba_oidn") is None:
+        print(
+            "skip  what denoises: mitsuba-oidn is missing in this Python, reference/setup has it",
+            file=sys.stderr,
+        )
+        tests = {f"test_{name}": tests[f"test_{name}"] for name in WITHOUT}
+    return run_tests(tests, "denoising")
+
+
+if __name__ == "__main__":
+    sys.exit(run())

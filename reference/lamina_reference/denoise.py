@@ -1,0 +1,337 @@
+"""Takes noise out of a picture: `reference/denoise IN.exr --out OUT.exr`.
+
+Open Image Denoise guesses each pixel from its neighbours. What comes out is for the eye: it is
+biased, and nobody knows by how much. The file says so in `lamina:denoised`; its layer `variance` is
+that of the picture which went in.
+
+- In: an EXR of Lamina, of a colour film or a spectral one; its layers `albedo` and `N` as guides.
+- Out: the same EXR with other radiance; if wanted, a picture to look at by `lamina tonemap`.
+- Always true: no other layer and no attribute changes; OUT is whole or not there.
+- Left out: pictures by other programs, parts of a render, tests of light.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryFile
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import OpenImageIO as oiio
+from numpy.typing import NDArray
+
+from .picture import CHANNEL
+from .program import program
+
+Pixels = NDArray[np.float32]
+NOTE = "lamina:denoised"
+ALBEDO = ("albedo.R", "albedo.G", "albedo.B")
+NORMAL = ("N.X", "N.Y", "N.Z")
+# Linear Rec. 709 to linear Rec. 2020 (ITU-R BT.2087): many leaf greens have a negative blue in the
+# first, and the denoiser takes what is below 0 for 0.
+REC2020 = np.array([[0.6274, 0.3293, 0.0433], [0.0691, 0.9195, 0.0114], [0.0164, 0.0880, 0.8956]])
+# A grey of two pixels comes out a quarter too dark, one of 16 within 0.2 %.
+LEAST_SIZE = 16
+MAGIC = b"\x76\x2f\x31\x01"
+
+
+class Refused(Exception):
+    """What the user can mend."""
+
+
+class Failed(Exception):
+    """The system or another program failed."""
+
+
+@dataclass
+class Film:
+    """An EXR as it was read: `[height, width, channels]` in the order of the names."""
+
+    spec: oiio.ImageSpec
+    pixels: Pixels
+
+    def has(self, names: tuple[str, ...]) -> bool:
+        """Whether all these channels are there."""
+        return all(name in self.spec.channelnames for name in names)
+
+    def places(self, names: tuple[str, ...]) -> list[int]:
+        """Numbers of channels."""
+        return [self.spec.channelnames.index(name) for name in names]
+
+    def layer(self, names: tuple[str, ...]) -> Pixels:
+        """Channels by name, `[height, width, names]`."""
+        return np.ascontiguousarray(self.pixels[:, :, self.places(names)])
+
+    def light(self) -> tuple[str, ...]:
+        """Names of the channels of radiance: `R`, `G`, `B`, or bands; empty if there are none."""
+        if self.has(("R", "G", "B")):
+            return ("R", "G", "B")
+        found = (CHANNEL.match(name) for name in self.spec.channelnames)
+        return tuple(band[0] for band in found if band and not band[1])
+
+
+def read(file: Path) -> Film:
+    """Reads an EXR."""
+    try:
+        with file.open("rb") as start:
+            magic = start.read(len(MAGIC))
+    except OSError as error:
+        raise Refused(f"{file}: {error.strerror}") from error
+    if magic != MAGIC:
+        raise Refused(f"{file}: it is no EXR file")
+    image = oiio.ImageInput.open(str(file))
+    if image is None:
+        raise Refused(f"{file}: {told(oiio.geterror())}")
+    spec = image.spec()
+    pixels = None if spec.deep else image.read_image(oiio.FLOAT)
+    broken, parts = image.geterror(), spec.get_int_attribute("oiio:subimages", 1)
+    image.close()
+    if spec.deep or parts > 1:
+        raise Refused(f"{file}: it is no picture of Lamina's, which has one flat part")
+    if pixels is None:
+        raise Refused(f"{file}: it is damaged: {told(broken)}")
+    return Film(oiio.ImageSpec(spec), pixels)
+
+
+def told(message: str) -> str:
+    """The first line of what OpenImageIO says, without the file's name."""
+    return (message.splitlines() or ["it cannot be read"])[0].split('": ')[-1]
+
+
+def check(film: Film, file: Path, guides: bool) -> None:
+    """Refuses pictures that would come out wrong."""
+    note = film.spec.get_string_attribute(NOTE)
+    if note:
+        raise Refused(f"{file}: it is denoised already ({NOTE}: {note})")
+    if not film.light():
+        raise Refused(f"{file}: it has no colours: neither channels R, G, B nor bands S0.…nm")
+    if min(film.pixels.shape[:2]) < LEAST_SIZE:
+        raise Refused(f"{file}: it has less than {LEAST_SIZE} pixels across or down")
+    # The denoiser takes NaN for 0 and says nothing.
+    for names in (film.light(), *((ALBEDO, NORMAL, ("A",)) if guides else ())):
+        for name in names:
+            if film.has((name,)):
+                bad = np.argwhere(~np.isfinite(film.pixels[:, :, film.places((name,))[0]]))
+                if len(bad):
+                    y, x = bad[0]
+                    raise Refused(
+                        f"{file}: {name} is not finite in {len(bad)} pixels, "
+                        f"the first at x = {x}, y = {y}"
+                    )
+
+
+class Denoiser:
+    """Open Image Denoise on the processor, so that one picture gives the same bytes again."""
+
+    def __init__(self) -> None:
+        try:
+            # By name: its type stubs do not parse, and mypy would stop at them.
+            mitsuba_oidn: Any = import_module("mitsuba_oidn")
+        except ImportError as error:
+            raise Failed(
+                f"Open Image Denoise is missing ({error}): run reference/setup, or "
+                "`pip install mitsuba-oidn` in the Python of LAMINA_VENV"
+            ) from error
+        self.error: type[Exception] = mitsuba_oidn.Error
+        self.device: Any = mitsuba_oidn.Device(mitsuba_oidn.DeviceType.CPU)
+        self.version = (
+            f"Open Image Denoise {mitsuba_oidn.oidn_version()} "
+            f"(mitsuba-oidn {mitsuba_oidn.__version__})"
+        )
+
+    def run(self, kind: str, pictures: list[Pixels], guides: dict[str, Pixels]) -> list[Pixels]:
+        """One filter over pictures of one size: `color` by guides, or a guide itself."""
+        made = []
+        try:
+            # To make a filter takes as long as to run it.
+            rt = self.device.new_filter("RT")
+            for name, guide in guides.items():
+                rt.set_image(name, guide)
+            rt.hdr = kind == "color"
+            rt.clean_aux = bool(guides)
+            for picture in pictures:
+                out = np.zeros_like(picture)
+                made.append(out)
+                # Without any light there is no exposure, and black would come out as grey.
+                if not picture.any():
+                    continue
+                rt.set_image(kind, picture)
+                rt.set_image("output", out)
+                rt.execute()
+        except self.error as error:
+            raise Failed(f"Open Image Denoise: {error}") from error
+        return made
+
+    def guides(self, film: Film) -> dict[str, Pixels]:
+        """Albedo and normals without noise of their own; nothing if the film has no albedo.
+
+        The film's features are means over covered samples; radiance is one over all of them, so
+        that features are weighed by coverage to have the same edges.
+        """
+        # Normals alone are no input that the denoiser knows.
+        if not film.has(ALBEDO):
+            return {}
+        layers = {"albedo": ALBEDO} | ({"normal": NORMAL} if film.has(NORMAL) else {})
+        share = film.layer(("A",)) if film.has(("A",)) else np.float32(1)
+        return {
+            kind: self.run(kind, [film.layer(names) * share], {})[0]
+            for kind, names in layers.items()
+        }
+
+    def light(self, light: Pixels, guides: dict[str, Pixels]) -> Pixels:
+        """Radiance with less noise, each channel alone: measured, three at once are worse.
+
+        What is below 0 is added again as it was, so that it is not taken from the mean.
+        """
+        channels = [np.maximum(light[:, :, number], 0) for number in range(light.shape[2])]
+        return np.stack(self.run("color", channels, guides), axis=2) + np.minimum(light, 0)
+
+
+def denoise(film: Film, denoiser: Denoiser, with_guides: bool) -> tuple[Film, list[str]]:
+    """The film with denoised radiance and the note; and what guided."""
+    guides = denoiser.guides(film) if with_guides else {}
+    names = film.light()
+    light = film.layer(names)
+    if names == ("R", "G", "B"):
+        wide = denoiser.light((light @ REC2020.T).astype(np.float32), guides)
+        clean = wide @ np.linalg.inv(REC2020).T
+    else:
+        clean = denoiser.light(light, guides)
+    pixels = film.pixels.copy()
+    pixels[:, :, film.places(names)] = clean
+    layers = ["albedo", "N"][: len(guides)]
+    spec = oiio.ImageSpec(film.spec)
+    spec.attribute(
+        NOTE,
+        f"{denoiser.version}; guides: {', '.join(layers) or 'none'}; each channel alone; "
+        "biased, no measurement; variance is that of the picture before",
+    )
+    return Film(spec, pixels), layers
+
+
+def write(film: Film, out: Path) -> None:
+    """Writes an EXR beside `out`, then puts it in its place: whole or not at all."""
+    # A link stays, and what it leads to is replaced.
+    target = out.resolve()
+    half = target.with_name(f".lamina-{os.getpid()}-{target.name}.part")
+    spec = oiio.ImageSpec(film.spec)
+    # Both would be written as attributes that were not there; an empty date is left out.
+    spec.erase_attribute("openexr:chunkCount")
+    if not spec.get_string_attribute("DateTime"):
+        spec.attribute("DateTime", "")
+    try:
+        output = oiio.ImageOutput.create("openexr")
+        if output is None:
+            raise Failed(f"{out}: {told(oiio.geterror())}")
+        done = output.open(str(half), spec) and output.write_image(film.pixels)
+        error = output.geterror()
+        if not (output.close() and done):
+            raise Failed(f"{out}: {told(error or output.geterror())}")
+        with half.open("rb") as file:
+            os.fsync(file.fileno())
+        half.replace(target)
+    except OSError as error:
+        raise Failed(f"{out}: {error.strerror}") from error
+    finally:
+        half.unlink(missing_ok=True)
+
+
+def check_places(source: Path, out: Path, png: Path | None) -> None:
+    """Refuses outputs before any work is done."""
+    if out.suffix != ".exr":
+        raise Refused(f"{out}: the ending tells what is written: exr")
+    if png and png.suffix not in (".png", ".jpg", ".jpeg"):
+        raise Refused(f"{png}: the ending tells what is written: png or jpg")
+    for file in filter(None, (out, png)):
+        if file.resolve() == source.resolve() or (
+            file.exists() and source.exists() and file.samefile(source)
+        ):
+            raise Refused(f"{file}: it is the input, which is kept")
+        folder = file.resolve().parent
+        if file.is_dir():
+            raise Refused(f"{file}: it is a folder")
+        if not folder.is_dir():
+            raise Refused(f"{file}: there is no folder {folder}")
+        try:
+            # Permissions do not tell all: a disk may be read-only.
+            with TemporaryFile(dir=folder, prefix=".lamina-"):
+                pass
+        except OSError as error:
+            raise Failed(f"{file}: the folder cannot be written: {error.strerror}") from error
+    if png and not os.access(program(), os.X_OK):
+        raise Refused(
+            f"{png}: it is made by {program()}, which is not there: "
+            "cargo build --release, or name it by LAMINA"
+        )
+
+
+def tonemap(exr: Path, png: Path) -> None:
+    """The picture to look at, by the scene's own block `picture`."""
+    line = [str(program()), "tonemap", str(exr), "--out", str(png)]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise Failed(f"{' '.join(line)} failed ({done.returncode}):\n{done.stderr}")
+
+
+def arguments(words: list[str] | None) -> argparse.Namespace:
+    """What is to be done."""
+    parser = argparse.ArgumentParser(
+        prog="reference/denoise",
+        description="Takes noise out of a picture by Open Image Denoise. What comes out is for the "
+        "eye, no measurement.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("picture", type=Path, metavar="IN.exr", help="a picture of Lamina's")
+    parser.add_argument("--out", type=Path, required=True, metavar="OUT.exr")
+    parser.add_argument(
+        "--png", type=Path, metavar="OUT.png", help="also one to look at, png or jpg"
+    )
+    parser.add_argument(
+        "--no-guides", action="store_true", help="leave the layers albedo and N aside"
+    )
+    return parser.parse_args(words)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Reads, denoises, writes, and says what was done."""
+    source: Path = options.picture
+    check_places(source, options.out, options.png)
+    film = read(source)
+    check(film, source, not options.no_guides)
+    denoiser = Denoiser()
+    began = perf_counter()
+    clean, layers = denoise(film, denoiser, not options.no_guides)
+    write(clean, options.out)
+    guided = f"guided by {' and '.join(layers)}"
+    if not layers:
+        why = "" if options.no_guides else ": the picture has no layer albedo"
+        guided = f"without guides{why}"
+    seconds = perf_counter() - began
+    print(f"{denoiser.version}, {guided}, {seconds:.1f} s", file=sys.stderr)
+    print(options.out)
+    if options.png:
+        tonemap(options.out, options.png)
+        print(options.png)
+
+
+def main(words: list[str] | None = None) -> int:
+    """Denoises a picture; 0 done, 1 the system failed, 2 bad input, 130 interrupted."""
+    try:
+        run(arguments(words))
+    except (Refused, Failed) as error:
+        print(f"reference/denoise: {error}", file=sys.stderr)
+        return 2 if isinstance(error, Refused) else 1
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
