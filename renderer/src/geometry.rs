@@ -48,6 +48,8 @@ pub mod instance;
 pub mod mesh;
 mod placement;
 pub mod ray;
+pub mod scatter;
+pub mod shapes;
 pub mod surface;
 
 pub use assembly::{Geometry, GeometryError, Hit};

@@ -2,8 +2,9 @@
 
 use crate::cli::Failure;
 use crate::film::Film;
+use crate::geometry::scatter::Amount;
 use crate::integrator::layers::Layout;
-use crate::scene::description::{Description, Mesh};
+use crate::scene::description::{Description, Drop, Lump, Mesh};
 use crate::spectrum::WavelengthSampler;
 
 const MIB: f64 = 1024.0 * 1024.0;
@@ -47,13 +48,27 @@ pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Resul
 /// Memory of what a scene builds and grows, bytes, with what it is for.
 fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure> {
     let meshes = scene.meshes.iter().map(|mesh| match mesh.value {
-        Mesh::Sphere { segments, .. } => f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE,
+        Mesh::Sphere { segments, .. }
+        | Mesh::Drop(Drop { segments, .. })
+        | Mesh::Lump(Lump { segments, .. }) => {
+            f64::from(segments) * f64::from(segments) * OF_A_TRIANGLE
+        }
+        Mesh::Terrain(ref terrain) => {
+            let [across, along] = terrain.squares();
+            2.0 * across * along * OF_A_TRIANGLE
+        }
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
     });
     let places = scene.objects.iter().map(|object| {
-        let count = object.value.instances.as_ref().map_or(1, Vec::len);
-        count as f64 * OF_A_PLACE
+        let own = object.value.instances.as_ref().map_or(1, Vec::len);
+        let strewn = object.value.strewn.as_ref();
+        // What a density comes to is known when the surface is.
+        let copies = strewn.map_or(1, |strewn| match strewn.plan.amount {
+            Amount::Count(count) => count,
+            Amount::PerSquareMetre(_) => 1,
+        });
+        own as f64 * f64::from(copies) * OF_A_PLACE
     });
     let mut leaves = Vec::new();
     for leaf in &scene.leaves {

@@ -14,11 +14,13 @@ mod leaf;
 mod light;
 mod material;
 mod mesh;
+mod name_list;
 mod object;
 mod picture;
 mod placement;
 mod plant;
 mod references;
+mod scatter;
 mod solid;
 mod spectrum;
 mod table_file;
@@ -42,7 +44,7 @@ pub(crate) use self::solid::solid;
 use super::description::{
     Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Solid, Spectrum,
 };
-use super::plants::boughs;
+use super::plants::{boughs, individuals};
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 14] = [
@@ -158,6 +160,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     if keys.reader().is_some() {
         references::check(scene, keys);
         if keys.is_sound() {
+            individuals::grow_apart(scene, keys);
             boughs::place(scene, keys);
         }
     }

@@ -3,10 +3,12 @@
 //! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
 //! same input.
 
+mod object;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 use leafmodel::blade::stalk::StalkMesh;
 pub use leafmodel::document::names::Named;
 use leafmodel::leaf::LeafPlan;
@@ -14,7 +16,9 @@ use leafmodel::optics::Pigments;
 use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
+pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use crate::camera::view::View as Camera;
+pub use crate::geometry::shapes::{Drop, Lump, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
@@ -249,6 +253,12 @@ pub enum Mesh {
         /// Triangles around the equator and half as many from pole to pole.
         segments: u32,
     },
+    /// A drop of water on z = 0.
+    Drop(Drop),
+    /// A pebble or crumb around the origin.
+    Lump(Lump),
+    /// Uneven ground around the origin.
+    Terrain(Terrain),
     /// A PLY or OBJ file, resolved and inside the scene's folder.
     File {
         /// The file.
@@ -346,83 +356,5 @@ pub enum Light {
         penumbra_angle: f64,
         /// Radiant intensity on the axis, W sr⁻¹ nm⁻¹.
         intensity: Spectrum,
-    },
-}
-
-/// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
-/// instances.
-#[derive(Clone, Debug)]
-pub struct Object {
-    /// Its shapes, at least one. Without instances there is exactly one.
-    pub shapes: Vec<ObjectShape>,
-    /// Local to world, metres, affine and invertible. For instances, the frame in which their
-    /// places are given.
-    pub to_world: DMat4,
-    /// The places of instances; `None` means the single place `to_world`.
-    pub instances: Option<Vec<InstancePlace>>,
-    /// The plant that it is, index into [`Description::plants`]. Its parts are the shapes then.
-    pub plant: Option<usize>,
-}
-
-/// The place and shape of one instance of an object.
-///
-/// It takes 52 bytes, since a scene may have millions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InstancePlace {
-    /// Index into [`Object::shapes`].
-    pub shape: u32,
-    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part,
-    /// then the translation.
-    pub to_world: [f32; 12],
-}
-
-impl InstancePlace {
-    /// A shape in the world, in single precision.
-    pub fn new(shape: u32, to_world: DMat4) -> Self {
-        let columns = [
-            to_world.x_axis,
-            to_world.y_axis,
-            to_world.z_axis,
-            to_world.w_axis,
-        ];
-        Self {
-            shape,
-            to_world: std::array::from_fn(|i| columns[i / 3][i % 3] as f32),
-        }
-    }
-
-    /// Local to world.
-    pub fn matrix(&self) -> DMat4 {
-        let column = |at: usize| {
-            DVec3::from_array(std::array::from_fn(|i| f64::from(self.to_world[at + i])))
-        };
-        DMat4::from_cols(
-            column(0).extend(0.0),
-            column(3).extend(0.0),
-            column(6).extend(0.0),
-            column(9).extend(1.0),
-        )
-    }
-}
-
-/// The shape of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum ObjectShape {
-    /// A mesh with a material.
-    Mesh {
-        /// Index into [`Description::meshes`].
-        mesh: usize,
-        /// Index into [`Description::materials`].
-        material: usize,
-    },
-    /// A grown leaf (base at the origin, midrib along +y, adaxial side +z).
-    Leaf {
-        /// Index into [`Description::leaves`].
-        leaf: usize,
-    },
-    /// A grown body of solid tissue, in the frame of its shape.
-    Solid {
-        /// Index into [`Description::solids`].
-        solid: usize,
     },
 }

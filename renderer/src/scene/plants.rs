@@ -2,6 +2,7 @@
 //! millimetres to metres.
 
 pub(super) mod boughs;
+pub(super) mod individuals;
 pub(super) mod parts;
 
 use std::sync::Arc;

@@ -6,9 +6,11 @@ mod meshes;
 mod notes;
 mod placing;
 mod recentred;
+mod strewing;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,8 +25,10 @@ use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
+use self::strewing::Strewing;
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
+use crate::geometry::scatter::ScatterError;
 use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
 use crate::light::Light;
 use crate::light::selection::LightSelection;
@@ -32,7 +36,7 @@ use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description};
+use crate::scene::description::{self, Description, InstancePlace, Named, Object};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
@@ -49,6 +53,8 @@ pub struct World {
     pub objects: WorldObjects,
     /// The parts of leaves and bodies.
     pub pieces: Pieces,
+    /// The places of each object that is strewn, in the scene's frame, by its number.
+    pub strewn: BTreeMap<usize, Vec<InstancePlace>>,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
     /// The owner of each material.
@@ -133,6 +139,14 @@ pub enum WorldError {
         /// Why.
         source: Box<SolidError>,
     },
+    /// There is no room for what is strewn.
+    #[error("objects.{name}.scatter: {source}")]
+    Scatter {
+        /// Name of the object.
+        name: String,
+        /// Why.
+        source: ScatterError,
+    },
     /// The geometry as a whole cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
@@ -165,16 +179,18 @@ impl World {
     pub fn build_with(scene: &Description, options: &BuildOptions<'_>) -> Result<Self, WorldError> {
         let origin = scene.camera.origin();
         if origin == DVec3::ZERO {
-            Self::build_around(scene, origin, options)
+            Self::build_around(scene, &scene.objects, origin, options)
         } else {
-            Self::build_around(&recentred::moved(scene, -origin), origin, options)
+            let moved = recentred::moved(scene, -origin);
+            Self::build_around(&moved, &scene.objects, origin, options)
         }
     }
 
     /// Builds a scene whose camera is near the origin, which lies at `origin` in the scene as
-    /// written.
+    /// written, whose objects are given too.
     fn build_around(
         scene: &Description,
+        objects_as_written: &[Named<Object>],
         origin: DVec3,
         options: &BuildOptions<'_>,
     ) -> Result<Self, WorldError> {
@@ -239,11 +255,13 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
+        let strewn = Strewing::new(&meshes, &pieces, objects_as_written).all()?;
+        let strewn_around = strewing::around(&strewn, origin);
         let Placed {
             instances,
             mut objects,
             first,
-        } = place(scene, &pieces);
+        } = place(scene, &pieces, &strewn_around);
         let mut lights = Vec::new();
         for light in &scene.lights {
             if let description::Light::Area { object, .. } = light.value {
@@ -268,6 +286,7 @@ impl World {
             origin,
             objects,
             pieces,
+            strewn: strewing::around(&strewn, DVec3::ZERO),
             materials,
             owners,
             palettes: known.palettes,

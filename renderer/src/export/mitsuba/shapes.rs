@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{DMat4, DVec3};
 
 use crate::export::element::{Document, Element, Layout};
-use crate::scene::description::{Description, Light, Object, ObjectShape};
+use crate::scene::description::{Description, InstancePlace, Light, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
@@ -84,7 +84,7 @@ pub(super) fn write(
     let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
     for (number, object) in scene.objects.iter().enumerate() {
         if !shining.contains_key(&number) {
-            for (_, kind, _) in places(&object.value) {
+            for (_, kind, _) in places(&object.value, world.strewn.get(&number)) {
                 *counts.entry(kind).or_default() += 1;
             }
         }
@@ -92,9 +92,9 @@ pub(super) fn write(
     let mut groups = BTreeSet::new();
     for (number, object) in scene.objects.iter().enumerate() {
         let radiance = shining.get(&number);
-        for (place, kind, to_world) in places(&object.value) {
+        for (place, kind, to_world) in places(&object.value, world.strewn.get(&number)) {
             let mut id = format!("object-{}", object.name);
-            if object.value.instances.is_some() {
+            if object.value.instances.is_some() || object.value.strewn.is_some() {
                 id += &format!(".{}", place + 1);
             }
             if radiance.is_none() && counts[&kind] > 1 {
@@ -118,13 +118,16 @@ pub(super) fn write(
     writer.meshes
 }
 
-/// An object's places: number, shape, local to world.
-fn places(object: &Object) -> impl Iterator<Item = (usize, Kind, DMat4)> {
-    let alone = object
-        .instances
+/// An object's places: number, shape, local to world. `strewn` are those that were found for it.
+fn places<'a>(
+    object: &'a Object,
+    strewn: Option<&'a Vec<InstancePlace>>,
+) -> impl Iterator<Item = (usize, Kind, DMat4)> + 'a {
+    let instances = strewn.or(object.instances.as_ref());
+    let alone = instances
         .is_none()
         .then_some((object.shapes[0], object.to_world));
-    let instances = object.instances.iter().flatten();
+    let instances = instances.into_iter().flatten();
     let instances = instances.map(|place| (object.shapes[place.shape as usize], place.matrix()));
     alone
         .into_iter()

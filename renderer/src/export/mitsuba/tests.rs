@@ -383,3 +383,33 @@ fn an_earlier_export_is_replaced_and_another_folder_is_left_alone() {
         b"dear"
     );
 }
+
+#[test]
+fn what_is_strewn_is_exported_where_it_is_traced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let blocks = r#"
+[meshes.crumb.lump]
+radius_m = 0.001
+[objects.crumbs]
+mesh = "crumb"
+material = "plain"
+scatter = { on = "left", count = 25, settle = true }
+"#;
+    let (scene, world) = scene_with(blocks, folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("an export");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("a scene");
+    assert_eq!(xml.matches("type=\"instance\"").count(), 25, "{xml}");
+    for (number, place) in world.strewn[&2].iter().enumerate() {
+        let id = format!("object-crumbs.{}", number + 1);
+        let at = xml.find(&format!("id=\"{id}\"")).expect("an instance");
+        let matrix = &xml[at..][..600];
+        let x = place.matrix().w_axis.x * units::UNITS_PER_METRE;
+        let numbers = matrix.split(|c: char| !"-.0123456789e".contains(c));
+        let mut numbers = numbers.filter_map(|word| word.parse::<f64>().ok());
+        assert!(
+            numbers.any(|number| (number - x).abs() < 1e-5 * x.abs()),
+            "{x} {matrix}"
+        );
+    }
+}

@@ -1,10 +1,10 @@
-//! `[meshes.NAME.…]`: rectangle, sphere, file.
+//! `[meshes.NAME.…]`: rectangle, sphere, drop, lump, terrain, file.
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{FilePath, Integer, Number};
+use leafmodel::document::value_kind::{Degrees, FilePath, Integer, Number, Numbers};
 
-use crate::scene::description::Mesh;
+use crate::scene::description::{Drop, Lump, Mesh, Terrain};
 
 /// Range of the extents of shapes, m.
 const EXTENTS_M: Number = Number(Limits::above(0.0, 1e6));
@@ -16,7 +16,7 @@ pub(super) fn mesh(mesh: &mut Mesh, keys: &mut Keys<'_>) {
     keys.kind(mesh, &KINDS);
 }
 
-const KINDS: [Variant<Mesh>; 3] = [
+const KINDS: [Variant<Mesh>; 6] = [
     Variant {
         name: "rectangle",
         about: "A rectangle in the xy plane around the origin, its normal along +z.",
@@ -41,7 +41,62 @@ const KINDS: [Variant<Mesh>; 3] = [
             if let Mesh::Sphere { radius, segments } = mesh {
                 keys.required("radius_m", radius, EXTENTS_M, "Its radius.");
                 let about = "Triangles around the equator, half as many from pole to pole.";
-                keys.key("segments", segments, Integer::within(8, 4096), about);
+                keys.key("segments", segments, SEGMENTS, about);
+            }
+        },
+    },
+    Variant {
+        name: "drop",
+        about: "A drop of water that stands on z = 0.",
+        new: || {
+            Mesh::Drop(Drop {
+                volume: 1e-9,
+                contact_angle: 1.5,
+                segments: 64,
+            })
+        },
+        is: |mesh| matches!(mesh, Mesh::Drop(_)),
+        declare: |mesh, keys| {
+            if let Mesh::Drop(drop) = mesh {
+                declare_drop(drop, keys);
+            }
+        },
+    },
+    Variant {
+        name: "lump",
+        about: "A pebble or crumb around the origin.",
+        new: || {
+            Mesh::Lump(Lump {
+                radius: 0.001,
+                angularity: 0.4,
+                irregularity: 0.4,
+                segments: 32,
+                seed: 0,
+            })
+        },
+        is: |mesh| matches!(mesh, Mesh::Lump(_)),
+        declare: |mesh, keys| {
+            if let Mesh::Lump(lump) = mesh {
+                declare_lump(lump, keys);
+            }
+        },
+    },
+    Variant {
+        name: "terrain",
+        about: "Uneven ground around the origin.",
+        new: || {
+            Mesh::Terrain(Terrain {
+                size: [1.0, 1.0],
+                deviation: 0.002,
+                waves: [0.2, 0.004],
+                exponent: 0.7,
+                seed: 0,
+            })
+        },
+        is: |mesh| matches!(mesh, Mesh::Terrain(_)),
+        declare: |mesh, keys| {
+            if let Mesh::Terrain(terrain) = mesh {
+                declare_terrain(terrain, keys);
             }
         },
     },
@@ -67,6 +122,90 @@ const KINDS: [Variant<Mesh>; 3] = [
         },
     },
 ];
+
+/// Triangles around a shape.
+const SEGMENTS: Integer<u32> = Integer::within(8, 4096);
+/// Most squares of uneven ground.
+const MOST_SQUARES: f64 = 8e6;
+
+fn declare_drop(drop: &mut Drop, keys: &mut Keys<'_>) {
+    let mut volume_ul = 1e9 * drop.volume;
+    let limits = Number(Limits::closed(1e-6, 1000.0));
+    let about = "Volume; up to some 10 µl gravity hardly flattens a drop of water, above it does, \
+        and the shape is no longer that of water.";
+    keys.required("volume_ul", &mut volume_ul, limits, about);
+    drop.volume = 1e-9 * volume_ul;
+    let limits = Degrees(Limits::closed(5.0, 170.0));
+    let about = "Angle in the water between the leaf and the drop's side: some 40 to 90 on most \
+        leaves, over 140 on those that repel it.";
+    keys.key("contact_angle_deg", &mut drop.contact_angle, limits, about);
+    let about = "Triangles around it, half as many from rim to top.";
+    keys.key("segments", &mut drop.segments, SEGMENTS, about);
+}
+
+fn declare_lump(lump: &mut Lump, keys: &mut Keys<'_>) {
+    keys.required(
+        "radius_m",
+        &mut lump.radius,
+        EXTENTS_M,
+        "Greatest distance of its faces from the middle.",
+    );
+    let share = || Number(Limits::closed(0.0, 1.0));
+    let about = "0 is rounded by water, 1 freshly broken.";
+    keys.key("angularity", &mut lump.angularity, share(), about);
+    let about = "How much nearer some of its faces are than others.";
+    let limits = Number(Limits::closed(0.0, 0.8));
+    keys.key("irregularity", &mut lump.irregularity, limits, about);
+    let about = "Triangles around it, half as many from pole to pole.";
+    keys.key("segments", &mut lump.segments, SEGMENTS, about);
+    let seed = Integer::within(0, u64::MAX);
+    keys.key(
+        "seed",
+        &mut lump.seed,
+        seed,
+        "Same numbers and seed, same lump.",
+    );
+}
+
+fn declare_terrain(terrain: &mut Terrain, keys: &mut Keys<'_>) {
+    let [width, height] = &mut terrain.size;
+    keys.required("width_m", width, EXTENTS_M, "Extent along x.");
+    keys.required("height_m", height, EXTENTS_M, "Extent along y.");
+    let mut deviation_mm = 1e3 * terrain.deviation;
+    let limits = Number(Limits::closed(0.0, 1e6));
+    let about = "Standard deviation of the height.";
+    keys.key("deviation_mm", &mut deviation_mm, limits, about);
+    terrain.deviation = 1e-3 * deviation_mm;
+    let mut waves_mm = terrain.waves.map(|wave| 1e3 * wave);
+    let limits = Numbers::<2>(Limits::closed(1e-3, 1e9));
+    let about = "Longest and shortest wave of which the ground is made.";
+    keys.key("waves_mm", &mut waves_mm, limits, about);
+    terrain.waves = waves_mm.map(|wave| 1e-3 * wave);
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "Roughness exponent: 0 is as rough at all sizes, 1 smooth in the small.";
+    keys.key("exponent", &mut terrain.exponent, limits, about);
+    let seed = Integer::within(0, u64::MAX);
+    keys.key(
+        "seed",
+        &mut terrain.seed,
+        seed,
+        "Same numbers and seed, same ground.",
+    );
+    if terrain.waves[0] < terrain.waves[1] {
+        let problem = "the longest wave is shorter than the shortest".to_owned();
+        keys.refuse(&["waves_mm"], problem, "write the longer one first");
+    }
+    let [across, along] = terrain.squares();
+    if across * along > MOST_SQUARES {
+        let problem = format!(
+            "the ground would have {:.0} million squares, more than {:.0}",
+            1e-6 * across * along,
+            1e-6 * MOST_SQUARES
+        );
+        let help = "make it smaller, or its shortest wave longer";
+        keys.refuse(&["waves_mm"], problem, help);
+    }
+}
 
 impl Mesh {
     /// A sphere with all defaults.

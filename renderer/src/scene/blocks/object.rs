@@ -2,18 +2,17 @@
 //! many.
 
 use glam::{DMat3, DMat4, DVec3};
-use leafmodel::document::context::{Context, ENOUGH};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
-use leafmodel::document::schema::Type;
-use leafmodel::document::tree::{Node, Value};
-use leafmodel::document::value_kind::{Kind, Number, Numbers, Vector};
-use leafmodel::document::values::{list, listed, text_at, wrong_length, wrong_type};
+use leafmodel::document::value_kind::{Number, Numbers, Vector};
+use leafmodel::document::values::{listed, wrong_length};
 
 use super::camera::COORDINATES_M;
 use super::instances::instances;
+use super::name_list::NamesIn;
 use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::report;
+use super::scatter::scatter;
 use crate::scene::description::{Object, ObjectShape};
 
 impl Object {
@@ -24,6 +23,7 @@ impl Object {
             to_world: DMat4::IDENTITY,
             instances: None,
             plant: None,
+            strewn: None,
         }
     }
 }
@@ -44,13 +44,16 @@ pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
             instances(places, keys, shapes, frame);
         },
     );
-    if object.instances.is_none() && names.len() > 1 && keys.is_sound() {
+    scatter(object, keys);
+    let in_one_place = object.instances.is_none() && object.strewn.is_none();
+    if in_one_place && names.len() > 1 && keys.is_sound() {
         let problem = format!(
             "names {} shapes ({}) and stands in one place",
             names.len(),
             listed(names.iter().map(String::as_str))
         );
-        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"`";
+        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"` or \
+            `scatter`";
         let error = DocumentError::Impossible {
             key: keys
                 .reader()
@@ -140,54 +143,6 @@ fn mesh_shapes(
         material: *material,
     });
     object.shapes = pairs.collect();
-}
-
-/// Reads a name or a list of names of blocks of a section.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct NamesIn(pub(super) &'static str, pub(super) &'static str);
-
-impl Kind for NamesIn {
-    type Of = Vec<(usize, String)>;
-
-    fn read(&self, cx: &Context, node: &Node, key: &str) -> Option<Self::Of> {
-        let written = match &node.value {
-            Value::List(list) if !(1..=ENOUGH).contains(&list.len()) => {
-                let wanted = format!("a list of 1 to {ENOUGH} names");
-                wrong_length(cx, &node.at, key, "a list", list.len(), &wanted);
-                return None;
-            }
-            Value::List(list) => list.iter().map(|name| text_at(cx, name, key)).collect(),
-            Value::Text(_) => vec![text_at(cx, node, key)],
-            Value::Integer(_)
-            | Value::Number(_)
-            | Value::Flag(_)
-            | Value::Other(..)
-            | Value::Table(_) => {
-                wrong_type(cx, node, key, "text in quotes");
-                return None;
-            }
-        };
-        let known = cx.names(self.0)?;
-        let found: Vec<Option<(usize, String)>> = written
-            .into_iter()
-            .map(|name| Some((known.find(cx, name?)?, name?.0.to_owned())))
-            .collect();
-        found.into_iter().collect()
-    }
-
-    fn write(&self, value: &Self::Of) -> Value {
-        list(value.iter().map(|(_, name)| Value::Text(name.clone())))
-    }
-
-    fn describe(&self) -> Type {
-        let list = Type::List {
-            of: Box::new(Type::Text(self.1)),
-            least: 1,
-            most: ENOUGH,
-            wanted: "a list of names",
-        };
-        Type::AnyOf(vec![Type::Text(self.1), list], self.1)
-    }
 }
 
 /// Local to world: `matrix`, or scale, then rotations about x, y, z, then position.

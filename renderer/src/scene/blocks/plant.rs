@@ -4,7 +4,7 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
 use leafmodel::plan_file;
 
-use super::object::NamesIn;
+use super::name_list::NamesIn;
 use crate::scene::description::Plant;
 
 /// The keys of one of `[plants]`.

@@ -32,6 +32,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
         cx.error_of_the_file(DocumentError::NoObject);
     }
     check_shining(scene, keys);
+    check_strewn(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -51,7 +52,7 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         let shape = named.value.shapes.first();
         let problem = if named.value.plant.is_some() {
             "is a plant, and plants do not shine"
-        } else if named.value.instances.is_some() {
+        } else if named.value.instances.is_some() || named.value.strewn.is_some() {
             "has instances, and those do not shine"
         } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
@@ -67,6 +68,30 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
             problem: problem.to_owned(),
         };
         keys.report_at_key(&["lights", &light.name], error);
+    }
+}
+
+/// What is strewn on something that is strewn itself stands behind it in the file.
+fn check_strewn(scene: &Description, keys: &Keys<'_>) {
+    for (number, object) in scene.objects.iter().enumerate() {
+        let Some(strewn) = &object.value.strewn else {
+            continue;
+        };
+        let on = std::iter::once(("on", strewn.on));
+        for (key, below) in on.chain(strewn.over.iter().map(|below| ("over", *below))) {
+            let Some(named) = scene.objects.get(below) else {
+                continue;
+            };
+            let problem = if below == number {
+                "an object cannot lie on itself".to_owned()
+            } else if below > number && named.value.strewn.is_some() {
+                format!("`{}` is strewn later itself", named.name)
+            } else {
+                continue;
+            };
+            let help = "name an object in its place, or one that is strewn further up in the file";
+            keys.refuse(&["objects", &object.name, "scatter", key], problem, help);
+        }
     }
 }
 

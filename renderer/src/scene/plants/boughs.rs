@@ -13,6 +13,7 @@ use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plant::{Foot, Plant as Grown, PlantError};
 
+use super::individuals::individuals;
 use crate::scene::description::{
     Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Plant, SolidOptics,
 };
@@ -152,17 +153,6 @@ fn parts(scene: &mut Description, name: &str, plant: &Plant) -> Result<Parts, Pl
         parts.places.push((shape, to_plant));
     }
     Ok(parts)
-}
-
-/// A leaf and others of its plant.
-fn individuals(leaf: &Leaf, count: u32) -> Vec<Leaf> {
-    let other = |number: u32| Leaf {
-        plan: leaf.plan.individual(None, number.into()),
-        ..leaf.clone()
-    };
-    std::iter::once(leaf.clone())
-        .chain((1..count).map(other))
-        .collect()
 }
 
 fn bark(extrapolate: bool) -> Material {

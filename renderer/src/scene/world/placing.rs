@@ -1,11 +1,12 @@
 //! Placing of shapes: instances of meshes, with the object, material and light of each.
 
+use std::collections::BTreeMap;
 use std::ops::Index;
 
 use glam::{Affine3A, DAffine3, DMat4};
 
 use crate::geometry::Instance;
-use crate::scene::description::{Description, ObjectShape};
+use crate::scene::description::{Description, InstancePlace, ObjectShape};
 use crate::scene::plants::Piece;
 
 /// The parts of every shape, with meshes and materials as numbers in the world.
@@ -129,21 +130,29 @@ impl Placed {
 /// Their order is: the first part of each object with one place, the other parts of these objects,
 /// then objects with instances. Of equally near hits the smaller number wins, so the order affects
 /// the picture.
-pub(super) fn place(scene: &Description, pieces: &Pieces) -> Placed {
+pub(super) fn place(
+    scene: &Description,
+    pieces: &Pieces,
+    strewn: &BTreeMap<usize, Vec<InstancePlace>>,
+) -> Placed {
     let mut placed = Placed {
         first: vec![0; scene.objects.len()],
         ..Placed::default()
     };
     // The number is exact unless leaves have several parts.
-    let places = scene.objects.iter();
-    let count = places.map(|object| object.value.instances.as_ref().map_or(1, Vec::len));
+    let places_of = |number: usize| {
+        let own = &scene.objects[number].value.instances;
+        strewn.get(&number).or(own.as_ref())
+    };
+    let numbers = 0..scene.objects.len();
+    let count = numbers.map(|number| places_of(number).map_or(1, Vec::len));
     let count = count.sum();
     placed.instances.reserve(count);
     placed.objects.instances.reserve(count);
     let mut rest = Vec::new();
     let mut repeated = Vec::new();
     for (number, object) in scene.objects.iter().enumerate() {
-        if let Some(places) = &object.value.instances {
+        if let Some(places) = places_of(number) {
             repeated.push((number, places));
             continue;
         }

@@ -3,7 +3,7 @@
 
 use glam::{DMat4, DVec3};
 
-use crate::scene::description::{Description, InstancePlace, Light};
+use crate::scene::description::{Description, Light};
 
 /// The scene, with everything that has a place moved by an offset.
 pub(super) fn moved(scene: &Description, by: DVec3) -> Description {
@@ -13,11 +13,7 @@ pub(super) fn moved(scene: &Description, by: DVec3) -> Description {
         let object = &mut object.value;
         object.to_world = DMat4::from_translation(by) * object.to_world;
         for place in object.instances.iter_mut().flatten() {
-            let InstancePlace { to_world, .. } = place;
-            for (axis, by) in by.to_array().into_iter().enumerate() {
-                let own = &mut to_world[9 + axis];
-                *own = (f64::from(*own) + by) as f32;
-            }
+            *place = place.moved(by);
         }
     }
     for light in &mut scene.lights {

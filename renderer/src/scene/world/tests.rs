@@ -207,3 +207,98 @@ fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
         );
     }
 }
+
+const STREWN: &str = r#"
+format = 1
+[film.rgb]
+size = [16, 16]
+spp = 1
+[camera.perspective]
+position_m = [0, -1, 1]
+look_at_m = [0, 0, 0]
+vertical_fov_deg = 40
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+[materials.grey.diffuse]
+reflectance = 0.4
+[meshes.floor.rectangle]
+width_m = 0.6
+height_m = 0.6
+[meshes.crumb.lump]
+radius_m = 0.004
+[meshes.card.rectangle]
+width_m = 0.05
+height_m = 0.08
+[objects.floor]
+mesh = "floor"
+material = "grey"
+position_m = [2, 0, 0.5]
+[objects.crumbs]
+mesh = "crumb"
+material = "grey"
+scatter = { on = "floor", count = 300, settle = true, seed = 3 }
+[objects.cards]
+mesh = ["card", "crumb"]
+material = "grey"
+rotate_deg = [0, 0, 30]
+scale = 0.8
+scatter = { on = "floor", over = "crumbs", per_m2 = 50, settle = true, tilt_deg = 20 }
+"#;
+
+fn strewn(overrides: &[String]) -> Result<World, String> {
+    let loaded = parse(STREWN, "scene.toml", Path::new("."), overrides);
+    let scene = loaded
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .description;
+    World::build(&scene).map_err(|error| error.to_string())
+}
+
+#[test]
+fn things_lie_on_the_floor_and_on_those_before_them() {
+    let world = strewn(&[]).expect("there is room");
+    let [crumbs, cards] = [1, 2].map(|object| &world.strewn[&object]);
+    assert_eq!((crumbs.len(), cards.len()), (300, 18));
+    assert_eq!(world.objects.len(), 1 + 300 + 18);
+    for place in crumbs {
+        let [.., x, y, z] = place.to_world;
+        assert!((1.7..=2.3).contains(&x) && y.abs() <= 0.3, "{x} {y}");
+        assert!((0.5..0.51).contains(&z), "{z}");
+    }
+    let on_crumbs = cards.iter().filter(|place| place.to_world[11] > 0.503);
+    assert!(on_crumbs.count() > 2);
+    for place in cards {
+        let scale = place.matrix().x_axis.length();
+        assert!((scale - 0.8).abs() < 1e-6, "{scale}");
+    }
+}
+
+#[test]
+fn what_is_strewn_lies_the_same_far_from_the_origin() {
+    let near = strewn(&[]).expect("there is room");
+    let moved = [
+        "objects.floor.position_m=[1002,0,0.5]",
+        "camera.perspective.position_m=[1000,-1,1]",
+        "camera.perspective.look_at_m=[1000,0,0]",
+    ];
+    let far = strewn(&moved.map(str::to_owned)).expect("there is room");
+    assert_ne!(far.origin, glam::DVec3::ZERO);
+    for (object, places) in &near.strewn {
+        for (near, far) in places.iter().zip(&far.strewn[object]) {
+            let off = far.matrix().w_axis - near.matrix().w_axis;
+            assert!(
+                (off - glam::DVec3::X.extend(0.0) * 1000.0).length() < 1e-4,
+                "{off}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_floor_that_is_full_is_told() {
+    let crowd = ["objects.crumbs.scatter.least_distance_mm=100".to_owned()];
+    let error = strewn(&crowd).expect_err("there is no room");
+    assert!(
+        error.starts_with("objects.crumbs.scatter: there is room for ") && error.contains("of 300"),
+        "{error}"
+    );
+}

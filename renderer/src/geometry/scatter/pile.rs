@@ -1,0 +1,226 @@
+//! What lies on the ground, as the greatest height over each cell of a grid.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::body::Body;
+use super::rest::{Contact, support};
+
+/// Cells along the radius of the smallest body.
+const CELLS_PER_RADIUS: f64 = 100.0;
+/// Most cells of a pile (128 MiB).
+const MOST_CELLS: f64 = 16_777_216.0;
+/// Times that a body is turned on its way to rest.
+const TURNS: usize = 40;
+/// Steepest slope over which a body turns at once.
+const STEEPEST: f64 = 0.4;
+/// Slope below which a body lies still.
+const STILL: f64 = 5e-4;
+/// Slope over which a body still wants to turn where it found no rest, as on an edge from which it
+/// would slip.
+const UNSTEADY: f64 = 0.01;
+/// Slope of what a body lies on from which it would slide: the friction of leaf litter, by eye.
+const FRICTION: f64 = 0.7;
+
+/// The greatest height of everything over each cell of the ground plan, m; −∞ where nothing is.
+#[derive(Debug)]
+pub(super) struct Pile {
+    origin: DVec2,
+    cell: f64,
+    size: [usize; 2],
+    heights: Vec<f64>,
+}
+
+/// A cell that a triangle's plan may touch, with bounds of its height there.
+#[derive(Clone, Copy, Debug)]
+struct Covered {
+    index: usize,
+    low: f64,
+    high: f64,
+}
+
+impl Pile {
+    /// A pile over the rectangle of the ground plan, and as far around it as bodies reach; the
+    /// smallest body sets how fine it is.
+    pub(super) fn over([least, most]: [DVec2; 2], reach: f64, smallest: f64) -> Self {
+        let extent = most - least + 2.0 * reach;
+        let cell = smallest / CELLS_PER_RADIUS;
+        let cell = cell.max((extent.x * extent.y / MOST_CELLS).sqrt());
+        // One more on each side, so that what touches the border has a cell.
+        let size = (extent / cell).to_array().map(|n| n as usize + 3);
+        Self {
+            origin: least - reach - cell,
+            cell,
+            size,
+            heights: vec![f64::NEG_INFINITY; size[0] * size[1]],
+        }
+    }
+
+    /// Adds triangles of the world.
+    pub(super) fn add_all(&mut self, triangles: &[[DVec3; 3]]) {
+        let mut covered = Vec::new();
+        for triangle in triangles {
+            covered.clear();
+            self.cover(*triangle, &mut covered);
+            self.raise(&covered, 0.0);
+        }
+    }
+
+    fn raise(&mut self, covered: &[Covered], by: f64) {
+        for at in covered {
+            let height = &mut self.heights[at.index];
+            *height = height.max(at.high + by);
+        }
+    }
+
+    /// The height over the cell of a point.
+    fn height(&self, at: DVec2) -> f64 {
+        let place = (at - self.origin) / self.cell;
+        let inside = |x: f64, size: usize| (0.0..size as f64).contains(&x).then_some(x as usize);
+        match (inside(place.x, self.size[0]), inside(place.y, self.size[1])) {
+            (Some(x), Some(y)) => self.heights[y * self.size[0] + x],
+            (_, _) => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Cells that the plan of a triangle touches, with the least and greatest height of its plane
+    /// there, within those of the triangle.
+    fn cover(&self, triangle: [DVec3; 3], covered: &mut Vec<Covered>) {
+        let corners = triangle.map(|corner| (corner.truncate() - self.origin) / self.cell);
+        let [a, b, c] = corners;
+        let least = a.min(b).min(c).floor().max(DVec2::ZERO);
+        let most = a.max(b).max(c).floor();
+        let last = DVec2::new(self.size[0] as f64 - 1.0, self.size[1] as f64 - 1.0);
+        let most = most.min(last);
+        if least.x > most.x || least.y > most.y {
+            return;
+        }
+        let [z0, z1, z2] = triangle.map(|corner| corner.z);
+        let (bottom, top) = (z0.min(z1).min(z2), z0.max(z1).max(z2));
+        let double_area = (b - a).perp_dot(c - a);
+        // Height per cell along x and y; of an upright triangle nothing but its ends is known.
+        let slope = DVec2::new(
+            (z1 - z0) * (c - a).y - (z2 - z0) * (b - a).y,
+            (z2 - z0) * (b - a).x - (z1 - z0) * (c - a).x,
+        ) / double_area;
+        let is_upright = !slope.is_finite();
+        let within = 0.5 * (slope.x.abs() + slope.y.abs());
+        let edges = [[a, b], [b, c], [c, a]];
+        for y in least.y as usize..=most.y as usize {
+            for x in least.x as usize..=most.x as usize {
+                let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+                let touches = edges.iter().all(|[from, to]| {
+                    let along = (*to - *from) * double_area.signum();
+                    let inside = along.perp_dot(middle - *from);
+                    inside + 0.5 * (along.x.abs() + along.y.abs()) >= -1e-9
+                });
+                if !touches {
+                    continue;
+                }
+                let height = z0 + slope.dot(middle - a);
+                let (low, high) = if is_upright {
+                    (bottom, top)
+                } else {
+                    let low = (height - within).clamp(bottom, top);
+                    (low, (height + within).clamp(bottom, top))
+                };
+                covered.push(Covered {
+                    index: y * self.size[0] + x,
+                    low,
+                    high,
+                });
+            }
+        }
+    }
+
+    /// How far what covers a cell must be lifted; `None` if nothing lies below.
+    fn contact(&self, covered: &Covered, at: DVec2) -> Option<Contact> {
+        let lift = self.heights[covered.index] - covered.low;
+        let [across, _] = self.size;
+        let cell = [covered.index % across, covered.index / across];
+        let middle = DVec2::from_array(cell.map(|n| n as f64 + 0.5));
+        lift.is_finite().then(|| Contact {
+            at: self.origin + self.cell * middle - at,
+            lift,
+            height: self.heights[covered.index],
+        })
+    }
+
+    /// Lets a body fall straight down over a point of the plan, lets it turn until it lies still,
+    /// and adds it. `posture` holds its first turn and its size. Returns its last posture and the
+    /// place of its centre of mass; `None` if nothing holds it there, or it finds no rest.
+    pub(super) fn settle(
+        &mut self,
+        body: &Body,
+        posture: DMat3,
+        at: DVec2,
+        gap: f64,
+    ) -> Option<(DMat3, DVec3)> {
+        let mut posture = posture;
+        let place = at.extend(0.0);
+        let mut covered = Vec::new();
+        let mut contacts = Vec::new();
+        // First by some corners, then by all of it: a corner of what lies below may touch a face.
+        let mut is_fine = false;
+        let (mut before, mut share) = (DVec2::ZERO, 1.0);
+        let (mut steep, mut steepness) = (0.0, 0.0);
+        for turns in 0..TURNS {
+            contacts.clear();
+            if is_fine {
+                covered.clear();
+                for triangle in body.triangles() {
+                    let triangle = triangle.map(|corner| posture * corner + place);
+                    self.cover(triangle, &mut covered);
+                }
+                let cells = covered
+                    .iter()
+                    .filter_map(|covered| self.contact(covered, at));
+                contacts.extend(cells);
+            } else {
+                contacts.extend(body.probes().filter_map(|probe| {
+                    let probe = posture * probe;
+                    let height = self.height(at + probe.truncate());
+                    height.is_finite().then(|| Contact {
+                        at: probe.truncate(),
+                        lift: height - probe.z,
+                        height,
+                    })
+                }));
+            }
+            let lies = support(&contacts)?;
+            let slope = lies.slope;
+            steepness = lies.steepness;
+            // Between two contacts that take turns a body would rock for ever.
+            if slope.dot(before) < 0.0 {
+                share *= 0.5;
+            }
+            before = slope;
+            steep = slope.length();
+            let slope = slope * share * (STEEPEST / steep).min(1.0);
+            if slope.length() < STILL {
+                if is_fine {
+                    break;
+                }
+                (is_fine, share) = (true, 1.0);
+                continue;
+            }
+            posture = super::from_z((-slope).extend(1.0).normalize()) * posture;
+            is_fine |= 2 * turns > TURNS;
+        }
+        if steep > UNSTEADY || steepness > FRICTION {
+            return None;
+        }
+        covered.clear();
+        for triangle in body.triangles() {
+            let triangle = triangle.map(|corner| posture * corner + place);
+            self.cover(triangle, &mut covered);
+        }
+        let lifts = covered.iter();
+        let lifts = lifts.map(|covered| self.heights[covered.index] - covered.low);
+        let lift = lifts.fold(f64::NEG_INFINITY, f64::max) + gap;
+        if !lift.is_finite() {
+            return None;
+        }
+        self.raise(&covered, lift);
+        Some((posture, at.extend(lift)))
+    }
+}

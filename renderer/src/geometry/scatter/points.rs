@@ -1,0 +1,164 @@
+//! Random points of a surface, and the distances between them.
+
+use std::collections::HashMap;
+
+use glam::{DAffine3, DVec2, DVec3};
+
+use crate::geometry::TriangleMesh;
+
+/// A surface in the world.
+#[derive(Clone, Debug, Default)]
+pub struct Ground {
+    triangles: Vec<[DVec3; 3]>,
+}
+
+impl Ground {
+    /// The surface of some meshes in their places.
+    pub fn of<'a>(parts: impl IntoIterator<Item = (&'a TriangleMesh, DAffine3)>) -> Self {
+        let mut triangles = Vec::new();
+        for (mesh, place) in parts {
+            let corner =
+                |vertex: u32| place.transform_point3(mesh.positions()[vertex as usize].as_dvec3());
+            // A place that mirrors would turn what faces up down.
+            let mirrors = place.matrix3.determinant() < 0.0;
+            triangles.extend(mesh.triangles().iter().map(|triangle| {
+                let [a, b, c] = triangle.map(corner);
+                if mirrors { [a, c, b] } else { [a, b, c] }
+            }));
+        }
+        Self { triangles }
+    }
+
+    /// Its triangles.
+    pub fn triangles(&self) -> &[[DVec3; 3]] {
+        &self.triangles
+    }
+
+    /// What of it counts: all that is in a rectangle of the plan, by area, or what of that faces
+    /// up, by the area of its plan.
+    pub(super) fn measure(&self, within: Option<[DVec2; 2]>, plan: bool) -> Measure {
+        let mut measure = Measure::default();
+        for triangle in &self.triangles {
+            match within {
+                None => measure.add(*triangle, plan),
+                Some(rectangle) => {
+                    let polygon = clipped(triangle, rectangle);
+                    for pair in polygon.windows(2).skip(1) {
+                        measure.add([polygon[0], pair[0], pair[1]], plan);
+                    }
+                }
+            }
+        }
+        measure
+    }
+}
+
+/// The part of a triangle over a rectangle of the plan: a convex polygon, perhaps empty
+/// (Sutherland and Hodgman 1974).
+fn clipped(triangle: &[DVec3; 3], [least, most]: [DVec2; 2]) -> Vec<DVec3> {
+    let mut polygon = triangle.to_vec();
+    for (axis, bound, sign) in [
+        (0, least.x, 1.0),
+        (0, most.x, -1.0),
+        (1, least.y, 1.0),
+        (1, most.y, -1.0),
+    ] {
+        let inside = |point: DVec3| sign * (point[axis] - bound);
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (number, &point) in polygon.iter().enumerate() {
+            let next = polygon[(number + 1) % polygon.len()];
+            let (here, there) = (inside(point), inside(next));
+            if here >= 0.0 {
+                kept.push(point);
+            }
+            if here * there < 0.0 {
+                kept.push(point.lerp(next, here / (here - there)));
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}
+
+/// Triangles with running sums of their areas.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Measure {
+    triangles: Vec<[DVec3; 3]>,
+    sums: Vec<f64>,
+}
+
+impl Measure {
+    fn add(&mut self, triangle: [DVec3; 3], plan: bool) {
+        let [a, b, c] = triangle;
+        let cross = (b - a).cross(c - a);
+        let area = 0.5 * if plan { cross.z } else { cross.length() };
+        if area > 0.0 {
+            self.triangles.push(triangle);
+            self.sums.push(self.total() + area);
+        }
+    }
+
+    /// The whole area, m².
+    pub(super) fn total(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    /// Least and greatest x and y.
+    pub(super) fn bounds(&self) -> [DVec2; 2] {
+        let corners = self.triangles.iter().flatten();
+        corners.fold(
+            [DVec2::INFINITY, DVec2::NEG_INFINITY],
+            |[least, most], p| [least.min(p.truncate()), most.max(p.truncate())],
+        )
+    }
+
+    /// A point, each equally likely, with the normal of its triangle.
+    pub(super) fn point(&self, [which, across, along]: [f64; 3]) -> (DVec3, DVec3) {
+        let sum = which * self.total();
+        let number = self.sums.partition_point(|&to_here| to_here <= sum);
+        let [a, b, c] = self.triangles[number.min(self.triangles.len() - 1)];
+        let root = across.sqrt();
+        let point = a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along);
+        (point, (b - a).cross(c - a).normalize_or(DVec3::Z))
+    }
+}
+
+/// Points that keep a distance from one another.
+#[derive(Clone, Debug)]
+pub(super) struct Spaced {
+    least: f64,
+    points: HashMap<[i64; 3], Vec<DVec3>>,
+}
+
+impl Spaced {
+    pub(super) fn new(least: f64) -> Self {
+        Self {
+            least,
+            points: HashMap::new(),
+        }
+    }
+
+    /// Whether a point is far enough from all that are taken.
+    pub(super) fn has_room(&self, point: DVec3) -> bool {
+        if self.least <= 0.0 {
+            return true;
+        }
+        let [x, y, z] = self.cell(point);
+        let near = (x - 1..=x + 1).flat_map(|x| {
+            (y - 1..=y + 1).flat_map(move |y| (z - 1..=z + 1).map(move |z| [x, y, z]))
+        });
+        let mut near = near.filter_map(|cell| self.points.get(&cell)).flatten();
+        near.all(|other| other.distance(point) >= self.least)
+    }
+
+    pub(super) fn take(&mut self, point: DVec3) {
+        if self.least > 0.0 {
+            let cell = self.cell(point);
+            self.points.entry(cell).or_default().push(point);
+        }
+    }
+
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        (point / self.least).to_array().map(|x| x.floor() as i64)
+    }
+}

@@ -1,0 +1,113 @@
+//! Uneven ground.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, Vec2, Vec3};
+
+use super::random;
+use crate::geometry::{MeshError, TriangleMesh};
+
+/// A rectangle around the origin whose height is a sum of waves with random directions and phases.
+/// A wave of length λ has an amplitude ∝ λ^H, with H the roughness exponent (Hurst): a profile of
+/// natural soil has some 0.5 to 0.9.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terrain {
+    /// Extent along x and y, m.
+    pub size: [f64; 2],
+    /// Standard deviation of the height, m.
+    pub deviation: f64,
+    /// Longest and shortest wave, m.
+    pub waves: [f64; 2],
+    /// H, 0 to 1.
+    pub exponent: f64,
+    /// Same numbers and seed, same ground.
+    pub seed: u64,
+}
+
+/// Number of waves.
+const WAVES: u64 = 192;
+/// Vertices along the shortest wave.
+const PER_WAVE: f64 = 6.0;
+
+/// A wave: its vector (rad/m), amplitude (m) and phase.
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    vector: DVec2,
+    amplitude: f64,
+    phase: f64,
+}
+
+impl Terrain {
+    /// Number of squares along x and y.
+    pub fn squares(&self) -> [f64; 2] {
+        let edge = self.waves[1] / PER_WAVE;
+        self.size.map(|size| (size / edge).ceil().max(1.0))
+    }
+
+    /// Its mesh, with exact normals.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError`] if it has too many triangles, or is too large or too small for single
+    /// precision.
+    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
+        let waves = self.spectrum();
+        let [across, along] = self.squares().map(|count| count as u32);
+        let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
+        for y in 0..=along {
+            for x in 0..=across {
+                let uv = DVec2::new(
+                    f64::from(x) / f64::from(across),
+                    f64::from(y) / f64::from(along),
+                );
+                let at = (uv - 0.5) * DVec2::from_array(self.size);
+                let (mut height, mut slope) = (0.0, DVec2::ZERO);
+                for wave in &waves {
+                    let (sin, cos) = libm::sincos(wave.vector.dot(at) + wave.phase);
+                    height += wave.amplitude * cos;
+                    slope -= wave.amplitude * sin * wave.vector;
+                }
+                positions.push(at.extend(height).as_vec3());
+                normals.push((-slope).extend(1.0).normalize().as_vec3());
+                uvs.push(uv.as_vec2());
+            }
+        }
+        let corner = |x: u32, y: u32| y * (across + 1) + x;
+        let squares = (0..along).flat_map(|y| (0..across).map(move |x| (x, y)));
+        let triangles = squares.flat_map(|(x, y)| {
+            let [a, b] = [corner(x, y), corner(x + 1, y)];
+            let [c, d] = [corner(x + 1, y + 1), corner(x, y + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let (positions, normals): (Vec<Vec3>, Vec<Vec3>) = (positions, normals);
+        let uvs: Vec<Vec2> = uvs;
+        TriangleMesh::new(positions, Some(normals), Some(uvs), triangles.collect())
+    }
+
+    /// Waves whose lengths are spread evenly on a logarithmic scale.
+    fn spectrum(&self) -> Vec<Wave> {
+        let [longest, shortest] = self.waves;
+        let waves = (0..WAVES).map(|number| {
+            let at = |what: u64| random(self.seed, 4 * number + what);
+            let share = (number as f64 + at(0)) / WAVES as f64;
+            let length = longest * libm::pow(shortest / longest, share);
+            let (sin, cos) = libm::sincos(TAU * at(1));
+            Wave {
+                vector: DVec2::new(cos, sin) * (TAU / length),
+                amplitude: libm::pow(length, self.exponent),
+                phase: TAU * at(2),
+            }
+        });
+        let mut waves: Vec<Wave> = waves.collect();
+        // The variance of a sum of waves is half the sum of their squares.
+        let variance: f64 = waves
+            .iter()
+            .map(|wave| 0.5 * wave.amplitude * wave.amplitude)
+            .sum();
+        let scale = self.deviation / variance.sqrt();
+        for wave in &mut waves {
+            wave.amplitude *= scale;
+        }
+        waves
+    }
+}

@@ -1,0 +1,110 @@
+//! What stands in a scene, and where.
+
+use glam::{DMat4, DVec3};
+
+use crate::geometry::scatter::Scatter;
+
+/// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
+/// instances.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its shapes, at least one. Without instances there is exactly one.
+    pub shapes: Vec<ObjectShape>,
+    /// Local to world, metres, affine and invertible. For instances, the frame in which their
+    /// places are given; for what is strewn, what is done with the shape before.
+    pub to_world: DMat4,
+    /// The places of instances; `None` means the single place `to_world`.
+    pub instances: Option<Vec<InstancePlace>>,
+    /// The plant that it is, index into [`Description::plants`](super::Description::plants). Its parts are the shapes then.
+    pub plant: Option<usize>,
+    /// Where it is strewn; its places follow when the world is built. The parts of a plant then
+    /// have their places in the plant's frame.
+    pub strewn: Option<Box<StrewnOn>>,
+}
+
+/// Where copies of an object are strewn.
+#[derive(Clone, Debug)]
+pub struct StrewnOn {
+    /// The object on which they lie.
+    pub on: usize,
+    /// Further objects that what comes to rest does not fall through.
+    pub over: Vec<usize>,
+    /// How many and how.
+    pub plan: Scatter,
+    /// Different leaves of each kind that are grown.
+    pub individuals: u32,
+    /// The days of ageing of the first and the last of these; `None` leaves them as they are.
+    pub days: Option<[f64; 2]>,
+}
+
+/// The place and shape of one instance of an object.
+///
+/// It takes 52 bytes, since a scene may have millions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InstancePlace {
+    /// Index into [`Object::shapes`].
+    pub shape: u32,
+    /// Local to world, metres, [`Object::to_world`] included: the three columns of the linear part,
+    /// then the translation.
+    pub to_world: [f32; 12],
+}
+
+impl InstancePlace {
+    /// A shape in the world, in single precision.
+    pub fn new(shape: u32, to_world: DMat4) -> Self {
+        let columns = [
+            to_world.x_axis,
+            to_world.y_axis,
+            to_world.z_axis,
+            to_world.w_axis,
+        ];
+        Self {
+            shape,
+            to_world: std::array::from_fn(|i| columns[i / 3][i % 3] as f32),
+        }
+    }
+
+    /// This place, moved by an offset.
+    #[must_use]
+    pub fn moved(mut self, by: DVec3) -> Self {
+        for (own, by) in self.to_world[9..].iter_mut().zip(by.to_array()) {
+            *own = (f64::from(*own) + by) as f32;
+        }
+        self
+    }
+
+    /// Local to world.
+    pub fn matrix(&self) -> DMat4 {
+        let column = |at: usize| {
+            DVec3::from_array(std::array::from_fn(|i| f64::from(self.to_world[at + i])))
+        };
+        DMat4::from_cols(
+            column(0).extend(0.0),
+            column(3).extend(0.0),
+            column(6).extend(0.0),
+            column(9).extend(1.0),
+        )
+    }
+}
+
+/// The shape of an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ObjectShape {
+    /// A mesh with a material.
+    Mesh {
+        /// Index into [`Description::meshes`](super::Description::meshes).
+        mesh: usize,
+        /// Index into [`Description::materials`](super::Description::materials).
+        material: usize,
+    },
+    /// A grown leaf (base at the origin, midrib along +y, adaxial side +z).
+    Leaf {
+        /// Index into [`Description::leaves`](super::Description::leaves).
+        leaf: usize,
+    },
+    /// A grown body of solid tissue, in the frame of its shape.
+    Solid {
+        /// Index into [`Description::solids`](super::Description::solids).
+        solid: usize,
+    },
+}

@@ -1,0 +1,131 @@
+//! Places for objects that are strewn on others.
+
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DMat4, DVec3};
+
+use super::WorldError;
+use super::placing::Pieces;
+use crate::geometry::TriangleMesh;
+use crate::geometry::scatter::{Body, Ground, MOST_THINGS, ScatterError};
+use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
+
+/// The shape of each copy and its place in the scene's frame, by object.
+type Places = BTreeMap<usize, Vec<(u32, DMat4)>>;
+
+/// Places in single precision, with the origin at `origin` in the scene.
+pub(super) fn around(places: &Places, origin: DVec3) -> BTreeMap<usize, Vec<InstancePlace>> {
+    let to_origin = DMat4::from_translation(-origin);
+    let all = places.iter().map(|(object, places)| {
+        let places = places.iter();
+        let places = places.map(|(shape, place)| InstancePlace::new(*shape, to_origin * *place));
+        (*object, places.collect())
+    });
+    all.collect()
+}
+
+/// What the places of strewn objects depend on. It works in the scene's frame as written, in double
+/// precision, so that places do not depend on where the camera stands.
+#[derive(Debug)]
+pub(super) struct Strewing<'a> {
+    meshes: &'a [TriangleMesh],
+    pieces: &'a Pieces,
+    objects: &'a [Named<Object>],
+    /// Places found so far.
+    found: Places,
+}
+
+impl<'a> Strewing<'a> {
+    pub(super) fn new(
+        meshes: &'a [TriangleMesh],
+        pieces: &'a Pieces,
+        objects: &'a [Named<Object>],
+    ) -> Self {
+        Self {
+            meshes,
+            pieces,
+            objects,
+            found: BTreeMap::new(),
+        }
+    }
+
+    /// The places of each object that is strewn, by its number.
+    pub(super) fn all(mut self) -> Result<Places, WorldError> {
+        for (number, object) in self.objects.iter().enumerate() {
+            if let Some(strewn) = &object.value.strewn {
+                let places = self.strew(&object.value, strewn);
+                let places = places.map_err(|source| WorldError::Scatter {
+                    name: object.name.clone(),
+                    source,
+                })?;
+                self.found.insert(number, places);
+            }
+        }
+        Ok(self.found)
+    }
+
+    fn strew(&self, object: &Object, strewn: &StrewnOn) -> Result<Vec<(u32, DMat4)>, ScatterError> {
+        let ground = Ground::of(self.standing(strewn.on));
+        let mut others: Vec<[DVec3; 3]> = Vec::new();
+        for &over in &strewn.over {
+            others.extend_from_slice(Ground::of(self.standing(over)).triangles());
+        }
+        // A plant is strewn as a whole.
+        let group = object.instances.as_deref();
+        let bodies: Vec<Body> = match group {
+            Some(_) => vec![Body::of(self.parts(object.shapes[0], object.to_world))],
+            None => {
+                let shapes = object.shapes.iter();
+                shapes
+                    .map(|shape| Body::of(self.parts(*shape, object.to_world)))
+                    .collect()
+            }
+        };
+        let places = strewn.plan.places(&ground, &others, &bodies)?;
+        let parts = group.map_or(1, <[_]>::len);
+        if places.len() * parts > MOST_THINGS {
+            return Err(ScatterError::TooMany {
+                wanted: (places.len() * parts) as f64,
+                most: MOST_THINGS,
+            });
+        }
+        let found = places.iter().flat_map(|place| {
+            let stand = DMat4::from(place.to_world);
+            let own = (place.body, stand * object.to_world);
+            let group = group.into_iter().flatten();
+            let parts = group.map(move |part| (part.shape, stand * part.matrix()));
+            let alone = object.instances.is_none().then_some(own);
+            alone.into_iter().chain(parts)
+        });
+        Ok(found.collect())
+    }
+
+    /// The meshes of a shape in their places.
+    fn parts(
+        &self,
+        shape: ObjectShape,
+        to_world: DMat4,
+    ) -> impl Iterator<Item = (&'a TriangleMesh, DAffine3)> {
+        let to_world = DAffine3::from_mat4(to_world);
+        let (meshes, pieces) = (self.meshes, self.pieces.of(shape).into_iter());
+        pieces.map(move |piece| (&meshes[piece.mesh], to_world * piece.to_leaf))
+    }
+
+    /// The meshes of an object in all of its places.
+    fn standing(&self, number: usize) -> impl Iterator<Item = (&'a TriangleMesh, DAffine3)> {
+        let object = &self.objects[number].value;
+        let shape = |number: u32| object.shapes[number as usize];
+        let places: Vec<(ObjectShape, DMat4)> = match (self.found.get(&number), &object.instances) {
+            (Some(places), _) => places.iter().map(|(own, at)| (shape(*own), *at)).collect(),
+            (None, Some(places)) => places
+                .iter()
+                .map(|place| (shape(place.shape), place.matrix()))
+                .collect(),
+            (None, None) => vec![(shape(0), object.to_world)],
+        };
+        let parts = places
+            .into_iter()
+            .map(|(shape, to_world)| self.parts(shape, to_world).collect::<Vec<_>>());
+        parts.collect::<Vec<_>>().into_iter().flatten()
+    }
+}
