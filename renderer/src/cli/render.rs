@@ -36,12 +36,13 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         .map_err(Failure::system)?;
     // As many leaves grow at a time as there are threads.
     pool.install(|| needs::check(&loaded.description, arguments.memory))?;
-    let plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
+    let mut plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
     let scene = loaded.description;
     let job = plan.heading.job;
     let patience = Patience::building(scene.leaves.len());
     let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
+    plan.heading.caption.camera = world.view.clone();
     for note in &world.notes {
         eprintln!("note: {note}");
     }

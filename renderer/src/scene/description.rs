@@ -3,6 +3,8 @@
 //! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
 //! same input.
 
+mod camera;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,7 +16,7 @@ use leafmodel::optics::Pigments;
 use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
-pub use crate::camera::view::View as Camera;
+pub use self::camera::{Camera, FocusObject};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;

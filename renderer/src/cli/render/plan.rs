@@ -141,7 +141,8 @@ impl Plan {
             },
             whole: arguments.samples.and(arguments.spp),
             aim,
-            caption: Caption::of(&loaded.description),
+            // The focus on an object is known when that has grown.
+            caption: Caption::of(&loaded.description, &loaded.description.camera.view),
         };
         check_part(arguments, &heading)?;
         if let Some((kept, begun)) = &before {
