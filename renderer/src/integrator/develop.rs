@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use crate::camera::view::{Projection, View};
+use crate::film::Film;
 use crate::image::openexr::spectral_attributes;
 use crate::image::{Attribute, Layer, Picture, REC709};
 use crate::integrator::caption::Caption;
 use crate::integrator::features::Quantity;
-use crate::integrator::layers::{FilmLayer, Source};
+use crate::integrator::layers::{FilmLayer, Layout, Source};
 use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::FilmKind;
 use crate::scene::fingerprint::fnv1a;
@@ -18,27 +19,51 @@ use crate::spectrum::WavelengthSampler;
 ///
 /// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
 pub fn develop(caption: &Caption, job: &Job, rendered: &Rendered) -> Picture {
-    let mut layers = Vec::new();
-    for layer in rendered.layout.layers() {
-        let names = layer.channel_names(&caption.kind);
-        for (channel, name) in names.into_iter().enumerate() {
-            let data = developed(layer, channel, &caption.camera, rendered);
-            layers.push(Layer { name, data });
-        }
-    }
     Picture {
         width: job.width,
         height: job.height,
-        layers,
+        layers: layers(caption, &rendered.film, rendered.layout, |_| true),
         attributes: attributes(caption, job, rendered),
     }
 }
 
+/// What is seen of a film, finished or not: its radiance and what covers it, without attributes.
+pub fn seen(caption: &Caption, film: &Film, layout: Layout) -> Picture {
+    Picture {
+        width: film.width(),
+        height: film.height(),
+        layers: layers(caption, film, layout, |layer| layer.name.is_empty()),
+        attributes: Vec::new(),
+    }
+}
+
+fn layers(
+    caption: &Caption,
+    film: &Film,
+    layout: Layout,
+    wanted: impl Fn(&FilmLayer) -> bool,
+) -> Vec<Layer> {
+    let mut layers = Vec::new();
+    for layer in layout.layers().filter(|layer| wanted(layer)) {
+        let names = layer.channel_names(&caption.kind);
+        for (channel, name) in names.into_iter().enumerate() {
+            let data = developed(layer, channel, &caption.camera, film, layout);
+            layers.push(Layer { name, data });
+        }
+    }
+    layers
+}
+
 /// The values of one channel of a layer.
-fn developed(layer: &FilmLayer, channel: usize, camera: &View, rendered: &Rendered) -> Vec<f32> {
-    let film = &rendered.film;
+fn developed(
+    layer: &FilmLayer,
+    channel: usize,
+    camera: &View,
+    film: &Film,
+    layout: Layout,
+) -> Vec<f32> {
     let first_feature = |name| {
-        let first = rendered.layout.first_feature(name);
+        let first = layout.first_feature(name);
         first.expect("a film has what its layers are made of")
     };
     match layer.source {
