@@ -95,8 +95,9 @@ pub struct ThinLens {
 pub enum LensError {
     /// There is no film distance for it.
     #[error(
-        "the sharp plane is {distance:.6} m from the lens, not farther than the focal length of \
-         {focal_length:.6} m"
+        "the sharp plane is {} m from the lens, not farther than the focal length of {} m",
+        short(*distance),
+        short(*focal_length)
     )]
     TooNear {
         /// Distance of the sharp plane along the axis.
@@ -105,7 +106,7 @@ pub enum LensError {
         focal_length: f64,
     },
     /// The point is not in front of the lens.
-    #[error("the point that is to be sharp lies {behind:.6} m behind the lens")]
+    #[error("the point that is to be sharp lies {} m behind the lens", short(*behind))]
     Behind {
         /// How far.
         behind: f64,
@@ -117,7 +118,8 @@ pub enum LensError {
     OffAxis,
     /// The picture would show more or less than a camera can.
     #[error(
-        "the picture spans {degrees:.4}° from its lower to its upper edge, outside 0.01 to 170"
+        "the picture spans {}° from its lower to its upper edge, outside 0.01 to 170",
+        short(*degrees)
     )]
     Angle {
         /// The angle.
@@ -126,6 +128,11 @@ pub enum LensError {
     /// The focal length is not known beforehand.
     #[error("a magnification needs a focal length")]
     NoFocalLength,
+}
+
+/// A number as messages show it, with at most six decimals.
+fn short(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 impl Lens {

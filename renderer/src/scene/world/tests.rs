@@ -266,11 +266,8 @@ fn a_camera_focuses_on_the_middle_of_an_object_in_all_its_places() {
         assert!((lens.image_distance - image).abs() < 1e-12);
     }
     for (places, problem) in [
-        ("0 -1 0", "lies 2.000000 m behind the lens"),
-        (
-            "0 0.045 0",
-            "not farther than the focal length of 0.100000 m",
-        ),
+        ("0 -1 0", "lies 2 m behind the lens"),
+        ("0 0.045 0", "not farther than the focal length of 0.1 m"),
     ] {
         let error = focused(0, places).expect_err("it cannot be sharp");
         let error = error.to_string();
