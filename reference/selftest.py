@@ -586,7 +586,8 @@ def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
 BEYOND_A_SCHEMA = """
     area_light bands camera_at_itself camera_upside compound_bipinnate compound_overlap
     compound_pair compound_palmate compound_palmate_round coverage dark_light energy
-    file_missing growth_arrival growth_steps instances_flood instances_rows leaf_individual matrix
+    file_missing growth_arrival growth_steps instances_flood instances_rows leaf_individual
+    lens_angle lens_behind lens_blades lens_magnification lens_near lens_object lens_tilt matrix
     mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells

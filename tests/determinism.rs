@@ -67,8 +67,8 @@ fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
         let rendered = render_until(&world, &job, &halt, &go_on, &|_| ()).expect("it fits");
         let folder = tempfile::tempdir().expect("a place for temporary files");
         let path = folder.path().join("picture.exr");
-        openexr::write(&develop(&Caption::of(&scene), &job, &rendered), &path)
-            .expect("it is written");
+        let caption = Caption::of(&scene, &world.view);
+        openexr::write(&develop(&caption, &job, &rendered), &path).expect("it is written");
         let bytes = std::fs::read(&path).expect("it was just written");
         (rendered, bytes)
     })

@@ -9,6 +9,7 @@ use tempfile::TempDir;
 
 mod accepted;
 mod book;
+mod cameras;
 mod leaves;
 mod refused;
 mod schema;

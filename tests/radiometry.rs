@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use renderer::film::Pixel;
 use renderer::integrator::render::Halt;
 use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of, picture_until};
 
@@ -304,4 +305,56 @@ radiance_w_m2_sr_nm = 1
     let camera = "position_m = [0, -0.2, 0.05]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 24";
     let mean = mean_of(&picture_of(&scene(camera, "", blocks), 1), 0);
     assert!((mean - 1.0).abs() < 1e-4, "{mean}");
+}
+
+#[test]
+fn a_cats_eye_darkens_the_picture_by_the_share_that_it_covers() {
+    // Everything that is seen has the radiance 1.
+    let blocks = glowing_room("0.6", 0.4);
+    let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 40\n\
+                  aperture_diameter_mm = 20\ncats_eye = 0.8";
+    let text = scene(camera, "", &blocks).replace("spp = 64", "spp = 256\nfilter_radius_px = 0");
+    // Of two equal discs 2 q radii apart this share overlaps; q grows to 0.8 in the corners.
+    let steps = 200;
+    let at = |i: i32| 2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0;
+    let overlap = |x: f64, y: f64| {
+        let q = 0.8 * x.hypot(y) / 2_f64.sqrt();
+        2.0 / PI * (q.acos() - q * (1.0 - q * q).sqrt())
+    };
+    let places = (0..steps).flat_map(|i| (0..steps).map(move |j| overlap(at(i), at(j))));
+    let expected = places.sum::<f64>() / f64::from(steps * steps);
+    assert_agrees("cat's eye", mean_and_error(&text, 0, 8), expected);
+    // It takes light, but covers nothing that is seen.
+    let picture = picture_of(&text, 1);
+    let covered = picture.film.map(covered_share);
+    assert!(covered.iter().all(|share| *share == 1.0), "{covered:?}");
+}
+
+#[test]
+fn parallel_rays_show_a_sheet_as_large_as_it_is_at_any_distance() {
+    for distance in [0.5, 5.0, 50.0] {
+        let camera = format!(
+            "position_m = [0, 0, {distance}]\nlook_at_m = [0, 0, 0]\nup = [0, 1, 0]\nheight_m = 2"
+        );
+        let blocks = format!("{GREY_FLOOR}[lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n");
+        let text = scene(&camera, "", &blocks)
+            .replace("perspective", "orthographic")
+            .replace("spp = 64", "spp = 4\nfilter_radius_px = 0");
+        let picture = picture_of(&text, 1);
+        let covered = picture.film.map(covered_share);
+        // 1 m of 2: the middle eight of sixteen pixels, each way.
+        let sheet =
+            |pixel: usize| (4..12).contains(&(pixel % 16)) && (4..12).contains(&(pixel / 16));
+        for (pixel, share) in covered.iter().enumerate() {
+            assert_eq!(
+                *share == 1.0,
+                sheet(pixel),
+                "{share} at {pixel}, {distance} m"
+            );
+        }
+    }
+}
+
+fn covered_share(pixel: &Pixel<'_>) -> f64 {
+    pixel.alpha()
 }

@@ -16,6 +16,7 @@ mod heading;
 mod merge;
 #[cfg(test)]
 mod tests;
+mod view;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};

@@ -2,9 +2,12 @@
 
 use glam::{DMat4, DVec3};
 use leafmodel::blade::senescence::AgeSource;
+use renderer::camera::thin_lens::ThinLens;
+use renderer::camera::view::Projection;
 use renderer::geometry::scatter::{Amount, Rest};
 use renderer::scene::description::{
-    Band, Depth, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum, Tone,
+    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum,
+    Tone,
 };
 
 use super::{accept, folder, load, text_of};
@@ -15,6 +18,14 @@ pub(super) fn assert_near(value: f64, expected: f64) {
         (value - expected).abs() <= 1e-14 * expected.abs().max(1.0),
         "{value} is not {expected}"
     );
+}
+
+/// The lens of a scene's camera.
+fn lens_of(scene: &Description) -> &ThinLens {
+    match &scene.camera.view.projection {
+        Projection::Perspective(lens) => lens,
+        Projection::Orthographic { .. } => panic!("parallel rays"),
+    }
 }
 
 #[test]
@@ -55,8 +66,11 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
         (scene.integrator.max_depth, scene.integrator.roulette_below),
         (None, None)
     );
-    assert_eq!((scene.camera.up, scene.camera.lens_radius), (DVec3::Z, 0.0));
-    assert_near(scene.camera.focus_distance, 1.25_f64.sqrt());
+    assert_eq!(
+        (scene.camera.view.up, lens_of(&scene).radius),
+        (DVec3::Z, 0.0)
+    );
+    assert_near(lens_of(&scene).focus_distance, 1.25_f64.sqrt());
     assert_eq!(scene.objects[0].value.to_world, DMat4::IDENTITY);
 }
 
@@ -70,12 +84,18 @@ fn film_and_camera_are_in_si_units() {
         (scene.picture.exposure_ev, scene.picture.tone),
         (-1.5, Tone::Filmic)
     );
-    assert_near(scene.camera.vertical_fov, std::f64::consts::FRAC_PI_2);
+    assert_near(lens_of(&scene).vertical_fov, std::f64::consts::FRAC_PI_2);
+    let iris = lens_of(&scene).iris;
+    assert_eq!((iris.blades, iris.cats_eye), (7, 0.4));
+    assert_near(iris.rotation, 10_f64.to_radians());
+    assert_near(lens_of(&scene).tilt[1], -2_f64.to_radians());
+    // Half of 15 mm at half of 90°.
+    assert_near(lens_of(&scene).image_distance, 0.0075);
     let picture = &scene.picture;
     assert_eq!(picture.depth, Depth::Sixteen);
     assert!(picture.alpha);
-    assert_near(scene.camera.lens_radius, 0.01);
-    assert_near(scene.camera.focus_distance, 2.0);
+    assert_near(lens_of(&scene).radius, 0.01);
+    assert_near(lens_of(&scene).focus_distance, 2.0);
     assert_eq!(
         (scene.integrator.max_depth, scene.integrator.roulette_below),
         (Some(12), Some(0.0))
@@ -369,7 +389,7 @@ fn overrides_replace_and_add_values_and_are_recorded() {
     ];
     let scene = accept(&text_of("minimal.toml"), "minimal.toml", &overrides).description;
     assert_eq!((scene.film.spp, scene.picture.tone), (16, Tone::Filmic));
-    assert_near(scene.camera.vertical_fov, 35.0_f64.to_radians());
+    assert_near(lens_of(&scene).vertical_fov, 35.0_f64.to_radians());
     // What is recorded is the same scene without any override.
     let again = accept(&scene.source, "other.toml", &[]).description;
     assert_eq!(

@@ -75,7 +75,7 @@ pub(super) fn checkpoints() -> Vec<Vec<u8>> {
             job,
             whole: None,
             aim,
-            caption: Caption::of(&description),
+            caption: Caption::of(&description, &world.view),
         };
         let go_on = AtomicBool::new(false);
         let begun = if aim.is_some() {

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::bytes::{Out, Rest};
-use crate::camera::view::View;
+use super::view;
 use crate::image::pixels::Depth;
 use crate::image::tone::Tone;
 use crate::integrator::caption::Caption;
@@ -142,18 +142,7 @@ impl Heading {
                 }
             }
         }
-        let View {
-            position,
-            look_at,
-            up,
-            vertical_fov,
-            lens_radius,
-            focus_distance,
-        } = &caption.camera;
-        for point in [position, look_at, up] {
-            out.doubles(&point.to_array());
-        }
-        out.doubles(&[*vertical_fov, *lens_radius, *focus_distance]);
+        view::put(&caption.camera, &mut out);
         let Picture {
             exposure_ev,
             auto_exposure,
@@ -210,14 +199,7 @@ impl Heading {
                     range_nm: rest.doubles()?,
                 }
             },
-            camera: View {
-                position: rest.doubles()?.into(),
-                look_at: rest.doubles()?.into(),
-                up: rest.doubles()?.into(),
-                vertical_fov: rest.double()?,
-                lens_radius: rest.double()?,
-                focus_distance: rest.double()?,
-            },
+            camera: view::take(rest)?,
             picture: Picture {
                 exposure_ev: rest.double()?,
                 auto_exposure: rest.flag()?,

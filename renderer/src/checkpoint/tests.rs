@@ -55,7 +55,7 @@ impl Stage {
             job,
             whole: None,
             aim,
-            caption: Caption::of(&scene),
+            caption: Caption::of(&scene, &world.view),
         };
         Self { world, heading }
     }

@@ -182,6 +182,22 @@ pub struct RenderArguments {
     /// Time between checkpoints; longer if to write one takes more than a fiftieth of it
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>)]
     pub checkpoint_every: f64,
+    /// Write the picture to look at anew while it is rendered, every 5 seconds or as many as are
+    /// given; less often if that takes more than a fiftieth of the time
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "5",
+        value_parser = between::<0, MOST_SECONDS>,
+        conflicts_with = "samples"
+    )]
+    pub preview: Option<f64>,
+    /// Send the picture while it is rendered to the viewer tev, which usually listens at
+    /// 127.0.0.1:14158
+    #[arg(long, value_name = "HOST:PORT")]
+    pub tev: Option<String>,
     /// Memory that the render may take; the default is what the machine has free
     #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
     pub memory: Option<f64>,

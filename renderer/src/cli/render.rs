@@ -2,7 +2,9 @@
 
 mod keeping;
 mod plan;
+mod preview;
 mod report;
+mod viewer;
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -10,7 +12,9 @@ use std::time::{Duration, Instant};
 
 use self::keeping::Keeping;
 use self::plan::{Files, Plan};
+use self::preview::Preview;
 use self::report::{Times, report, tell_samples, tell_speed};
+use self::viewer::Viewer;
 use crate::checkpoint::{self, Heading};
 use crate::cli::arguments::RenderArguments;
 use crate::cli::picture_files;
@@ -36,12 +40,15 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         .map_err(Failure::system)?;
     // As many leaves grow at a time as there are threads.
     pool.install(|| needs::check(&loaded.description, arguments.memory))?;
-    let plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
+    let mut plan = pool.install(|| Plan::of(arguments, &loaded, &files))?;
+    let shown = files.preview(arguments)?;
+    let viewer = viewer(arguments, &plan.heading)?;
     let scene = loaded.description;
     let job = plan.heading.job;
     let patience = Patience::building(scene.leaves.len());
     let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
+    plan.heading.caption.camera = world.view.clone();
     for note in &world.notes {
         eprintln!("note: {note}");
     }
@@ -56,6 +63,11 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         &plan.heading,
         &signals,
     );
+    let layout = Layout::new(&world.wavelengths);
+    let every = arguments
+        .preview
+        .map_or(preview::USUAL, Duration::from_secs_f64);
+    let preview = Preview::new(&plan.heading, layout, every, shown, viewer);
     let tracing = Instant::now();
     let begun = match plan.before {
         Some(begun) => begun.up_to(&job),
@@ -70,8 +82,15 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         let contact = Contact {
             stop: &signals.stop,
             progress: &|progress| reporter.tell(progress),
-            is_due: &|| keeping.is_due(),
-            keep: &|begun| keeping.keep(begun),
+            is_due: &|| keeping.is_due() || preview.is_due(),
+            keep: &|begun| {
+                if keeping.is_due() {
+                    keeping.keep(begun);
+                }
+                if preview.is_due() {
+                    preview.show(begun);
+                }
+            },
         };
         go_on(&world, &job, begun, time, &contact)
     });
@@ -87,6 +106,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         heading: &plan.heading,
         files: &files,
         keeping: &keeping,
+        preview: &preview,
         line,
         stats: arguments.stats.as_deref(),
     };
@@ -99,6 +119,7 @@ struct Traced<'a> {
     heading: &'a Heading,
     files: &'a Files,
     keeping: &'a Keeping<'a>,
+    preview: &'a Preview<'a>,
     /// The command line.
     line: &'a [OsString],
     stats: Option<&'a Path>,
@@ -122,7 +143,8 @@ impl Traced<'_> {
         let layout = Layout::new(&self.world.wavelengths);
         let rendered = Rendered::new(begun, layout, ended);
         let written = self.write_pictures(&rendered);
-        let stats = report(self.heading, self.world, &rendered, times, self.keeping);
+        self.preview.show_last(&rendered.film);
+        let stats = report(self, &rendered, times);
         tell_speed(&rendered, times);
         tell_samples(&rendered);
         let rejected = rendered.film.rejected();
@@ -182,6 +204,19 @@ impl Traced<'_> {
         let rest = rest.map(|file| format!("\n{}", how_to_go_on(file, self.line)));
         Failure::system(format!("{error}{}", rest.unwrap_or_default()))
     }
+}
+
+/// The viewer that the command line names, before anything is grown for it.
+fn viewer(arguments: &RenderArguments, heading: &Heading) -> Result<Option<Viewer>, Failure> {
+    let Heading { caption, job, .. } = heading;
+    let open = |address: &String| {
+        Viewer::open(address, &caption.name, [job.width, job.height]).map_err(|error| {
+            Failure::bad(format!(
+                "--tev {address}: {error}: start tev first, or leave out --tev"
+            ))
+        })
+    };
+    arguments.tev.as_ref().map(open).transpose()
 }
 
 fn build_world(

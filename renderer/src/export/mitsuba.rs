@@ -10,6 +10,7 @@ mod bsdf;
 mod emitter;
 mod mesh;
 mod plugin;
+mod sensor;
 mod shapes;
 mod spectra;
 mod units;
@@ -54,6 +55,15 @@ pub enum ExportError {
     Daylight {
         /// Name of the light.
         light: String,
+    },
+    /// A lens that Mitsuba does not have.
+    #[error(
+        "camera.perspective.{key} cannot be exported: Mitsuba's thin lens is round, open over the \
+         whole picture and parallel to the film; leave the key out"
+    )]
+    Lens {
+        /// The key that says so.
+        key: &'static str,
     },
     /// The folder exists and holds something other than an export.
     #[error(
@@ -100,7 +110,7 @@ fn absorption_table(pigments: &Pigments) -> String {
 ///
 /// # Errors
 ///
-/// [`ExportError`] if the scene has daylight, something cannot be written, or `dir` is a folder of
+/// [`ExportError`] if the scene has daylight or a lens that Mitsuba lacks, something cannot be written, or `dir` is a folder of
 /// another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     let at = |path: &Path| {
@@ -117,6 +127,9 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         return Err(ExportError::Daylight {
             light: light.name.clone(),
         });
+    }
+    if let Some(key) = sensor::foreign_key(&world.view) {
+        return Err(ExportError::Lens { key });
     }
     let parent = dir.parent().filter(|parent| !parent.as_os_str().is_empty());
     let parent = parent.unwrap_or(Path::new("."));

@@ -176,7 +176,12 @@ fn lacks(what: &str) -> ImageError {
 }
 
 /// Linear sRGB of each pixel.
-fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
+///
+/// # Errors
+///
+/// [`ImageError::Inconsistent`] if the picture has neither colours nor bands, or colours of other
+/// primaries than those of Rec. 709.
+pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
     let channels = ["R", "G", "B"].map(|name| picture.layer(name));
     if let [Some(red), Some(green), Some(blue)] = channels {
         if let Some(primaries @ Attribute::Chromaticities(_)) = picture.attribute("chromaticities")

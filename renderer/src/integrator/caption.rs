@@ -21,15 +21,15 @@ pub struct Caption {
 }
 
 impl Caption {
-    /// The caption of a scene's pictures.
-    pub fn of(scene: &Description) -> Self {
+    /// The caption of a scene's pictures, with its [view](crate::scene::world::World::view).
+    pub fn of(scene: &Description, view: &View) -> Self {
         let objects = scene.objects.iter();
         Self {
             name: scene.name.clone(),
             source: scene.source.clone(),
             objects: objects.map(|object| object.name.clone()).collect(),
             kind: scene.film.kind.clone(),
-            camera: scene.camera.clone(),
+            camera: view.clone(),
             picture: scene.picture,
         }
     }

@@ -15,9 +15,10 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// That of a camera's ray through a pixel that spans this angle.
-    pub fn of_pixel(angle: f32) -> Self {
-        Self { width: 0.0, angle }
+    /// That of a camera's ray through a pixel: its width where the ray starts, m, and the angle by
+    /// which it widens.
+    pub fn of_pixel([width, angle]: [f32; 2]) -> Self {
+        Self { width, angle }
     }
 
     /// That of a ray that leaves a surface where the one before was this wide, m.
@@ -38,4 +39,38 @@ impl Cone {
 /// ellipse's axes.
 pub fn footprint(width: f32, cosine: f32) -> f32 {
     width / cosine.abs().max(LEAST_FACING).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::camera::Camera;
+    use crate::camera::thin_lens::{Focus, Lens};
+    use crate::camera::view::{Projection, View};
+
+    #[test]
+    fn a_pixel_is_as_wide_on_a_surface_as_the_picture_shows() {
+        let width = |projection| {
+            let view = View {
+                position: DVec3::ZERO,
+                look_at: DVec3::Y,
+                up: DVec3::Z,
+                projection,
+            };
+            let camera = Camera::new(&view, 100, 50);
+            [0.5, 2.0].map(|distance| Cone::of_pixel(camera.pixel_span()).width_at(distance))
+        };
+        // 2 m high at any distance: a fiftieth of that.
+        assert_eq!(
+            width(Projection::Orthographic { height: 2.0 }),
+            [0.04, 0.04]
+        );
+        let right_angle = Lens::pinhole(std::f64::consts::FRAC_PI_2);
+        let lens = right_angle.focused(Focus::Distance(1.0)).expect("an angle");
+        // Twice the distance is seen.
+        let [near, far] = width(Projection::Perspective(lens));
+        assert!((near - 0.02).abs() < 1e-6 && (far - 0.08).abs() < 1e-6);
+    }
 }

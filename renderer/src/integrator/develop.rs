@@ -2,13 +2,15 @@
 
 use glam::DVec3;
 
+use crate::camera::view::{Projection, View};
+use crate::film::Film;
 use crate::image::openexr::spectral_attributes;
 use crate::image::{Attribute, Layer, Picture, REC709};
 use crate::integrator::caption::Caption;
 use crate::integrator::features::Quantity;
-use crate::integrator::layers::{FilmLayer, Source};
+use crate::integrator::layers::{FilmLayer, Layout, Source};
 use crate::integrator::render::{Job, Rendered};
-use crate::scene::description::{Camera as CameraBlock, FilmKind};
+use crate::scene::description::FilmKind;
 use crate::scene::fingerprint::fnv1a;
 use crate::spectrum::WavelengthSampler;
 
@@ -17,32 +19,51 @@ use crate::spectrum::WavelengthSampler;
 ///
 /// Bands are named in the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021).
 pub fn develop(caption: &Caption, job: &Job, rendered: &Rendered) -> Picture {
-    let mut layers = Vec::new();
-    for layer in rendered.layout.layers() {
-        let names = layer.channel_names(&caption.kind);
-        for (channel, name) in names.into_iter().enumerate() {
-            let data = developed(layer, channel, &caption.camera, rendered);
-            layers.push(Layer { name, data });
-        }
-    }
     Picture {
         width: job.width,
         height: job.height,
-        layers,
+        layers: layers(caption, &rendered.film, rendered.layout, |_| true),
         attributes: attributes(caption, job, rendered),
     }
+}
+
+/// What is seen of a film, finished or not: its radiance and what covers it, without attributes.
+pub fn seen(caption: &Caption, film: &Film, layout: Layout) -> Picture {
+    Picture {
+        width: film.width(),
+        height: film.height(),
+        layers: layers(caption, film, layout, |layer| layer.name.is_empty()),
+        attributes: Vec::new(),
+    }
+}
+
+fn layers(
+    caption: &Caption,
+    film: &Film,
+    layout: Layout,
+    wanted: impl Fn(&FilmLayer) -> bool,
+) -> Vec<Layer> {
+    let mut layers = Vec::new();
+    for layer in layout.layers().filter(|layer| wanted(layer)) {
+        let names = layer.channel_names(&caption.kind);
+        for (channel, name) in names.into_iter().enumerate() {
+            let data = developed(layer, channel, &caption.camera, film, layout);
+            layers.push(Layer { name, data });
+        }
+    }
+    layers
 }
 
 /// The values of one channel of a layer.
 fn developed(
     layer: &FilmLayer,
     channel: usize,
-    camera: &CameraBlock,
-    rendered: &Rendered,
+    camera: &View,
+    film: &Film,
+    layout: Layout,
 ) -> Vec<f32> {
-    let film = &rendered.film;
     let first_feature = |name| {
-        let first = rendered.layout.first_feature(name);
+        let first = layout.first_feature(name);
         first.expect("a film has what its layers are made of")
     };
     match layer.source {
@@ -140,8 +161,8 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
 
 /// World to camera (`x` right, y up, looking along −z) and world to normalised device coordinates
 /// (−1 to 1 over the picture), both for row vectors as in `OpenEXR`, row by row.
-fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
-    let axes = crate::camera::Camera::axes(camera);
+fn matrices(camera: &View, job: &Job) -> ([f32; 16], [f32; 16]) {
+    let axes = camera.axes();
     let (right, up, back) = (axes.x_axis, axes.y_axis, -axes.z_axis);
     let offset = |axis: DVec3| -axis.dot(camera.position);
     let to_camera = glam::DMat4::from_cols_array(&[
@@ -163,8 +184,14 @@ fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
         1.0,
     ]);
     let aspect = f64::from(job.width) / f64::from(job.height);
-    let focal = 1.0 / libm::tan(0.5 * camera.vertical_fov);
-    // Depth is left out: w = distance along the axis, z = −1.
+    // Depth is left out: z = −w, where w is the distance along the axis, or 1 for parallel rays.
+    let (focal, [z_z, w_z], [z_1, w_1]) = match &camera.projection {
+        Projection::Perspective(lens) => {
+            let focal = 1.0 / libm::tan(0.5 * lens.vertical_fov);
+            (focal, [1.0, -1.0], [0.0, 0.0])
+        }
+        Projection::Orthographic { height } => (2.0 / height, [0.0, 0.0], [-1.0, 1.0]),
+    };
     let projection = glam::DMat4::from_cols_array(&[
         focal / aspect,
         0.0,
@@ -176,13 +203,58 @@ fn matrices(camera: &CameraBlock, job: &Job) -> ([f32; 16], [f32; 16]) {
         0.0, //
         0.0,
         0.0,
-        1.0,
-        -1.0, //
+        z_z,
+        w_z, //
         0.0,
         0.0,
-        0.0,
-        0.0,
+        z_1,
+        w_1,
     ]);
     let flat = |matrix: glam::DMat4| matrix.to_cols_array().map(|value| value as f32);
     (flat(to_camera), flat(projection * to_camera))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat4, DVec4};
+
+    use super::*;
+    use crate::camera::Camera;
+    use crate::camera::thin_lens::{Focus, Lens};
+
+    #[test]
+    fn what_a_ray_meets_has_the_coordinates_of_its_pixel() {
+        let lens = Lens::pinhole(0.7).focused(Focus::Distance(1.0));
+        let lens = lens.expect("an angle can be focused");
+        for projection in [
+            Projection::Perspective(lens),
+            Projection::Orthographic { height: 0.8 },
+        ] {
+            let view = View {
+                position: DVec3::new(1.0, -2.0, 0.5),
+                look_at: DVec3::new(0.2, 0.3, -0.1),
+                up: DVec3::Z,
+                projection,
+            };
+            let job = Job {
+                width: 60,
+                height: 40,
+                spp: 1,
+                seed: 0,
+            };
+            let camera = Camera::new(&view, job.width, job.height);
+            let (_, to_ndc) = matrices(&view, &job);
+            // For row vectors, row by row: for columns, column by column.
+            let to_ndc = DMat4::from_cols_array(&to_ndc.map(f64::from));
+            for film in [(0.0, 0.0), (60.0, 0.0), (45.0, 30.0)] {
+                let film = glam::Vec2::new(film.0, film.1);
+                let ray = camera.ray(film, glam::Vec2::splat(0.5)).ray;
+                let point = (ray.origin + ray.direction * 1.7).as_dvec3();
+                let DVec4 { x, y, w, .. } = to_ndc * point.extend(1.0);
+                let [right, up] = [film.x / 30.0 - 1.0, 1.0 - film.y / 20.0];
+                assert!((x / w - f64::from(right)).abs() < 1e-5, "{x} {w} {film}");
+                assert!((y / w - f64::from(up)).abs() < 1e-5, "{y} {w} {film}");
+            }
+        }
+    }
 }

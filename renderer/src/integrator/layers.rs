@@ -10,10 +10,11 @@
 
 use glam::DVec3;
 
+use crate::camera::view::View;
 use crate::film::{Film, Moments, Pixel, Sum};
 use crate::image::openexr::spectral_channel_name;
 use crate::integrator::features::{Quantity, Sight};
-use crate::scene::description::{Camera, FilmKind};
+use crate::scene::description::FilmKind;
 use crate::spectrum::WavelengthSampler;
 
 /// One layer: channels of a picture that belong together.
@@ -71,7 +72,7 @@ pub enum Source {
         /// Name of the other layer, whose films have this one.
         layer: &'static str,
         /// The function of its three means.
-        by: fn(DVec3, &Camera) -> f64,
+        by: fn(DVec3, &View) -> f64,
     },
 }
 
@@ -142,9 +143,9 @@ pub const LAYERS: &[FilmLayer] = &[
             layer: "P",
             // The points that a pixel sees lie along one line except for its width and the blur of
             // the lens, so this is nearly the mean distance.
-            by: |point, camera| (point - camera.position).length(),
+            by: |point, camera| camera.distance_of(point),
         },
-        about: "distance of the mean position from the middle of the lens, m",
+        about: "distance of the mean position from the middle of the lens, m; along parallel rays, from where they start",
     },
     FilmLayer {
         name: "samples",

@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::bsdf::{Scattered, View};
+use crate::camera::FilmRay;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
@@ -66,12 +67,12 @@ pub fn of_pixel<const N: usize>(
     let wavelengths = world.wavelengths.draw::<N>(wavelength);
     let offset = world.filter.sample(Vec2::new(film_x, film_y));
     let place = Vec2::new(x as f32, y as f32) + offset;
-    let ray = world.camera.ray(place, Vec2::new(lens_x, lens_y));
-    let found = trace(world, effort, ray, &wavelengths, stream);
+    let seen = world.camera.ray(place, Vec2::new(lens_x, lens_y));
+    let found = trace(world, effort, seen, &wavelengths, stream);
     (wavelengths, found)
 }
 
-/// Radiance that arrives along `ray`, whose direction is a unit vector.
+/// Radiance that arrives along a ray. Of one of weight 0 only the first hit is found, for features.
 ///
 /// At every vertex each sun and one other light are sampled and weighted against the bounce by the
 /// power heuristic; at the first vertex the number of other lights is set by the effort. Russian
@@ -82,7 +83,7 @@ pub fn of_pixel<const N: usize>(
 pub fn trace<const N: usize>(
     world: &World,
     effort: Effort,
-    ray: Ray,
+    FilmRay { ray, weight }: FilmRay,
     wavelengths: &Wavelengths<N>,
     stream: &mut Stream,
 ) -> PathResult<N> {
@@ -92,7 +93,7 @@ pub fn trace<const N: usize>(
         rays: 0,
     };
     let from_camera = Leg {
-        throughput: Lanes::ONE,
+        throughput: Lanes::ONE * weight,
         bounce: Bounce {
             pdf: f32::INFINITY,
             from: Receiver {
@@ -101,7 +102,7 @@ pub fn trace<const N: usize>(
             },
             light_samples: 0,
         },
-        cone: Cone::of_pixel(world.camera.pixel_angle()),
+        cone: Cone::of_pixel(world.camera.pixel_span()),
         ray,
     };
     let paths = Paths {
@@ -179,7 +180,8 @@ impl<const N: usize> Paths<'_, N> {
                     object: world.objects[surface.instance as usize].object as u32,
                 });
             }
-            if world.integrator.max_depth.is_some_and(|most| depth >= most) {
+            if throughput.is_zero() || world.integrator.max_depth.is_some_and(|most| depth >= most)
+            {
                 return;
             }
             let Some(view) = bsdf.seen_from(wo) else {

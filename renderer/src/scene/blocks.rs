@@ -10,6 +10,7 @@ mod camera;
 mod daylight;
 mod film;
 mod instances;
+mod integrator;
 mod leaf;
 mod light;
 mod material;
@@ -149,12 +150,12 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
         picture::picture(&mut scene.picture, keys);
     });
     let about = "Where the scene is seen from.";
-    keys.required_block("camera", about, &["perspective"], |keys| {
+    keys.required_block("camera", about, &camera::NAMES, |keys| {
         camera::camera(&mut scene.camera, keys);
     });
     let about = "How light is followed.";
     keys.block("integrator", about, |keys| {
-        camera::integrator(&mut scene.integrator, keys);
+        integrator::integrator(&mut scene.integrator, keys);
     });
     sections(scene, keys);
     if keys.reader().is_some() {

@@ -3,6 +3,7 @@
 //! Both the tracer ([`super::world`]) and the exporters read this, so that both programs get the
 //! same input.
 
+mod camera;
 mod object;
 
 use std::path::PathBuf;
@@ -16,8 +17,8 @@ use leafmodel::optics::Pigments;
 use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
+pub use self::camera::{Camera, FocusObject};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
-pub use crate::camera::view::View as Camera;
 pub use crate::geometry::shapes::{Drop, Lump, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;

@@ -3,6 +3,7 @@
 mod lights;
 mod materials;
 mod meshes;
+mod middle;
 mod notes;
 mod placing;
 mod recentred;
@@ -28,6 +29,8 @@ use self::placing::{Placed, place};
 use self::strewing::Strewing;
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
+use crate::camera::thin_lens::LensError;
+use crate::camera::view::View;
 use crate::geometry::scatter::ScatterError;
 use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
 use crate::light::Light;
@@ -67,6 +70,8 @@ pub struct World {
     pub selection: LightSelection,
     /// The camera.
     pub camera: Camera,
+    /// Its view, in the scene's own coordinates and focused.
+    pub view: View,
     /// The pixel filter.
     pub filter: PixelFilter,
     /// Settings of the integrator.
@@ -147,6 +152,9 @@ pub enum WorldError {
         /// Why.
         source: ScatterError,
     },
+    /// The camera cannot be focused on its object.
+    #[error("camera.perspective.focus_object: {0}")]
+    Focus(LensError),
     /// The geometry as a whole cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
@@ -177,12 +185,21 @@ impl World {
     ///
     /// As [`World::build`]; a cache that fails only gives a note.
     pub fn build_with(scene: &Description, options: &BuildOptions<'_>) -> Result<Self, WorldError> {
-        let origin = scene.camera.origin();
+        let origin = scene.camera.view.origin();
         if origin == DVec3::ZERO {
             Self::build_around(scene, &scene.objects, origin, options)
         } else {
             let moved = recentred::moved(scene, -origin);
-            Self::build_around(&moved, &scene.objects, origin, options)
+            let mut world = Self::build_around(&moved, &scene.objects, origin, options)?;
+            let View {
+                position, look_at, ..
+            } = scene.camera.view;
+            world.view = View {
+                position,
+                look_at,
+                ..world.view
+            };
+            Ok(world)
         }
     }
 
@@ -195,14 +212,7 @@ impl World {
         options: &BuildOptions<'_>,
     ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
-        let mut meshes = Vec::new();
-        for mesh in &scene.meshes {
-            let built = build_mesh(&mesh.name, &mesh.value)?;
-            if built.dropped().total() > 0 {
-                notes.push(format!("meshes.{}: {}", mesh.name, built.dropped()));
-            }
-            meshes.push(built);
-        }
+        let mut meshes = build_meshes(scene, &mut notes)?;
         let wavelengths = WavelengthSampler::new(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
@@ -262,6 +272,10 @@ impl World {
             mut objects,
             first,
         } = place(scene, &pieces, &strewn_around);
+        let view = scene
+            .camera
+            .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
+            .map_err(WorldError::Focus)?;
         let mut lights = Vec::new();
         for light in &scene.lights {
             if let description::Light::Area { object, .. } = light.value {
@@ -292,7 +306,8 @@ impl World {
             palettes: known.palettes,
             selection: LightSelection::new(&lights, range_nm),
             lights,
-            camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
+            camera: Camera::new(&view, scene.film.width, scene.film.height),
+            view,
             filter: PixelFilter::new(scene.film.filter_radius as f32),
             integrator: scene.integrator,
             wavelengths,
@@ -304,6 +319,22 @@ impl World {
     pub fn material_of(&self, instance: u32) -> &Material {
         &self.materials[self.objects[instance as usize].material]
     }
+}
+
+/// Reads or makes the scene's meshes; what was dropped of them is noted.
+fn build_meshes(
+    scene: &Description,
+    notes: &mut Vec<String>,
+) -> Result<Vec<TriangleMesh>, WorldError> {
+    let mut meshes = Vec::new();
+    for mesh in &scene.meshes {
+        let built = build_mesh(&mesh.name, &mesh.value)?;
+        if built.dropped().total() > 0 {
+            notes.push(format!("meshes.{}: {}", mesh.name, built.dropped()));
+        }
+        meshes.push(built);
+    }
+    Ok(meshes)
 }
 
 /// Grows the scene's leaves; each is returned with its palette of pigments.

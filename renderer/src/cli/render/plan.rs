@@ -8,6 +8,7 @@ use crate::cli::arguments::RenderArguments;
 use crate::cli::picture_files::{kind_of, stem_of, with_ending};
 use crate::cli::places::{Lock, check_outputs};
 use crate::cli::signals::Signals;
+use crate::image::atomic::{Destination, destination};
 use crate::integrator::caption::Caption;
 use crate::integrator::render::{Begun, Job};
 use crate::scene::fingerprint::fingerprint;
@@ -68,6 +69,21 @@ impl Files {
             checkpoint,
             _locks: locks,
         })
+    }
+
+    /// The picture that is written before it is done, if that is asked for.
+    pub(super) fn preview(&self, arguments: &RenderArguments) -> Result<Option<&Path>, Failure> {
+        let (Some([_, shown]), Some(_)) = (&self.pictures, arguments.preview) else {
+            return Ok(None);
+        };
+        // What is written into a pipe cannot be written anew.
+        if matches!(destination(shown), Ok(Destination::Stream)) {
+            return Err(Failure::bad(format!(
+                "--preview writes a file anew, but {} is none: leave out --preview",
+                shown.display()
+            )));
+        }
+        Ok(Some(shown))
     }
 
     /// The files that hold the result.
@@ -141,7 +157,8 @@ impl Plan {
             },
             whole: arguments.samples.and(arguments.spp),
             aim,
-            caption: Caption::of(&loaded.description),
+            // The focus on an object is known when that has grown.
+            caption: Caption::of(&loaded.description, &loaded.description.camera.view),
         };
         check_part(arguments, &heading)?;
         if let Some((kept, begun)) = &before {

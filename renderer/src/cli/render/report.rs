@@ -2,11 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::keeping::Keeping;
-use crate::checkpoint::Heading;
+use super::Traced;
 use crate::cli::stats;
 use crate::integrator::render::{Ended, Rendered};
-use crate::scene::world::World;
 
 /// Times of a render, seconds.
 pub(super) struct Times {
@@ -24,13 +22,14 @@ impl Times {
 }
 
 /// The output of `--stats`.
-pub(super) fn report(
-    heading: &Heading,
-    world: &World,
-    rendered: &Rendered,
-    times: &Times,
-    keeping: &Keeping<'_>,
-) -> Value {
+pub(super) fn report(traced: &Traced<'_>, rendered: &Rendered, times: &Times) -> Value {
+    let Traced {
+        world,
+        heading,
+        keeping,
+        preview,
+        ..
+    } = traced;
     let film = &rendered.film;
     let [paths_before, rays_before] = times.before;
     let kept = keeping.effort();
@@ -62,6 +61,9 @@ pub(super) fn report(
     report["checkpoints"] = json!(kept.count);
     report["checkpoint_seconds"] = json!(kept.seconds);
     report["checkpoint_bytes"] = json!(kept.bytes);
+    let shown = preview.effort();
+    report["previews"] = json!(shown.count);
+    report["preview_seconds"] = json!(shown.seconds);
     report
 }
 

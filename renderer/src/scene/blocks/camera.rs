@@ -1,55 +1,306 @@
-//! `[camera.perspective]` and `[integrator]`.
+//! `[camera.perspective]` and `[camera.orthographic]`.
 
 use glam::DVec3;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{Degrees, Integer, Number, Vector};
+use leafmodel::document::names::NameIn;
+use leafmodel::document::value_kind::{Degrees, Integer, Number, Numbers, Vector};
 
 use super::report;
-use crate::scene::description::{Camera, Integrator};
+use crate::camera::thin_lens::{ANGLES_DEG, Field, Focus, Iris, Lens, LensError, Opening};
+use crate::camera::view::{Projection, View};
+use crate::scene::description::{Camera, FocusObject};
 
 /// Limits of world coordinates, m. Beyond them single precision does not resolve a leaf.
 pub(super) const COORDINATES_M: Limits = Limits::closed(-1e6, 1e6);
+/// Limits of the size on the sensor over the size in the scene.
+const MAGNIFICATIONS: Limits = Limits::closed(1e-6, 1000.0);
+/// Limits of lengths of lens and sensor, mm.
+const LENGTHS_MM: Limits = Limits::closed(0.1, 1e5);
+/// Height of the recorded frame of 24 × 36 mm, m.
+const SENSOR_HEIGHT: f64 = 0.024;
 
 /// The keys of `[camera]`.
 pub(super) fn camera(camera: &mut Camera, keys: &mut Keys<'_>) {
     keys.kind(camera, &KINDS);
 }
 
-const KINDS: [Variant<Camera>; 1] = [Variant {
-    name: "perspective",
-    about: "A thin lens.",
-    new: Camera::usual,
-    is: |_| true,
-    declare: perspective,
-}];
+/// The kinds of `[camera]`.
+pub(super) const NAMES: [&str; 2] = ["perspective", "orthographic"];
+
+const KINDS: [Variant<Camera>; 2] = [
+    Variant {
+        name: NAMES[0],
+        about: "A thin lens.",
+        new: Camera::usual,
+        is: |camera| matches!(camera.view.projection, Projection::Perspective(_)),
+        declare: perspective,
+    },
+    Variant {
+        name: NAMES[1],
+        about: "Parallel rays: what is farther away looks no smaller.",
+        new: || {
+            let mut camera = Camera::usual();
+            camera.view.projection = Projection::Orthographic { height: 1.0 };
+            camera
+        },
+        is: |camera| matches!(camera.view.projection, Projection::Orthographic { .. }),
+        declare: orthographic,
+    },
+];
 
 fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
-    let coordinates = Vector(COORDINATES_M);
     let about = "Middle of the lens.";
-    keys.required("position_m", &mut camera.position, coordinates, about);
-    let about = "Point that comes to the middle of the picture; not where the camera stands.";
-    keys.required("look_at_m", &mut camera.look_at, coordinates, about);
-    let about = "Direction that points up in the picture, of any length.";
-    keys.key("up", &mut camera.up, coordinates, about);
-    let limits = Degrees(Limits::closed(0.01, 170.0));
-    let about = "Angle from the lower to the upper edge of the picture.";
-    keys.required("vertical_fov_deg", &mut camera.vertical_fov, limits, about);
-    let mut aperture_mm = 2000.0 * camera.lens_radius;
-    let limits = Number(Limits::closed(0.0, 1e6));
-    let about = "Diameter of the lens opening.";
-    keys.key("aperture_diameter_mm", &mut aperture_mm, limits, about);
-    camera.lens_radius = aperture_mm / 2000.0;
-    let mut focus = None;
-    let limits = Number(Limits::above(0.0, 1e7));
-    let about = "Distance of the sharp plane along the axis.";
-    keys.optional("focus_distance_m", &mut focus, limits, about);
-    let view = camera.look_at - camera.position;
-    camera.focus_distance = focus.unwrap_or(view.length());
-    if !keys.is_sound() {
+    place(&mut camera.view, about, keys);
+    let lens = lens(keys);
+    let focus = focus(&lens, camera, keys);
+    // What does not fit together is told after what cannot stand alone.
+    let view = &mut camera.view;
+    if !check_view(view, keys) {
         return;
     }
+    let focus = match focus {
+        Some(Wanted::Point(point)) => Focus::Point(view.in_picture(point)),
+        Some(Wanted::Plane(focus)) => focus,
+        None => Focus::Distance((view.look_at - view.position).length()),
+    };
+    match lens.focused(focus) {
+        Ok(thin) => {
+            let is_shaped = lens.iris != Iris::default() || lens.tilt != [0.0; 2];
+            if thin.radius == 0.0 && is_shaped {
+                keys.warn(
+                    "scene::pinhole",
+                    "the lens has no opening, so its shape and tilt change nothing".to_owned(),
+                    "add an opening, for example `f_number = 4`",
+                );
+            }
+            view.projection = Projection::Perspective(thin);
+        }
+        Err(error) => refuse(&error, keys),
+    }
+}
+
+/// What the file wants to be sharp.
+enum Wanted {
+    Plane(Focus),
+    /// A point of the world.
+    Point(DVec3),
+}
+
+/// The keys of the lens, but for its focus.
+fn lens(keys: &mut Keys<'_>) -> Lens {
+    let mut lens = Lens::pinhole(1.0);
+    let fields = ["vertical_fov_deg", "focal_length_mm"];
+    for chosen in keys.one_of(&fields, Some(fields[0])) {
+        if chosen == "vertical_fov_deg" {
+            let [least, most] = ANGLES_DEG;
+            let limits = Degrees(Limits::closed(least, most));
+            let about = "Angle from the lower to the upper edge of the picture.";
+            let mut angle = 1.0;
+            keys.needed(chosen, &mut angle, limits, about);
+            lens.field = Field::Angle(angle);
+        } else {
+            let about = "Focal length, instead of the angle. The angle then follows from the \
+                sensor's height, and gets smaller as the focus comes nearer.";
+            let mut length_mm = 50.0;
+            keys.needed(chosen, &mut length_mm, Number(LENGTHS_MM), about);
+            lens.field = Field::FocalLength(length_mm / 1000.0);
+        }
+    }
+    let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+    let about = "Height of the recorded frame; 24 is that of small-format film.";
+    keys.key(
+        "sensor_height_mm",
+        &mut sensor_mm,
+        Number(LENGTHS_MM),
+        about,
+    );
+    lens.sensor_height = sensor_mm / 1000.0;
+    let openings = ["aperture_diameter_mm", "f_number"];
+    for chosen in keys.one_of_or_none(&openings, Some(openings[0])) {
+        if chosen == "f_number" {
+            let about = "Focal length over the diameter of the lens opening, instead of the \
+                diameter. Smaller is less sharp before and behind the sharp plane.";
+            let mut number = 8.0;
+            keys.needed(
+                chosen,
+                &mut number,
+                Number(Limits::closed(0.5, 1000.0)),
+                about,
+            );
+            lens.opening = Opening::FNumber(number);
+        } else {
+            let mut aperture_mm = 0.0;
+            let about = "Diameter of the lens opening; 0 is a pinhole.";
+            keys.key(
+                chosen,
+                &mut aperture_mm,
+                Number(Limits::closed(0.0, 1e6)),
+                about,
+            );
+            lens.opening = Opening::Diameter(aperture_mm / 1000.0);
+        }
+    }
+    let about = "Straight blades of the iris: light out of focus has so many corners; 0 is a \
+        circle, otherwise at least 3. The opening keeps its area.";
+    let blades = &mut lens.iris.blades;
+    keys.key("blades", blades, Integer::within(0, 32), about);
+    if let 1 | 2 = *blades {
+        let problem = format!("{blades} blades close no opening");
+        keys.refuse(&["blades"], problem, "write 0 for a circle, or 3 to 32");
+    }
+    let about = "Turn of the blades in the picture's plane, against the clock; at 0 a corner is on \
+        top.";
+    let limits = Degrees(Limits::closed(-360.0, 360.0));
+    keys.key("blade_rotation_deg", &mut lens.iris.rotation, limits, about);
+    let about = "Share of its diameter by which the lens's rim cuts the opening in the picture's \
+        corners, in proportion less towards the middle. Light out of focus looks like a cat's \
+        eye there, and corners get darker: at 1 they are black.";
+    let limits = Number(Limits::closed(0.0, 1.0));
+    keys.key("cats_eye", &mut lens.iris.cats_eye, limits, about);
+    let mut tilt_deg = [0.0; 2];
+    let about = "Turns of the lens, but not of the film, about the picture's axes to the right and \
+        up, right-handed. They tilt the sharp plane: a positive first number brings it nearer \
+        at the top of the picture.";
+    let limits = Numbers::<2>(Limits::closed(-45.0, 45.0));
+    keys.key("tilt_deg", &mut tilt_deg, limits, about);
+    lens.tilt = tilt_deg.map(f64::to_radians);
+    lens
+}
+
+/// The keys of the focus.
+fn focus(lens: &Lens, camera: &mut Camera, keys: &mut Keys<'_>) -> Option<Wanted> {
+    let mut wanted = None;
+    for chosen in keys.one_of_or_none(&FOCUS, None) {
+        let focus = match chosen {
+            "focus_distance_m" => {
+                let limits = Number(Limits::above(0.0, 1e7));
+                let about = "Distance of the sharp plane along the axis; without it and the next \
+                    three keys that of `look_at_m`.";
+                let mut distance = 1.0;
+                keys.needed(chosen, &mut distance, limits, about);
+                Wanted::Plane(Focus::Distance(distance))
+            }
+            "focus_point_m" => {
+                let about = "Point through which the sharp plane goes, instead of its distance.";
+                let mut point = DVec3::ZERO;
+                keys.needed(chosen, &mut point, Vector(COORDINATES_M), about);
+                Wanted::Point(point)
+            }
+            "focus_object" => {
+                const OBJECT: NameIn = NameIn("objects", "the name of an object to be sharp");
+                let about = "Object through whose middle the sharp plane goes, instead of its \
+                    distance: that of the box around all its parts.";
+                let mut object = usize::MAX;
+                keys.needed(chosen, &mut object, OBJECT, about);
+                let lens = lens.clone();
+                camera.focus_object = Some(FocusObject { object, lens });
+                Wanted::Plane(Focus::Infinity)
+            }
+            _ => {
+                let about = "Size on the sensor over size in the scene, on the sharp plane, \
+                    instead of its distance: 1 is life size. It needs `focal_length_mm`.";
+                let mut times = 1.0;
+                keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
+                keys.exclude("vertical_fov_deg", chosen);
+                Wanted::Plane(Focus::Magnification(times))
+            }
+        };
+        wanted = Some(focus);
+    }
+    wanted
+}
+
+const FOCUS: [&str; 4] = [
+    "focus_distance_m",
+    "focus_point_m",
+    "focus_object",
+    "magnification",
+];
+
+/// Reports a lens that cannot be focused.
+fn refuse(error: &LensError, keys: &Keys<'_>) {
+    let of_focus = FOCUS.into_iter().find(|key| keys.has(key));
+    let (key, help) = match error {
+        LensError::TooNear { .. } => (
+            of_focus.unwrap_or("focal_length_mm"),
+            "focus farther away than the focal length, or shorten that",
+        ),
+        LensError::Behind { .. } => (
+            of_focus.unwrap_or("look_at_m"),
+            "name a point in front of the camera, on the side of `look_at_m`",
+        ),
+        LensError::OffAxis => (
+            of_focus.unwrap_or("tilt_deg"),
+            "tilt the lens less, or name a point nearer to the middle of the picture",
+        ),
+        LensError::Angle { .. } => (
+            "focal_length_mm",
+            "change the focal length, or `sensor_height_mm`",
+        ),
+        LensError::NoFocalLength => (
+            "magnification",
+            "write `focal_length_mm` instead of `vertical_fov_deg`",
+        ),
+    };
+    keys.refuse(&[key], error.to_string(), help);
+}
+
+fn orthographic(camera: &mut Camera, keys: &mut Keys<'_>) {
+    let about = "Middle of the plane from which rays start; what is behind it is not seen.";
+    place(&mut camera.view, about, keys);
+    let sizes = ["height_m", "magnification"];
+    let mut height = 1.0;
+    for chosen in keys.one_of(&sizes, Some(sizes[0])) {
+        if chosen == "height_m" {
+            let about = "Height of what the picture shows.";
+            let limits = Number(Limits::closed(1e-6, 1e6));
+            keys.needed(chosen, &mut height, limits, about);
+            keys.exclude(chosen, "sensor_height_mm");
+        }
+        if chosen == "magnification" {
+            let about = "Size on the sensor over size in the scene, instead of the height: 1 is \
+                life size.";
+            let mut times = 1.0;
+            keys.needed(chosen, &mut times, Number(MAGNIFICATIONS), about);
+            let mut sensor_mm = 1000.0 * SENSOR_HEIGHT;
+            let about = "Height of the recorded frame, for `magnification`; 24 is that of \
+                small-format film.";
+            keys.key(
+                "sensor_height_mm",
+                &mut sensor_mm,
+                Number(LENGTHS_MM),
+                about,
+            );
+            height = sensor_mm / 1000.0 / times;
+        }
+    }
+    camera.view.projection = Projection::Orthographic { height };
+    check_view(&camera.view, keys);
+}
+
+/// The keys that say where a camera stands.
+fn place(view: &mut View, about_position: &'static str, keys: &mut Keys<'_>) {
+    let coordinates = Vector(COORDINATES_M);
+    keys.required(
+        "position_m",
+        &mut view.position,
+        coordinates,
+        about_position,
+    );
+    let about = "Point that comes to the middle of the picture; not where the camera stands.";
+    keys.required("look_at_m", &mut view.look_at, coordinates, about);
+    let about = "Direction that points up in the picture, of any length.";
+    keys.key("up", &mut view.up, coordinates, about);
+}
+
+/// Whether a camera that was read looks anywhere; reports it if it does not.
+fn check_view(camera: &View, keys: &Keys<'_>) -> bool {
+    if !keys.is_sound() {
+        return false;
+    }
+    let view = camera.look_at - camera.position;
     // Nearer than this the direction would consist of rounding errors.
     if view.length() <= 1e-9 * camera.position.length().max(1e-3) {
         let error = DocumentError::BadView {
@@ -57,7 +308,7 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
             help: "move `position_m` or `look_at_m`",
         };
         report(keys, "look_at_m", error);
-        return;
+        return false;
     }
     let across = view.normalize().cross(camera.up.normalize_or_zero());
     if across.length() < 1e-6 {
@@ -66,45 +317,24 @@ fn perspective(camera: &mut Camera, keys: &mut Keys<'_>) {
             help: "choose another direction, for example `up = [0, 1, 0]`",
         };
         report(keys, "up", error);
+        return false;
     }
+    true
 }
 
 impl Camera {
     /// A camera with all defaults.
     pub(in crate::scene) fn usual() -> Self {
+        let lens = Lens::pinhole(1.0).focused(Focus::Distance(1.0));
+        let lens = lens.expect("an angle can be focused at any distance");
         Self {
-            position: DVec3::NEG_Y,
-            look_at: DVec3::ZERO,
-            up: DVec3::Z,
-            vertical_fov: 1.0,
-            lens_radius: 0.0,
-            focus_distance: 1.0,
+            view: View {
+                position: DVec3::NEG_Y,
+                look_at: DVec3::ZERO,
+                up: DVec3::Z,
+                projection: Projection::Perspective(lens),
+            },
+            focus_object: None,
         }
     }
-}
-
-/// The keys of `[integrator]`.
-pub(super) fn integrator(integrator: &mut Integrator, keys: &mut Keys<'_>) {
-    let count = Integer::within(1, 100_000);
-    let about = "Most scattering events of a path. A limit darkens the picture: in the infrared, \
-        where leaves hardly absorb, a limit of 8 loses some 2 %.";
-    keys.optional("max_depth", &mut integrator.max_depth, count, about);
-    let limits = Number(Limits::closed(0.0, 1.0));
-    let about = "Paths of whose light less than this share can reach the film may end by Russian \
-        roulette, without bias; 0 switches it off. On a film of colour the share is what the eye \
-        sees, on bands that of the brightest band. Higher is faster and noisier.";
-    keys.optional(
-        "roulette_below",
-        &mut integrator.roulette_below,
-        limits,
-        about,
-    );
-    let count = Integer::within(1, 64);
-    let about = "Paths that go on from what the camera sees first, where none of the lights that \
-        are sampled (suns, lamps, sky pictures) reaches it. More is slower and less noisy, in \
-        shade.";
-    keys.optional("branches", &mut integrator.branches, count, about);
-    let about = "Samples of lamps and sky pictures at what the camera sees first; suns have one \
-        each. More is slower and less noisy where lamps cast soft shadows.";
-    keys.optional("light_samples", &mut integrator.light_samples, count, about);
 }

@@ -2,6 +2,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use super::World;
+use crate::camera::view::Projection;
 use crate::image::Picture;
 use crate::integrator::caption::Caption;
 use crate::integrator::develop::develop;
@@ -185,7 +186,7 @@ fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
         };
         let go = AtomicBool::new(false);
         let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
-        develop(&Caption::of(&scene), &job, &rendered)
+        develop(&Caption::of(&scene, &world.view), &job, &rendered)
     };
     let off = 999_000.0;
     let (near, far) = (picture(0.0), picture(off));
@@ -301,4 +302,71 @@ fn a_floor_that_is_full_is_told() {
         error.starts_with("objects.crumbs.scatter: there is room for ") && error.contains("of 300"),
         "{error}"
     );
+}
+
+const FOCUS: &str = r#"
+format = 1
+[film.rgb]
+size = [8, 8]
+spp = 1
+[camera.perspective]
+position_m = [0, OFF, 0]
+look_at_m = [0, AHEAD, 0]
+focal_length_mm = 100
+f_number = 4
+focus_object = "balls"
+[materials.grey.diffuse]
+reflectance = 0.5
+[meshes.ball.sphere]
+radius_m = 0.1
+[objects.other]
+mesh = "ball"
+material = "grey"
+position_m = [0, AHEAD, 0]
+[objects.balls]
+mesh = "ball"
+material = "grey"
+scale = 2
+position_m = [0, OFF, 0]
+instances.file = "balls.csv"
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+"#;
+
+#[test]
+fn a_camera_focuses_on_the_middle_of_an_object_in_all_its_places() {
+    let folder = tempfile::tempdir().expect("a place for temporary files");
+    let focused = |off: i32, places: &str| {
+        let text = FOCUS.replace("OFF", &off.to_string());
+        let text = text.replace("AHEAD", &(off + 1).to_string());
+        let places = format!("x_m y_m z_m\n{places}");
+        std::fs::write(folder.path().join("balls.csv"), places).expect("a place");
+        let loaded = parse(&text, "scene.toml", folder.path(), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        World::build(&scene)
+    };
+    // From 1 − 0.2 to 2 + 0.2 m; what lies beside the axis counts along it.
+    for off in [0, -7000] {
+        let world = focused(off, "0.5 0.5 0\n-0.1 1 0.2").expect("it is in front");
+        let Projection::Perspective(lens) = &world.view.projection else {
+            panic!("a lens was asked for");
+        };
+        // The coordinates of places are in single precision.
+        let distance = lens.focus_distance;
+        assert!((distance - 1.5).abs() < 2e-3, "{distance}");
+        assert_eq!(world.view.position.y, f64::from(off));
+        let image = 1.0 / (1.0 / 0.1 - 1.0 / distance);
+        assert!((lens.image_distance - image).abs() < 1e-12);
+    }
+    for (places, problem) in [
+        ("0 -1 0", "lies 2 m behind the lens"),
+        ("0 0.045 0", "not farther than the focal length of 0.1 m"),
+    ] {
+        let error = focused(0, places).expect_err("it cannot be sharp");
+        let error = error.to_string();
+        let key = "camera.perspective.focus_object: ";
+        assert!(error.starts_with(key) && error.contains(problem), "{error}");
+    }
 }

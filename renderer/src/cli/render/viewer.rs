@@ -1,0 +1,239 @@
+//! The viewer tev, to which a picture is sent over TCP.
+
+use std::fmt;
+use std::io;
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::Duration;
+
+use tev_client::{PacketCreateImage, PacketUpdateImage, TevClient};
+
+/// Time in which a viewer must answer, and take what it is sent.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Most numbers of one packet: 4 MiB.
+const MOST_NUMBERS: usize = 1 << 20;
+
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// A connection to the viewer, in which a picture is open.
+pub(super) struct Viewer {
+    client: TevClient,
+    name: String,
+    width: u32,
+    height: u32,
+}
+
+impl fmt::Debug for Viewer {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            name,
+            width,
+            height,
+            client: _,
+        } = self;
+        write!(formatter, "Viewer({name}, {width} × {height})")
+    }
+}
+
+impl Viewer {
+    /// Connects to `HOST:PORT` and opens a black picture there.
+    ///
+    /// # Errors
+    ///
+    /// What the system says of the last address tried.
+    pub(super) fn open(address: &str, name: &str, [width, height]: [u32; 2]) -> io::Result<Self> {
+        let mut client = TevClient::wrap(connected(address)?);
+        client.send(PacketCreateImage {
+            image_name: name,
+            grab_focus: false,
+            width,
+            height,
+            channel_names: &CHANNELS,
+        })?;
+        Ok(Self {
+            client,
+            name: name.to_owned(),
+            width,
+            height,
+        })
+    }
+
+    /// Sends every pixel, in stripes of rows.
+    ///
+    /// # Errors
+    ///
+    /// What the system says; the connection is of no use any more then.
+    pub(super) fn send(&mut self, colours: &[[f32; 3]]) -> io::Result<()> {
+        let width = self.width as usize;
+        let rows = (MOST_NUMBERS / (CHANNELS.len() * width)).max(1);
+        for (stripe, pixels) in colours.chunks(rows * width).enumerate() {
+            self.client.send(PacketUpdateImage {
+                image_name: &self.name,
+                grab_focus: false,
+                channel_names: &CHANNELS,
+                channel_offsets: &[0, 1, 2],
+                channel_strides: &[3; 3],
+                x: 0,
+                y: (stripe * rows) as u32,
+                width: self.width,
+                height: (pixels.len() / width) as u32,
+                data: pixels.as_flattened(),
+            })?;
+        }
+        Ok(())
+    }
+}
+
+fn connected(address: &str) -> io::Result<TcpStream> {
+    let mut last = io::Error::new(io::ErrorKind::NotFound, "no such host");
+    for address in address.to_socket_addrs()? {
+        match TcpStream::connect_timeout(&address, PATIENCE) {
+            Ok(stream) => {
+                stream.set_write_timeout(Some(PATIENCE))?;
+                return Ok(stream);
+            }
+            Err(error) => last = error,
+        }
+    }
+    Err(last)
+}
+
+/// The viewer's side, for tests.
+#[cfg(test)]
+pub(super) mod testing {
+    use std::io::Read as _;
+    use std::net::TcpStream;
+
+    use super::CHANNELS;
+
+    /// Numbers and texts of a packet, as the protocol of tev has them: little-endian, texts ended
+    /// by a zero.
+    struct Packet(Vec<u8>, usize);
+
+    impl Packet {
+        /// The next packet; `None` at the end of the stream.
+        fn next(stream: &mut TcpStream) -> Option<Self> {
+            let mut length = [0; 4];
+            stream.read_exact(&mut length).ok()?;
+            let mut rest = vec![0; u32::from_le_bytes(length) as usize - 4];
+            stream.read_exact(&mut rest).expect("a whole packet");
+            Some(Self(rest, 0))
+        }
+
+        fn bytes<const N: usize>(&mut self) -> [u8; N] {
+            let bytes = self.0[self.1..self.1 + N].try_into().expect("so many");
+            self.1 += N;
+            bytes
+        }
+
+        fn word(&mut self) -> u32 {
+            u32::from_le_bytes(self.bytes())
+        }
+
+        fn text(&mut self) -> String {
+            let rest = &self.0[self.1..];
+            let end = rest.iter().position(|byte| *byte == 0).expect("a zero");
+            self.1 += end + 1;
+            String::from_utf8(rest[..end].to_vec()).expect("text")
+        }
+
+        fn channels(&mut self) -> usize {
+            let count = self.word();
+            let names: Vec<String> = (0..count).map(|_| self.text()).collect();
+            assert_eq!(names, CHANNELS);
+            names.len()
+        }
+    }
+
+    /// The picture that a viewer has after all packets of a stream.
+    pub(in crate::cli::render) fn received(mut stream: TcpStream) -> (String, [u32; 2], Vec<f32>) {
+        let mut create = Packet::next(&mut stream).expect("a packet that opens the picture");
+        assert_eq!(create.bytes::<2>(), [4, 0], "CreateImage, without focus");
+        let name = create.text();
+        let (width, height) = (create.word(), create.word());
+        assert_eq!(create.channels(), 3);
+        assert_eq!(create.1, create.0.len());
+        let mut data = vec![f32::NAN; (width * height * 3) as usize];
+        while let Some(mut update) = Packet::next(&mut stream) {
+            assert_eq!(update.bytes::<2>(), [6, 0], "UpdateImageV3, without focus");
+            assert_eq!(update.text(), name);
+            let count = update.channels();
+            let [x, y, wide, high] = [(); 4].map(|()| update.word());
+            assert_eq!((x, wide), (0, width));
+            let [offsets, strides] = [(); 2].map(|()| {
+                let numbers = (0..count).map(|_| u64::from_le_bytes(update.bytes()));
+                numbers.collect::<Vec<_>>()
+            });
+            assert_eq!((offsets, strides), (vec![0, 1, 2], vec![3; 3]));
+            let first = (y * width * 3) as usize;
+            for number in &mut data[first..first + (wide * high * 3) as usize] {
+                *number = f32::from_le_bytes(update.bytes());
+            }
+            assert_eq!(update.1, update.0.len());
+        }
+        (name, [width, height], data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::TcpListener;
+
+    use super::testing::received;
+    use super::*;
+
+    #[test]
+    fn a_viewer_gets_every_pixel_in_its_place() {
+        // Four stripes, the last one shorter.
+        let [width, height] = [1000_u32, 1100];
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+        let address = listener.local_addr().expect("it is bound").to_string();
+        let there = std::thread::spawn(move || {
+            let (stream, _) = listener.accept().expect("a connection");
+            received(stream)
+        });
+        let colours: Vec<[f32; 3]> = (0..width * height)
+            .map(|pixel| [0, 1, 2].map(|channel| (pixel * 3 + channel) as f32))
+            .collect();
+        let mut viewer = Viewer::open(&address, "leaf", [width, height]).expect("it listens");
+        // What comes later replaces what came before.
+        let black = vec![[0.0; 3]; colours.len()];
+        for picture in [&black, &colours] {
+            viewer.send(picture).expect("it takes them");
+        }
+        drop(viewer);
+        let (name, size, data) = there.join().expect("no panic");
+        assert_eq!((name.as_str(), size), ("leaf", [width, height]));
+        assert_eq!(data, colours.as_flattened());
+    }
+
+    #[test]
+    fn a_viewer_that_is_not_there_or_goes_away_is_an_error() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+        let address = listener.local_addr().expect("it is bound").to_string();
+        let mut viewer = Viewer::open(&address, "leaf", [500, 500]).expect("it listens");
+        let (stream, _) = listener.accept().expect("a connection");
+        drop((stream, listener));
+        let colours = vec![[0.5; 3]; 500 * 500];
+        // The system may take the first packets before it notices.
+        let sent = (0..100).find_map(|_| viewer.send(&colours).err());
+        assert!(sent.is_some(), "nobody took a hundred pictures");
+        Viewer::open(&address, "leaf", [5, 5]).expect_err("nobody listens");
+        Viewer::open("no port", "leaf", [5, 5]).expect_err("not an address");
+    }
+
+    #[test]
+    #[ignore = "slow: 6 s"]
+    fn a_viewer_that_takes_nothing_is_given_up() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+        let address = listener.local_addr().expect("it is bound").to_string();
+        let mut viewer = Viewer::open(&address, "leaf", [2000, 2000]).expect("it listens");
+        let _stays_open = listener.accept().expect("a connection");
+        let colours = vec![[0.5; 3]; 2000 * 2000];
+        // More than buffers on the way hold: 48 MB each time.
+        let started = std::time::Instant::now();
+        let sent = (0..4).find_map(|_| viewer.send(&colours).err());
+        assert!(sent.is_some(), "it was all taken by nobody");
+        assert!(started.elapsed() < 10 * PATIENCE);
+    }
+}

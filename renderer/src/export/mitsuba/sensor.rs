@@ -1,0 +1,169 @@
+//! The camera with its film.
+
+use crate::camera::thin_lens::ThinLens;
+use crate::camera::view::{Projection, View};
+use crate::export::element::Element;
+use crate::scene::description::Description;
+
+use super::plugin::look_at;
+use super::spectra;
+use super::units::UNITS_PER_METRE;
+
+/// The key of a lens that Mitsuba's lens does not have, if there is one. A pinhole has no shape.
+pub(super) fn foreign_key(view: &View) -> Option<&'static str> {
+    let Projection::Perspective(lens) = &view.projection else {
+        return None;
+    };
+    let ThinLens {
+        radius, iris, tilt, ..
+    } = lens;
+    let keys = [
+        ("blades", iris.blades != 0),
+        ("cats_eye", iris.cats_eye != 0.0),
+        ("tilt_deg", *tilt != [0.0; 2]),
+    ];
+    let mut foreign = keys.into_iter().filter(|(_, is_set)| *is_set);
+    foreign.next().filter(|_| *radius > 0.0).map(|(key, _)| key)
+}
+
+/// The sensor of a scene with its view.
+pub(super) fn sensor(scene: &Description, view: &View) -> Element {
+    let axes = view.axes();
+    let origin = view.position * UNITS_PER_METRE;
+    let target = origin + axes.z_axis * UNITS_PER_METRE;
+    let placed = look_at(origin, target, axes.y_axis);
+    let sensor = match &view.projection {
+        Projection::Perspective(lens) => {
+            let has_lens = lens.radius > 0.0;
+            let kind = if has_lens { "thinlens" } else { "perspective" };
+            let sensor = Element::plugin("sensor", kind)
+                .placed([placed])
+                .float("fov", lens.vertical_fov.to_degrees())
+                .string("fov_axis", "y");
+            if has_lens {
+                sensor
+                    .float("aperture_radius", lens.radius * UNITS_PER_METRE)
+                    .float("focus_distance", lens.focus_distance * UNITS_PER_METRE)
+            } else {
+                sensor
+            }
+        }
+        Projection::Orthographic { height } => {
+            // Mitsuba's picture is 2 wide before it is scaled.
+            let aspect = f64::from(scene.film.width) / f64::from(scene.film.height);
+            let scale = 0.5 * height * aspect * UNITS_PER_METRE;
+            let size = Element::new("scale").with("x", scale).with("y", scale);
+            Element::plugin("sensor", "orthographic").placed([size, placed])
+        }
+    };
+    let sampler = Element::plugin("sampler", "independent");
+    let bands = super::bands(scene);
+    let bands = bands.iter().enumerate();
+    let film = Element::plugin("film", "specfilm")
+        .integer("width", scene.film.width)
+        .integer("height", scene.film.height)
+        .string("component_format", "float32")
+        .holding(Element::plugin("rfilter", "box"))
+        .holding_all(bands.map(|(number, band)| spectra::response(number, band)));
+    sensor
+        .float("near_clip", 0.1)
+        .parameter("float", "far_clip", "1e9")
+        .holding(sampler.integer("sample_count", scene.film.spp))
+        .holding(film)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::export::element::Document;
+    use crate::export::mitsuba::{ExportError, write};
+    use crate::scene::load::parse;
+    use crate::scene::world::World;
+
+    const SCENE: &str = r#"
+format = 1
+[film.spectral]
+size = [60, 40]
+spp = 1
+bands_nm = [550]
+[materials.grey.diffuse]
+reflectance = 0.5
+[meshes.floor.rectangle]
+width_m = 1
+height_m = 1
+[objects.floor]
+mesh = "floor"
+material = "grey"
+[lights.sky.constant]
+radiance_w_m2_sr_nm = 1
+"#;
+    const PLACE: &str = "position_m = [0, 0, 0.3]\nlook_at_m = [0, 0, 0]\nup = [0, 1, 0]\n";
+
+    fn built(camera: &str) -> (Description, World) {
+        let text = format!("{SCENE}\n{camera}");
+        let loaded = parse(&text, "scene.toml", Path::new("."), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("a floor");
+        (scene, world)
+    }
+
+    /// The first number of an attribute or parameter of the sensor.
+    fn number(xml: &str, before: &str) -> f64 {
+        let (_, rest) = xml.split_once(before).expect(before);
+        let figure = rest.split('"').next().expect("a quote ends it");
+        figure.parse().expect("a number")
+    }
+
+    fn xml(camera: &str) -> String {
+        let (scene, world) = built(camera);
+        let mut document = Document::new(&Element::new("scene"));
+        document.add(&sensor(&scene, &world.view));
+        document.finish()
+    }
+
+    #[test]
+    fn a_lens_has_the_angle_and_opening_that_its_focus_gives() {
+        let lens = "focal_length_mm = 100\nf_number = 2\nmagnification = 0.5\n";
+        let xml = xml(&format!("[camera.perspective]\n{PLACE}{lens}"));
+        assert!(xml.contains("type=\"thinlens\""), "{xml}");
+        // v = f (1 + m) = 150 mm.
+        let fov = 2.0 * libm::atan(12.0 / 150.0).to_degrees();
+        let value = |name: &str| number(&xml, &format!("name=\"{name}\" value=\""));
+        assert!((value("fov") - fov).abs() < 1e-9, "{xml}");
+        assert!((value("aperture_radius") - 25.0).abs() < 1e-9, "{xml}");
+        assert!((value("focus_distance") - 300.0).abs() < 1e-9, "{xml}");
+    }
+
+    #[test]
+    fn parallel_rays_span_the_width_of_the_picture() {
+        let xml = xml(&format!("[camera.orthographic]\n{PLACE}height_m = 0.2\n"));
+        assert!(xml.contains("type=\"orthographic\""), "{xml}");
+        // 0.2 m high and half as much more wide, halved, in millimetres.
+        assert!((number(&xml, "<scale x=\"") - 150.0).abs() < 1e-9, "{xml}");
+        let [scale, look] = ["<scale", "<lookat"].map(|step| xml.find(step).expect(step));
+        assert!(scale < look, "{xml}");
+    }
+
+    #[test]
+    fn what_mitsubas_lens_has_not_is_refused_by_its_key() {
+        for (key, value) in [("blades", "6"), ("cats_eye", "0.5"), ("tilt_deg", "[0, 3]")] {
+            let lens = format!("vertical_fov_deg = 30\nf_number = 4\n{key} = {value}\n");
+            let (scene, world) = built(&format!("[camera.perspective]\n{PLACE}{lens}"));
+            let folder = tempfile::tempdir().expect("a folder");
+            let out = folder.path().join("out");
+            let error = write(&scene, &world, &out).expect_err(key);
+            assert!(matches!(error, ExportError::Lens { key: named } if named == key));
+            assert!(!out.exists());
+            // A pinhole has no shape.
+            let (scene, world) = built(&format!(
+                "[camera.perspective]\n{PLACE}{}",
+                lens.replace("f_number = 4\n", "")
+            ));
+            write(&scene, &world, &out).expect("a pinhole");
+        }
+    }
+}
