@@ -10,7 +10,7 @@
 //! - **Left out**: forces, friction, bending. Bodies fall straight down, one after the other.
 //!
 //! A body comes to rest where its centre of mass is lowest; for small turns that is a linear
-//! programme in three unknowns ([`rest`]), which is solved again after each turn.
+//! programme in three unknowns (`rest.rs`), which is solved again after each turn.
 
 mod body;
 mod pile;

@@ -216,11 +216,9 @@ impl World {
         let wavelengths = WavelengthSampler::new(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
-        let mut materials = Vec::new();
-        for material in &scene.materials {
-            let built = build_material(&material.name, &material.value, &mut known)?;
-            materials.push(built);
-        }
+        let written = scene.materials.iter();
+        let built = written.map(|named| build_material(&named.name, &named.value, &mut known));
+        let mut materials = built.collect::<Result<Vec<_>, _>>()?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
         let (for_leaves, for_solids) = known.for_grown(scene);

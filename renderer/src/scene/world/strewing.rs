@@ -72,15 +72,12 @@ impl<'a> Strewing<'a> {
         }
         // A plant is strewn as a whole.
         let group = object.instances.as_deref();
-        let bodies: Vec<Body> = match group {
-            Some(_) => vec![Body::of(self.parts(object.shapes[0], object.to_world))],
-            None => {
-                let shapes = object.shapes.iter();
-                shapes
-                    .map(|shape| Body::of(self.parts(*shape, object.to_world)))
-                    .collect()
-            }
+        let shapes = match group {
+            Some(_) => &object.shapes[..1],
+            None => &object.shapes[..],
         };
+        let body = |shape: &ObjectShape| Body::of(self.parts(*shape, object.to_world));
+        let bodies: Vec<Body> = shapes.iter().map(body).collect();
         let places = strewn.plan.places(&ground, &others, &bodies)?;
         let parts = group.map_or(1, <[_]>::len);
         if places.len() * parts > MOST_THINGS {
