@@ -593,7 +593,7 @@ BEYOND_A_SCHEMA = """
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
     plant_leaf plant_order plant_room plant_shines
     path_outside senescence_auxin solid_mesh solid_mosaic surface_cells surface_stomata table_file
-    scatter_days scatter_order unknown_name unsorted
+    scatter_days scatter_effect scatter_order unknown_name unsorted
     venation_agrophic venation_cells venation_craspedodromous venation_origin venation_origins_meet
     venation_pairs venation_quaternaries venation_sinus venation_transport_fine venation_young
     wilting_on_ground wrong_file

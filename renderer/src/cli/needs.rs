@@ -4,7 +4,7 @@ use crate::cli::Failure;
 use crate::film::Film;
 use crate::geometry::scatter::Amount;
 use crate::integrator::layers::Layout;
-use crate::scene::description::{Description, Drop, Lump, Mesh};
+use crate::scene::description::{Description, Drop, Lump, Mesh, ObjectShape, StrewnOn};
 use crate::spectrum::WavelengthSampler;
 
 const MIB: f64 = 1024.0 * 1024.0;
@@ -63,12 +63,11 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
     let places = scene.objects.iter().map(|object| {
         let own = object.value.instances.as_ref().map_or(1, Vec::len);
         let strewn = object.value.strewn.as_ref();
-        // What a density comes to is known when the surface is.
-        let copies = strewn.map_or(1, |strewn| match strewn.plan.amount {
-            Amount::Count(count) => count,
-            Amount::PerSquareMetre(_) => 1,
+        let copies = strewn.map_or(1.0, |strewn| match strewn.plan.amount {
+            Amount::Count(count) => f64::from(count),
+            Amount::PerSquareMetre(density) => density * area(scene, strewn),
         });
-        own as f64 * f64::from(copies) * OF_A_PLACE
+        own as f64 * copies * OF_A_PLACE
     });
     let mut leaves = Vec::new();
     for leaf in &scene.leaves {
@@ -95,6 +94,27 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
         (sum(&mut { kept }) + sum(&mut growing.into_iter()), "leaves"),
         (bodies, "bodies"),
     ])
+}
+
+/// About the area over which something is strewn, m²: that of its rectangle or of an even or uneven
+/// ground in one place; of other surfaces none, since it is known only once they are built.
+fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
+    if let Some([least, most]) = strewn.plan.within {
+        return (most - least).element_product();
+    }
+    let on = &scene.objects[strewn.on].value;
+    let (Some(ObjectShape::Mesh { mesh, .. }), None) = (on.shapes.first(), &on.instances) else {
+        return 0.0;
+    };
+    let size = match &scene.meshes[*mesh].value {
+        Mesh::Rectangle { width, height } => width * height,
+        Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
+        Mesh::Sphere { .. } | Mesh::Drop(_) | Mesh::Lump(_) | Mesh::File { .. } | Mesh::Axes(_) => {
+            return 0.0;
+        }
+    };
+    let [x, y] = [on.to_world.x_axis, on.to_world.y_axis].map(glam::DVec4::truncate);
+    size * x.cross(y).length()
 }
 
 /// Fails if what is needed is more than what is allowed.

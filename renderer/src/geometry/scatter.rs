@@ -27,7 +27,7 @@ use self::points::Spaced;
 use super::scramble::scramble;
 
 pub use self::body::Body;
-pub use self::points::Ground;
+pub use self::points::{Ground, triangles};
 
 /// How many things lie on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub struct Scatter {
     /// Least and greatest factor on their size, > 0.
     pub scale: [f64; 2],
     /// Greatest angle between a thing's own upright axis and the surface's normal (or the vertical)
-    /// before it comes to rest, rad.
+    /// before it comes to rest, rad; all directions within it are equally likely.
     pub tilt: f64,
     /// Greatest turn about that axis to either side, rad.
     pub turn: f64,
@@ -86,31 +86,84 @@ pub const MOST_AT_REST: usize = 100_000;
 /// Points that are tried for each thing before a surface counts as full.
 const TRIES: usize = 30;
 
+/// Failures in a row after which a surface counts as full, for things that settle (each takes long
+/// to find out) and for others.
+const IN_A_ROW: [usize; 2] = [100, 20_000];
+
 /// Why things have no places.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ScatterError {
     /// The surface has no area in the rectangle, or nowhere faces up.
-    #[error("the surface has no area there{}", if *.rests { " that faces up" } else { "" })]
+    #[error("`on`: the surface has no area there{}", if *.rests { " that faces up" } else { "" })]
     NoSurface {
         /// Whether only what faces up counts.
         rests: bool,
     },
-    /// The least distance or the edges leave too little room.
-    #[error("there is room for {found} of {wanted}: use fewer, or let them be nearer")]
+    /// There is too little room, for the reason that occurred most often.
+    #[error("there is room for {found} of {wanted}: {}", .why.told())]
     NoRoom {
         /// How many have a place.
         found: usize,
         /// How many are asked for.
         wanted: usize,
+        /// What stood against most of the others.
+        why: NoPlace,
     },
     /// More than there may be.
-    #[error("{wanted} are more than the {most} that there may be")]
+    #[error("`count` or `per_m2`: {wanted} are more than the {most} that there may be")]
     TooMany {
         /// How many are asked for.
         wanted: f64,
         /// How many there may be.
         most: usize,
     },
+    /// The density comes to nothing.
+    #[error("`per_m2`: on {area} m² the density comes to none")]
+    None {
+        /// The area, m².
+        area: f64,
+    },
+    /// The surface has too many triangles, with all its places.
+    #[error("`on`: the surface has over {most} triangles in all its places")]
+    TooFine {
+        /// How many it may have.
+        most: usize,
+    },
+    /// The cells of the pile would be too large for the smallest thing.
+    #[error(
+        "`settle`: over {width:.3} m of ground a thing of {radius:.5} m cannot be let down \
+         accurately: choose a smaller rectangle, `within_m`"
+    )]
+    TooWide {
+        /// Extent of the ground, m.
+        width: f64,
+        /// Radius of the smallest thing, m.
+        radius: f64,
+    },
+}
+
+/// Why a thing has no place at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPlace {
+    /// Another is nearer than the least distance.
+    Near,
+    /// Nothing holds its centre of mass: it would tip over an edge.
+    Edge,
+    /// It finds no rest, or would slide.
+    Steep,
+}
+
+impl NoPlace {
+    const ALL: [Self; 3] = [Self::Near, Self::Edge, Self::Steep];
+
+    /// What to do about it.
+    fn told(self) -> &'static str {
+        match self {
+            Self::Near => "the others would be nearer than `least_distance_mm`",
+            Self::Edge => "the others would tip over an edge of what they lie on",
+            Self::Steep => "the others find no rest, as on slopes over 35 degrees or edges",
+        }
+    }
 }
 
 /// A thing's shape and place.
@@ -150,7 +203,7 @@ impl Scatter {
     pub fn places(
         &self,
         ground: &Ground,
-        others: &[[DVec3; 3]],
+        others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
     ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
@@ -167,29 +220,36 @@ impl Scatter {
         if wanted > most as f64 {
             return Err(ScatterError::TooMany { wanted, most });
         }
+        if wanted < 1.0 {
+            let area = measure.total();
+            return Err(ScatterError::None { area });
+        }
         let wanted = wanted as usize;
-        let reach = bodies.iter().map(Body::radius).fold(0.0, f64::max) * self.scale[1];
-        let least = bodies
-            .iter()
-            .map(Body::radius)
-            .fold(f64::INFINITY, f64::min)
-            * self.scale[0];
-        let mut pile = rests.then(|| {
-            let mut pile = Pile::over(measure.bounds(), reach, least);
-            pile.add_all(ground.triangles());
-            pile.add_all(others);
-            pile
-        });
+        let mut pile = None;
+        if rests {
+            let radii = || bodies.iter().map(Body::radius);
+            let reach = radii().fold(0.0, f64::max) * self.scale[1];
+            let least = radii().fold(f64::INFINITY, f64::min) * self.scale[0];
+            let below = pile.insert(Pile::over(measure.bounds(), reach, least)?);
+            ground
+                .triangles()
+                .chain(others)
+                .for_each(|triangle| below.add(triangle));
+        }
         let mut spaced = Spaced::new(self.least_distance);
         let mut found = Vec::with_capacity(wanted);
+        let mut failures = [0; NoPlace::ALL.len()];
+        let mut in_a_row = 0;
         for number in 0..(TRIES * wanted) as u64 {
-            if found.len() == wanted {
+            if found.len() == wanted || in_a_row >= IN_A_ROW[usize::from(!rests)] {
                 break;
             }
+            in_a_row += 1;
             let random = |what: Use| self.random(number, what);
             let (point, normal) =
                 measure.point([Use::Triangle, Use::Across, Use::Along].map(random));
             if !spaced.has_room(point) {
+                failures[NoPlace::Near as usize] += 1;
                 continue;
             }
             let shape = (random(Use::Shape) * bodies.len() as f64) as usize;
@@ -201,21 +261,25 @@ impl Scatter {
                 normal
             };
             let turn = from_z(up) * self.posture(random);
-            let body = &bodies[shape];
             let to_world = match (self.rest, &mut pile) {
                 (Rest::Settled { gap }, Some(pile)) => {
-                    // What would tip over an edge is not put there.
-                    let Some((turn, at)) = pile.settle(body, turn * scale, point.truncate(), gap)
-                    else {
-                        continue;
-                    };
-                    DAffine3::from_mat3_translation(turn, at - turn * body.middle())
+                    let body = &bodies[shape];
+                    match pile.settle(body, turn * scale, point.truncate(), gap) {
+                        Ok((turn, at)) => {
+                            DAffine3::from_mat3_translation(turn, at - turn * body.middle())
+                        }
+                        Err(why) => {
+                            failures[why as usize] += 1;
+                            continue;
+                        }
+                    }
                 }
                 (Rest::Fixed { sink }, _) => {
                     DAffine3::from_mat3_translation(turn * scale, point - up * sink)
                 }
                 (Rest::Settled { .. }, None) => unreachable!("what comes to rest has a pile"),
             };
+            in_a_row = 0;
             spaced.take(point);
             found.push(Strewn {
                 body: shape as u32,
@@ -223,15 +287,23 @@ impl Scatter {
             });
         }
         if found.len() < wanted {
-            let found = found.len();
-            return Err(ScatterError::NoRoom { found, wanted });
+            let why = NoPlace::ALL
+                .into_iter()
+                .max_by_key(|why| failures[*why as usize]);
+            return Err(ScatterError::NoRoom {
+                found: found.len(),
+                wanted,
+                why: why.unwrap_or(NoPlace::Near),
+            });
         }
         Ok(found)
     }
 
     /// The turn of a thing about its own axes, before the surface turns it.
     fn posture(&self, random: impl Fn(Use) -> f64) -> DMat3 {
-        let (sin_tilt, cos_tilt) = libm::sincos(self.tilt * random(Use::Tilt));
+        // Evenly over the cap of directions.
+        let cos_tilt = 1.0 - (1.0 - libm::cos(self.tilt)) * random(Use::Tilt);
+        let sin_tilt = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * random(Use::TiltTowards));
         let leaning = from_z(DVec3::new(sin_tilt * cos, sin_tilt * sin, cos_tilt));
         let (sin, cos) = libm::sincos(self.turn * (2.0 * random(Use::Turn) - 1.0));

@@ -11,7 +11,6 @@ mod strewing;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,6 +25,7 @@ use self::materials::{Known, build_material};
 use self::meshes::build_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
+pub use self::strewing::Places;
 use self::strewing::Strewing;
 use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
@@ -39,7 +39,7 @@ use crate::material::Material;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description, InstancePlace, Named, Object};
+use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
@@ -57,7 +57,7 @@ pub struct World {
     /// The parts of leaves and bodies.
     pub pieces: Pieces,
     /// The places of each object that is strewn, in the scene's frame, by its number.
-    pub strewn: BTreeMap<usize, Vec<InstancePlace>>,
+    pub strewn: Places,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
     /// The owner of each material.
@@ -298,7 +298,7 @@ impl World {
             origin,
             objects,
             pieces,
-            strewn: strewing::around(&strewn, DVec3::ZERO),
+            strewn,
             materials,
             owners,
             palettes: known.palettes,

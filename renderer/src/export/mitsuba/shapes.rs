@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{DMat4, DVec3};
 
 use crate::export::element::{Document, Element, Layout};
-use crate::scene::description::{Description, InstancePlace, Light, Object, ObjectShape};
+use crate::scene::description::{Description, Light, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
@@ -121,19 +121,23 @@ pub(super) fn write(
 /// An object's places: number, shape, local to world. `strewn` are those that were found for it.
 fn places<'a>(
     object: &'a Object,
-    strewn: Option<&'a Vec<InstancePlace>>,
+    strewn: Option<&'a Vec<(u32, DMat4)>>,
 ) -> impl Iterator<Item = (usize, Kind, DMat4)> + 'a {
-    let instances = strewn.or(object.instances.as_ref());
-    let alone = instances
-        .is_none()
-        .then_some((object.shapes[0], object.to_world));
-    let instances = instances.into_iter().flatten();
-    let instances = instances.map(|place| (object.shapes[place.shape as usize], place.matrix()));
+    let in_one_place = strewn.is_none() && object.instances.is_none();
+    let alone = in_one_place.then_some((0, object.to_world));
+    let own = object.instances.iter().flatten();
+    let own = own.filter(move |_| strewn.is_none());
+    let own = own.map(|place| (place.shape, place.matrix()));
+    let strewn = strewn.into_iter().flatten().copied();
     alone
         .into_iter()
-        .chain(instances)
+        .chain(own)
+        .chain(strewn)
         .enumerate()
-        .map(|(number, (shape, to_world))| (number, (shape, mirrors(to_world)), to_world))
+        .map(|(number, (shape, to_world))| {
+            let shape = object.shapes[shape as usize];
+            (number, (shape, mirrors(to_world)), to_world)
+        })
 }
 
 fn mirrors(matrix: DMat4) -> bool {

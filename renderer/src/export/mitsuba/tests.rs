@@ -400,11 +400,11 @@ scatter = { on = "left", count = 25, settle = true }
     write(&scene, &world, &out).expect("an export");
     let xml = fs::read_to_string(out.join("scene.xml")).expect("a scene");
     assert_eq!(xml.matches("type=\"instance\"").count(), 25, "{xml}");
-    for (number, place) in world.strewn[&2].iter().enumerate() {
+    for (number, (_, place)) in world.strewn[&2].iter().enumerate() {
         let id = format!("object-crumbs.{}", number + 1);
         let at = xml.find(&format!("id=\"{id}\"")).expect("an instance");
         let matrix = &xml[at..][..600];
-        let x = place.matrix().w_axis.x * units::UNITS_PER_METRE;
+        let x = place.w_axis.x * units::UNITS_PER_METRE;
         let numbers = matrix.split(|c: char| !"-.0123456789e".contains(c));
         let mut numbers = numbers.filter_map(|word| word.parse::<f64>().ok());
         assert!(

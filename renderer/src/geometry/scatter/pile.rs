@@ -4,9 +4,12 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::body::Body;
 use super::rest::{Contact, support};
+use super::{NoPlace, ScatterError};
 
 /// Cells along the radius of the smallest body.
 const CELLS_PER_RADIUS: f64 = 100.0;
+/// Fewest of them on a wide ground.
+const FEWEST_PER_RADIUS: f64 = 8.0;
 /// Most cells of a pile (128 MiB).
 const MOST_CELLS: f64 = 16_777_216.0;
 /// Times that a body is turned on its way to rest.
@@ -28,6 +31,8 @@ pub(super) struct Pile {
     cell: f64,
     size: [usize; 2],
     heights: Vec<f64>,
+    /// Cells of the triangle that is added; kept for its memory.
+    covered: Vec<Covered>,
 }
 
 /// A cell that a triangle's plan may touch, with bounds of its height there.
@@ -41,28 +46,45 @@ struct Covered {
 impl Pile {
     /// A pile over the rectangle of the ground plan, and as far around it as bodies reach; the
     /// smallest body sets how fine it is.
-    pub(super) fn over([least, most]: [DVec2; 2], reach: f64, smallest: f64) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`ScatterError::TooWide`] if the cells would be too large for it.
+    pub(super) fn over(
+        [least, most]: [DVec2; 2],
+        reach: f64,
+        smallest: f64,
+    ) -> Result<Self, ScatterError> {
         let extent = most - least + 2.0 * reach;
-        let cell = smallest / CELLS_PER_RADIUS;
-        let cell = cell.max((extent.x * extent.y / MOST_CELLS).sqrt());
         // One more on each side, so that what touches the border has a cell.
-        let size = (extent / cell).to_array().map(|n| n as usize + 3);
-        Self {
+        let size = |cell: f64| (extent / cell).ceil() + 3.0;
+        let mut cell = smallest / CELLS_PER_RADIUS;
+        while size(cell).element_product() > MOST_CELLS {
+            cell *= 1.25;
+        }
+        if cell * FEWEST_PER_RADIUS > smallest || !cell.is_normal() {
+            return Err(ScatterError::TooWide {
+                width: extent.max_element(),
+                radius: smallest,
+            });
+        }
+        let size = size(cell).to_array().map(|n| n as usize);
+        Ok(Self {
             origin: least - reach - cell,
             cell,
             size,
             heights: vec![f64::NEG_INFINITY; size[0] * size[1]],
-        }
+            covered: Vec::new(),
+        })
     }
 
-    /// Adds triangles of the world.
-    pub(super) fn add_all(&mut self, triangles: &[[DVec3; 3]]) {
-        let mut covered = Vec::new();
-        for triangle in triangles {
-            covered.clear();
-            self.cover(*triangle, &mut covered);
-            self.raise(&covered, 0.0);
-        }
+    /// Adds a triangle of the world.
+    pub(super) fn add(&mut self, triangle: [DVec3; 3]) {
+        let mut covered = std::mem::take(&mut self.covered);
+        covered.clear();
+        self.cover(triangle, &mut covered);
+        self.raise(&covered, 0.0);
+        self.covered = covered;
     }
 
     fn raise(&mut self, covered: &[Covered], by: f64) {
@@ -147,14 +169,14 @@ impl Pile {
 
     /// Lets a body fall straight down over a point of the plan, lets it turn until it lies still,
     /// and adds it. `posture` holds its first turn and its size. Returns its last posture and the
-    /// place of its centre of mass; `None` if nothing holds it there, or it finds no rest.
+    /// place of its centre of mass, or why it has none.
     pub(super) fn settle(
         &mut self,
         body: &Body,
         posture: DMat3,
         at: DVec2,
         gap: f64,
-    ) -> Option<(DMat3, DVec3)> {
+    ) -> Result<(DMat3, DVec3), NoPlace> {
         let mut posture = posture;
         let place = at.extend(0.0);
         let mut covered = Vec::new();
@@ -186,7 +208,7 @@ impl Pile {
                     })
                 }));
             }
-            let lies = support(&contacts)?;
+            let lies = support(&contacts).ok_or(NoPlace::Edge)?;
             let slope = lies.slope;
             steepness = lies.steepness;
             // Between two contacts that take turns a body would rock for ever.
@@ -207,7 +229,7 @@ impl Pile {
             is_fine |= 2 * turns > TURNS;
         }
         if steep > UNSTEADY || steepness > FRICTION {
-            return None;
+            return Err(NoPlace::Steep);
         }
         covered.clear();
         for triangle in body.triangles() {
@@ -218,9 +240,9 @@ impl Pile {
         let lifts = lifts.map(|covered| self.heights[covered.index] - covered.low);
         let lift = lifts.fold(f64::NEG_INFINITY, f64::max) + gap;
         if !lift.is_finite() {
-            return None;
+            return Err(NoPlace::Edge);
         }
         self.raise(&covered, lift);
-        Some((posture, at.extend(lift)))
+        Ok((posture, at.extend(lift)))
     }
 }

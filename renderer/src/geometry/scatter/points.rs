@@ -4,7 +4,11 @@ use std::collections::HashMap;
 
 use glam::{DAffine3, DVec2, DVec3};
 
+use super::ScatterError;
 use crate::geometry::TriangleMesh;
+
+/// Most triangles of a surface, in all its places (2.9 GB).
+const MOST_TRIANGLES: usize = 20_000_000;
 
 /// A surface in the world.
 #[derive(Clone, Debug, Default)]
@@ -12,26 +16,42 @@ pub struct Ground {
     triangles: Vec<[DVec3; 3]>,
 }
 
+/// The triangles of some meshes in their places.
+pub fn triangles<'a>(
+    parts: impl IntoIterator<Item = (&'a TriangleMesh, DAffine3)>,
+) -> impl Iterator<Item = [DVec3; 3]> {
+    parts.into_iter().flat_map(|(mesh, place)| {
+        let corner =
+            move |vertex: u32| place.transform_point3(mesh.positions()[vertex as usize].as_dvec3());
+        // A place that mirrors would turn what faces up down.
+        let mirrors = place.matrix3.determinant() < 0.0;
+        mesh.triangles().iter().map(move |triangle| {
+            let [a, b, c] = triangle.map(corner);
+            if mirrors { [a, c, b] } else { [a, b, c] }
+        })
+    })
+}
+
 impl Ground {
     /// The surface of some meshes in their places.
-    pub fn of<'a>(parts: impl IntoIterator<Item = (&'a TriangleMesh, DAffine3)>) -> Self {
-        let mut triangles = Vec::new();
-        for (mesh, place) in parts {
-            let corner =
-                |vertex: u32| place.transform_point3(mesh.positions()[vertex as usize].as_dvec3());
-            // A place that mirrors would turn what faces up down.
-            let mirrors = place.matrix3.determinant() < 0.0;
-            triangles.extend(mesh.triangles().iter().map(|triangle| {
-                let [a, b, c] = triangle.map(corner);
-                if mirrors { [a, c, b] } else { [a, b, c] }
-            }));
+    ///
+    /// # Errors
+    ///
+    /// [`ScatterError::TooFine`] if it has more than 20 million triangles.
+    pub fn of<'a>(
+        parts: impl IntoIterator<Item = (&'a TriangleMesh, DAffine3)>,
+    ) -> Result<Self, ScatterError> {
+        let triangles: Vec<_> = triangles(parts).take(MOST_TRIANGLES + 1).collect();
+        if triangles.len() > MOST_TRIANGLES {
+            let most = MOST_TRIANGLES;
+            return Err(ScatterError::TooFine { most });
         }
-        Self { triangles }
+        Ok(Self { triangles })
     }
 
     /// Its triangles.
-    pub fn triangles(&self) -> &[[DVec3; 3]] {
-        &self.triangles
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.triangles.iter().copied()
     }
 
     /// What of it counts: all that is in a rectangle of the plan, by area, or what of that faces
@@ -144,9 +164,9 @@ impl Spaced {
             return true;
         }
         let [x, y, z] = self.cell(point);
-        let near = (x - 1..=x + 1).flat_map(|x| {
-            (y - 1..=y + 1).flat_map(move |y| (z - 1..=z + 1).map(move |z| [x, y, z]))
-        });
+        let around = |n: i64| n.saturating_sub(1)..=n.saturating_add(1);
+        let near =
+            around(x).flat_map(|x| around(y).flat_map(move |y| around(z).map(move |z| [x, y, z])));
         let mut near = near.filter_map(|cell| self.points.get(&cell)).flatten();
         near.all(|other| other.distance(point) >= self.least)
     }

@@ -84,8 +84,8 @@ fn a_leaning_card_comes_to_lie_flat() {
         least_distance: 0.15,
         ..plan(6)
     };
-    let ground = Ground::of(alone(&ground));
-    let places = plan.places(&ground, &[], &[Body::of(alone(&card))]);
+    let ground = Ground::of(alone(&ground)).expect("a ground");
+    let places = plan.places(&ground, [], &[Body::of(alone(&card))]);
     for place in places.expect("there is room") {
         for corner in corners(&card, &place) {
             assert!((corner.z - 0.001).abs() < 1e-4, "{corner}");
@@ -112,8 +112,8 @@ fn a_card_on_two_rods_lies_in_the_plane_of_both() {
         ..plan(1)
     };
     let places = plan.places(
-        &Ground::of(alone(&ground)),
-        &rods,
+        &Ground::of(alone(&ground)).expect("a ground"),
+        rods,
         &[Body::of(alone(&card))],
     );
     let up = places.expect("there is room")[0].to_world.matrix3.z_axis;
@@ -126,7 +126,11 @@ fn a_card_on_two_rods_lies_in_the_plane_of_both() {
 #[test]
 fn a_ball_lies_on_its_lowest_point() {
     let (ground, ball) = (floor(0.5), ball(0.02));
-    let places = plan(1).places(&Ground::of(alone(&ground)), &[], &[Body::of(alone(&ball))]);
+    let places = plan(1).places(
+        &Ground::of(alone(&ground)).expect("a ground"),
+        [],
+        &[Body::of(alone(&ball))],
+    );
     let place = places.expect("there is room")[0].to_world.translation;
     assert!((place.z - 0.02).abs() < 2e-4, "{place}");
 }
@@ -176,14 +180,14 @@ fn curled_leaves_in_a_heap_neither_pass_through_one_another_nor_hang_in_the_air(
         rest: Rest::Settled { gap: 1e-4 },
         ..plan(30)
     };
-    let ground = Ground::of(alone(&hills));
-    let places = plan.places(&ground, &[], &bodies).expect("there is room");
+    let ground = Ground::of(alone(&hills)).expect("a ground");
+    let places = plan.places(&ground, [], &bodies).expect("there is room");
     assert!(
         places
             .iter()
             .any(|place| place.to_world.matrix3.z_axis.z < 0.0)
     );
-    let mut below: Vec<[DVec3; 3]> = ground.triangles().to_vec();
+    let mut below: Vec<[DVec3; 3]> = ground.triangles().collect();
     let mut highest = 0.0_f64;
     for place in &places {
         let mesh = &shapes[place.body as usize];
@@ -221,10 +225,11 @@ fn curled_leaves_in_a_heap_neither_pass_through_one_another_nor_hang_in_the_air(
             let middle = |a: DVec3, b: DVec3| (a + b) / 2.0;
             [p, middle(p, q), middle(q, r), (p + q + r) / 3.0]
         };
+        // Cells (0.4 mm) times slopes (up to 4), the slope left (0.01 of 57 mm) and points 3 mm apart.
         let mine = own.iter().copied().flat_map(points);
-        let mine = mine.filter(|point| point.z - height(&below, *point, f64::max) < 3e-3);
+        let mine = mine.filter(|point| point.z - height(&below, *point, f64::max) < 4e-3);
         let theirs = below.iter().copied().flat_map(points);
-        let theirs = theirs.filter(|point| height(&own, *point, f64::min) - point.z < 3e-3);
+        let theirs = theirs.filter(|point| height(&own, *point, f64::min) - point.z < 4e-3);
         let mut towards: Vec<f64> = mine
             .chain(theirs)
             .map(|point| libm::atan2(point.y - middle.y, point.x - middle.x))
@@ -252,14 +257,14 @@ fn points_are_as_dense_as_the_surface_is_large() {
         2,
         |x, _| if x > 0.0 { x * 3.0_f64.sqrt() } else { 0.0 },
     );
-    let ground = Ground::of(alone(&steep));
+    let ground = Ground::of(alone(&steep)).expect("a ground");
     let body = [Body::of(alone(&steep))];
     let fixed = Scatter {
         amount: Amount::PerSquareMetre(1000.0),
         rest: Rest::Fixed { sink: 0.0 },
         ..plan(0)
     };
-    let places = fixed.places(&ground, &[], &body).expect("there is room");
+    let places = fixed.places(&ground, [], &body).expect("there is room");
     assert_eq!(places.len(), 6000);
     let on_slope = |place: &&Strewn| place.to_world.translation.x > 0.0;
     let count = places.iter().filter(on_slope).count() as f64;
@@ -276,18 +281,33 @@ fn points_are_as_dense_as_the_surface_is_large() {
         upright: true,
         ..fixed
     };
-    let places = upright.places(&ground, &[], &body).expect("there is room");
+    let places = upright.places(&ground, [], &body).expect("there is room");
     assert!(
         places
             .iter()
             .all(|place| place.to_world.matrix3.z_axis.z > 1.0 - 1e-12)
     );
+}
+
+#[test]
+fn what_settles_is_as_dense_as_the_plan_is_large() {
+    // One half is a slope of 20°.
+    let slope = sheet(0.8, 2, |x, _| 0.364 * x.max(0.0));
+    let card = sheet(0.004, 2, |_, _| 0.0);
     let settled = Scatter {
-        rest: Rest::Settled { gap: 0.0 },
-        ..upright
+        amount: Amount::PerSquareMetre(2000.0),
+        ..plan(0)
     };
-    let measure = ground.measure(None, true);
-    assert!((measure.total() - 4.0).abs() < 1e-6, "{settled:?}");
+    let ground = Ground::of(alone(&slope)).expect("a ground");
+    let places = settled.places(&ground, [], &[Body::of(alone(&card))]);
+    let places = places.expect("there is room");
+    assert_eq!(places.len(), 1280);
+    let on_slope = places
+        .iter()
+        .filter(|place| place.to_world.translation.x > 0.0);
+    let count = on_slope.count() as f64;
+    // Half of them, with a standard deviation of 17.9.
+    assert!((count - 640.0).abs() < 4.0 * 17.9, "{count}");
 }
 
 #[test]
@@ -300,10 +320,10 @@ fn what_is_strewn_keeps_to_its_rectangle_and_its_distance() {
         rest: Rest::Fixed { sink: 0.01 },
         ..plan(200)
     };
-    let ground = Ground::of(alone(&ground));
+    let ground = Ground::of(alone(&ground)).expect("a ground");
     let pebble = ball(0.01);
     let bodies = [Body::of(alone(&pebble))];
-    let places = plan.places(&ground, &[], &bodies).expect("there is room");
+    let places = plan.places(&ground, [], &bodies).expect("there is room");
     for (number, place) in places.iter().enumerate() {
         let at = place.to_world.translation;
         let plan = at.truncate();
@@ -320,33 +340,79 @@ fn what_is_strewn_keeps_to_its_rectangle_and_its_distance() {
         amount: Amount::Count(2000),
         ..plan.clone()
     };
-    let Err(ScatterError::NoRoom { found, wanted }) = crowd.places(&ground, &[], &bodies) else {
+    let Err(ScatterError::NoRoom { found, wanted, why }) = crowd.places(&ground, [], &bodies)
+    else {
         panic!("2000 discs of 5 cm do not fit into 1.25 m²");
     };
     // The densest random packing covers some 0.547 of the area.
+    assert_eq!(why, NoPlace::Near);
     assert!(wanted == 2000 && (300..=400).contains(&found), "{found}");
     let nowhere = Scatter {
         within: Some([DVec2::splat(20.0), DVec2::splat(21.0)]),
         ..plan
     };
-    let refused = nowhere.places(&ground, &[], &bodies);
+    let refused = nowhere.places(&ground, [], &bodies);
     assert_eq!(refused, Err(ScatterError::NoSurface { rests: false }));
 }
 
 #[test]
-fn nothing_hangs_over_an_edge() {
-    let (ground, card) = (floor(0.2), sheet(0.1, 20, |_, _| 0.0));
+fn nothing_tips_over_an_edge() {
+    // Bent to one side, so that some would have their centre of mass beyond the rim.
+    let (ground, bent) = (
+        floor(0.1),
+        sheet(0.1, 20, |x, _| if x > 0.0 { 3.0 * x } else { 0.0 }),
+    );
     let plan = Scatter {
-        tilt: 0.4,
-        ..plan(30)
+        rest: Rest::Settled { gap: 1e-5 },
+        least_distance: 0.005,
+        ..plan(12)
     };
-    let bodies = [Body::of(alone(&card))];
-    let places = plan.places(&Ground::of(alone(&ground)), &[], &bodies);
-    for place in places.expect("there is room") {
-        let middle = place.to_world.translation;
-        assert!(
-            middle.z >= 0.0 && middle.truncate().abs().max_element() <= 0.1,
-            "{middle}"
-        );
-    }
+    let bodies = [Body::of(alone(&bent))];
+    let ground = Ground::of(alone(&ground)).expect("a ground");
+    let places = plan.places(&ground, [], &bodies).expect("there is room");
+    // The first lies on the floor alone: its lowest corners hold its centre of mass between them.
+    let at = corners(&bent, &places[0]);
+    let middle = places[0].to_world.transform_point3(bodies[0].middle());
+    let held = at
+        .iter()
+        .filter(|corner| corner.z < 1e-3 && corner.abs().max_element() < 0.051);
+    let held: Vec<DVec2> = held.map(|corner| (*corner - middle).truncate()).collect();
+    let mut sides: Vec<f64> = held.iter().map(|at| libm::atan2(at.y, at.x)).collect();
+    sides.sort_by(f64::total_cmp);
+    let next = sides.iter().cycle().skip(1);
+    let turns = sides.iter().zip(next);
+    let widest = turns.map(|(a, b)| (b - a).rem_euclid(std::f64::consts::TAU));
+    let widest = widest.fold(0.0, f64::max);
+    assert!(
+        sides.len() >= 3 && widest <= std::f64::consts::PI + 0.05,
+        "{widest} {held:?}"
+    );
+}
+
+#[test]
+fn where_nothing_finds_rest_the_search_ends_and_says_why() {
+    let steep = sheet(0.5, 1, |x, _| 1.2 * x);
+    let card = sheet(0.02, 4, |_, _| 0.0);
+    let ground = Ground::of(alone(&steep)).expect("a ground");
+    let refused = plan(50_000).places(&ground, [], &[Body::of(alone(&card))]);
+    let why = NoPlace::Steep;
+    let (found, wanted) = (0, 50_000);
+    assert_eq!(refused, Err(ScatterError::NoRoom { found, wanted, why }));
+    let wide = sheet(1000.0, 1, |_, _| 0.0);
+    let ground = Ground::of(alone(&wide)).expect("a ground");
+    let refused = plan(1).places(&ground, [], &[Body::of(alone(&card))]);
+    assert!(
+        matches!(refused, Err(ScatterError::TooWide { .. })),
+        "{refused:?}"
+    );
+    let none = Scatter {
+        amount: Amount::PerSquareMetre(1e-9),
+        rest: Rest::Fixed { sink: 0.0 },
+        ..plan(0)
+    };
+    let refused = none.places(&ground, [], &[Body::of(alone(&card))]);
+    assert!(
+        matches!(refused, Err(ScatterError::None { .. })),
+        "{refused:?}"
+    );
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::random;
 use crate::geometry::{MeshError, TriangleMesh};
@@ -14,7 +15,7 @@ use crate::geometry::{MeshError, TriangleMesh};
 pub struct Terrain {
     /// Extent along x and y, m.
     pub size: [f64; 2],
-    /// Standard deviation of the height, m.
+    /// Standard deviation of the height, m, of a ground that is large beside the longest wave.
     pub deviation: f64,
     /// Longest and shortest wave, m.
     pub waves: [f64; 2],
@@ -53,25 +54,29 @@ impl Terrain {
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         let waves = self.spectrum();
         let [across, along] = self.squares().map(|count| count as u32);
-        let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-        for y in 0..=along {
-            for x in 0..=across {
-                let uv = DVec2::new(
-                    f64::from(x) / f64::from(across),
-                    f64::from(y) / f64::from(along),
-                );
-                let at = (uv - 0.5) * DVec2::from_array(self.size);
-                let (mut height, mut slope) = (0.0, DVec2::ZERO);
-                for wave in &waves {
-                    let (sin, cos) = libm::sincos(wave.vector.dot(at) + wave.phase);
-                    height += wave.amplitude * cos;
-                    slope -= wave.amplitude * sin * wave.vector;
-                }
-                positions.push(at.extend(height).as_vec3());
-                normals.push((-slope).extend(1.0).normalize().as_vec3());
-                uvs.push(uv.as_vec2());
+        let vertex = |x: u32, y: u32| {
+            let uv = DVec2::new(
+                f64::from(x) / f64::from(across),
+                f64::from(y) / f64::from(along),
+            );
+            let at = (uv - 0.5) * DVec2::from_array(self.size);
+            let (mut height, mut slope) = (0.0, DVec2::ZERO);
+            for wave in &waves {
+                let (sin, cos) = libm::sincos(wave.vector.dot(at) + wave.phase);
+                height += wave.amplitude * cos;
+                slope -= wave.amplitude * sin * wave.vector;
             }
-        }
+            let normal = (-slope).extend(1.0).normalize();
+            (at.extend(height).as_vec3(), normal.as_vec3(), uv.as_vec2())
+        };
+        let rows = (0..=along).into_par_iter();
+        let vertices: Vec<(Vec3, Vec3, Vec2)> = rows
+            .flat_map_iter(|y| (0..=across).map(move |x| (x, y)))
+            .map(|(x, y)| vertex(x, y))
+            .collect();
+        let positions = vertices.iter().map(|vertex| vertex.0).collect();
+        let normals = vertices.iter().map(|vertex| vertex.1).collect();
+        let uvs = vertices.iter().map(|vertex| vertex.2).collect();
         let corner = |x: u32, y: u32| y * (across + 1) + x;
         let squares = (0..along).flat_map(|y| (0..across).map(move |x| (x, y)));
         let triangles = squares.flat_map(|(x, y)| {
@@ -79,8 +84,6 @@ impl Terrain {
             let [c, d] = [corner(x + 1, y + 1), corner(x, y + 1)];
             [[a, b, c], [a, c, d]]
         });
-        let (positions, normals): (Vec<Vec3>, Vec<Vec3>) = (positions, normals);
-        let uvs: Vec<Vec2> = uvs;
         TriangleMesh::new(positions, Some(normals), Some(uvs), triangles.collect())
     }
 

@@ -131,7 +131,7 @@ const MOST_SQUARES: f64 = 8e6;
 fn declare_drop(drop: &mut Drop, keys: &mut Keys<'_>) {
     let mut volume_ul = 1e9 * drop.volume;
     let limits = Number(Limits::closed(1e-6, 1000.0));
-    let about = "Volume; up to some 10 µl gravity hardly flattens a drop of water, above it does, \
+    let about = "Volume; up to 1 or 2 µl gravity hardly flattens a drop of water, above it does, \
         and the shape is no longer that of water.";
     keys.required("volume_ul", &mut volume_ul, limits, about);
     drop.volume = 1e-9 * volume_ul;

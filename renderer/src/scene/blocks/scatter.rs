@@ -9,7 +9,7 @@ use leafmodel::document::value_kind::{Degrees, Flag, Integer, Number, Numbers};
 use super::camera::COORDINATES_M;
 use super::name_list::NamesIn;
 use super::placement::SCALES;
-use crate::geometry::scatter::{Amount, MOST_THINGS, Rest, Scatter};
+use crate::geometry::scatter::{Amount, MOST_AT_REST, MOST_THINGS, Rest, Scatter};
 use crate::scene::description::{Object, ObjectShape, StrewnOn};
 
 impl StrewnOn {
@@ -101,7 +101,7 @@ fn strewn_on(strewn: &mut StrewnOn, keys: &mut Keys<'_>) {
         let problem = "the least factor is greater than the greatest".to_owned();
         keys.refuse(&["scale"], problem, "write the smaller one first");
     }
-    let about = "Greatest lean from the surface's normal, before they come to rest.";
+    let about = "Greatest lean from the surface's normal, before they come to rest; all directions within it are equally likely.";
     let limits = Degrees(Limits::closed(0.0, 180.0));
     keys.key("tilt_deg", &mut plan.tilt, limits, about);
     let about = "Greatest turn to either side about their own z.";
@@ -112,6 +112,36 @@ fn strewn_on(strewn: &mut StrewnOn, keys: &mut Keys<'_>) {
     let about = "Whether they stand upright instead of along the surface's normal.";
     keys.key("upright", &mut plan.upright, Flag, about);
     rest(plan, keys);
+    let settles = matches!(plan.rest, Rest::Settled { .. });
+    let amount = plan.amount;
+    for (key, needs_rest) in [
+        ("over", true),
+        ("gap_mm", true),
+        ("sink_mm", false),
+        ("upright", false),
+    ] {
+        if keys.reader().is_some() && keys.has(key) && needs_rest != settles {
+            let (problem, help) = if settles {
+                (
+                    "has no effect on what settles",
+                    "take it out, or leave `settle` out",
+                )
+            } else {
+                (
+                    "has an effect only on what settles",
+                    "write `settle = true` beside it",
+                )
+            };
+            keys.refuse(&[key], problem.to_owned(), help);
+        }
+    }
+    if let Amount::Count(count) = amount
+        && settles
+        && count as usize > MOST_AT_REST
+    {
+        let problem = format!("{count} are more than the {MOST_AT_REST} that may settle");
+        keys.refuse(&["count"], problem, "use fewer");
+    }
     let about = "Different leaves of each kind that are grown for it.";
     let count = Integer::within(1, 1000);
     keys.key("individuals", &mut strewn.individuals, count, about);
@@ -119,6 +149,11 @@ fn strewn_on(strewn: &mut StrewnOn, keys: &mut Keys<'_>) {
         need `senescence` by `day`.";
     let days = Numbers::<2>(Limits::closed(0.0, 1e4));
     keys.optional("days", &mut strewn.days, days, about);
+    if strewn.individuals == 1 && strewn.days.is_some_and(|[first, last]| first != last) {
+        let problem = "one individual has one age".to_owned();
+        let help = "write `individuals = 5` beside it, or the same day twice";
+        keys.refuse(&["days"], problem, help);
+    }
     let seed = Integer::within(0, u64::MAX);
     let about = "Same numbers and seed, same places.";
     keys.key("seed", &mut strewn.plan.seed, seed, about);

@@ -7,11 +7,11 @@ use glam::{DAffine3, DMat4, DVec3};
 use super::WorldError;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
-use crate::geometry::scatter::{Body, Ground, MOST_THINGS, ScatterError};
+use crate::geometry::scatter::{Body, Ground, MOST_THINGS, ScatterError, triangles};
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
 /// The shape of each copy and its place in the scene's frame, by object.
-type Places = BTreeMap<usize, Vec<(u32, DMat4)>>;
+pub type Places = BTreeMap<usize, Vec<(u32, DMat4)>>;
 
 /// Places in single precision, with the origin at `origin` in the scene.
 pub(super) fn around(places: &Places, origin: DVec3) -> BTreeMap<usize, Vec<InstancePlace>> {
@@ -65,11 +65,9 @@ impl<'a> Strewing<'a> {
     }
 
     fn strew(&self, object: &Object, strewn: &StrewnOn) -> Result<Vec<(u32, DMat4)>, ScatterError> {
-        let ground = Ground::of(self.standing(strewn.on));
-        let mut others: Vec<[DVec3; 3]> = Vec::new();
-        for &over in &strewn.over {
-            others.extend_from_slice(Ground::of(self.standing(over)).triangles());
-        }
+        let ground = Ground::of(self.standing(strewn.on))?;
+        let others = strewn.over.iter();
+        let others = others.flat_map(|over| triangles(self.standing(*over)));
         // A plant is strewn as a whole.
         let group = object.instances.as_deref();
         let shapes = match group {
@@ -78,7 +76,7 @@ impl<'a> Strewing<'a> {
         };
         let body = |shape: &ObjectShape| Body::of(self.parts(*shape, object.to_world));
         let bodies: Vec<Body> = shapes.iter().map(body).collect();
-        let places = strewn.plan.places(&ground, &others, &bodies)?;
+        let places = strewn.plan.places(&ground, others, &bodies)?;
         let parts = group.map_or(1, <[_]>::len);
         if places.len() * parts > MOST_THINGS {
             return Err(ScatterError::TooMany {

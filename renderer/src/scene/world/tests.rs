@@ -260,15 +260,15 @@ fn things_lie_on_the_floor_and_on_those_before_them() {
     let [crumbs, cards] = [1, 2].map(|object| &world.strewn[&object]);
     assert_eq!((crumbs.len(), cards.len()), (300, 18));
     assert_eq!(world.objects.len(), 1 + 300 + 18);
-    for place in crumbs {
-        let [.., x, y, z] = place.to_world;
-        assert!((1.7..=2.3).contains(&x) && y.abs() <= 0.3, "{x} {y}");
-        assert!((0.5..0.51).contains(&z), "{z}");
+    for (_, place) in crumbs {
+        let at = place.w_axis;
+        assert!((1.7..=2.3).contains(&at.x) && at.y.abs() <= 0.3, "{at}");
+        assert!((0.5..0.52).contains(&at.z), "{at}");
     }
-    let on_crumbs = cards.iter().filter(|place| place.to_world[11] > 0.503);
+    let on_crumbs = cards.iter().filter(|(_, place)| place.w_axis.z > 0.503);
     assert!(on_crumbs.count() > 2);
-    for place in cards {
-        let scale = place.matrix().x_axis.length();
+    for (_, place) in cards {
+        let scale = place.x_axis.length();
         assert!((scale - 0.8).abs() < 1e-6, "{scale}");
     }
 }
