@@ -20,6 +20,7 @@ sys.path.insert(0, str(HERE))
 
 import lamina
 import numpy as np
+import OpenImageIO as oiio
 from lamina.plots import plot, ticks
 from lamina.report import main as command
 from lamina.report import report
@@ -96,6 +97,22 @@ def test_two_pictures_are_compared_by_their_numbers() -> None:
             assert f"<td>{mean:.5g}</td>" in page.text
         # Names are text, never tags.
         assert "&lt;b&gt;" in page.text and "<b>" not in page.text
+
+
+def test_a_denoised_picture_is_no_measurement() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "made.exr")
+        lamina.render(FURNACE, SMALL, spp=1, out=made)
+        denoised = oiio.ImageBuf(str(made))
+        denoised.specmod().attribute("lamina:denoised", "by hand")
+        assert denoised.write(str(made.with_stem("clean")))
+        try:
+            report([made, made.with_stem("clean")], Path(folder, "page.html"))
+        except ValueError as error:
+            assert "clean.exr is denoised" in str(error), error
+        else:
+            raise AssertionError("a denoised picture was compared")
+        assert not Path(folder, "page.html").exists()
 
 
 def test_a_sweep_has_its_tasks_pictures_and_plots() -> None:

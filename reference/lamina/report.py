@@ -86,6 +86,9 @@ def report(paths: Sequence[str | Path], out: str | Path) -> Path:
 def two_pictures(first: Path, second: Path) -> tuple[str, str, list[Section]]:
     """Title, summary and the section of two pictures."""
     a, b = read(first), read(second)
+    for place, picture in ((first, a), (second, b)):
+        if "denoised" in picture.attrs:
+            raise ValueError(f"{place} is denoised: its error is not known")
     layer = next((name for name in ("radiance", "colour") if name in a and name in b), None)
     if layer is None or a[layer].shape != b[layer].shape:
         raise ValueError(f"{first} and {second} are no pictures of one size and kind of film")
