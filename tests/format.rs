@@ -12,6 +12,7 @@ mod book;
 mod cameras;
 mod leaves;
 mod refused;
+mod scatter;
 mod schema;
 mod tissues;
 

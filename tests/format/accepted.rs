@@ -1,10 +1,8 @@
 //! What valid scenes mean: the values that they resolve to.
 
 use glam::{DMat4, DVec3};
-use leafmodel::blade::senescence::AgeSource;
 use renderer::camera::thin_lens::ThinLens;
 use renderer::camera::view::Projection;
-use renderer::geometry::scatter::{Amount, Rest};
 use renderer::scene::description::{
     Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum,
     Tone,
@@ -177,37 +175,6 @@ fn names_become_indices_in_the_order_of_the_file() {
     assert!(
         matches!(&scene.meshes[2].value, Mesh::File { file, scale } if file.is_absolute() && *scale == 0.001)
     );
-}
-
-#[test]
-fn what_is_strewn_has_its_numbers_in_si_units_and_its_leaves_apart() {
-    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
-    let [crumbs, litter] = [12, 14].map(|object| &scene.objects[object].value);
-    let strewn = crumbs.strewn.as_ref().expect("crumbs are strewn");
-    assert_eq!(
-        (strewn.on, strewn.plan.amount),
-        (11, Amount::PerSquareMetre(500.0))
-    );
-    assert_near(strewn.plan.least_distance, 0.002);
-    assert_near(strewn.plan.tilt, std::f64::consts::FRAC_PI_3);
-    assert_near(strewn.plan.turn, std::f64::consts::FRAC_PI_2);
-    assert_eq!(strewn.plan.rest, Rest::Fixed { sink: 0.001 });
-    let strewn = litter.strewn.as_ref().expect("leaves are strewn");
-    assert_eq!(strewn.over, [12, 5]);
-    assert_eq!(strewn.plan.rest, Rest::Settled { gap: 0.0002 });
-    // The second individual, after the four leaves of the file and that of the plant's.
-    assert_eq!(litter.shapes.len(), 2);
-    let days = litter.shapes.iter().map(|shape| {
-        let ObjectShape::Leaf { leaf } = shape else {
-            panic!("a leaf is strewn");
-        };
-        let age = scene.leaves[*leaf].value.plan.senescence.expect("it ages");
-        match age.source {
-            AgeSource::Day { day, .. } => day,
-            AgeSource::Revenue { .. } => panic!("it ages by days"),
-        }
-    });
-    assert_eq!(days.collect::<Vec<_>>(), [1.0, 20.0]);
 }
 
 #[test]

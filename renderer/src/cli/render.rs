@@ -212,7 +212,7 @@ fn viewer(arguments: &RenderArguments, heading: &Heading) -> Result<Option<Viewe
     let open = |address: &String| {
         Viewer::open(address, &caption.name, [job.width, job.height]).map_err(|error| {
             Failure::bad(format!(
-                "--tev {address}: {error}: start tev first, or leave out --tev"
+                "--tev {address}: {error}: write HOST:PORT and start tev first, or leave out --tev"
             ))
         })
     };
