@@ -87,9 +87,10 @@ def render_lamina(program: Path, scene: Path, spp: int, seeds: int, work: Path) 
 
 def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
     """Renders a scene twice and compares; gives the scene's name and the comparison."""
-    from . import compare, relief_bsdf, render
+    from . import compare, lights, relief_bsdf, render
 
     relief_bsdf.register()
+    lights.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     exported = work / "exported"
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", exported)
@@ -106,9 +107,10 @@ def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
 
 def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
     """Seconds that both programs take for one picture at equal samples a pixel."""
-    from . import relief_bsdf, render
+    from . import lights, relief_bsdf, render
 
     relief_bsdf.register()
+    lights.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", work / "exported")
     scene, facts = render.load(work / "exported")

@@ -23,6 +23,7 @@
 //! ```
 
 pub mod atomic;
+pub mod card;
 pub mod compare;
 pub mod display;
 pub mod jpeg;

@@ -30,8 +30,11 @@ pub mod daylight;
 pub mod distant;
 pub mod environment;
 pub mod patch;
+pub mod pattern;
+pub mod radiance_table;
 pub mod selection;
 pub mod spot;
+pub mod texels;
 pub mod tree;
 
 use std::f32::consts::PI;
@@ -56,7 +59,7 @@ pub enum Light {
     Environment(EnvironmentLight),
     /// The sun's disc, darker towards its limb.
     Sun(SunLight),
-    /// A clear sky, and the ground below its horizon.
+    /// A clear or an overcast sky, and the ground below its horizon.
     Sky(SkyLight),
     /// An emitting surface.
     Area(AreaLight),
@@ -121,10 +124,7 @@ impl Light {
             Self::Sky(light) => Sampled::Around {
                 irradiance: light.diffuse().mean_over(range_nm),
             },
-            Self::Area(light) => {
-                let radiance = light.radiance().mean_over(range_nm);
-                Sampled::ByParts(light.emitters(radiance).collect())
-            }
+            Self::Area(light) => Sampled::ByParts(light.emitters(range_nm).collect()),
             Self::Spot(light) => {
                 let intensity = light.intensity().mean_over(range_nm);
                 Sampled::ByParts(vec![light.emitter(intensity)])

@@ -47,5 +47,6 @@ pub mod fingerprint;
 pub mod load;
 pub mod plant_cache;
 pub mod plants;
+mod rigs;
 mod tissue;
 pub mod world;

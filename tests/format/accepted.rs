@@ -137,7 +137,14 @@ fn names_become_indices_in_the_order_of_the_file() {
         .map(|material| material.name.as_str())
         .collect();
     let expected = [
-        "paper", "glass", "green", "mapped", "measured", "rind", "flesh",
+        "paper",
+        "glass",
+        "green",
+        "mapped",
+        "measured",
+        "rind",
+        "flesh",
+        "studio.cloth",
     ];
     assert_eq!(names, expected);
     let shapes: Vec<ObjectShape> = scene
@@ -165,6 +172,11 @@ fn names_become_indices_in_the_order_of_the_file() {
             mesh(4, 0),
             mesh(3, 1),
             leaf(4),
+            // The walls of the rig's tent; behind them stand the axes of the plant.
+            mesh(scene.meshes.len() - 5, 7),
+            mesh(scene.meshes.len() - 4, 7),
+            mesh(scene.meshes.len() - 3, 7),
+            mesh(scene.meshes.len() - 2, 7),
         ]
     );
     assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
@@ -343,6 +355,17 @@ fn daylight_has_its_sun_by_place_and_time_or_by_two_angles() {
     assert_near(evening.elevation, std::f64::consts::PI / 18.0);
     assert_near(evening.azimuth, std::f64::consts::PI);
     assert_near(evening.atmosphere.distance_factor, 1.0);
+    assert_near(evening.scale, 0.5);
+    assert_eq!(evening.forest.map(f64::to_degrees), Some(90.0));
+}
+
+#[test]
+fn a_rig_becomes_lights_of_its_own_name() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let lights = scene.lights.iter().map(|light| light.name.as_str());
+    let of_the_rig: Vec<&str> = lights.filter(|name| name.starts_with("studio")).collect();
+    let parts = ["left", "right", "back", "roof", "room"];
+    assert_eq!(of_the_rig, parts.map(|part| format!("studio.{part}")));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use leafmodel::document::report::DocumentErrors;
 use renderer::checkpoint;
 use renderer::geometry::import::import;
 use renderer::image::{openexr, portable_network};
-use renderer::scene::assets::{DECODER, environment, mask};
+use renderer::scene::assets::{DECODER, mask, shining};
 use renderer::scene::load::{parse, parse_leaves, parse_picture};
 use renderer::sweep::{Sweep, Words};
 
@@ -208,7 +208,7 @@ fn pictures_as_openexr() {
         seeds: seeds("exr"),
         read: &|bytes| {
             fs::write(&file, bytes).expect("the folder was just made");
-            told(environment(&file));
+            told(shining(&file));
             told(mask(&file, None));
             told(DECODER.contents(&file));
             told(openexr::decode(bytes))
@@ -226,7 +226,7 @@ fn pictures_as_png() {
         seeds: seeds("png"),
         read: &|bytes| {
             fs::write(&file, bytes).expect("the folder was just made");
-            told(environment(&file));
+            told(shining(&file));
             told(mask(&file, None));
             told(DECODER.weights(&file));
             told(portable_network::decode(bytes))

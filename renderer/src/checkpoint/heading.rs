@@ -146,21 +146,26 @@ impl Heading {
         let Picture {
             exposure_ev,
             auto_exposure,
+            grey_object,
             white,
+            white_object,
             tone,
             depth,
             alpha,
-        } = caption.picture;
-        out.double(exposure_ev);
-        out.flag(auto_exposure);
+        } = &caption.picture;
+        out.double(*exposure_ev);
+        out.flag(*auto_exposure);
+        // An object has a name, so none is an empty one.
+        out.text(grey_object.as_deref().unwrap_or_default());
         out.double(match white {
             White::D65 => 0.0,
-            White::Kelvin(kelvin) => kelvin,
+            White::Kelvin(kelvin) => *kelvin,
         });
-        let number = TONES.iter().position(|known| *known == tone);
+        out.text(white_object.as_deref().unwrap_or_default());
+        let number = TONES.iter().position(|known| known == tone);
         out.word(number.map_or(u32::MAX, |number| number as u32));
-        out.flag(depth == Depth::Sixteen);
-        out.flag(alpha);
+        out.flag(*depth == Depth::Sixteen);
+        out.flag(*alpha);
         out.0
     }
 
@@ -203,10 +208,12 @@ impl Heading {
             picture: Picture {
                 exposure_ev: rest.double()?,
                 auto_exposure: rest.flag()?,
+                grey_object: Some(rest.text()?).filter(|name| !name.is_empty()),
                 white: match rest.double()? {
                     0.0 => White::D65,
                     kelvin => White::Kelvin(kelvin),
                 },
+                white_object: Some(rest.text()?).filter(|name| !name.is_empty()),
                 tone: *TONES.get(rest.word()? as usize)?,
                 depth: if rest.flag()? {
                     Depth::Sixteen

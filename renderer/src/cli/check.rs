@@ -6,7 +6,7 @@ use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Light, Mesh};
+use crate::scene::description::{Description, Held, Mesh};
 use crate::scene::load;
 use crate::scene::world::World;
 
@@ -73,9 +73,9 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         assets::contents_map(file).map_err(told)?;
     }
     for light in &description.lights {
-        if let Light::Environment { file, .. } = &light.value {
+        if let Some(file) = light.value.picture() {
             let told = |error| Failure::bad(format!("lights.{}: {error}", light.name));
-            assets::environment(file).map_err(told)?;
+            assets::shining(file).map_err(told)?;
         }
     }
     Ok(())

@@ -18,7 +18,6 @@ pub(super) struct Element {
     attributes: Vec<(&'static str, String)>,
     children: Vec<Element>,
     layout: Layout,
-    remark: Option<&'static str>,
 }
 
 /// The layout of an element's children, which matters to human readers only.
@@ -40,7 +39,6 @@ impl Element {
             attributes: Vec::new(),
             children: Vec::new(),
             layout: Layout::Indented,
-            remark: None,
         }
     }
 
@@ -68,18 +66,8 @@ impl Element {
         Self { layout, ..self }
     }
 
-    /// Adds a comment above it, which must not contain two consecutive dashes.
-    pub(super) fn remarked(self, remark: &'static str) -> Self {
-        let remark = Some(remark);
-        Self { remark, ..self }
-    }
-
     /// Writes it, indented by `indent` spaces, without a final newline.
     fn write(&self, text: &mut String, indent: usize) {
-        if let Some(remark) = self.remark {
-            let _ = write!(text, "<!-- {} -->", remark.replace("--", "- -"));
-            next_line(text, indent);
-        }
         self.write_start(text);
         if self.children.is_empty() {
             text.push_str("/>");
@@ -207,12 +195,11 @@ mod tests {
         let root = Element::new("scene").with("version", "3.0.0");
         let mut document = Document::new(&root.holding(shape()));
         let group = Element::new("group").holding(shape());
-        document.add(&group.laid_out(Layout::Level).remarked("a -- b"));
+        document.add(&group.laid_out(Layout::Level));
         let one = "<shape type=\"disk\">\n  <bsdf><float value=\"0.5\"/></bsdf>\n  <emitter>\n  <a/>\n  \
                    <b/>\n  </emitter>\n</shape>\n";
-        let expected = format!(
-            "<scene version=\"3.0.0\">\n{one}<!-- a - - b -->\n<group>\n{one}</group>\n</scene>\n"
-        );
+        let expected =
+            format!("<scene version=\"3.0.0\">\n{one}<group>\n{one}</group>\n</scene>\n");
         assert_eq!(document.finish(), expected);
     }
 

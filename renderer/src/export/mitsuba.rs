@@ -2,9 +2,9 @@
 //! comparison.
 //!
 //! Leaves become the plugin `lamina_leaf`, those with a relief `lamina_relief`, solid tissue
-//! `lamina_solid`; `reference/` registers them. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
-//! irradiance differs by 2e-5 over the scene. Environment pictures are upsampled to spectra by
-//! Mitsuba's own method, so scenes with one cannot be compared band by band.
+//! `lamina_solid`, skies and environment pictures textures on a sphere around the scene;
+//! `reference/` registers them. Everything else is Mitsuba's own. The sun's disc becomes a disk
+//! emitter so far away that irradiance differs by 2e-5 over the scene.
 
 mod bsdf;
 mod emitter;
@@ -13,6 +13,7 @@ mod plugin;
 mod sensor;
 mod shapes;
 mod spectra;
+mod surroundings;
 mod units;
 mod xml;
 
@@ -28,7 +29,8 @@ use crate::image::{ImageError, Layer, Picture, openexr};
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palette;
 use crate::material::relief::Relief;
-use crate::scene::description::{Band, Description, FilmKind, Light, Named};
+use crate::scene::assets::{self, AssetError};
+use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
 
 use self::spectra::Spectra;
@@ -47,15 +49,9 @@ pub enum ExportError {
     /// A map cannot be written.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// A light that Mitsuba does not have.
-    #[error(
-        "lights.{light}.daylight cannot be exported: Mitsuba has no environment whose spectrum \
-         changes with direction; render with `distant` and `constant` lights instead"
-    )]
-    Daylight {
-        /// Name of the light.
-        light: String,
-    },
+    /// The picture of a light cannot be read any more.
+    #[error(transparent)]
+    Asset(#[from] AssetError),
     /// A lens that Mitsuba does not have.
     #[error(
         "camera.perspective.{key} cannot be exported: Mitsuba's thin lens is round, open over the \
@@ -110,8 +106,8 @@ fn absorption_table(pigments: &Pigments) -> String {
 ///
 /// # Errors
 ///
-/// [`ExportError`] if the scene has daylight or a lens that Mitsuba lacks, something cannot be written, or `dir` is a folder of
-/// another kind.
+/// [`ExportError`] if the scene has a lens that Mitsuba lacks, something cannot be written, or `dir`
+/// is a folder of another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
     let at = |path: &Path| {
         let path = path.to_owned();
@@ -120,12 +116,6 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     if dir.exists() && !dir.join("lamina.json").is_file() {
         return Err(ExportError::NotOurs {
             path: dir.to_owned(),
-        });
-    }
-    let is_daylight = |light: &&Named<Light>| matches!(light.value, Light::Daylight(_));
-    if let Some(light) = scene.lights.iter().find(is_daylight) {
-        return Err(ExportError::Daylight {
-            light: light.name.clone(),
         });
     }
     if let Some(key) = sensor::foreign_key(&world.view) {
@@ -169,10 +159,21 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
             openexr::write(&relief_picture(relief), &folder.join(relief_file(&id)))?;
         }
     }
+    for (light, table) in surroundings::tables(scene, world) {
+        let picture = surroundings::weights(table.size, &table.weights);
+        openexr::write(&picture, &folder.join(units::weights_file(light)))?;
+        let spectra = surroundings::spectra(&table);
+        save(&surroundings::spectra_file(light), spectra.as_bytes())?;
+    }
     for light in &scene.lights {
-        if let Light::Environment { file, .. } = &light.value {
-            let path = folder.join(emitter::environment_file(&light.name, file));
-            fs::copy(file, &path).map_err(|source| ExportError::Write { path, source })?;
+        if let Light::Area { .. } = light.value
+            && let Some(file) = light.value.picture()
+        {
+            let picture = assets::shining(file)?;
+            let size = [picture.width, picture.texels.len() / picture.width];
+            let picture = surroundings::weights(size, &picture.texels);
+            let path = folder.join(units::weights_file(&light.name));
+            openexr::write(&picture, &path)?;
         }
     }
     for palette in world.palettes.iter() {
@@ -252,7 +253,7 @@ fn summary(scene: &Description) -> serde_json::Value {
     let suns = scene
         .lights
         .iter()
-        .filter(|light| matches!(light.value, Light::Distant { .. }));
+        .filter(|light| matches!(light.value, Light::Distant { .. } | Light::Daylight(_)));
     json!({
         "name": scene.name,
         "width": scene.film.width,

@@ -8,21 +8,26 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::card::colour_of;
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
-use super::white::White;
+use super::white::{White, neutralised};
 use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, portable_network};
 use crate::spectrum::wavelengths::seen_at;
 
 /// Settings of `[picture]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     /// Exposure: a factor of 2^EV on radiance.
     pub exposure_ev: f64,
     /// Whether light is brought to a middle grey first, by its mean logarithm.
     pub auto_exposure: bool,
+    /// An object that is brought to a middle grey first, as a grey card.
+    pub grey_object: Option<String>,
     /// The light that comes out white.
     pub white: White,
+    /// An object that comes out without colour, instead.
+    pub white_object: Option<String>,
     /// How light becomes what a display shows.
     pub tone: Tone,
     /// Depth of a PNG.
@@ -36,7 +41,9 @@ impl Default for Display {
         Self {
             exposure_ev: 0.0,
             auto_exposure: false,
+            grey_object: None,
             white: White::D65,
+            white_object: None,
             tone: Tone::Standard,
             depth: Depth::Eight,
             alpha: false,
@@ -100,7 +107,8 @@ impl Display {
     /// # Errors
     ///
     /// [`ImageError::Inconsistent`] if it has neither colours nor bands, colours of other
-    /// primaries than those of Rec. 709, or no layer `A` where alpha is wanted.
+    /// primaries than those of Rec. 709, no layer `A` where alpha is wanted, or does not show an
+    /// object by which it is balanced or exposed.
     pub fn pixels(&self, picture: &Picture) -> Result<Pixels, ImageError> {
         let mut colours = colours(picture)?;
         let alpha = if self.alpha {
@@ -115,17 +123,25 @@ impl Display {
         if self.auto_exposure {
             exposure *= meter(&colours);
         }
-        let adaptation = self.white.adaptation();
+        let adaptation = match &self.white_object {
+            Some(object) => Some(neutralised(colour_of(picture, &colours, object)?)),
+            None if self.white == White::D65 => None,
+            None => Some(self.white.adaptation()),
+        };
+        if let Some(object) = &self.grey_object {
+            let card = DVec3::from_array(colour_of(picture, &colours, object)?);
+            let shown = adaptation.map_or(card, |adaptation| adaptation * card);
+            exposure *= MIDDLE_GREY / luminance(shown.to_array());
+        }
         let most = f64::from(self.depth.most());
         let stored = |value: f64| libm::round(value * most) as u16;
         let channels = if alpha.is_some() { 4 } else { 3 };
         let mut values = Vec::with_capacity(colours.len() * channels);
         for (pixel, colour) in colours.iter().enumerate() {
             let light = colour.map(|value| f64::from(value) * exposure);
-            let light = match self.white {
-                White::D65 => light,
-                White::Kelvin(_) => (adaptation * DVec3::from_array(light)).to_array(),
-            };
+            let light = adaptation.map_or(light, |adaptation| {
+                (adaptation * DVec3::from_array(light)).to_array()
+            });
             values.extend(self.tone.encoded(light).map(stored));
             if let Some(alpha) = alpha {
                 values.push(stored(f64::from(alpha[pixel]).clamp(0.0, 1.0)));
@@ -141,24 +157,25 @@ impl Display {
     }
 }
 
-/// The factor that brings the mean logarithm of luminance to that of middle grey, 0.18. Pixels
-/// without light do not count; a picture without any keeps its exposure.
+/// Luminance of middle grey, on a scale where that of white is 1.
+const MIDDLE_GREY: f64 = 0.18;
+
+/// Luminance of linear sRGB.
+fn luminance(colour: [f64; 3]) -> f64 {
+    let channels = colour.into_iter().zip([0.2126, 0.7152, 0.0722]);
+    channels.map(|(value, weight)| value * weight).sum()
+}
+
+/// The factor that brings the mean logarithm of luminance to that of middle grey. Pixels without
+/// light do not count; a picture without any keeps its exposure.
 ///
 /// # Source
 ///
 /// \[reinhard2002\], equations 1 and 2.
 fn meter(colours: &[[f32; 3]]) -> f64 {
-    const MIDDLE_GREY: f64 = 0.18;
-    let weights = [0.2126, 0.7152, 0.0722];
-    let luminance = |colour: &[f32; 3]| -> f64 {
-        let channels = colour.iter().zip(weights);
-        channels
-            .map(|(value, weight)| f64::from(*value) * weight)
-            .sum()
-    };
     let lit = colours
         .iter()
-        .map(luminance)
+        .map(|colour| luminance(colour.map(f64::from)))
         .filter(|y| *y > 0.0 && y.is_finite());
     let (sum, count) = lit.fold((0.0, 0_u32), |(sum, count), y| {
         (sum + libm::log(y), count + 1)
@@ -358,6 +375,43 @@ mod tests {
             ..Display::default()
         };
         assert_eq!(auto.pixels(&black).expect("it has colours").values, [0; 3]);
+    }
+
+    #[test]
+    fn a_grey_card_comes_out_grey_at_the_same_light_as_any_other() {
+        // A card that fills the lower two rows, below a sky that is not to count.
+        let card = [0.05_f32, 0.03, 0.01];
+        let layers: Vec<(&str, Vec<f32>)> = ["R", "G", "B"]
+            .into_iter()
+            .zip(card)
+            .map(|(name, value)| (name, [vec![3.0; 2], vec![value; 4]].concat()))
+            .chain([("id.object", vec![0.0, 0.0, 1.0, 1.0, 1.0, 1.0])])
+            .collect();
+        let layers: Vec<(&str, &[f32])> = layers
+            .iter()
+            .map(|(name, data)| (*name, data.as_slice()))
+            .collect();
+        let mut picture = picture(2, &layers);
+        let names = Attribute::Text("1 card".to_owned());
+        picture.attributes = vec![("lamina:objects".to_owned(), names)];
+        let display = Display {
+            white_object: Some("card".to_owned()),
+            grey_object: Some("card".to_owned()),
+            tone: Tone::Linear,
+            depth: Depth::Sixteen,
+            ..Display::default()
+        };
+        let pixels = display.pixels(&picture).expect("it shows the card");
+        for value in &pixels.values[6..] {
+            let linear = from_srgb(f64::from(*value) / 65535.0);
+            assert!((linear - 0.18).abs() < 1e-3, "{linear}");
+        }
+        let other = Display {
+            grey_object: Some("leaf".to_owned()),
+            ..Display::default()
+        };
+        let error = other.pixels(&picture).expect_err("there is no leaf");
+        assert!(error.to_string().contains("`leaf`"), "{error}");
     }
 
     #[test]

@@ -31,16 +31,29 @@ impl White {
     ///
     /// \[lindbloom2017\], chromatic adaptation; ICC.1:2022, annex E.
     pub fn adaptation(self) -> DMat3 {
-        let Self::Kelvin(kelvin) = self else {
-            return DMat3::IDENTITY;
-        };
+        match self {
+            Self::D65 => DMat3::IDENTITY,
+            Self::Kelvin(kelvin) => adaptation_to(white_of(kelvin)),
+        }
+    }
+}
+
+/// The linear map of linear sRGB that makes a colour neutral and keeps its luminance.
+pub fn neutralised([r, g, b]: [f64; 3]) -> DMat3 {
+    let xyz = from_rows(XYZ_TO_SRGB).inverse() * DVec3::new(r, g, b);
+    adaptation_to(xyz / xyz.y)
+}
+
+/// The linear map of linear sRGB that makes light of this XYZ white; see [`White::adaptation`].
+fn adaptation_to(white: DVec3) -> DMat3 {
+    {
         let to_cones = from_rows([
             [0.8951, 0.2664, -0.1614],
             [-0.7502, 1.7135, 0.0367],
             [0.0389, -0.0685, 1.0296],
         ]);
         let to_xyz = from_rows(XYZ_TO_SRGB).inverse();
-        let seen = to_cones * white_of(kelvin);
+        let seen = to_cones * white;
         let shown = to_cones * to_xyz * DVec3::ONE;
         let adapted = to_cones.inverse() * DMat3::from_diagonal(shown / seen) * to_cones;
         to_xyz.inverse() * adapted * to_xyz
@@ -94,6 +107,16 @@ mod tests {
             (7500.0, [0.423_001_82, 0.297_254_04, 0.084_331]),
         ] {
             close(White::Kelvin(kelvin).adaptation() * colour, expected, 3e-4);
+        }
+    }
+
+    #[test]
+    fn a_colour_that_is_to_be_neutral_is_and_keeps_its_luminance() {
+        let luminance = DVec3::new(0.2126, 0.7152, 0.0722);
+        for colour in [[0.4, 0.3, 0.1], [0.02, 0.03, 0.05], [7.0; 3]] {
+            let found = neutralised(colour) * DVec3::from_array(colour);
+            let expected = luminance.dot(DVec3::from_array(colour));
+            close(found / expected, [1.0; 3], 1e-3);
         }
     }
 

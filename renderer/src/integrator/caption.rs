@@ -30,7 +30,7 @@ impl Caption {
             objects: objects.map(|object| object.name.clone()).collect(),
             kind: scene.film.kind.clone(),
             camera: view.clone(),
-            picture: scene.picture,
+            picture: scene.picture.clone(),
         }
     }
 }

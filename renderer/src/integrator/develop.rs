@@ -27,13 +27,15 @@ pub fn develop(caption: &Caption, job: &Job, rendered: &Rendered) -> Picture {
     }
 }
 
-/// What is seen of a film, finished or not: its radiance and what covers it, without attributes.
+/// What is seen of a film, finished or not: its radiance and what covers it, and which objects.
 pub fn seen(caption: &Caption, film: &Film, layout: Layout) -> Picture {
     Picture {
         width: film.width(),
         height: film.height(),
-        layers: layers(caption, film, layout, |layer| layer.name.is_empty()),
-        attributes: Vec::new(),
+        layers: layers(caption, film, layout, |layer| {
+            layer.name.is_empty() || layer.name == "id"
+        }),
+        attributes: vec![names_of_objects(caption)],
     }
 }
 
@@ -101,12 +103,20 @@ fn developed(
     }
 }
 
-fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String, Attribute)> {
-    let text = |name: &str, value: String| (name.to_owned(), Attribute::Text(value));
+/// The attribute that names the numbers of the layer `id.object`.
+fn names_of_objects(caption: &Caption) -> (String, Attribute) {
     let objects = (1..).zip(&caption.objects);
-    let manifest: Vec<String> = objects
+    let lines: Vec<String> = objects
         .map(|(number, name)| format!("{number} {name}"))
         .collect();
+    (
+        "lamina:objects".to_owned(),
+        Attribute::Text(lines.join("\n")),
+    )
+}
+
+fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String, Attribute)> {
+    let text = |name: &str, value: String| (name.to_owned(), Attribute::Text(value));
     let range = WavelengthSampler::new(&caption.kind).range_nm();
     let (to_camera, to_ndc) = matrices(&caption.camera, job);
     let mut attributes = vec![
@@ -135,7 +145,7 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
             "lamina:rejectedSamples",
             rendered.film.rejected().to_string(),
         ),
-        text("lamina:objects", manifest.join("\n")),
+        names_of_objects(caption),
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),
         ("worldToNDC".to_owned(), Attribute::Matrix4(to_ndc)),
     ];

@@ -370,7 +370,8 @@ fn emission<const N: usize>(
         return Lanes::ZERO;
     };
     let normal = surface.geometric_normal;
-    let Some(radiance) = light.emitted(ray.direction, normal, wavelengths) else {
+    let place = (surface.triangle, surface.position);
+    let Some(radiance) = light.emitted(ray.direction, normal, place, wavelengths) else {
         return Lanes::ZERO;
     };
     if bounce.pdf.is_infinite() {

@@ -4,23 +4,19 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
+use super::radiance_table::RadianceTable;
+use super::texels::{Beyond, Texels};
 use crate::light::LightSample;
 use crate::sampling::distribution::Piecewise2d;
-use crate::spectrum::rgb;
-use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
+use crate::spectrum::primaries::Primaries;
+use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
 /// down.
 #[derive(Clone, Debug)]
 pub struct EnvironmentLight {
-    width: usize,
-    height: usize,
-    /// Linear sRGB, row by row from the zenith.
-    texels: Box<[[f32; 3]]>,
-    /// Spectrum of RGB 1 1 1.
-    white: Curve,
-    /// Spectra of red, green and blue of 1.
-    primaries: Option<Table>,
+    picture: Texels,
+    primaries: Primaries,
     /// Rotation about +z, rad.
     rotation: f32,
     distribution: Piecewise2d,
@@ -50,11 +46,8 @@ impl EnvironmentLight {
         let (weights, cells_across) = coarsened(&weights, width);
         Self {
             distribution: Piecewise2d::new(&weights, cells_across),
-            width,
-            height,
-            texels: texels.into(),
-            white,
-            primaries: None,
+            picture: Texels::new(texels, width),
+            primaries: Primaries::new(white),
             rotation,
         }
     }
@@ -62,11 +55,12 @@ impl EnvironmentLight {
     /// Mean of the texels' red, green and blue over the sphere, a rough measure, to be multiplied
     /// by `white`.
     pub fn mean_brightness(&self) -> f32 {
+        let [width, height] = self.picture.size();
         let mut sum = 0.0;
         let mut weight = 0.0;
-        for (row, texels) in self.texels.chunks(self.width).enumerate() {
-            let sin = libm::sinf(PI * (row as f32 + 0.5) / self.height as f32);
-            sum += sin * texels.iter().flatten().sum::<f32>() / (3 * self.width) as f32;
+        for (row, texels) in self.picture.texels().chunks(width).enumerate() {
+            let sin = libm::sinf(PI * (row as f32 + 0.5) / height as f32);
+            sum += sin * texels.iter().flatten().sum::<f32>() / (3 * width) as f32;
             weight += sin;
         }
         sum / weight
@@ -74,47 +68,33 @@ impl EnvironmentLight {
 
     /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
-        &self.white
+        self.primaries.white()
     }
 
     /// Evaluates its primaries at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.primaries = Some(Table::new(grid, |nm| self.primaries_at(nm)));
+        self.primaries.tabulate(grid);
     }
 
-    fn primaries_at(&self, nm: f32) -> [f32; 3] {
-        rgb::basis_at(nm).map(|basis| basis * self.white.at(nm))
-    }
-
-    fn primaries<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> [Lanes<N>; 3] {
-        let table = self.primaries.as_ref();
-        table
-            .and_then(|table| table.row(wavelengths))
-            .unwrap_or_else(|| {
-                let values = wavelengths.nm.map(|nm| self.primaries_at(nm));
-                std::array::from_fn(|primary| Lanes::from_fn(|lane| values[lane][primary]))
-            })
+    /// Its radiance as a table.
+    pub fn tabulated(&self) -> RadianceTable<'_> {
+        RadianceTable {
+            size: self.picture.size(),
+            weights: self
+                .picture
+                .texels()
+                .iter()
+                .map(|&[r, g, b]| [r, g, b, 0.0])
+                .collect(),
+            spectra: self.primaries.curves(),
+            ground: None,
+            rotation: self.rotation,
+        }
     }
 
     fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
-        let x = uv[0] * self.width as f32 - 0.5;
-        let y = (uv[1] * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (share_x, share_y) = (x - x0, y - y0);
-        let column =
-            |offset: usize| (x0 as i64 + offset as i64).rem_euclid(self.width as i64) as usize;
-        let row = |offset: usize| (y0 as usize + offset).min(self.height - 1);
-        let mut colour = [0.0; 3];
-        for (dy, weight_y) in [(0, 1.0 - share_y), (1, share_y)] {
-            for (dx, weight_x) in [(0, 1.0 - share_x), (1, share_x)] {
-                let texel = self.texels[row(dy) * self.width + column(dx)];
-                for (sum, value) in colour.iter_mut().zip(texel) {
-                    *sum += weight_x * weight_y * value;
-                }
-            }
-        }
-        let [red, green, blue] = self.primaries(wavelengths);
-        red * colour[0] + green * colour[1] + blue * colour[2]
+        let colour = self.picture.at(uv, Beyond::Opposite);
+        self.primaries.lanes(colour, wavelengths)
     }
 
     fn uv_of(&self, wi: Vec3) -> [f32; 2] {

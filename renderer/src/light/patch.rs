@@ -60,10 +60,7 @@ impl Patch {
         let (point, pdf) = match self.measure(receiver.position) {
             Measure::Dark => return None,
             Measure::Area => {
-                let point = match self {
-                    Self::Rectangle(rectangle) => rectangle.at(u),
-                    Self::Triangle(triangle) => triangle.at(u),
-                };
+                let point = self.at(u);
                 (point, self.pdf_by_area(receiver.position, point))
             }
             Measure::SolidAngle => {
@@ -94,6 +91,14 @@ impl Patch {
         match self {
             Self::Rectangle(rectangle) => rectangle.solid_angle(position),
             Self::Triangle(triangle) => triangle.solid_angle(position),
+        }
+    }
+
+    /// A point of the patch, uniform over its area.
+    pub fn at(&self, u: Vec2) -> Vec3 {
+        match self {
+            Self::Rectangle(rectangle) => rectangle.at(u),
+            Self::Triangle(triangle) => triangle.at(u),
         }
     }
 
@@ -164,6 +169,15 @@ impl Patch {
 ///
 /// Two consecutive triangles that form a rectangle become one patch.
 pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {
+    patches_if(triangles, |_| true)
+}
+
+/// As [`patches`], but two triangles become one patch only if `may_join` allows it, which gets the
+/// number of the first.
+pub fn patches_if(
+    triangles: &[[Vec3; 3]],
+    may_join: impl Fn(usize) -> bool,
+) -> (Vec<Patch>, Vec<Option<u32>>) {
     let mut patches = Vec::new();
     let mut patch_of = Vec::with_capacity(triangles.len());
     let mut rest = triangles;
@@ -171,7 +185,8 @@ pub fn patches(triangles: &[[Vec3; 3]]) -> (Vec<Patch>, Vec<Option<u32>>) {
         let number = patches.len() as u32;
         let rectangle = others
             .first()
-            .and_then(|second| Rectangle::from_triangles(first, second));
+            .and_then(|second| Rectangle::from_triangles(first, second))
+            .filter(|_| may_join(patch_of.len()));
         if let Some(rectangle) = rectangle {
             patches.push(Patch::Rectangle(rectangle));
             patch_of.extend([Some(number); 2]);

@@ -45,6 +45,12 @@ pub enum AssetError {
         /// The channel.
         channel: &'static str,
     },
+    /// A picture that is to shine holds no light.
+    #[error("{file} is black, so it gives no light")]
+    Dark {
+        /// The file.
+        file: PathBuf,
+    },
     /// A value is out of range.
     #[error("{file}: channel \"{channel}\" holds {value} at pixel ({x}, {y}), allowed is {range}")]
     Value {
@@ -232,12 +238,13 @@ impl AssetError {
     }
 }
 
-/// An environment picture: EXR with R, G, B, or PNG (its sRGB values are converted to linear ones).
+/// A picture that shines: EXR with R, G, B, or PNG (its sRGB values are converted to linear ones).
 ///
 /// # Errors
 ///
-/// [`AssetError`] if it is not such a picture or holds negative or non-finite values.
-pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
+/// [`AssetError`] if it is not such a picture, holds negative or non-finite values, or is dark
+/// everywhere.
+pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
     let is_png = file
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
@@ -249,12 +256,13 @@ pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
     let red = channel(file, &picture, "R", 0.0)?;
     let green = channel(file, &picture, "G", 0.0)?;
     let blue = channel(file, &picture, "B", 0.0)?;
-    let texels = red
-        .into_iter()
-        .zip(green)
-        .zip(blue)
-        .map(|((r, g), b)| [r, g, b])
-        .collect();
+    let colours = red.into_iter().zip(green).zip(blue);
+    let texels: Vec<_> = colours.map(|((r, g), b)| [r, g, b]).collect();
+    if texels.iter().flatten().all(|value| *value == 0.0) {
+        return Err(AssetError::Dark {
+            file: file.to_owned(),
+        });
+    }
     Ok(RgbPicture {
         width: picture.width as usize,
         texels,

@@ -21,6 +21,7 @@ mod picture;
 mod placement;
 mod plant;
 mod references;
+mod rig;
 mod scatter;
 mod solid;
 mod spectrum;
@@ -46,6 +47,7 @@ use super::description::{
     Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Solid, Spectrum,
 };
 use super::plants::{boughs, individuals};
+use super::rigs;
 
 /// All keys at the top of a scene file.
 const SECTIONS: [&str; 14] = [
@@ -161,6 +163,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     if keys.reader().is_some() {
         references::check(scene, keys);
         if keys.is_sound() {
+            rigs::set_up(scene);
             individuals::grow_apart(scene, keys);
             boughs::place(scene, keys);
         }

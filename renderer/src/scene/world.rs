@@ -144,6 +144,15 @@ pub enum WorldError {
         /// Why.
         source: Box<SolidError>,
     },
+    /// An area light with a pattern shines from a mesh without texture coordinates.
+    #[error(
+        "lights.{name}.area: the mesh of its object has no texture coordinates, over which `edge` \
+         and `picture` are spread: leave them out, or use a mesh with them, such as a rectangle"
+    )]
+    NoTextureCoordinates {
+        /// Name of the light.
+        name: String,
+    },
     /// There is no room for what is strewn.
     #[error("objects.{name}.scatter: {source}")]
     Scatter {

@@ -122,6 +122,38 @@ impl Curve {
         self
     }
 
+    /// The points, in nm, between which it is linear and outside which it keeps its end values.
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        match self {
+            Self::Constant(value) => vec![(560.0, f64::from(*value))],
+            Self::Uniform {
+                first_nm,
+                per_nm,
+                values,
+            } => {
+                let nm = |i: usize| f64::from(*first_nm) + i as f64 / f64::from(*per_nm);
+                let points = values.iter().enumerate();
+                points
+                    .map(|(i, value)| (nm(i), f64::from(*value)))
+                    .collect()
+            }
+            Self::Points { nm, values } => {
+                let points = nm.iter().zip(values);
+                points
+                    .map(|(nm, value)| (f64::from(*nm), f64::from(*value)))
+                    .collect()
+            }
+        }
+    }
+
+    /// The curve as a scene would write it.
+    pub fn written(&self) -> written::Spectrum {
+        written::Spectrum::Table {
+            points: self.points(),
+            extrapolate: true,
+        }
+    }
+
     /// Mean over equal steps of a range in nm: a rough measure, for the choice of lights.
     pub fn mean_over(&self, range_nm: [f64; 2]) -> f32 {
         const STEPS: usize = 32;
@@ -134,6 +166,21 @@ impl Curve {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_curve_is_the_one_through_its_points() {
+        let uniform = Curve::uniform(400.0, 5.0, 40, |nm| (nm / 50.0).sin() + 2.0);
+        let points = Curve::from_points(&[(400.0, 1.0), (420.0, 3.0), (600.0, 2.0)]);
+        for curve in [uniform, points, Curve::Constant(0.5)] {
+            let again = Curve::from_points(&curve.points());
+            for nm in [380.0, 402.5, 411.0, 599.0, 700.0] {
+                assert!(
+                    (curve.at(nm) - again.at(nm)).abs() < 1e-6,
+                    "{curve:?} at {nm}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn a_table_is_linear_between_its_points_and_constant_outside() {

@@ -19,6 +19,12 @@ pub struct TonemapArguments {
     /// Whether light is brought to middle grey first; the exposure is then more or less than that
     #[arg(long, value_name = "true|false", num_args = 0..=1, default_missing_value = "true")]
     auto_exposure: Option<String>,
+    /// An object that is brought to middle grey first, such as a grey card
+    #[arg(long, value_name = "OBJECT")]
+    grey_object: Option<String>,
+    /// An object that comes out without colour, such as a grey card
+    #[arg(long, value_name = "OBJECT")]
+    white_object: Option<String>,
     /// The light that comes out white: d65, or a colour temperature in K
     #[arg(long, value_name = "WHITE")]
     white: Option<String>,
@@ -39,6 +45,8 @@ impl TonemapArguments {
         let flags = [
             ("exposure_ev", &self.exposure_ev),
             ("auto_exposure", &self.auto_exposure),
+            ("grey_object", &self.grey_object),
+            ("white_object", &self.white_object),
             ("white", &self.white),
             ("tone", &self.tone),
             ("sixteen_bits", &self.sixteen_bits),

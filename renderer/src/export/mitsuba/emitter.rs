@@ -1,64 +1,57 @@
 //! Lights.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use glam::DVec3;
 
 use crate::export::element::{Element, Layout};
-use crate::scene::description::{Light, Named, Spectrum};
+use crate::light::daylight::sun::HALF_DIAMETER as SUN_HALF_DIAMETER;
+use crate::scene::description::{AreaPattern, Light, Named, Spectrum};
 use crate::scene::world::World;
+use crate::spectrum::Curve;
+use crate::spectrum::primaries::Primaries;
 
 use super::plugin::look_at;
 use super::spectra::Spectra;
-use super::units::UNITS_PER_METRE;
+use super::units::{UNITS_PER_METRE, weights_file};
 
 /// Distance of suns in scene radii. Over the scene irradiance deviates from that at the centre by
 /// up to twice the inverse of this.
 const SUN_DISTANCE: f64 = 1e5;
 
-/// Path, within the export, of the picture of an environment light.
-pub(super) fn environment_file(light: &str, file: &Path) -> String {
-    let ending = file
-        .extension()
-        .and_then(|ending| ending.to_str())
-        .unwrap_or("exr");
-    format!("maps/environment-{light}.{ending}")
-}
-
-/// The emitter of a light; `None` if it is written with its shape or not at all.
+/// The emitter of a light with a place or a disc of its own; `None` if it is written with its shape
+/// or [around](super::surroundings) the scene.
 pub(super) fn emitter(
     light: &Named<Light>,
     world: &World,
     spectra: &mut Spectra,
 ) -> Option<Element> {
     match &light.value {
-        // Daylight was refused before anything is written.
-        Light::Area { .. } | Light::Daylight(_) => None,
-        Light::Constant { radiance } => {
-            let constant = Element::plugin("emitter", "constant");
-            Some(constant.holding(spectra.element("radiance", radiance, 1.0)))
+        Light::Area { .. }
+        | Light::Constant { .. }
+        | Light::Environment { .. }
+        | Light::Overcast { .. }
+        | Light::Rig(_) => None,
+        Light::Daylight(day) => {
+            let irradiance = day.lights().0.irradiance().written();
+            let limb = Element::plugin("texture", "lamina_sun").with("name", "radiance");
+            let spectrum = spectra.element("irradiance", &irradiance, 1.0);
+            let limb = limb
+                .holding(spectrum)
+                .float("half_diameter", SUN_HALF_DIAMETER);
+            let emitter = Element::plugin("emitter", "area").holding(limb);
+            let towards = day.towards_sun();
+            Some(disk(towards, SUN_HALF_DIAMETER, emitter, world))
         }
         Light::Distant {
             towards,
             angular_diameter,
             irradiance,
-        } => Some(sun(*towards, *angular_diameter, irradiance, world, spectra)),
-        Light::Environment {
-            file,
-            scale,
-            rotation,
-            ..
         } => {
-            let turn = |axis, degrees: f64| {
-                let turn = Element::new("rotate").with(axis, 1);
-                turn.with("angle", degrees)
-            };
-            let picture = Element::plugin("emitter", "envmap")
-                .string("filename", environment_file(&light.name, file))
-                .float("scale", *scale)
-                .placed([turn("x", 90.0), turn("z", rotation.to_degrees())]);
-            Some(picture.remarked("Mitsuba makes spectra of this picture in its own way."))
+            let half = 0.5 * angular_diameter;
+            let sin = libm::sin(half);
+            let emitter = area(irradiance, None, 1.0 / (PI * sin * sin), spectra);
+            Some(disk(*towards, half, emitter, world))
         }
         Light::Spot {
             position,
@@ -82,36 +75,72 @@ pub(super) fn emitter(
     }
 }
 
-/// The emitter that makes a shape emit a radiance times a factor.
-pub(super) fn area(radiance: &Spectrum, factor: f64, spectra: &mut Spectra) -> Element {
+/// The emitter that makes a shape emit a radiance times a factor, in the pattern of an area light.
+pub(super) fn area(
+    radiance: &Spectrum,
+    pattern: Option<(&str, &AreaPattern)>,
+    factor: f64,
+    spectra: &mut Spectra,
+) -> Element {
+    let even = spectra.element("radiance", radiance, factor);
+    let radiance = match pattern {
+        None => even,
+        Some((light, pattern)) => {
+            let texture = Element::plugin("texture", "lamina_pattern").with("name", "radiance");
+            let texture = texture.holding(even).float("edge_share", pattern.edge);
+            if pattern.picture.is_some() {
+                texture
+                    .string("picture", weights_file(light))
+                    .holding_all(primaries(spectra))
+            } else {
+                texture
+            }
+        }
+    };
     Element::plugin("emitter", "area")
-        .holding(spectra.element("radiance", radiance, factor))
+        .holding(radiance)
         .laid_out(Layout::Level)
 }
 
-/// A disk of the sun's angular size, seen from the middle of the scene.
-fn sun(
-    towards: DVec3,
-    angular_diameter: f64,
-    irradiance: &Spectrum,
-    world: &World,
-    spectra: &mut Spectra,
-) -> Element {
+/// The spectra of red, green and blue under an even white of 1.
+fn primaries(spectra: &mut Spectra) -> [Element; 3] {
+    let primaries = Primaries::new(Curve::Constant(1.0)).curves();
+    let named = ["red", "green", "blue"].into_iter().zip(&primaries);
+    let elements: Vec<_> = named
+        .map(|(name, curve)| spectra.element(name, &curve.written(), 1.0))
+        .collect();
+    elements
+        .try_into()
+        .unwrap_or_else(|_| unreachable!("three"))
+}
+
+/// Distance of what shines from infinity, mm, and the middle of the scene, mm.
+pub(super) fn far(world: &World) -> (f64, DVec3) {
     let (low, high) = world.geometry.bounds();
     let middle = ((low + high).as_dvec3() * 0.5 + world.origin) * UNITS_PER_METRE;
-    let distance = SUN_DISTANCE * f64::from((high - low).length()) * 0.5 * UNITS_PER_METRE;
-    let radius = distance * libm::tan(0.5 * angular_diameter);
-    let sin = libm::sin(0.5 * angular_diameter);
-    let up = towards.any_orthonormal_vector();
+    let radius = f64::from((high - low).length()) * 0.5 * UNITS_PER_METRE;
+    (SUN_DISTANCE * radius, middle)
+}
+
+/// A shape that shines and reflects nothing.
+pub(super) fn shining(shape: Element, emitter: Element) -> Element {
     let black = Element::new("spectrum").with("name", "reflectance");
     let black = Element::plugin("bsdf", "diffuse").holding(black.with("value", 0));
-    Element::plugin("shape", "disk")
-        .placed([
-            Element::new("scale").with("value", radius),
-            look_at(middle + towards * distance, middle, up),
-        ])
+    shape
         .holding(black.laid_out(Layout::Inline))
-        .holding(area(irradiance, 1.0 / (PI * sin * sin), spectra))
+        .holding(emitter)
+}
+
+/// A disk of the size of a disc in the sky with this half of an angle, seen from the middle of the
+/// scene.
+fn disk(towards: DVec3, half: f64, emitter: Element, world: &World) -> Element {
+    let (distance, middle) = far(world);
+    let up = towards.any_orthonormal_vector();
+    let disk = Element::plugin("shape", "disk").placed([
+        Element::new("scale").with("value", distance * libm::tan(half)),
+        look_at(middle + towards * distance, middle, up),
+    ]);
+    shining(disk, emitter)
 }
 
 #[cfg(test)]
@@ -170,19 +199,5 @@ penumbra_angle_deg = 10
                 .expect("a number");
             assert!((value - degrees).abs() < 1e-9, "{name}: {value}");
         }
-    }
-
-    #[test]
-    fn daylight_is_refused_before_anything_is_written() {
-        let text = format!("{SCENE}[lights.noon.daylight]\nelevation_deg = 60\n");
-        let scene = parse(&text, "scene.toml", Path::new("."), &[]);
-        let scene = scene.expect("the test's own scene is right").description;
-        let world = World::build(&scene).expect("the test's own scene can be built");
-        let folder = tempfile::tempdir().expect("a folder");
-        let out = folder.path().join("out");
-        let refused = crate::export::mitsuba::write(&scene, &world, &out);
-        let text = refused.expect_err("Mitsuba has no such light").to_string();
-        assert!(text.contains("lights.noon.daylight"), "{text}");
-        assert!(!out.exists());
     }
 }

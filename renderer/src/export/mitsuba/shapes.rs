@@ -77,8 +77,16 @@ pub(super) fn write(
     };
     let mut shining = BTreeMap::new();
     for light in &scene.lights {
-        if let Light::Area { object, radiance } = &light.value {
-            shining.insert(*object, radiance);
+        if let Light::Area {
+            object,
+            radiance,
+            pattern,
+        } = &light.value
+        {
+            let pattern = pattern
+                .as_ref()
+                .map(|pattern| (light.name.as_str(), pattern));
+            shining.insert(*object, (radiance, pattern));
         }
     }
     let mut counts: BTreeMap<Kind, usize> = BTreeMap::new();
@@ -104,7 +112,8 @@ pub(super) fn write(
                 document.add(&writer.instance(&id, kind, to_world));
                 continue;
             }
-            let emitter = radiance.map(|radiance| emitter::area(radiance, 1.0, spectra));
+            let emitter =
+                radiance.map(|(radiance, pattern)| emitter::area(radiance, *pattern, 1.0, spectra));
             for (part, piece) in world.pieces.of(kind.0).iter().enumerate() {
                 let id = match part {
                     0 => id.clone(),

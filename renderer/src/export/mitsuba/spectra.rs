@@ -6,7 +6,7 @@ use crate::spectrum::{cie, planck};
 
 /// Range over which all spectra are written, nm; it contains every wavelength of a film. Mitsuba's
 /// spectra are zero outside their points, whereas ours keep their end values.
-const RANGE_NM: [f64; 2] = [300.0, 2600.0];
+pub(super) const RANGE_NM: [f64; 2] = [300.0, 2600.0];
 
 /// Greatest number of points of a spectrum that is written inline; longer ones get a separate file.
 const MOST_INLINE: usize = 16;

@@ -1,4 +1,4 @@
-//! The unit of length and the names of materials in an export.
+//! The unit of length and the names of materials and maps in an export.
 
 use crate::scene::description::Description;
 use crate::scene::world::{MaterialOwner, World};
@@ -23,4 +23,9 @@ pub(super) fn material_id(scene: &Description, world: &World, number: usize) -> 
         }
         MaterialOwner::Solid(solid) => format!("solid-{}", scene.solids[solid].name),
     }
+}
+
+/// Path, within the export, of the weights of a light.
+pub(super) fn weights_file(light: &str) -> String {
+    format!("maps/light-{light}.exr")
 }

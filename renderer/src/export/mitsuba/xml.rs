@@ -11,6 +11,7 @@ use super::emitter::emitter;
 use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
 use super::spectra::Spectra;
+use super::surroundings;
 
 /// The text of `scene.xml`, and the meshes that it uses; spectra that go into files are added to
 /// `spectra`.
@@ -31,6 +32,9 @@ pub(super) fn scene(
         if let Some(emitter) = emitter(light, world, spectra) {
             document.add(&emitter);
         }
+    }
+    for emitter in surroundings::emitters(scene, world, spectra) {
+        document.add(&emitter);
     }
     (document.finish(), meshes)
 }

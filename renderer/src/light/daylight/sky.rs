@@ -1,13 +1,16 @@
-//! A clear sky as a light at infinity, with the ground below its horizon.
+//! A sky as a light at infinity, clear or overcast, with the ground below its horizon.
 
 use std::f32::consts::PI;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{Vec2, Vec3};
 
+use super::forest::{self, Forest};
 use super::sky_shape::{SkyShape, daylight_basis};
 use super::spctrl2::Irradiance;
 use super::{Daylight, curve};
 use crate::light::LightSample;
+use crate::light::radiance_table::RadianceTable;
 use crate::sampling::distribution::Piecewise2d;
 use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths, cie};
 
@@ -22,14 +25,17 @@ const SAMPLED_NM: f32 = 560.0;
 /// Wavelengths at which the sky's shape is known, nm: it is held at the ends.
 const SHAPED_NM: [f64; 2] = [360.0, 830.0];
 
-/// Radiance of the upper half of directions by [`SkyShape`], scaled at each wavelength so that a
-/// horizontal surface gets the diffuse irradiance of [`super::spctrl2`]; below the horizon that of
-/// an even ground, which reflects its share of sun and sky to all sides alike.
+/// Weights of three spectra of the sky, and of the ground's.
+type Weights = [f32; 4];
+
+/// Radiance of the upper half of directions, scaled at each wavelength so that a horizontal surface
+/// gets the diffuse irradiance; below the horizon that of an even ground, which reflects its share
+/// of sun and sky to all sides alike.
 #[derive(Clone, Debug)]
 pub struct SkyLight {
-    /// Weights of the basis, row by row from the zenith; columns run with the azimuth from +x
-    /// towards +y.
-    texels: Box<[[f32; 3]]>,
+    /// Weights of the basis and of the ground, row by row from the zenith; columns run with the
+    /// azimuth from +x towards +y.
+    texels: Box<[Weights]>,
     /// Radiance of the sky where the weights are 1 0 0, 0 1 0 and 0 0 1.
     basis: [Curve; 3],
     ground: Curve,
@@ -40,7 +46,7 @@ pub struct SkyLight {
 }
 
 impl SkyLight {
-    /// The sky of a day with these irradiances.
+    /// The clear sky of a day with these irradiances, by [`SkyShape`] and [`super::spctrl2`].
     pub(super) fn new(day: &Daylight, irradiance: &[Irradiance]) -> Self {
         let atmosphere = &day.atmosphere;
         let rows = daylight_basis();
@@ -49,15 +55,24 @@ impl SkyLight {
             rows.iter().map(seen).sum()
         });
         let shape = SkyShape::new(atmosphere.turbidity, day.elevation, luminance);
-        let towards_sun = day.towards_sun().as_dvec3();
-        let texels: Box<[[f32; 3]]> = (0..HEIGHT * WIDTH)
+        let towards_sun = day.towards_sun();
+        let forest = day.forest.map(|azimuth| Forest {
+            azimuth,
+            sun: day.azimuth,
+        });
+        let texels: Box<[Weights]> = (0..HEIGHT * WIDTH)
             .map(|texel| {
                 let uv = [(texel % WIDTH) as f32 + 0.5, (texel / WIDTH) as f32 + 0.5];
-                let wi = direction([uv[0] / WIDTH as f32, 0.5 * uv[1] / HEIGHT as f32]);
+                let uv = [uv[0] / WIDTH as f32, 0.5 * uv[1] / HEIGHT as f32];
+                let wi = direction(uv);
                 let from_sun = wi.as_dvec3().angle_between(towards_sun);
-                shape
-                    .weights(f64::from(wi.z), from_sun)
-                    .map(|weight| weight as f32)
+                let sky = shape.weights(f64::from(wi.z), from_sun);
+                let [share, brightness] = forest.map_or([0.0; 2], |forest| {
+                    let [turns, down] = uv.map(f64::from);
+                    forest.seen(turns * TAU, FRAC_PI_2 - down * std::f64::consts::PI)
+                });
+                let [a, b, c] = sky.map(|weight| ((1.0 - share) * weight) as f32);
+                [a, b, c, (share * brightness) as f32]
             })
             .collect();
         let on_horizontal = shape.on_horizontal(day.elevation);
@@ -88,15 +103,64 @@ impl SkyLight {
         });
         let up = libm::sin(day.elevation);
         let ground = curve(irradiance, |row| {
-            atmosphere.ground_albedo * (row.direct * up + row.diffuse) / std::f64::consts::PI
+            let reflected = match day.forest {
+                Some(_) => forest::reflected(row.nm),
+                None => atmosphere.ground_albedo,
+            };
+            reflected * (row.direct * up + row.diffuse) / std::f64::consts::PI
         });
+        let at = basis.each_ref().map(|curve: &Curve| curve.at(SAMPLED_NM));
         Self {
-            distribution: distribution(&texels, &basis, &ground),
+            distribution: distribution(&texels, at, ground.at(SAMPLED_NM)),
             texels,
             basis,
             ground,
             diffuse,
             table: None,
+        }
+    }
+
+    /// A sky that is covered with cloud, with its irradiance on a horizontal surface, W m⁻² nm⁻¹,
+    /// and the share that the ground reflects.
+    ///
+    /// The radiance rises from the horizon to three times as much in the zenith,
+    /// `L = L_z (1 + 2 cos θ) / 3`, with the irradiance `7 π L_z / 9`.
+    ///
+    /// # Source
+    ///
+    /// \[moon1942\]; the CIE's traditional overcast sky (ISO 15469, type 16).
+    pub fn overcast(irradiance: &Curve, ground_albedo: f64) -> Self {
+        use std::f64::consts::PI;
+        let texels: Box<[Weights]> = (0..HEIGHT * WIDTH)
+            .map(|texel| {
+                let down = (texel / WIDTH) as f64 + 0.5;
+                let cos = libm::cos(0.5 * PI * down / HEIGHT as f64);
+                [(3.0 * (1.0 + 2.0 * cos) / (7.0 * PI)) as f32, 0.0, 0.0, 0.0]
+            })
+            .collect();
+        let reflected = (ground_albedo / PI) as f32;
+        Self {
+            distribution: distribution(&texels, [1.0, 0.0, 0.0], reflected),
+            texels,
+            basis: [
+                irradiance.clone(),
+                Curve::Constant(0.0),
+                Curve::Constant(0.0),
+            ],
+            ground: irradiance.clone().scaled(reflected),
+            diffuse: irradiance.clone(),
+            table: None,
+        }
+    }
+
+    /// Its radiance as a table.
+    pub fn tabulated(&self) -> RadianceTable<'_> {
+        RadianceTable {
+            size: [WIDTH, HEIGHT],
+            weights: self.texels.to_vec(),
+            spectra: self.basis.clone(),
+            ground: Some(&self.ground),
+            rotation: 0.0,
         }
     }
 
@@ -127,7 +191,7 @@ impl SkyLight {
         let weights = weights(&self.texels, uv);
         let sum = mean * weights[0] + first * weights[1] + second * weights[2];
         // Between the rows of the basis rounding may pass zero.
-        Lanes(sum.0.map(|radiance| radiance.max(0.0)))
+        Lanes(sum.0.map(|radiance| radiance.max(0.0))) + ground * weights[3]
     }
 
     /// Samples a direction with a density roughly proportional to its radiance.
@@ -174,13 +238,13 @@ fn direction([u, v]: [f32; 2]) -> Vec3 {
     Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
 }
 
-/// Weights of the basis above the horizon, linear between texels.
-fn weights(texels: &[[f32; 3]], uv: [f32; 2]) -> [f32; 3] {
+/// Weights above the horizon, linear between texels.
+fn weights(texels: &[Weights], uv: [f32; 2]) -> Weights {
     let x = uv[0] * WIDTH as f32 + (WIDTH as f32 - 0.5);
     let y = (2.0 * uv[1] * HEIGHT as f32 - 0.5).clamp(0.0, (HEIGHT - 1) as f32);
     let (x0, y0) = (x as usize, y as usize);
     let (share_x, share_y) = (x - x0 as f32, y - y0 as f32);
-    let mut sums = [0.0; 3];
+    let mut sums = [0.0; 4];
     for (row, weight_y) in [(y0, 1.0 - share_y), ((y0 + 1).min(HEIGHT - 1), share_y)] {
         for (column, weight_x) in [(x0, 1.0 - share_x), (x0 + 1, share_x)] {
             let texel = texels[row * WIDTH + column % WIDTH];
@@ -192,9 +256,9 @@ fn weights(texels: &[[f32; 3]], uv: [f32; 2]) -> [f32; 3] {
     sums
 }
 
-/// Radiance times solid angle of squares of texels, over the whole sphere.
-fn distribution(texels: &[[f32; 3]], basis: &[Curve; 3], ground: &Curve) -> Piecewise2d {
-    let at = basis.each_ref().map(|curve| curve.at(SAMPLED_NM));
+/// Radiance times solid angle of squares of texels, over the whole sphere; `basis` and `ground` are
+/// those at some wavelength.
+fn distribution(texels: &[Weights], basis: [f32; 3], ground: f32) -> Piecewise2d {
     let (across, down) = (WIDTH / SAMPLED, 2 * HEIGHT / SAMPLED);
     let mut cells = vec![0.0; across * down];
     for y in 0..2 * HEIGHT {
@@ -202,9 +266,10 @@ fn distribution(texels: &[[f32; 3]], basis: &[Curve; 3], ground: &Curve) -> Piec
         for x in 0..WIDTH {
             let radiance = if y < HEIGHT {
                 let weights = texels[y * WIDTH + x];
-                (0..3).map(|i| weights[i] * at[i]).sum::<f32>().max(0.0)
+                let sky = (0..3).map(|i| weights[i] * basis[i]).sum::<f32>();
+                sky.max(0.0) + weights[3] * ground
             } else {
-                ground.at(SAMPLED_NM)
+                ground
             };
             cells[y / SAMPLED * across + x / SAMPLED] += sin * radiance;
         }

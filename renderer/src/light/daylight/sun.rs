@@ -9,7 +9,7 @@ use crate::light::LightSample;
 use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// Half the angular diameter of the sun at its mean distance, 0.53° across, rad.
-const HALF_DIAMETER: f64 = 0.265 * PI / 180.0;
+pub const HALF_DIAMETER: f64 = 0.265 * PI / 180.0;
 
 /// Exponent of the density with which the disc is sampled: that of the limb at 560 nm.
 const SAMPLED_EXPONENT: f32 = 0.5;
@@ -41,6 +41,11 @@ impl SunLight {
             irradiance,
             limb: None,
         }
+    }
+
+    /// Irradiance on a surface that faces it, W m⁻² nm⁻¹.
+    pub fn irradiance(&self) -> &Curve {
+        &self.irradiance
     }
 
     /// Evaluates its radiance at every wavelength of a grid.

@@ -19,6 +19,7 @@ fn day(elevation_deg: f64, turbidity: f64, ground_albedo: f64) -> Daylight {
             ground_albedo,
             ..Atmosphere::default()
         },
+        ..Daylight::usual()
     }
 }
 
@@ -95,7 +96,7 @@ fn a_surface_that_faces_the_sun_gets_the_direct_irradiance_of_spctrl2_at_every_w
         let count = 1 << 14;
         for u in lattice(count) {
             let sample = sun.sample(&Wavelengths::new(NM), u);
-            let cos = sample.wi.dot(day.towards_sun());
+            let cos = sample.wi.dot(day.towards_sun().as_vec3());
             for (sum, radiance) in sums.iter_mut().zip(sample.radiance.0) {
                 *sum += f64::from(radiance * cos / sample.pdf) / count as f64;
             }
@@ -205,7 +206,7 @@ fn the_sky_is_brightest_around_the_sun_and_bluer_in_the_zenith_than_at_the_horiz
     let (_, sky) = day.lights();
     let wavelengths = Wavelengths::new(NM);
     let at = |wi: Vec3| sky.towards(wi.normalize(), &wavelengths).0.0;
-    let sun = day.towards_sun();
+    let sun = day.towards_sun().as_vec3();
     let (near, opposite) = (at(sun), at(Vec3::new(-sun.x, -sun.y, sun.z)));
     assert!(near[3] > 3.0 * opposite[3], "{near:?} {opposite:?}");
     let horizon = at(Vec3::new(-sun.x, -sun.y, 0.02));
@@ -214,4 +215,64 @@ fn the_sky_is_brightest_around_the_sun_and_bluer_in_the_zenith_than_at_the_horiz
         zenith[2] / zenith[4] > 1.3 * horizon[2] / horizon[4],
         "{zenith:?} {horizon:?}"
     );
+}
+
+#[test]
+fn a_covered_sky_gives_its_irradiance_and_is_three_times_as_bright_in_the_zenith() {
+    let irradiance = Curve::from_points(&[(400.0, 0.5), (800.0, 1.5)]);
+    let sky = SkyLight::overcast(&irradiance, 0.3);
+    let [above, below] = irradiance_of_samples(&sky, 1 << 18);
+    for (i, nm) in NM.into_iter().enumerate() {
+        let expected = f64::from(irradiance.at(nm));
+        assert_near(above[i], expected, 1e-3, &format!("from above at {nm} nm"));
+        assert_near(
+            below[i],
+            0.3 * expected,
+            1e-3,
+            &format!("from below at {nm} nm"),
+        );
+    }
+    let wavelengths = Wavelengths::new(NM);
+    for elevation in [1.0_f32, 30.0, 60.0, 90.0] {
+        let (sin, cos) = libm::sincosf(elevation.to_radians());
+        let wi = Vec3::new(0.6 * cos, -0.8 * cos, sin);
+        let expected = f64::from(3.0 * (1.0 + 2.0 * sin) / (7.0 * std::f32::consts::PI));
+        let found = f64::from(sky.towards(wi, &wavelengths).0.0[3] / irradiance.at(NM[3]));
+        assert_near(found, expected, 2e-3, &format!("{elevation} degrees high"));
+    }
+}
+
+#[test]
+fn a_factor_brightens_sun_and_sky_alike() {
+    let usual = day(30.0, 3.0, 0.2);
+    let [before, after] = [1.0, 2.5].map(|scale| Daylight { scale, ..usual }.lights());
+    for nm in NM {
+        let [sun, twice] = [&before, &after].map(|(sun, _)| f64::from(sun.irradiance().at(nm)));
+        assert_near(twice, 2.5 * sun, 1e-5, &format!("sun at {nm} nm"));
+    }
+    let [before, after] = [&before.1, &after.1].map(|sky| irradiance_of_samples(sky, 1 << 12));
+    for (before, after) in before.iter().flatten().zip(after.iter().flatten()) {
+        assert_near(*after, 2.5 * before, 1e-4, "sky and ground");
+    }
+}
+
+#[test]
+fn a_forest_makes_the_sky_green_on_its_side_alone() {
+    let forest = Daylight {
+        forest: Some(2.0),
+        ..day(50.0, 3.0, 0.2)
+    };
+    let wavelengths = Wavelengths::new([550.0, 450.0, 660.0, 850.0, 1.0, 1.0, 1.0, 1.0]);
+    let (_, sky) = forest.lights();
+    let at = |azimuth: f32, elevation: f32| {
+        let (sin, cos) = libm::sincosf(elevation.to_radians());
+        let (y, x) = libm::sincosf(azimuth);
+        sky.towards(Vec3::new(x * cos, y * cos, sin), &wavelengths)
+            .0
+            .0
+    };
+    let [green, blue, red, infrared, ..] = at(2.0, 30.0);
+    assert!(green > 2.0 * blue && green > 2.0 * red && infrared > 2.0 * green);
+    let [green, blue, ..] = at(2.0 + std::f32::consts::PI, 40.0);
+    assert!(blue > green, "the open side is blue");
 }

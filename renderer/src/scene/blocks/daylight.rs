@@ -41,10 +41,21 @@ pub(super) fn daylight(day: &mut Daylight, keys: &mut Keys<'_>) {
     let about = "Air pressure at the place: 1013 at the sea, 795 at 2000 m.";
     keys.key("pressure_hpa", &mut pressure_hpa, limits, about);
     air.pressure_pa = pressure_hpa * 100.0;
-    let limits = Number(Limits::closed(0.0, 1.0));
     let about = "Share of light that the ground far around reflects. It brightens the sky, and \
         the directions below the horizon shine with it.";
-    keys.key("ground_albedo", &mut air.ground_albedo, limits, about);
+    ground_albedo(&mut air.ground_albedo, about, keys);
+    let limits = Number(Limits::above(0.0, 1e12));
+    keys.key("scale", &mut day.scale, limits, "Factor on sun and sky.");
+    let limits = Degrees(Limits::closed(-360.0, 360.0));
+    let about = "Direction of the middle of a forest, from +x towards +y, at whose edge the scene \
+        lies: crowns before the sky there, and green ground. The sun shines past them.";
+    keys.optional("forest_azimuth_deg", &mut day.forest, limits, about);
+}
+
+/// The share of light that the ground reflects.
+pub(super) fn ground_albedo(albedo: &mut f64, about: &'static str, keys: &mut Keys<'_>) {
+    let limits = Number(Limits::closed(0.0, 1.0));
+    keys.key("ground_albedo", albedo, limits, about);
 }
 
 /// The sun by two angles.

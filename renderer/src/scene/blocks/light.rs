@@ -7,19 +7,24 @@ use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::source::escaped;
-use leafmodel::document::value_kind::{Degrees, FilePath, Number, Vector};
+use leafmodel::document::value_kind::{Degrees, FilePath, NamedFile, Number, Vector};
 
 use super::camera::COORDINATES_M;
 use super::daylight::daylight;
 use super::report;
+use super::rig::rig;
 use super::spectrum::SpectrumOf;
 use crate::light::daylight::Daylight;
 use crate::light::daylight::spctrl2::Atmosphere;
 use crate::scene::angle::sin_cos_deg;
-use crate::scene::description::{Light, Spectrum};
+use crate::scene::description::{AreaPattern, Light, Rig, Spectrum};
 
-/// Largest picture that is read, bytes.
-const MOST_PICTURE_BYTES: u64 = 4 << 30;
+/// A picture that shines, up to 4 GiB.
+const PICTURE: FilePath = FilePath::of(
+    "the path of an EXR or PNG picture",
+    &["exr", "png"],
+    4 << 30,
+);
 const DARK: Spectrum = Spectrum::Constant(0.0);
 
 /// The keys of one of `[lights]`.
@@ -27,7 +32,7 @@ pub(super) fn light(light: &mut Light, keys: &mut Keys<'_>) {
     keys.kind(light, &KINDS);
 }
 
-const KINDS: [Variant<Light>; 6] = [
+const KINDS: [Variant<Light>; 8] = [
     Variant {
         name: "distant",
         about: "A disc at infinity, like the sun.",
@@ -92,12 +97,7 @@ const KINDS: [Variant<Light>; 6] = [
                 white,
             } = light
             {
-                const PATH: FilePath = FilePath::of(
-                    "the path of an EXR or PNG picture",
-                    &["exr", "png"],
-                    MOST_PICTURE_BYTES,
-                );
-                super::file(keys, "path", file, PATH, "The picture.");
+                super::file(keys, "path", file, PICTURE, "The picture.");
                 let limits = Number(Limits::above(0.0, 1e12));
                 keys.key("scale", scale, limits, "Factor on the picture.");
                 let limits = Degrees(Limits::closed(-360.0, 360.0));
@@ -111,17 +111,39 @@ const KINDS: [Variant<Light>; 6] = [
     Variant {
         name: "daylight",
         about: "The sun and a clear sky, with the spectra of a day.",
-        new: || {
-            Light::Daylight(Daylight {
-                elevation: std::f64::consts::FRAC_PI_4,
-                azimuth: 0.0,
-                atmosphere: Atmosphere::default(),
-            })
-        },
+        new: || Light::Daylight(Daylight::usual()),
         is: |light| matches!(light, Light::Daylight(_)),
         declare: |light, keys| {
             if let Light::Daylight(day) = light {
                 daylight(day, keys);
+            }
+        },
+    },
+    Variant {
+        name: "overcast",
+        about: "A sky that is covered with cloud, brightest in the zenith.",
+        new: || Light::Overcast {
+            irradiance: DARK,
+            ground_albedo: Atmosphere::default().ground_albedo,
+        },
+        is: |light| matches!(light, Light::Overcast { .. }),
+        declare: |light, keys| {
+            if let Light::Overcast {
+                irradiance,
+                ground_albedo,
+            } = light
+            {
+                let about = "On a horizontal surface; a grey day gives some 0.1 to 0.4 at 560 nm.";
+                keys.required(
+                    "irradiance_w_m2_nm",
+                    irradiance,
+                    SpectrumOf::Emission,
+                    about,
+                );
+                let about = "Share of light that the ground far around reflects, with which the \
+                    directions below the horizon shine.";
+                super::daylight::ground_albedo(ground_albedo, about, keys);
+                refuse_darkness(irradiance, keys);
             }
         },
     },
@@ -132,10 +154,16 @@ const KINDS: [Variant<Light>; 6] = [
             // Replaced when the key is read.
             object: usize::MAX,
             radiance: DARK,
+            pattern: None,
         },
         is: |light| matches!(light, Light::Area { .. }),
         declare: |light, keys| {
-            if let Light::Area { object, radiance } = light {
+            if let Light::Area {
+                object,
+                radiance,
+                pattern,
+            } = light
+            {
                 const OBJECT: NameIn = NameIn("objects", "the name of an object that shines");
                 keys.required(
                     "object",
@@ -144,8 +172,10 @@ const KINDS: [Variant<Light>; 6] = [
                     "An object with a mesh, in one place, \
                     with no other area light.",
                 );
-                let about = "Its radiance.";
+                let about =
+                    "Its radiance; in the middle, where `edge_share` or a picture change it.";
                 keys.required("radiance_w_m2_sr_nm", radiance, SpectrumOf::Emission, about);
+                area_pattern(pattern, keys);
                 refuse_darkness(radiance, keys);
             }
         },
@@ -190,7 +220,35 @@ const KINDS: [Variant<Light>; 6] = [
             }
         },
     },
+    Variant {
+        name: "rig",
+        about: "Lights as photographers set them up, around what the camera looks at.",
+        new: || Light::Rig(Rig::usual()),
+        is: |light| matches!(light, Light::Rig(_)),
+        declare: |light, keys| {
+            if let Light::Rig(own) = light {
+                rig(own, keys);
+            }
+        },
+    },
 ];
+
+/// `edge_share` and `picture` of an area light.
+fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
+    let mut edge = 1.0;
+    let limits = Number(Limits::above(0.0, 1.0));
+    let about = "Radiance in the middle of each edge over that in the middle, as on the cloth of a \
+        soft box: a bell over the mesh's texture coordinates. 1 is even.";
+    keys.key("edge_share", &mut edge, limits, about);
+    let mut picture: Option<NamedFile> = None;
+    let about = "A picture over the mesh's texture coordinates, upright, that multiplies the \
+        radiance: what RGB 1 1 1 stands for is `radiance_w_m2_sr_nm`.";
+    keys.optional("picture", &mut picture, PICTURE, about);
+    let picture = picture.map(|named| named.file);
+    if edge < 1.0 || picture.is_some() {
+        *pattern = Some(AreaPattern { edge, picture });
+    }
+}
 
 /// Reports a cone without a direction, or an edge wider than its cone.
 fn check_cone(position: DVec3, look_at: DVec3, [cone, penumbra]: [f64; 2], keys: &Keys<'_>) {

@@ -17,7 +17,7 @@ use crate::scene::description::{Object, ObjectShape};
 
 impl Object {
     /// An object with all defaults.
-    pub(super) fn nowhere() -> Self {
+    pub(in crate::scene) fn nowhere() -> Self {
         Self {
             shapes: Vec::new(),
             to_world: DMat4::IDENTITY,

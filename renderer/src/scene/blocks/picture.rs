@@ -5,10 +5,14 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::schema::Type;
 use leafmodel::document::tree::{Node, Value};
-use leafmodel::document::value_kind::{Flag, Kind, Number, Word};
+use leafmodel::document::value_kind::{Flag, Kind, Number, Text, Word};
 use leafmodel::document::values::wrong_type;
 
 use crate::scene::description::{Depth, Picture, Tone, White};
+
+/// The name is looked up when the whole scene has been read: a picture that is shown again brings
+/// the names of its objects with it.
+const OBJECT: Text = Text("the name of an object in the picture");
 
 /// A word or a temperature.
 struct WhiteKind;
@@ -58,9 +62,20 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
     let about = "Whether light is brought to middle grey (0.18) first, by the mean logarithm of \
         the picture's luminance; `exposure_ev` is then more or less than that.";
     keys.key("auto_exposure", &mut picture.auto_exposure, Flag, about);
+    let about = "An object that is brought to middle grey (0.18) first, such as a grey card, instead \
+        of the whole picture; `exposure_ev` is then more or less than that.";
+    keys.optional("grey_object", &mut picture.grey_object, OBJECT, about);
+    one_alone(
+        &mut picture.grey_object,
+        ["grey_object", "auto_exposure"],
+        keys,
+    );
     let about = "The light that comes out white: `\"d65\"`, in which colours are as the film has \
         them, or a colour temperature in K (daylight from 4000 on, a black body below).";
     keys.key("white", &mut picture.white, WhiteKind, about);
+    let about = "An object that comes out without colour, such as a grey card, instead of `white`.";
+    keys.optional("white_object", &mut picture.white_object, OBJECT, about);
+    one_alone(&mut picture.white_object, ["white_object", "white"], keys);
     let words = [
         ("agx", Tone::Agx),
         ("standard", Tone::Standard),
@@ -84,4 +99,16 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
     let about = "Whether the PNG has an alpha channel: the share of a pixel that something \
         covers, with colours from which what lies behind everything is taken out.";
     keys.key("alpha", &mut picture.alpha, Flag, about);
+}
+
+/// An empty name is none, so that a flag can take away what the scene said; with a name the other
+/// key has no effect.
+fn one_alone(object: &mut Option<String>, [key, other]: [&'static str; 2], keys: &Keys<'_>) {
+    if object.as_ref().is_some_and(String::is_empty) {
+        *object = None;
+    }
+    if object.is_some() && keys.reader().is_some() && keys.has(other) {
+        let problem = format!("`{other}` has no effect beside `{key}`");
+        keys.refuse(&[other], problem, "leave one of them out");
+    }
 }

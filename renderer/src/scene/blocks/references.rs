@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use leafmodel::document::context::QUOTED;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::sections::{Names, singular};
+use leafmodel::document::source::escaped;
 
 use crate::scene::description::{Description, Light, ObjectShape};
 
@@ -31,10 +33,27 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
     if cx.names("objects").is_some_and(|names| names.are_missing()) {
         cx.error_of_the_file(DocumentError::NoObject);
     }
+    check_cards(scene, keys);
     check_shining(scene, keys);
     check_strewn(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
+    }
+}
+
+/// The objects by which the picture is balanced and exposed are there.
+fn check_cards(scene: &Description, keys: &Keys<'_>) {
+    let picture = &scene.picture;
+    for (key, name) in [
+        ("grey_object", &picture.grey_object),
+        ("white_object", &picture.white_object),
+    ] {
+        let Some(name) = name else { continue };
+        if !scene.objects.iter().any(|object| object.name == *name) {
+            let problem = format!("there is no object `{}`", escaped(name, QUOTED));
+            let help = "write the name of one of `[objects]` that the camera sees";
+            keys.refuse(&["picture", key], problem, help);
+        }
     }
 }
 

@@ -1,13 +1,18 @@
 //! Conversion of lights from the description.
 
+use std::path::Path;
+
 use super::WorldError;
 use crate::geometry::{Instance, TriangleMesh};
 use crate::light::Light;
 use crate::light::area::AreaLight;
+use crate::light::daylight::sky::SkyLight;
 use crate::light::distant::DistantLight;
 use crate::light::environment::EnvironmentLight;
+use crate::light::pattern::Pattern;
 use crate::light::spot::SpotLight;
-use crate::scene::assets;
+use crate::light::texels::Texels;
+use crate::scene::assets::{self, RgbPicture};
 use crate::scene::description;
 use crate::spectrum::Curve;
 
@@ -37,10 +42,7 @@ pub(super) fn build_lights<'i>(
             rotation,
             white,
         } => {
-            let picture = assets::environment(file).map_err(|source| WorldError::Asset {
-                place: format!("lights.{name}"),
-                source,
-            })?;
+            let picture = picture(name, file)?;
             Light::Environment(EnvironmentLight::new(
                 picture.texels,
                 picture.width,
@@ -48,26 +50,31 @@ pub(super) fn build_lights<'i>(
                 *rotation as f32,
             ))
         }
-        description::Light::Area { object, radiance } => {
+        description::Light::Area {
+            object,
+            radiance,
+            pattern,
+        } => {
             let instance = instance_of(*object);
             let mesh = &meshes[instance.mesh as usize];
+            let radiance = Curve::from_description(radiance);
             let mirrored = instance.to_world.matrix3.determinant() < 0.0;
-            let triangles: Vec<_> = mesh
-                .triangles()
-                .iter()
-                .map(|face| {
-                    let [a, b, c] = face.map(|vertex| {
-                        instance
-                            .to_world
-                            .transform_point3(mesh.positions()[vertex as usize])
-                    });
-                    if mirrored { [a, c, b] } else { [a, b, c] }
-                })
-                .collect();
-            Light::Area(AreaLight::new(
-                &triangles,
-                Curve::from_description(radiance),
-            ))
+            let triangles = corners(mesh, mirrored, |vertex| {
+                instance.to_world.transform_point3(mesh.positions()[vertex])
+            });
+            Light::Area(match pattern {
+                None => AreaLight::new(&triangles, radiance),
+                Some(pattern) => {
+                    let Some(uvs) = mesh.uvs() else {
+                        return Err(WorldError::NoTextureCoordinates {
+                            name: name.to_owned(),
+                        });
+                    };
+                    let uvs = corners(mesh, mirrored, |vertex| uvs[vertex]);
+                    let pattern = build_pattern(name, pattern)?;
+                    AreaLight::with_pattern(&triangles, &uvs, radiance, pattern)
+                }
+            })
         }
         description::Light::Spot {
             position,
@@ -82,9 +89,48 @@ pub(super) fn build_lights<'i>(
             *penumbra_angle,
             Curve::from_description(intensity),
         )),
+        description::Light::Overcast {
+            irradiance,
+            ground_albedo,
+        } => {
+            let irradiance = Curve::from_description(irradiance);
+            Light::Sky(SkyLight::overcast(&irradiance, *ground_albedo))
+        }
+        // Its parts have taken its place.
+        description::Light::Rig(_) => return Ok(Vec::new()),
         description::Light::Daylight(day) => {
             let (sun, sky) = day.lights();
             return Ok(vec![Light::Sun(sun), Light::Sky(sky)]);
         }
     }])
+}
+
+/// The picture of a light.
+fn picture(light: &str, file: &Path) -> Result<RgbPicture, WorldError> {
+    assets::shining(file).map_err(|source| WorldError::Asset {
+        place: format!("lights.{light}"),
+        source,
+    })
+}
+
+fn build_pattern(light: &str, pattern: &description::AreaPattern) -> Result<Pattern, WorldError> {
+    let picture = match &pattern.picture {
+        None => None,
+        Some(file) => {
+            let picture = picture(light, file)?;
+            Some(Texels::new(picture.texels, picture.width))
+        }
+    };
+    Ok(Pattern::new(pattern.edge, picture))
+}
+
+/// What the three corners of each face have, counter-clockwise in the world.
+fn corners<T>(mesh: &TriangleMesh, mirrored: bool, of: impl Fn(usize) -> T) -> Vec<[T; 3]> {
+    let faces = mesh.triangles().iter();
+    faces
+        .map(|&[a, b, c]| {
+            let face = if mirrored { [a, c, b] } else { [a, b, c] };
+            face.map(|vertex| of(vertex as usize))
+        })
+        .collect()
 }

@@ -28,6 +28,9 @@ pub(super) fn moved(scene: &Description, by: DVec3) -> Description {
             | Light::Constant { .. }
             | Light::Environment { .. }
             | Light::Daylight(_)
+            | Light::Overcast { .. }
+            // Its parts have taken its place.
+            | Light::Rig(_)
             // Its place is that of its object.
             | Light::Area { .. } => {}
         }

@@ -366,3 +366,33 @@ fn a_camera_focuses_on_the_middle_of_an_object_in_all_its_places() {
         assert!(error.starts_with(key) && error.contains(problem), "{error}");
     }
 }
+
+#[test]
+fn a_soft_box_needs_texture_coordinates() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let obj = "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n";
+    std::fs::write(folder.path().join("lamp.obj"), obj).expect("a file");
+    let lamp = r#"
+[meshes.lamp.file]
+path = "lamp.obj"
+[materials.black.diffuse]
+reflectance = 0
+[objects.lamp]
+mesh = "lamp"
+material = "black"
+[lights.lamp.area]
+object = "lamp"
+radiance_w_m2_sr_nm = 1
+"#;
+    let build = |keys: &str| {
+        let text = format!("{SCENE}{lamp}{keys}");
+        let scene = parse(&text, "scene.toml", folder.path(), &[]);
+        World::build(&scene.expect("the test's own scene is right").description)
+    };
+    build("").expect("an even lamp needs none");
+    let error = build("edge_share = 0.5").expect_err("a bell has nothing to lie on");
+    assert!(
+        error.to_string().starts_with("lights.lamp.area: "),
+        "{error}"
+    );
+}
