@@ -25,13 +25,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bootstrap;
+mod bridges;
+mod cost;
 mod definitions;
 pub mod description;
+mod distributions;
 mod entries;
 mod forks;
 mod fourier;
 mod hierarchy;
 mod junctions;
+mod laplacian;
 mod margin;
 mod nesting;
 pub mod projections;
@@ -40,13 +45,23 @@ mod shape_tests;
 mod skeleton;
 mod spanning;
 mod statistics;
+mod structure;
+mod subject;
+mod supply;
 #[cfg(test)]
 mod tests;
+mod window;
 
-use glam::DVec2;
 
 pub use self::definitions::definition;
+pub use self::bootstrap::Interval;
+pub use self::cost::OrderRow;
+pub use self::distributions::Sample;
 pub use self::entries::{Entry, Measures, Row, Value};
+pub use self::nesting::Merge;
+pub use self::structure::{Structure, StructureBin};
+pub use self::subject::{Blade, Known, Subject};
+pub use self::supply::{Cut, OrderLoss, Supply};
 use self::forks::Forks;
 use self::hierarchy::Hierarchy;
 use self::junctions::Junctions;
@@ -54,16 +69,12 @@ use self::nesting::Nesting;
 use self::skeleton::Skeleton;
 use self::statistics::{mean, median, mode, quantile, variation};
 use crate::shape::outline::Outline;
-use crate::venation::areole::{Areole, Areoles, areoles};
-use crate::venation::chance::{Use, uniform};
+use crate::venation::areole::{Areole, Areoles};
 use crate::venation::network::VenationNetwork;
 
 /// Distance from the margin, in segments, within which a vein counts as ending at the margin, not
 /// as a free ending inside the blade.
 const MARGIN_SEGMENTS: f64 = 2.0;
-
-/// Number of points of the blade at which the distance to the nearest vein is measured.
-const PROBES: usize = 1 << 14;
 
 /// Veins from this order on are minor veins.
 const FIRST_MINOR_ORDER: usize = 4;
@@ -75,14 +86,9 @@ const PERCENTILES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 ///
 /// \[kuhl1982\] for the elliptic Fourier descriptors; `docs/src/theory/measures.md` defines all.
 pub fn shape(outline: &Outline) -> Measures {
-    let mut list = List {
-        entries: Vec::new(),
-        area: Some(outline.area()),
-    };
+    let mut list = List::new(Some(outline.area()));
     list.shape(Some(outline));
-    Measures {
-        entries: list.entries,
-    }
+    list.measures()
 }
 
 /// Measures the shape and the veins of a leaf.
@@ -93,130 +99,25 @@ pub fn measure(outline: &Outline, network: &VenationNetwork, murray_exponent: f6
     Subject::new(Blade::Margin(outline), network, Known::ALL).measures(murray_exponent)
 }
 
-/// What is known of the blade in which veins lie.
-#[derive(Clone, Copy, Debug)]
-pub enum Blade<'a> {
-    /// Its margin.
-    Margin(&'a Outline),
-    /// Its area, mm², > 0: of a window of a leaf, or of several leaflets.
-    Area(f64),
-    /// Nothing: measures per area, and those of the shape, are missing.
-    Unknown,
-}
-
-impl<'a> Blade<'a> {
-    fn outline(self) -> Option<&'a Outline> {
-        match self {
-            Self::Margin(outline) => Some(outline),
-            Self::Area(_) | Self::Unknown => None,
-        }
-    }
-
-    fn area(self) -> Option<f64> {
-        match self {
-            Self::Margin(outline) => Some(outline.area()),
-            Self::Area(area) => Some(area),
-            Self::Unknown => None,
-        }
-    }
-}
-
-/// Which numbers of a network are those of the leaf; others only hold the place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Known {
-    /// Whether radii are.
-    pub radii: bool,
-    /// Whether vein orders are.
-    pub orders: bool,
-}
-
-impl Known {
-    /// Everything is known.
-    pub const ALL: Self = Self {
-        radii: true,
-        orders: true,
-    };
-}
-
-/// A network that is measured, with its areoles.
-#[derive(Clone, Debug)]
-pub struct Subject<'a> {
-    blade: Blade<'a>,
-    network: &'a VenationNetwork,
-    known: Known,
-    found: Areoles,
-}
-
-impl<'a> Subject<'a> {
-    /// Finds the areoles.
-    pub fn new(blade: Blade<'a>, network: &'a VenationNetwork, known: Known) -> Self {
-        let found = areoles(network);
-        Self {
-            blade,
-            network,
-            known,
-            found,
-        }
-    }
-
-    /// Its areoles.
-    pub fn areoles(&self) -> &Areoles {
-        &self.found
-    }
-
-    /// All measures; those that need what is not known are missing.
-    pub fn measures(&self, murray_exponent: f64) -> Measures {
-        let (found, known, outline) = (&self.found, self.known, self.blade.outline());
-        let edges: Vec<[u32; 2]> = found.graph().edges().iter().map(|e| [e.from, e.to]).collect();
-        let skeleton = Skeleton::new(found.graph(), &edges);
-        let mut list = List {
-            entries: Vec::new(),
-            area: self.blade.area(),
-        };
-        list.shape(outline);
-        list.count("crossing_count", found.graph().crossings());
-        list.number("blade_area_mm2", "mm²", list.area);
-        list.veins(&skeleton, known);
-        list.number("spanning_tree_ratio", "", spanning::ratio(found.chains()));
-        list.distances(&self.distances());
-        list.areoles(found);
-        list.free_endings(outline, self.network, found);
-        list.forks(&Forks::new(&skeleton, murray_exponent), known);
-        list.junctions(Junctions::new(&skeleton), known);
-        list.nesting(known.radii.then(|| nesting::nesting(found)));
-        let hierarchy = outline.filter(|_| known.orders && known.radii);
-        list.hierarchy(hierarchy.map(|outline| Hierarchy::new(&skeleton, outline.base())));
-        Measures {
-            entries: list.entries,
-        }
-    }
-
-    /// Distances to the nearest vein at hashed points of the blade, mm; none without a margin.
-    fn distances(&self) -> Vec<f64> {
-        let Some(outline) = self.blade.outline() else {
-            return Vec::new();
-        };
-        let (low, high) = outline.bounds();
-        let probe = |i: u64| {
-            let share = DVec2::new(uniform(0, Use::ProbeX, i), uniform(0, Use::ProbeY, i));
-            low + share * (high - low)
-        };
-        // A blade that fills very little of its rectangle is measured at fewer points.
-        (0..64 * PROBES as u64)
-            .map(probe)
-            .filter(|&p| outline.contains(p))
-            .take(PROBES)
-            .filter_map(|p| self.found.graph().distance_to_vein(p))
-            .collect()
-    }
-}
-
 struct List {
     entries: Vec<Entry>,
     area: Option<f64>,
 }
 
 impl List {
+    fn new(area: Option<f64>) -> Self {
+        Self {
+            entries: Vec::new(),
+            area,
+        }
+    }
+
+    fn measures(self) -> Measures {
+        Measures {
+            entries: self.entries,
+        }
+    }
+
     fn count(&mut self, key: &'static str, value: usize) {
         let (unit, value) = ("", Value::Count(value as u64));
         self.entries.push(Entry { key, unit, value });
@@ -397,5 +298,29 @@ impl List {
         self.number("secondary_spacing_cv", "", veins.spacing_cv);
         self.number("secondary_angle_deg_mean", "°", veins.secondary_deg);
         self.number("tertiary_angle_deg_mean", "°", veins.tertiary_deg);
+    }
+    fn supply(&mut self, found: Option<&Supply>) {
+        let key = "conductance_mm3_per_s_mpa";
+        self.number(key, "mm³/(s MPa)", found.map(|found| found.conductance));
+        self.number("supplied_share", "", found.map(|found| found.supplied));
+        self.number("bridge_share", "", found.map(|found| found.bridges));
+        let cuts = found.map(|found| found.cuts.as_slice()).unwrap_or_default();
+        let lost: Vec<f64> = cuts.iter().filter(|cut| cut.cut_off == 0.0).map(|cut| cut.lost).collect();
+        let off: Vec<f64> = cuts.iter().map(|cut| cut.cut_off).collect();
+        self.number("conductance_lost_widest_mean", "", mean(&lost));
+        self.number("cut_off_share_widest_mean", "", mean(&off));
+        let orders = found.map(|found| found.orders.as_slice()).unwrap_or_default();
+        let of = |value: &dyn Fn(&OrderLoss) -> Option<f64>| -> Vec<Option<f64>> {
+            let last = orders.last().map_or(0, |loss| loss.order);
+            let at = |order| orders.iter().find(|loss| loss.order == order);
+            (1..=last).map(|order| at(order).and_then(value)).collect()
+        };
+        for (key, list) in [
+            ("conductance_lost_by_order", of(&|loss| loss.lost)),
+            ("cut_off_share_by_order", of(&|loss| Some(loss.cut_off))),
+        ] {
+            let value = Value::Orders(list);
+            self.entries.push(Entry { key, unit: "", value });
+        }
     }
 }

@@ -95,7 +95,8 @@ mod tests {
             let stem = key.rsplit_once('_').map_or(key, |(stem, _)| stem);
             let end = &key[stem.len()..];
             let together = page.contains(&format!("`{stem}_")) && page.contains(&format!("`{end}`"));
-            assert!(page.contains(&format!("`{key}`")) || together, "{key} is not on the page");
+            let in_formula = page.contains(&format!("\\text{{{}}}", key.replace('_', "\\\\_")));
+            assert!(page.contains(&format!("`{key}`")) || together || in_formula, "{key} is not on the page");
             assert!(!definition.is_empty(), "{key}");
         }
     }

@@ -32,7 +32,7 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let subject = Subject::new(blade, &input.network, input.known);
     let report = Report::new(arguments, &input, &subject);
     let seconds = measuring.elapsed().as_secs_f64();
-    eprint!("{}", report.measures.table());
+    eprint!("{}", report.table());
     for path in &arguments.out {
         let text = if is_json(path) { report.json() } else { report.csv() };
         write(path, &text)?;

@@ -49,6 +49,10 @@ pub struct MeasureArguments {
     /// Fail where there is anything to warn of
     #[arg(long)]
     pub strict: bool,
+    /// Leave out the pair statistics of areoles and the supply with water, unless a table of them is
+    /// asked for
+    #[arg(long)]
+    pub quick: bool,
     /// The exponent of murray_ratio_median
     #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>)]
     pub murray_exponent: f64,
