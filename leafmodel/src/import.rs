@@ -32,6 +32,7 @@ mod geojson;
 mod graph;
 mod graphml;
 mod json;
+mod margins;
 mod ready;
 mod repair;
 mod roots;
@@ -43,7 +44,7 @@ mod tests;
 pub use self::draft::Draft;
 pub use self::error::ImportError;
 pub use self::faults::{Fault, FaultKind};
-pub use self::ready::{Imported, Wanted, outside};
+pub use self::ready::{Imported, Wanted};
 
 /// A format of networks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

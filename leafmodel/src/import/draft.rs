@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::fields::Unit;
+use crate::shape::outline::Outline;
 
 /// Stands for a node that the file does not hold.
 pub(super) const ABSENT: u32 = u32::MAX;
@@ -31,6 +32,8 @@ pub struct Draft {
     pub(super) places_lack_unit: bool,
     /// The same of radii.
     pub(super) radii_lack_unit: bool,
+    /// The margin that is taken instead of the file's.
+    pub(super) given: Option<Outline>,
     /// Whether y points down.
     pub(super) is_y_down: bool,
 }

@@ -59,6 +59,11 @@ impl FaultKind {
         }
     }
 
+    /// Whether it is as it should be, and only told.
+    pub fn is_note(self) -> bool {
+        self == Self::OutsideMargin
+    }
+
     /// A word for files.
     pub fn word(self) -> &'static str {
         match self {
@@ -103,7 +108,9 @@ impl FaultKind {
             Self::Widening => {
                 "edges get wider away from the petiole; their mean radius is taken at both ends"
             }
-            Self::OutsideMargin => "nodes lie outside the margin",
+            Self::OutsideMargin => {
+                "nodes lie outside the margin, as those of a petiole do; their edges are left out"
+            }
         }
     }
 }

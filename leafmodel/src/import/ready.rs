@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::draft::{ABSENT, Draft};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
-use super::{repair, roots};
+use super::{margins, repair, roots};
 use crate::measure::Known;
 use crate::shape::outline::Outline;
 use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
@@ -48,6 +48,14 @@ impl Draft {
         self.places_lack_unit || self.radii_lack_unit
     }
 
+    /// The same with this margin instead of the file's own.
+    pub fn within(self, outline: Outline) -> Self {
+        Self {
+            given: Some(outline),
+            ..self
+        }
+    }
+
     /// Whether there is a margin.
     pub fn has_margin(&self) -> bool {
         !self.margins.is_empty()
@@ -65,9 +73,10 @@ impl Draft {
 
     /// The network.
     ///
-    /// Edges that lead away from the petiole stay as they are: those of a directed file without
-    /// circles whose nodes without an incoming edge come first, with radii that do not grow. Others
-    /// are turned by their distance from the root along veins. The root is the node nearest to
+    /// Veins outside of all margins, such as the petiole, are left out. Edges that lead away from the
+    /// petiole stay as they are: those of a directed file without circles, with radii that do not
+    /// grow, where the nodes without an incoming edge come first or each part has one. Others are
+    /// turned by their distance from the root along veins. The root is the node nearest to
     /// `wanted.root` or to the margin's base, else the widest end of a vein.
     ///
     /// # Errors
@@ -89,10 +98,14 @@ impl Draft {
         if far.count > 0 {
             return Err(ImportError::Faulty { faults: vec![far] });
         }
-        let outlines = self.made_outlines()?;
+        let outlines = match self.given.take() {
+            Some(outline) => vec![outline],
+            None => self.made_outlines()?,
+        };
+        let mut faults = Vec::new();
+        margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
         let known_radii = self.edges.iter().all(|edge| edge.radii.iter().all(Option::is_some));
         let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
-        let mut faults = Vec::new();
         let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
         let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
         let network = match self.as_it_is(segment_mm) {
@@ -112,7 +125,7 @@ impl Draft {
         } else {
             with_orders(network)?
         };
-        warn_of(&network, &outlines, &mut faults);
+        warn_of(&network, &mut faults);
         faults.sort_by_key(|fault| fault.kind);
         Ok(Imported {
             network,
@@ -190,27 +203,6 @@ impl Draft {
         Ok(())
     }
 
-    fn made_outlines(&self) -> Result<Vec<Outline>, ImportError> {
-        let made = self.margins.iter().map(|margin| {
-            let end = |sign: f64, given: Option<DVec2>| {
-                given.map_or_else(|| ends_of(&margin.points, sign), |end| vec![end])
-            };
-            let (bases, apices) = (end(-1.0, margin.base), end(1.0, margin.apex));
-            let mut made = Outline::new(margin.points.clone(), bases[0], apices[0]);
-            // The middle between the lowest lobes may lie beside the blade; a lobe does not.
-            for (base, apex) in bases.iter().flat_map(|b| apices.iter().map(move |a| (b, a))) {
-                if made.is_ok() {
-                    break;
-                }
-                made = made.or_else(|_| Outline::new(margin.points.clone(), *base, *apex));
-            }
-            made
-        });
-        made.collect::<Result<_, _>>().map_err(|error| ImportError::BadMargin {
-            problem: error.to_string(),
-        })
-    }
-
     fn length(&self, ends: [u32; 2]) -> f64 {
         let [from, to] = ends.map(|end| self.places[end as usize]);
         (to - from).length()
@@ -234,19 +226,20 @@ impl Draft {
         for edge in &self.edges {
             is_led_to[edge.ends[1] as usize] = true;
         }
-        // Starts come first, as origins do; a bare node behind them has to be left out.
+        // Starts come first, as origins do, or each part has one; a bare node behind the first start
+        // has to be left out.
         let starts = is_led_to.iter().filter(|led_to| !**led_to).count();
         let first = is_led_to.iter().take_while(|led_to| !**led_to).count();
-        if starts != first {
-            return None;
-        }
         let born = |node: usize| self.born.get(node).copied().unwrap_or(0);
         let nodes = self.places.iter().enumerate();
         let nodes = nodes.map(|(node, &position)| VeinNode {
             position,
             born: born(node),
         });
-        VenationNetwork::from_parts(nodes.collect(), self.vein_edges(segment_mm), segment_mm).ok()
+        let edges = self.vein_edges(segment_mm);
+        let network = VenationNetwork::from_parts(nodes.collect(), edges, segment_mm).ok()?;
+        let leads_away = starts == first || (first > 0 && starts == network.components());
+        leads_away.then_some(network)
     }
 
     /// The edges, with numbers in place of what is unknown.
@@ -264,18 +257,6 @@ impl Draft {
         });
         edges.collect()
     }
-}
-
-/// Where base (sign −1) or apex (sign 1) of a margin may be that does not tell: in the middle of its
-/// lowest or of its highest points, or at the outermost of these.
-fn ends_of(points: &[DVec2], sign: f64) -> Vec<DVec2> {
-    let most = points.iter().map(|p| sign * p.y).fold(f64::NEG_INFINITY, f64::max);
-    let at_it = points.iter().filter(|p| sign * p.y == most).map(|p| p.x);
-    let (left, right) = at_it.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), x| {
-        (f64::min(left, x), f64::max(right, x))
-    });
-    let at = |x: f64| DVec2::new(x, sign * most);
-    vec![at(left + 0.5 * (right - left)), at(left), at(right)]
 }
 
 /// The same network with orders by width and branching.
@@ -303,7 +284,7 @@ fn with_orders(network: VenationNetwork) -> Result<VenationNetwork, ImportError>
 }
 
 /// Faults that a valid network can have.
-fn warn_of(network: &VenationNetwork, outlines: &[Outline], faults: &mut Vec<Fault>) {
+fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
     let plane = PlaneGraph::new(network);
     for (kind, places) in [
         (FaultKind::Crossing, plane.crossing_places()),
@@ -320,22 +301,4 @@ fn warn_of(network: &VenationNetwork, outlines: &[Outline], faults: &mut Vec<Fau
         apart.at(place);
     }
     faults.extend((apart.count > 0).then_some(apart));
-    if let [outline] = outlines {
-        faults.extend(outside(network, outline));
-    }
-}
-
-/// The nodes outside of a margin, if there are any.
-pub fn outside(network: &VenationNetwork, outline: &Outline) -> Option<Fault> {
-    let (low, high) = outline.bounds();
-    // Veins end on the margin, which files round.
-    let slack = 1e-3 * (high - low).max_element();
-    let mut outside = Fault::new(FaultKind::OutsideMargin);
-    for node in network.nodes() {
-        let p = node.position;
-        if !outline.contains(p) && outline.distance_to_margin(p) > slack {
-            outside.at(p);
-        }
-    }
-    (outside.count > 0).then_some(outside)
 }

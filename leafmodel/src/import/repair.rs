@@ -75,7 +75,7 @@ fn single(draft: &mut Draft, faults: &mut Vec<Fault>) {
 
 /// Leaves out nodes without edges and closes up the numbers. Those that were made one with another
 /// are not told again.
-fn leave_out_bare(draft: &mut Draft, is_merged: &[bool], faults: &mut Vec<Fault>) {
+pub(super) fn leave_out_bare(draft: &mut Draft, is_merged: &[bool], faults: &mut Vec<Fault>) {
     let mut has_edge = vec![false; draft.places.len()];
     for end in draft.edges.iter().flat_map(|edge| edge.ends) {
         has_edge[end as usize] = true;

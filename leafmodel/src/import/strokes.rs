@@ -58,8 +58,11 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         let Some(data) = path_of(node) else { continue };
         let whole = transform_of(node).map_err(|error| malformed(error.to_string()))?;
         let whole = DAffine2::from_scale(DVec2::splat(scale)) * whole;
-        let place = document.text_pos_at(node.range().start).row;
-        let bad = |problem: String| malformed(format!("the path in line {place}: {problem}"));
+        let bad = |problem: String| {
+            // To find a line takes as long as the text before it.
+            let line = document.text_pos_at(node.range().start).row;
+            malformed(format!("the path in line {line}: {problem}"))
+        };
         if node.attribute("id") == Some("margin") {
             draft.margins.extend(margins(node, &data, whole).map_err(bad)?);
             continue;

@@ -105,6 +105,19 @@ fn a_drawing_comes_back_with_lengths_and_widths_up_to_its_rounding() {
     }
 }
 
+#[test]
+fn a_petiole_outside_the_margin_is_left_out_and_told() {
+    let plan = species::find("birch").expect("a preset").plan();
+    let lamina = plan.grow_lamina().expect("presets grow");
+    let flat = crate::compound::FlatLeaf::with_petiole(&plan, &lamina).expect("a birch has one");
+    assert!(flat.network.edges().len() > lamina.network.edges().len());
+    let draft = read(Format::GraphMl, &export::graphml(&flat.network), None).expect("just written");
+    let read = draft.within(lamina.outline.clone()).network(&Wanted::default()).expect("a network");
+    assert_eq!(read.network.edges(), lamina.network.edges());
+    let told: Vec<(FaultKind, usize)> = read.faults.iter().map(|f| (f.kind, f.count)).collect();
+    assert_eq!(told, [(FaultKind::OutsideMargin, 1)]);
+}
+
 /// What networkx 3 writes of a graph of three nodes with `pos`-like attributes in pixels.
 const NETWORKX: &str = r#"<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://graphml.graphdrawing.org/xmlns http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd">

@@ -59,6 +59,12 @@ impl Measures {
         &self.entries
     }
 
+    /// These measures, and others behind them.
+    pub fn and(mut self, others: Self) -> Self {
+        self.entries.extend(others.entries);
+        self
+    }
+
     /// The number with a key; `None` if there is no such key or nothing to measure.
     pub fn number(&self, key: &str) -> Option<f64> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;

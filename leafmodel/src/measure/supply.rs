@@ -75,7 +75,8 @@ impl Subject<'_> {
     /// The supply from the petiole, and what is lost when each of the `widest` widest veins is cut,
     /// one at a time, and when all veins of an order are.
     ///
-    /// `None` if radii are not known or no vein begins at an origin. Losses by order take a solution
+    /// `None` if radii are not known, no vein begins at an origin, or a conductance is
+    /// not finite. Losses by order take a solution
     /// for each order; without known orders there are none.
     pub fn supply(&self, widest: usize) -> Option<Supply> {
         if !self.known.radii {
@@ -85,7 +86,7 @@ impl Subject<'_> {
         let roots = self.roots();
         let whole = Pipes::new(graph, &roots, |_| true)?;
         let total: f64 = graph.edges().iter().map(|edge| length(graph, edge)).sum();
-        let factored = Factored::new(&whole.places, &whole.pipes);
+        let factored = Factored::new(&whole.places, &whole.pipes)?;
         let drops = factored.solve(&whole.outflow);
         let power = dot(&whole.outflow, &drops);
         let beyond = bridges::beyond(whole.places.len(), &whole.pipes, &whole.outflow);
@@ -182,7 +183,8 @@ impl Subject<'_> {
                 let cut_off = if others > 0.0 { 1.0 } else { 0.0 };
                 return OrderLoss { order, cut_off, lost: None };
             };
-            let after = Factored::new(&left.places, &left.pipes).solve(&left.outflow);
+            let after = Factored::new(&left.places, &left.pipes);
+            let after = after.map(|after| after.solve(&left.outflow));
             // The same outflow in the whole network.
             let mut outflow = vec![0.0; whole.places.len()];
             for (&node, value) in left.nodes.iter().zip(&left.outflow) {
@@ -192,7 +194,7 @@ impl Subject<'_> {
             OrderLoss {
                 order,
                 cut_off: (1.0 - left.total / others).max(0.0),
-                lost: Some(1.0 - before / dot(&left.outflow, &after)),
+                lost: after.map(|after| 1.0 - before / dot(&left.outflow, &after)),
             }
         };
         let orders = (1..=u8::MAX).filter(|order| lengths[usize::from(*order)] > 0.0);

@@ -88,15 +88,17 @@ fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
 
 /// Tells what is wrong with a network; with `--strict` it is an error.
 fn tell_faults(arguments: &MeasureArguments, faults: &[Fault]) -> Result<(), Failure> {
-    if arguments.strict && !faults.is_empty() {
-        let lines: String = faults.iter().map(|fault| format!("\n  {}", fault.line())).collect();
+    let wrong: Vec<&Fault> = faults.iter().filter(|fault| !fault.kind.is_note()).collect();
+    if arguments.strict && !wrong.is_empty() {
+        let lines: String = wrong.iter().map(|fault| format!("\n  {}", fault.line())).collect();
         let file = arguments.file.display();
         return Err(Failure::bad(format!(
             "{file}: is not without fault, as --strict asks:{lines}"
         )));
     }
     for fault in faults {
-        eprintln!("warning: {}", fault.line());
+        let word = if fault.kind.is_note() { "note" } else { "warning" };
+        eprintln!("{word}: {}", fault.line());
     }
     Ok(())
 }

@@ -75,13 +75,7 @@ fn pipes_in_series_and_side_by_side_add_up_as_resistors_do() {
     // A cut in one way: all goes along the other. Chains run from the fork through the end.
     let ring = found.cuts.iter().find(|cut| cut.order == 2).expect("it is a vein");
     assert_eq!(ring.cut_off, 0.0);
-    let last = wide(
-        &places,
-        &[(0, 1, 0.1, 1), (1, 2, 0.1, 2), (1, 3, 0.1, 2), (3, 4, 0.1, 2)],
-    );
-    assert!(ring.lost > 0.0 && ring.lost < 1.0, "{ring:?}");
-    // Node 2 or 3 loses its 1, the other carries 1 to 3: drops 4.5, 4.5 + 1 …
-    let _ = last;
+    // Which of the two pipes of a way is cut depends on where its chain starts.
     let cut_at_end = 1.5 * 4.5 + (4.5 + 1.0) + (4.5 + 2.0) + (4.5 + 2.0 + 1.0);
     let cut_at_fork = 1.5 * 4.5 + (4.5 + 3.0) + (4.5 + 3.0 + 2.0) + (4.5 + 3.0 + 2.0 + 1.0);
     let losses = [cut_at_end, cut_at_fork].map(|after| 1.0 - power / after);
@@ -101,7 +95,7 @@ fn each_cut_of_a_grown_leaf_loses_what_a_solution_without_the_edge_says() {
     let graph = subject.areoles().graph();
     let roots = subject.roots();
     let whole = Pipes::new(graph, &roots, |_| true).expect("veins");
-    let power = dot(&whole.outflow, &Factored::new(&whole.places, &whole.pipes).solve(&whole.outflow));
+    let power = dot(&whole.outflow, &Factored::new(&whole.places, &whole.pipes).expect("sound").solve(&whole.outflow));
     assert_eq!(found.cuts.len(), 40);
     let mut compared = 0;
     for cut in &found.cuts {
@@ -116,7 +110,7 @@ fn each_cut_of_a_grown_leaf_loses_what_a_solution_without_the_edge_says() {
         if cut.cut_off > 0.0 {
             continue;
         }
-        let after = dot(&left.outflow, &Factored::new(&left.places, &left.pipes).solve(&left.outflow));
+        let after = dot(&left.outflow, &Factored::new(&left.places, &left.pipes).expect("sound").solve(&left.outflow));
         assert!((cut.lost - (1.0 - power / after)).abs() < 1e-7, "{cut:?}");
         compared += 1;
     }

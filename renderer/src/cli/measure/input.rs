@@ -13,9 +13,6 @@ use crate::cli::arguments::MeasureArguments;
 /// Endings of pictures, which are no networks.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
 
-/// Greatest share of the nodes that may lie outside of a margin that is said to be theirs.
-const MOST_OUTSIDE: f64 = 0.5;
-
 /// A network that is ready to be measured.
 #[derive(Debug)]
 pub(super) struct Input {
@@ -78,36 +75,17 @@ impl Input {
         let draft = import::read(format, &text, nodes.as_deref()).map_err(told)?;
         drop((text, nodes));
         let own = arguments.outline.as_deref().map(|path| margin(path, arguments)).transpose()?;
-        let base = own.as_ref().map(Outline::base);
-        let wanted = Wanted {
-            root: arguments.root.map(Into::into).or(base),
-            ..wanted(arguments)
+        let draft = match own {
+            Some(own) => draft.within(own),
+            None => draft,
         };
         let Imported {
             network,
-            mut outlines,
+            outlines,
             known,
             orders_found,
-            mut faults,
-        } = draft.network(&wanted).map_err(told)?;
-        if let Some(own) = own {
-            faults.retain(|fault| fault.kind != import::FaultKind::OutsideMargin);
-            if let Some(outside) = import::outside(&network, &own) {
-                let nodes = network.nodes().len();
-                if outside.count as f64 > MOST_OUTSIDE * nodes as f64 {
-                    let outline = arguments.outline.as_deref().unwrap_or(path);
-                    return Err(Failure::bad(format!(
-                        "{}: {} of the {nodes} nodes of {} lie outside this margin: both must be in one frame and one scale \
-                         (--mm-per-unit)",
-                        outline.display(),
-                        outside.count,
-                        path.display()
-                    )));
-                }
-                faults.push(outside);
-            }
-            outlines = vec![own];
-        }
+            faults,
+        } = draft.network(&wanted(arguments)).map_err(told)?;
         Ok(Self {
             network,
             outlines,

@@ -18,7 +18,7 @@ pub(super) struct Report<'a> {
     file: String,
     input: &'a Input,
     subject: &'a Subject<'a>,
-    measures: [Measures; 2],
+    measures: Measures,
     structure: Option<Structure>,
     supply: Option<Supply>,
     intervals: Vec<Interval>,
@@ -38,10 +38,9 @@ impl<'a> Report<'a> {
             file: arguments.file.display().to_string(),
             input,
             subject,
-            measures: [
-                subject.measures(arguments.murray_exponent),
-                subject.more_measures(structure.as_ref(), supply.as_ref()),
-            ],
+            measures: subject
+                .measures(arguments.murray_exponent)
+                .and(subject.more_measures(structure.as_ref(), supply.as_ref())),
             structure,
             supply,
             intervals: subject.confidence(arguments.bootstrap, arguments.seed),
@@ -49,7 +48,7 @@ impl<'a> Report<'a> {
     }
 
     fn entries(&self) -> impl Iterator<Item = &Entry> {
-        self.measures.iter().flat_map(Measures::entries)
+        self.measures.entries().iter()
     }
 
     fn interval(&self, key: &str) -> Option<&Interval> {
@@ -58,7 +57,7 @@ impl<'a> Report<'a> {
 
     /// All measures for a person.
     pub(super) fn table(&self) -> String {
-        let mut text = self.measures.each_ref().map(Measures::table).concat();
+        let mut text = self.measures.table();
         for interval in &self.intervals {
             let Interval { key, low, high, .. } = interval;
             let _ = writeln!(text, "{key}: 95 % of the draws lie from {low:.4} to {high:.4}");
@@ -84,7 +83,7 @@ impl<'a> Report<'a> {
                 quoted(row.definition)
             );
         };
-        for row in self.measures.iter().flat_map(Measures::rows) {
+        for row in self.measures.rows() {
             add(&row, self.interval(row.key));
         }
         for row in self.subject.by_order() {
@@ -106,10 +105,8 @@ impl<'a> Report<'a> {
     /// The measures as `lamina grow --measure` writes them, and what belongs to them.
     pub(super) fn json(&self) -> String {
         let mut report = Map::new();
-        for measures in &self.measures {
-            if let Value::Object(members) = measures.json() {
-                report.extend(members);
-            }
+        if let Value::Object(members) = self.measures.json() {
+            report.extend(members);
         }
         let of = |value: &dyn Fn(&Entry) -> Value| {
             let members = self.entries().map(|entry| (entry.key.to_owned(), value(entry)));
