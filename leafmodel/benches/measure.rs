@@ -53,7 +53,9 @@ fn net() -> (Outline, VenationNetwork) {
     }
     let (low, high) = corners
         .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
+            (low.min(p), high.max(p))
+        });
     let middle = 0.5 * (low.x + high.x);
     let node = |position| VeinNode { position, born: 0 };
     let mut nodes: Vec<VeinNode> = corners.iter().copied().map(node).collect();
@@ -64,7 +66,11 @@ fn net() -> (Outline, VenationNetwork) {
         let radius = 0.03 - 0.05 * away;
         let mut last = a;
         for piece in 1..=PIECES {
-            let next = if piece == PIECES { b } else { nodes.len() as u32 };
+            let next = if piece == PIECES {
+                b
+            } else {
+                nodes.len() as u32
+            };
             if piece < PIECES {
                 nodes.push(node(from.lerp(to, f64::from(piece) / f64::from(PIECES))));
             }
@@ -80,21 +86,37 @@ fn net() -> (Outline, VenationNetwork) {
     }
     let rim = DVec2::splat(0.5);
     let (low, high) = (low - rim, high + rim);
-    let corners = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    let outline = Outline::new(corners, DVec2::new(middle, low.y), DVec2::new(middle, high.y));
+    let corners = vec![
+        low,
+        DVec2::new(high.x, low.y),
+        high,
+        DVec2::new(low.x, high.y),
+    ];
+    let outline = Outline::new(
+        corners,
+        DVec2::new(middle, low.y),
+        DVec2::new(middle, high.y),
+    );
     let network = VenationNetwork::from_parts(nodes, edges, 0.03);
-    (outline.expect("a rectangle is a margin"), network.expect("a valid network"))
+    (
+        outline.expect("a rectangle is a margin"),
+        network.expect("a valid network"),
+    )
 }
 
 fn a_million_nodes(criterion: &mut Criterion) {
     let (outline, network) = net();
     let mut group = criterion.benchmark_group(format!("{} nodes", network.nodes().len()));
-    group.sample_size(10).measurement_time(Duration::from_secs(10));
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(10));
     group.bench_function("measures", |bencher| {
         bencher.iter(|| measure(&outline, black_box(&network), 3.0));
     });
     let subject = Subject::new(Blade::Margin(&outline), &network, Known::ALL);
-    group.bench_function("structure factor", |bencher| bencher.iter(|| subject.structure()));
+    group.bench_function("structure factor", |bencher| {
+        bencher.iter(|| subject.structure())
+    });
     group.bench_function("conductance and 100 cuts", |bencher| {
         bencher.iter(|| subject.supply(black_box(100)));
     });
@@ -102,8 +124,16 @@ fn a_million_nodes(criterion: &mut Criterion) {
         bencher.iter(|| subject.confidence(black_box(1000), 1));
     });
     for (name, format, text) in [
-        ("reading GraphML", Format::GraphMl, export::graphml(&network)),
-        ("reading JSON", Format::Json, export::json(&[], &network, false)),
+        (
+            "reading GraphML",
+            Format::GraphMl,
+            export::graphml(&network),
+        ),
+        (
+            "reading JSON",
+            Format::Json,
+            export::json(&[], &network, false),
+        ),
         ("reading a table", Format::Table, export::table(&network)),
     ] {
         group.bench_function(name, |bencher| {

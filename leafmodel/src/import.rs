@@ -72,7 +72,9 @@ impl Format {
 
     /// The format of files with an ending, in upper or lower case.
     pub fn of_ending(ending: &str) -> Option<Self> {
-        let found = Self::ENDINGS.iter().find(|(known, _)| ending.eq_ignore_ascii_case(known));
+        let found = Self::ENDINGS
+            .iter()
+            .find(|(known, _)| ending.eq_ignore_ascii_case(known));
         found.map(|(_, format)| *format)
     }
 }

@@ -52,22 +52,21 @@ mod supply;
 mod tests;
 mod window;
 
-
-pub use self::definitions::definition;
 pub use self::bootstrap::Interval;
 pub use self::cost::OrderRow;
+pub use self::definitions::definition;
 pub use self::distributions::Sample;
 pub use self::entries::{Entry, Measures, Row, Value};
-pub use self::nesting::Merge;
-pub use self::structure::{Structure, StructureBin};
-pub use self::subject::{Blade, Known, Subject};
-pub use self::supply::{Cut, OrderLoss, Supply};
 use self::forks::Forks;
 use self::hierarchy::Hierarchy;
 use self::junctions::Junctions;
+pub use self::nesting::Merge;
 use self::nesting::Nesting;
 use self::skeleton::Skeleton;
 use self::statistics::{mean, median, mode, quantile, variation};
+pub use self::structure::{Structure, StructureBin};
+pub use self::subject::{Blade, Known, Subject};
+pub use self::supply::{Cut, OrderLoss, Supply};
 use crate::shape::outline::Outline;
 use crate::venation::areole::{Areole, Areoles};
 use crate::venation::network::VenationNetwork;
@@ -240,7 +239,8 @@ impl List {
     ) {
         let margin = MARGIN_SEGMENTS * network.segment_mm();
         // Without a margin only those in areoles are known to be inside.
-        let is_inside = |tip| outline.is_some_and(|outline| outline.distance_to_margin(tip) > margin);
+        let is_inside =
+            |tip| outline.is_some_and(|outline| outline.distance_to_margin(tip) > margin);
         let free: Vec<_> = found
             .free_endings()
             .filter(|f| f.areole.is_some() || is_inside(f.tip))
@@ -276,12 +276,18 @@ impl List {
         self.entries.push(Entry {
             key: "murray_exponent_by_order",
             unit: "",
-            value: Value::Orders(if by_order { found.exponents } else { Vec::new() }),
+            value: Value::Orders(if by_order {
+                found.exponents
+            } else {
+                Vec::new()
+            }),
         });
     }
 
     fn nesting(&mut self, nesting: Option<Nesting>) {
-        let (mean, weighted) = nesting.as_ref().map_or((None, None), |n| (n.mean, n.weighted));
+        let (mean, weighted) = nesting
+            .as_ref()
+            .map_or((None, None), |n| (n.mean, n.weighted));
         self.number("loop_nesting", "", mean);
         self.number("loop_nesting_weighted", "", weighted);
         let strahler = nesting.map(|nesting| nesting.strahler as usize);
@@ -305,11 +311,17 @@ impl List {
         self.number("supplied_share", "", found.map(|found| found.supplied));
         self.number("bridge_share", "", found.map(|found| found.bridges));
         let cuts = found.map(|found| found.cuts.as_slice()).unwrap_or_default();
-        let lost: Vec<f64> = cuts.iter().filter(|cut| cut.cut_off == 0.0).map(|cut| cut.lost).collect();
+        let lost: Vec<f64> = cuts
+            .iter()
+            .filter(|cut| cut.cut_off == 0.0)
+            .map(|cut| cut.lost)
+            .collect();
         let off: Vec<f64> = cuts.iter().map(|cut| cut.cut_off).collect();
         self.number("conductance_lost_widest_mean", "", mean(&lost));
         self.number("cut_off_share_widest_mean", "", mean(&off));
-        let orders = found.map(|found| found.orders.as_slice()).unwrap_or_default();
+        let orders = found
+            .map(|found| found.orders.as_slice())
+            .unwrap_or_default();
         let of = |value: &dyn Fn(&OrderLoss) -> Option<f64>| -> Vec<Option<f64>> {
             let last = orders.last().map_or(0, |loss| loss.order);
             let at = |order| orders.iter().find(|loss| loss.order == order);
@@ -320,7 +332,11 @@ impl List {
             ("cut_off_share_by_order", of(&|loss| Some(loss.cut_off))),
         ] {
             let value = Value::Orders(list);
-            self.entries.push(Entry { key, unit: "", value });
+            self.entries.push(Entry {
+                key,
+                unit: "",
+                value,
+            });
         }
     }
 }

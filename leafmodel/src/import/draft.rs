@@ -10,6 +10,10 @@ pub(super) const ABSENT: u32 = u32::MAX;
 
 /// Nodes, edges and margins in the numbers of a file.
 #[derive(Clone, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a fact of its own about a file"
+)]
 pub struct Draft {
     /// Places of the nodes.
     pub(super) places: Vec<DVec2>,

@@ -156,7 +156,9 @@ impl Fault {
         let mut shown: Vec<String> = self.names.iter().take(SHOWN).cloned().collect();
         if shown.is_empty() {
             let places = self.places.iter().take(SHOWN);
-            shown = places.map(|p| format!("({:.3}, {:.3}) mm", p.x, p.y)).collect();
+            shown = places
+                .map(|p| format!("({:.3}, {:.3}) mm", p.x, p.y))
+                .collect();
         }
         if !shown.is_empty() {
             let _ = write!(line, ": {}", shown.join(", "));
@@ -173,7 +175,9 @@ impl Fault {
 pub(super) fn listed(faults: &[Fault]) -> String {
     let mut lines: Vec<String> = Vec::new();
     for is_error in [true, false] {
-        let these = faults.iter().filter(|fault| fault.kind.is_error() == is_error);
+        let these = faults
+            .iter()
+            .filter(|fault| fault.kind.is_error() == is_error);
         lines.extend(these.map(|fault| format!("  {}", fault.line())));
     }
     lines.join("\n")

@@ -139,7 +139,10 @@ mod tests {
                 "radius_from_mm",
                 EdgeField::EndRadius(0, Unit::Millimetres(1.0)),
             ),
-            ("to_y_cm", EdgeField::EndCoordinate(1, 1, Unit::Millimetres(10.0))),
+            (
+                "to_y_cm",
+                EdgeField::EndCoordinate(1, 1, Unit::Millimetres(10.0)),
+            ),
             ("Target", EdgeField::End(1)),
         ];
         for (name, field) in cases {

@@ -72,19 +72,26 @@ pub(super) fn read_value(file: &Value) -> Result<Draft, ImportError> {
             Some(DVec2::new(pair.get(0)?.as_f64()?, pair.get(1)?.as_f64()?))
         };
         let (base, apex) = (ends("base_mm"), ends("apex_mm"));
-        lines.builder.draft.margins.push(DraftMargin { points, base, apex });
+        lines
+            .builder
+            .draft
+            .margins
+            .push(DraftMargin { points, base, apex });
     }
     let mut draft = lines.whole()?;
     draft.segment_mm = file["segment_mm"].as_f64();
     Ok(draft)
 }
 
+/// The number of an edge, the edge, and numbers and places of its nodes.
+type Numbered = (u32, DraftEdge, [(u32, DVec2); 2]);
+
 /// Lines that are being read.
 struct Lines {
     builder: Builder,
     unit: Unit,
     /// The numbers that nodes and edges had in the network from which the file was written.
-    numbered: Vec<(u32, DraftEdge, [(u32, DVec2); 2])>,
+    numbered: Vec<Numbered>,
 }
 
 impl Lines {
@@ -110,12 +117,7 @@ impl Lines {
     }
 
     /// Adds a line with its properties.
-    fn add(
-        &mut self,
-        feature: usize,
-        line: &Value,
-        properties: &Value,
-    ) -> Result<(), ImportError> {
+    fn add(&mut self, feature: usize, line: &Value, properties: &Value) -> Result<(), ImportError> {
         let places = self.places(feature, line)?;
         if let Some(numbers) = Numbers::of(properties, places.len()) {
             self.builder.draft.is_directed = true;
@@ -149,13 +151,21 @@ impl Lines {
                     Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) | None => continue,
                     Some(field) => field,
                 };
-                let value = match value {
-                    Value::Null => continue,
-                    Value::String(text) => text.clone(),
-                    other => other.to_string(),
-                };
+                if value.is_null() {
+                    continue;
+                }
+                let value = value
+                    .as_str()
+                    .map_or_else(|| value.to_string(), str::to_owned);
                 let key = || key.clone();
-                self.builder.edge_text(field, &Text { value: &value, key, place })?;
+                self.builder.edge_text(
+                    field,
+                    &Text {
+                        value: &value,
+                        key,
+                        place,
+                    },
+                )?;
             }
             self.builder.edge_is_done(place);
         }
@@ -175,10 +185,16 @@ impl Lines {
             return Err(missing("some lines number their nodes and some do not"));
         }
         self.numbered.sort_by_key(|(number, ..)| *number);
-        let most = self.numbered.iter().flat_map(|(.., nodes)| nodes.map(|node| node.0)).max();
+        let most = self
+            .numbered
+            .iter()
+            .flat_map(|(.., nodes)| nodes.map(|node| node.0))
+            .max();
         let count = most.map_or(0, |most| most as usize + 1);
         if count > 2 * self.numbered.len() {
-            return Err(missing("their numbers are larger than there are ends of edges"));
+            return Err(missing(
+                "their numbers are larger than there are ends of edges",
+            ));
         }
         let unseen = DVec2::splat(f64::MAX);
         let mut places = vec![unseen; count];
@@ -225,7 +241,10 @@ impl Numbers {
     /// `None` if a list is missing or of another length than the line asks for.
     fn of(properties: &Value, corners: usize) -> Option<Self> {
         let whole = |key: &str, length: usize| -> Option<Vec<u32>> {
-            let list = properties.get(key)?.as_array().filter(|l| l.len() == length)?;
+            let list = properties
+                .get(key)?
+                .as_array()
+                .filter(|l| l.len() == length)?;
             let number = |value: &Value| value.as_u64().and_then(|n| u32::try_from(n).ok());
             list.iter().map(number).collect()
         };
@@ -237,7 +256,9 @@ impl Numbers {
             nodes: whole("nodes", corners)?,
             edges: whole("edges", steps)?,
             radii: radii.iter().map(Value::as_f64).collect::<Option<_>>()?,
-            order: order.and_then(|order| u8::try_from(order).ok()).filter(|o| *o > 0),
+            order: order
+                .and_then(|order| u8::try_from(order).ok())
+                .filter(|o| *o > 0),
         })
     }
 }

@@ -187,7 +187,11 @@ impl Builder {
                 self.edge_units[end] = Some(unit);
             }
             EdgeField::Radius(unit) | EdgeField::Width(unit) => {
-                let share = if matches!(field, EdgeField::Width(_)) { 0.5 } else { 1.0 };
+                let share = if matches!(field, EdgeField::Width(_)) {
+                    0.5
+                } else {
+                    1.0
+                };
                 if let Some(radius) = text.radius(share)? {
                     let radius = self.draft.radius_in(radius, unit);
                     self.draft.edges[edge].radii = [Some(radius); 2];
@@ -231,7 +235,7 @@ impl Builder {
         names: [Option<&str>; 2],
         place: impl Fn() -> String,
     ) -> Result<(), ImportError> {
-        for end in 0..2 {
+        for (end, name) in names.into_iter().enumerate() {
             let [x, y] = self.ends[end];
             if self.edge_units[end].is_none() {
                 return Err(ImportError::Missing {
@@ -239,12 +243,12 @@ impl Builder {
                     wanted: "an edge needs the places of both its ends".to_owned(),
                 });
             }
-            let known = match names[end] {
+            let known = match name {
                 Some(name) => self.numbers.get(name).copied(),
                 None => self.by_place.get(&bits([x, y])).copied(),
             };
             let here = DVec2::new(x, y);
-            let node = known.unwrap_or_else(|| self.add(here, names[end]));
+            let node = known.unwrap_or_else(|| self.add(here, name));
             let there = self.draft.places[node as usize];
             if there != here && here.is_finite() {
                 return Err(ImportError::Missing {

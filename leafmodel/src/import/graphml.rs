@@ -65,7 +65,14 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
                 .or_insert_with(|| NodeField::of(&name_of(key)));
             // The id is the name.
             if let Some(field) = field.filter(|field| *field != NodeField::Name) {
-                builder.node_text(field, &Text { value, key: || name_of(key), place })?;
+                builder.node_text(
+                    field,
+                    &Text {
+                        value,
+                        key: || name_of(key),
+                        place,
+                    },
+                )?;
             }
         }
         builder.node_is_done(place)?;
@@ -76,7 +83,11 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         builder.edge();
         for (end, key) in [(0, "source"), (1, "target")] {
             let value = edge.attribute(key).unwrap_or_default();
-            let text = Text { value, key: || key.to_owned(), place };
+            let text = Text {
+                value,
+                key: || key.to_owned(),
+                place,
+            };
             builder.edge_text(EdgeField::End(end), &text)?;
         }
         for (key, value) in data(edge) {
@@ -86,7 +97,14 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             match field {
                 None | Some(EdgeField::End(_) | EdgeField::EndCoordinate(..)) => {}
                 Some(field) => {
-                    builder.edge_text(field, &Text { value, key: || name_of(key), place })?;
+                    builder.edge_text(
+                        field,
+                        &Text {
+                            value,
+                            key: || name_of(key),
+                            place,
+                        },
+                    )?;
                 }
             }
         }

@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 use super::draft::{ABSENT, Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
 use super::fields::{EdgeField, NodeField};
-use super::graph::{Builder, Text, shortened};
 use super::geojson;
+use super::graph::{Builder, Text, shortened};
 
 /// Reads a network in JSON: `nodes` and `edges` as columns, as [`crate::export::json`] writes them;
 /// `nodes` and `links` (or `edges`) as lists of objects; or `GeoJSON`.
@@ -20,7 +20,10 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     let Value::Object(file) = &value else {
         return Err(ImportError::NoVeins { wanted: WANTED });
     };
-    if file.get("type").is_some_and(|kind| kind == "FeatureCollection") {
+    if file
+        .get("type")
+        .is_some_and(|kind| kind == "FeatureCollection")
+    {
         return geojson::read_value(&value);
     }
     match (file.get("nodes"), file.get("edges").or(file.get("links"))) {
@@ -30,8 +33,7 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
     }
 }
 
-const WANTED: &str =
-    "an object with nodes and edges (as lamina grow writes it), with nodes and links (as networkx \
+const WANTED: &str = "an object with nodes and edges (as lamina grow writes it), with nodes and links (as networkx \
      does), or a GeoJSON FeatureCollection";
 
 /// Reads the margin alone, which may stand without a network.
@@ -63,7 +65,12 @@ fn add_margins(file: &Map<String, Value>, draft: &mut Draft) -> Result<(), Impor
     if let Some(outline) = file.get("outline") {
         draft.margins.push(margin(outline)?);
     }
-    for outline in file.get("outlines").and_then(Value::as_array).into_iter().flatten() {
+    for outline in file
+        .get("outlines")
+        .and_then(Value::as_array)
+        .into_iter()
+        .flatten()
+    {
         draft.margins.push(margin(outline)?);
     }
     Ok(())
@@ -75,10 +82,17 @@ fn columns(
     nodes: &Map<String, Value>,
     edges: &Map<String, Value>,
 ) -> Result<Draft, ImportError> {
-    let (x, y) = (column(nodes, "nodes", "x_mm")?, column(nodes, "nodes", "y_mm")?);
+    let (x, y) = (
+        column(nodes, "nodes", "x_mm")?,
+        column(nodes, "nodes", "y_mm")?,
+    );
     equal(("x_mm", x.len()), ("y_mm", y.len()))?;
     let mut draft = Draft {
-        places: x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y)).collect(),
+        places: x
+            .into_iter()
+            .zip(y)
+            .map(|(x, y)| DVec2::new(x, y))
+            .collect(),
         is_directed: true,
         segment_mm: file.get("segment_mm").and_then(Value::as_f64),
         ..Draft::default()
@@ -88,7 +102,10 @@ fn columns(
         equal(("x_mm", draft.places.len()), ("born_step", born.len()))?;
         draft.born = born.into_iter().map(|step| step as u32).collect();
     }
-    let (from, to) = (column(edges, "edges", "from")?, column(edges, "edges", "to")?);
+    let (from, to) = (
+        column(edges, "edges", "from")?,
+        column(edges, "edges", "to")?,
+    );
     equal(("from", from.len()), ("to", to.len()))?;
     let optional = |key| {
         let there = edges.contains_key(key);
@@ -108,7 +125,9 @@ fn columns(
             if number.fract() == 0.0 && (0.0..count).contains(&number) {
                 return number as u32;
             }
-            draft.loose.push((format!("edge {edge}"), number.to_string()));
+            draft
+                .loose
+                .push((format!("edge {edge}"), number.to_string()));
             ABSENT
         };
         let ends_of = [node(*from), node(*to)];
@@ -153,14 +172,18 @@ fn column(of: &Map<String, Value>, name: &str, key: &str) -> Result<Vec<f64>, Im
         place: name.to_owned(),
         wanted: format!("it has no list {key}"),
     })?;
-    let number = |(index, value): (usize, &Value)| match value {
-        Value::Null => Ok(f64::NAN),
-        value => value.as_f64().ok_or_else(|| ImportError::BadValue {
+    let number = |(index, value): (usize, &Value)| {
+        let number = if value.is_null() {
+            Some(f64::NAN)
+        } else {
+            value.as_f64()
+        };
+        number.ok_or_else(|| ImportError::BadValue {
             place: format!("{name} {index}"),
             key: key.to_owned(),
             value: shortened(&value.to_string()),
             allowed: "it must be a number",
-        }),
+        })
     };
     list.iter().enumerate().map(number).collect()
 }
@@ -190,12 +213,14 @@ fn lists(
 ) -> Result<Draft, ImportError> {
     let is_directed = file.get("directed").and_then(Value::as_bool);
     let mut builder = Builder::new(is_directed.unwrap_or(false));
-    let object = |value: &Value, place: &dyn Fn() -> String| match value {
-        Value::Object(members) => Ok(members.clone()),
-        _ => Err(ImportError::Missing {
-            place: place(),
-            wanted: "it is no object".to_owned(),
-        }),
+    let object = |value: &Value, place: &dyn Fn() -> String| {
+        value
+            .as_object()
+            .cloned()
+            .ok_or_else(|| ImportError::Missing {
+                place: place(),
+                wanted: "it is no object".to_owned(),
+            })
     };
     for (number, node) in nodes.iter().enumerate() {
         let place = || format!("nodes[{number}]");
@@ -207,7 +232,14 @@ fn lists(
             if let Some(field) = field.filter(|_| !is_label) {
                 let value = text_of(value);
                 let key = || key.clone();
-                builder.node_text(field, &Text { value: &value, key, place })?;
+                builder.node_text(
+                    field,
+                    &Text {
+                        value: &value,
+                        key,
+                        place,
+                    },
+                )?;
             }
         }
         builder.node_is_done(place)?;
@@ -218,7 +250,10 @@ fn lists(
         let members = object(edge, &place)?;
         builder.edge();
         for end in ["source", "target"] {
-            if !["from", "to", end].iter().any(|key| members.contains_key(*key)) {
+            if !["from", "to", end]
+                .iter()
+                .any(|key| members.contains_key(*key))
+            {
                 return Err(ImportError::Missing {
                     place: place(),
                     wanted: format!("an edge needs source and target; it has no {end}"),
@@ -231,7 +266,14 @@ fn lists(
                 Some(field) => {
                     let value = text_of(value);
                     let key = || key.clone();
-                    builder.edge_text(field, &Text { value: &value, key, place })?;
+                    builder.edge_text(
+                        field,
+                        &Text {
+                            value: &value,
+                            key,
+                            place,
+                        },
+                    )?;
                 }
             }
         }
@@ -241,9 +283,10 @@ fn lists(
 }
 
 fn text_of(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Null => String::new(),
-        other => other.to_string(),
+    if value.is_null() {
+        return String::new();
     }
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
 }

@@ -25,7 +25,10 @@ impl Draft {
             let (bases, apices) = (end(-1.0, margin.base), end(1.0, margin.apex));
             let mut made = Outline::new(margin.points.clone(), bases[0], apices[0]);
             // The middle between the lowest lobes may lie beside the blade; a lobe does not.
-            for (base, apex) in bases.iter().flat_map(|b| apices.iter().map(move |a| (b, a))) {
+            for (base, apex) in bases
+                .iter()
+                .flat_map(|b| apices.iter().map(move |a| (b, a)))
+            {
                 if made.is_ok() {
                     break;
                 }
@@ -33,9 +36,10 @@ impl Draft {
             }
             made
         });
-        made.collect::<Result<_, _>>().map_err(|error| ImportError::BadMargin {
-            problem: error.to_string(),
-        })
+        made.collect::<Result<_, _>>()
+            .map_err(|error| ImportError::BadMargin {
+                problem: error.to_string(),
+            })
     }
 }
 
@@ -70,7 +74,12 @@ pub(super) fn leave_out_outside(
     };
     let inside: Vec<bool> = draft.places.iter().map(|&place| is_inside(place)).collect();
     let mut outside = Fault::new(FaultKind::OutsideMargin);
-    for (place, _) in draft.places.iter().zip(&inside).filter(|(_, inside)| !**inside) {
+    for (place, _) in draft
+        .places
+        .iter()
+        .zip(&inside)
+        .filter(|(_, inside)| !**inside)
+    {
         outside.at(*place);
     }
     if outside.count == 0 {
@@ -86,7 +95,9 @@ pub(super) fn leave_out_outside(
             ),
         });
     }
-    draft.edges.retain(|edge| edge.ends.iter().all(|&end| inside[end as usize]));
+    draft
+        .edges
+        .retain(|edge| edge.ends.iter().all(|&end| inside[end as usize]));
     if draft.edges.is_empty() {
         return Err(ImportError::BadMargin {
             problem: "no vein lies within it".to_owned(),
@@ -101,7 +112,10 @@ pub(super) fn leave_out_outside(
 /// Where base (sign −1) or apex (sign 1) of a margin may be that does not tell: in the middle of its
 /// lowest or of its highest points, or at the outermost of these.
 fn ends_of(points: &[DVec2], sign: f64) -> Vec<DVec2> {
-    let most = points.iter().map(|p| sign * p.y).fold(f64::NEG_INFINITY, f64::max);
+    let most = points
+        .iter()
+        .map(|p| sign * p.y)
+        .fold(f64::NEG_INFINITY, f64::max);
     let at_it = points.iter().filter(|p| sign * p.y == most).map(|p| p.x);
     let (left, right) = at_it.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), x| {
         (f64::min(left, x), f64::max(right, x))

@@ -104,17 +104,19 @@ impl Draft {
         };
         let mut faults = Vec::new();
         margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
-        let known_radii = self.edges.iter().all(|edge| edge.radii.iter().all(Option::is_some));
+        let known_radii = self
+            .edges
+            .iter()
+            .all(|edge| edge.radii.iter().all(Option::is_some));
         let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
         let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
         let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
-        let network = match self.as_it_is(segment_mm) {
-            Some(network) => network,
-            None => {
-                repair::mend(&mut self, &mut faults);
-                let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
-                roots::turned(&self, base, segment_mm, &mut faults)?
-            }
+        let network = if let Some(network) = self.as_it_is(segment_mm) {
+            network
+        } else {
+            repair::mend(&mut self, &mut faults);
+            let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
+            roots::turned(&self, base, segment_mm, &mut faults)?
         };
         let known = Known {
             radii: known_radii,
@@ -123,7 +125,7 @@ impl Draft {
         let network = if has_orders || !known_radii {
             network
         } else {
-            with_orders(network)?
+            with_orders(&network)?
         };
         warn_of(&network, &mut faults);
         faults.sort_by_key(|fault| fault.kind);
@@ -145,17 +147,34 @@ impl Draft {
         let mut places = Fault::new(FaultKind::BadPlace);
         for (number, place) in (0..).zip(&self.places) {
             if !place.is_finite() {
-                places.named(|| format!("node {} is at ({}, {})", self.name(number), place.x, place.y));
+                places.named(|| {
+                    format!(
+                        "node {} is at ({}, {})",
+                        self.name(number),
+                        place.x,
+                        place.y
+                    )
+                });
             }
         }
         let mut radii = Fault::new(FaultKind::BadRadius);
         for (number, edge) in self.edges.iter().enumerate() {
-            let bad = edge.radii.iter().flatten().find(|r| !(r.is_finite() && **r > 0.0));
+            let bad = edge
+                .radii
+                .iter()
+                .flatten()
+                .find(|r| !(r.is_finite() && **r > 0.0));
             if let Some(bad) = bad {
                 let [from, to] = edge.ends.map(|end| {
-                    if end == ABSENT { "?".to_owned() } else { self.name(end) }
+                    if end == ABSENT {
+                        "?".to_owned()
+                    } else {
+                        self.name(end)
+                    }
                 });
-                radii.named(|| format!("edge {number} from node {from} to {to} has the radius {bad}"));
+                radii.named(|| {
+                    format!("edge {number} from node {from} to {to} has the radius {bad}")
+                });
             }
         }
         let all = [loose, places, radii].into_iter();
@@ -166,7 +185,14 @@ impl Draft {
         let mut far = Fault::new(FaultKind::BadPlace);
         for (number, place) in (0..).zip(&self.places) {
             if place.abs().max_element() > FARTHEST_MM {
-                far.named(|| format!("node {} is at ({}, {}) mm", self.name(number), place.x, place.y));
+                far.named(|| {
+                    format!(
+                        "node {} is at ({}, {}) mm",
+                        self.name(number),
+                        place.x,
+                        place.y
+                    )
+                });
             }
         }
         far
@@ -181,7 +207,11 @@ impl Draft {
         };
         let places = factor(self.places_lack_unit, "places")?;
         let radii = factor(self.radii_lack_unit, "radii")?;
-        let turn = if self.is_y_down || wanted.y_down { -1.0 } else { 1.0 };
+        let turn = if self.is_y_down || wanted.y_down {
+            -1.0
+        } else {
+            1.0
+        };
         let image = |p: DVec2| DVec2::new(p.x * places, turn * p.y * places);
         if places != 1.0 || turn != 1.0 {
             for place in &mut self.places {
@@ -260,7 +290,7 @@ impl Draft {
 }
 
 /// The same network with orders by width and branching.
-fn with_orders(network: VenationNetwork) -> Result<VenationNetwork, ImportError> {
+fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError> {
     let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
     let topology = Topology::new(network.nodes().len(), &ends);
     let broken = |_| ImportError::NoVeins {
@@ -268,7 +298,11 @@ fn with_orders(network: VenationNetwork) -> Result<VenationNetwork, ImportError>
     };
     let sorted = topology.base_to_tip().map_err(broken)?;
     let places: Vec<DVec2> = network.nodes().iter().map(|node| node.position).collect();
-    let radii: Vec<f64> = network.edges().iter().map(|edge| edge.radius_from).collect();
+    let radii: Vec<f64> = network
+        .edges()
+        .iter()
+        .map(|edge| edge.radius_from)
+        .collect();
     let found = orders(&topology, &places, &radii, &sorted, &[]);
     let mut edges = network.edges().to_vec();
     for (edge, order) in edges.iter_mut().zip(found.edges) {
@@ -292,7 +326,9 @@ fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
     ] {
         if !places.is_empty() {
             let mut fault = Fault::new(kind);
-            places.iter().for_each(|&place| fault.at(place));
+            for &place in places {
+                fault.at(place);
+            }
             faults.push(fault);
         }
     }

@@ -28,7 +28,9 @@ fn merge(draft: &mut Draft, faults: &mut Vec<Fault>) -> Vec<bool> {
     let at = |node: u32| places[node as usize];
     order.sort_by(|&a, &b| {
         let (p, q) = (at(a), at(b));
-        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(&b))
+        p.x.total_cmp(&q.x)
+            .then(p.y.total_cmp(&q.y))
+            .then(a.cmp(&b))
     });
     let mut same = Fault::new(FaultKind::SamePlace);
     let mut stands_for: Vec<u32> = (0..places.len() as u32).collect();
@@ -42,12 +44,20 @@ fn merge(draft: &mut Draft, faults: &mut Vec<Fault>) -> Vec<bool> {
         edge.ends = edge.ends.map(|end| stands_for[end as usize]);
     }
     faults.extend((same.count > 0).then_some(same));
-    (0..).zip(&stands_for).map(|(node, other): (u32, &u32)| node != *other).collect()
+    (0..)
+        .zip(&stands_for)
+        .map(|(node, other): (u32, &u32)| node != *other)
+        .collect()
 }
 
 /// Keeps the wider of two edges between the same nodes, of equally wide ones the first.
 fn single(draft: &mut Draft, faults: &mut Vec<Fault>) {
-    let width = |edge: &DraftEdge| edge.radii.iter().flatten().fold(0.0, |w, r| f64::max(w, *r));
+    let width = |edge: &DraftEdge| {
+        edge.radii
+            .iter()
+            .flatten()
+            .fold(0.0, |w, r| f64::max(w, *r))
+    };
     let mut order: Vec<u32> = (0..draft.edges.len() as u32).collect();
     let edges = &draft.edges;
     let key = |edge: u32| {

@@ -23,15 +23,14 @@ pub(super) fn turned(
     faults: &mut Vec<Fault>,
 ) -> Result<VenationNetwork, ImportError> {
     let veins = Veins::new(draft);
-    let root = match base {
-        Some(base) => veins.nearest(base),
-        None => {
-            let root = veins.widest_end(&veins.nodes().collect::<Vec<u32>>());
-            let mut none = Fault::new(FaultKind::NoRoot);
-            none.at(draft.places[root as usize]);
-            faults.push(none);
-            root
-        }
+    let root = if let Some(base) = base {
+        veins.nearest(base)
+    } else {
+        let root = veins.widest_end(&veins.nodes().collect::<Vec<u32>>());
+        let mut none = Fault::new(FaultKind::NoRoot);
+        none.at(draft.places[root as usize]);
+        faults.push(none);
+        root
     };
     let order = veins.by_distance(root);
     let mut rank = vec![0_u32; order.len()];
@@ -56,7 +55,9 @@ pub(super) fn turned(
         }
     }
     // Edges in the order of the nodes to which they lead.
-    turned.edges.sort_by_key(|edge| (edge.ends[1], edge.ends[0]));
+    turned
+        .edges
+        .sort_by_key(|edge| (edge.ends[1], edge.ends[0]));
     if draft.is_directed && turns > 0 {
         let mut fault = Fault::new(FaultKind::Turned);
         fault.count = turns;
@@ -92,8 +93,14 @@ pub(super) fn parts_without_petiole(network: &VenationNetwork) -> Vec<DVec2> {
         let mut open = vec![start];
         seen[start as usize] = true;
         while let Some(node) = open.pop() {
-            let out = topology.leaving(node).iter().map(|&edge| ends[edge as usize][1]);
-            let back = topology.entering(node).iter().map(|&edge| ends[edge as usize][0]);
+            let out = topology
+                .leaving(node)
+                .iter()
+                .map(|&edge| ends[edge as usize][1]);
+            let back = topology
+                .entering(node)
+                .iter()
+                .map(|&edge| ends[edge as usize][0]);
             for other in out.chain(back) {
                 if !std::mem::replace(&mut seen[other as usize], true) {
                     open.push(other);
@@ -129,7 +136,11 @@ impl<'a> Veins<'a> {
                 *at += 1;
             }
         }
-        Self { draft, starts, around }
+        Self {
+            draft,
+            starts,
+            around,
+        }
     }
 
     fn edges(&self, node: u32) -> impl Iterator<Item = &DraftEdge> {
@@ -155,16 +166,20 @@ impl<'a> Veins<'a> {
     /// Of the ends of wide veins among some nodes the lowest; without any, the lowest node.
     fn widest_end(&self, among: &[u32]) -> u32 {
         let width = |edge: &DraftEdge| {
-            edge.radii.iter().flatten().fold(0.0, |width, r| f64::max(width, *r))
+            edge.radii
+                .iter()
+                .flatten()
+                .fold(0.0, |width, r| f64::max(width, *r))
         };
         let of_node = |node: u32| self.edges(node).map(width).fold(0.0, f64::max);
         let widest = among.iter().map(|&node| of_node(node)).fold(0.0, f64::max);
-        let is_end =
-            |node: &u32| self.edges(*node).count() == 1 && of_node(*node) >= WIDE * widest;
+        let is_end = |node: &u32| self.edges(*node).count() == 1 && of_node(*node) >= WIDE * widest;
         let height = |a: &u32, b: &u32| self.place(*a).y.total_cmp(&self.place(*b).y);
         let ends = among.iter().copied().filter(is_end);
         let lowest = ends.min_by(height);
-        lowest.or_else(|| among.iter().copied().min_by(height)).unwrap_or(0)
+        lowest
+            .or_else(|| among.iter().copied().min_by(height))
+            .unwrap_or(0)
     }
 
     /// All nodes by their distance along veins from the root, then those of each other part from a

@@ -54,7 +54,10 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
         ..Draft::default()
     };
     let scale = scale.unwrap_or(1.0);
-    for node in document.descendants().filter(|node| node.is_element() && is_drawn(*node)) {
+    for node in document
+        .descendants()
+        .filter(|node| node.is_element() && is_drawn(*node))
+    {
         let Some(data) = path_of(node) else { continue };
         let whole = transform_of(node).map_err(|error| malformed(error.to_string()))?;
         let whole = DAffine2::from_scale(DVec2::splat(scale)) * whole;
@@ -64,7 +67,9 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             malformed(format!("the path in line {line}: {problem}"))
         };
         if node.attribute("id") == Some("margin") {
-            draft.margins.extend(margins(node, &data, whole).map_err(bad)?);
+            draft
+                .margins
+                .extend(margins(node, &data, whole).map_err(bad)?);
             continue;
         }
         let order = order_of(node);
@@ -72,10 +77,18 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             let width = width * libm::sqrt(whole.matrix2.determinant().abs());
             for points in flattened(&data, whole).map_err(bad)? {
                 let radii = vec![0.5 * width; 2 * points.len().saturating_sub(1)];
-                strokes.push(Stroke { points, radii, order });
+                strokes.push(Stroke {
+                    points,
+                    radii,
+                    order,
+                });
             }
         } else if order.is_some() {
-            strokes.extend(tapers(&data, whole).into_iter().map(|taper| Stroke { order, ..taper }));
+            strokes.extend(
+                tapers(&data, whole)
+                    .into_iter()
+                    .map(|taper| Stroke { order, ..taper }),
+            );
         }
     }
     if strokes.is_empty() {
@@ -109,7 +122,9 @@ pub(super) fn read_margin(text: &str) -> Result<Draft, ImportError> {
         .map_err(|error| malformed(error.to_string()))?;
     let scale = mm_per_unit(document.root_element());
     let mut paths = document.descendants().filter(|node| {
-        node.tag_name().name() == "path" && is_drawn(*node) && (id.is_none() || node.attribute("id") == id)
+        node.tag_name().name() == "path"
+            && is_drawn(*node)
+            && (id.is_none() || node.attribute("id") == id)
     });
     let path = paths.next().ok_or(ImportError::BadMargin {
         problem: "there is no path".to_owned(),
@@ -133,7 +148,9 @@ fn margins(node: Node<'_, '_>, data: &str, whole: DAffine2) -> Result<Vec<DraftM
     };
     let (base, apex) = (end("data-base"), end("data-apex"));
     let parts = flattened(data, whole)?.into_iter();
-    Ok(parts.map(|points| DraftMargin { points, base, apex }).collect())
+    Ok(parts
+        .map(|points| DraftMargin { points, base, apex })
+        .collect())
 }
 
 /// A vein of a drawing: radii at both ends of each piece in turn.
@@ -146,8 +163,14 @@ struct Stroke {
 /// Makes nodes of the ends of pieces.
 fn join(strokes: &[Stroke], draft: &mut Draft) {
     let finest = strokes.iter().flat_map(|stroke| &stroke.radii).copied();
-    let finest = finest.filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
-    let reach = if finest.is_finite() { 2.0 * JOINED * finest } else { 0.0 };
+    let finest = finest
+        .filter(|radius| *radius > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let reach = if finest.is_finite() {
+        2.0 * JOINED * finest
+    } else {
+        0.0
+    };
     let cell = if reach > 0.0 { reach } else { 1.0 };
     // It is only asked, never walked through.
     let mut cells: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
@@ -159,7 +182,10 @@ fn join(strokes: &[Stroke], draft: &mut Draft) {
             let mut near = None;
             for across in -1..=1 {
                 for along in -1..=1 {
-                    let key = [home[0].saturating_add(across), home[1].saturating_add(along)];
+                    let key = [
+                        home[0].saturating_add(across),
+                        home[1].saturating_add(along),
+                    ];
                     for &node in cells.get(&key).into_iter().flatten() {
                         let away = (draft.places[node as usize] - place).length();
                         if away <= reach && near.is_none_or(|(least, _)| away < least) {
@@ -184,7 +210,10 @@ fn join(strokes: &[Stroke], draft: &mut Draft) {
             if pair[0] != pair[1] {
                 draft.edges.push(DraftEdge {
                     ends: [pair[0], pair[1]],
-                    radii: [Some(stroke.radii[2 * step]), Some(stroke.radii[2 * step + 1])],
+                    radii: [
+                        Some(stroke.radii[2 * step]),
+                        Some(stroke.radii[2 * step + 1]),
+                    ],
                     order: stroke.order,
                 });
             }
@@ -207,7 +236,10 @@ fn mm_per_unit(root: Node<'_, '_>) -> Option<f64> {
         | LengthUnit::Px
         | LengthUnit::Percent => return None,
     };
-    let mut view = root.attribute("viewBox")?.split([' ', ',']).filter(|part| !part.is_empty());
+    let mut view = root
+        .attribute("viewBox")?
+        .split([' ', ','])
+        .filter(|part| !part.is_empty());
     let units: f64 = view.nth(2)?.parse().ok()?;
     let scale = width.number * mm / units;
     (scale.is_finite() && scale > 0.0).then_some(scale)
@@ -220,7 +252,13 @@ fn path_of(node: Node<'_, '_>) -> Option<String> {
         "polyline" => Some(format!("M{}", node.attribute("points")?)),
         "line" => {
             let of = |name| node.attribute(name).unwrap_or("0");
-            Some(format!("M{} {}L{} {}", of("x1"), of("y1"), of("x2"), of("y2")))
+            Some(format!(
+                "M{} {}L{} {}",
+                of("x1"),
+                of("y1"),
+                of("x2"),
+                of("y2")
+            ))
         }
         _ => None,
     }
@@ -254,8 +292,12 @@ fn stroke_width(node: Node<'_, '_>) -> Option<f64> {
 
 /// The number behind `order-` in the name of the nearest group that has one.
 fn order_of(node: Node<'_, '_>) -> Option<u8> {
-    let orders = node.ancestors().filter_map(|node| node.attribute("id")?.strip_prefix("order-"));
-    orders.filter_map(|order| order.parse().ok()).find(|order| *order > 0)
+    let orders = node
+        .ancestors()
+        .filter_map(|node| node.attribute("id")?.strip_prefix("order-"));
+    orders
+        .filter_map(|order| order.parse().ok())
+        .find(|order| *order > 0)
 }
 
 /// The parts of a path as polygons.
@@ -290,10 +332,27 @@ fn tapers(data: &str, whole: DAffine2) -> Vec<Stroke> {
     let mut found = Vec::new();
     for five in segments.chunks(5) {
         let &[
-            PathSegment::MoveTo { abs: true, x: ax, y: ay },
-            PathSegment::LineTo { abs: true, x: bx, y: by },
-            PathSegment::LineTo { abs: true, x: cx, y: cy },
-            PathSegment::EllipticalArc { abs: true, x: dx, y: dy, .. },
+            PathSegment::MoveTo {
+                abs: true,
+                x: ax,
+                y: ay,
+            },
+            PathSegment::LineTo {
+                abs: true,
+                x: bx,
+                y: by,
+            },
+            PathSegment::LineTo {
+                abs: true,
+                x: cx,
+                y: cy,
+            },
+            PathSegment::EllipticalArc {
+                abs: true,
+                x: dx,
+                y: dy,
+                ..
+            },
             PathSegment::ClosePath { .. },
         ] = five
         else {

@@ -24,9 +24,14 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
     if let Some(nodes) = nodes {
         read_nodes(nodes, &mut builder)?;
     }
-    let mut table = Table::open(edges, "a table of edges", &|name| EdgeField::of(name).is_some())?;
-    let fields: Vec<Option<EdgeField>> =
-        table.header.iter().map(|name| EdgeField::of(name)).collect();
+    let mut table = Table::open(edges, "a table of edges", &|name| {
+        EdgeField::of(name).is_some()
+    })?;
+    let fields: Vec<Option<EdgeField>> = table
+        .header
+        .iter()
+        .map(|name| EdgeField::of(name))
+        .collect();
     let column = |wanted: &dyn Fn(EdgeField) -> bool| {
         fields.iter().position(|field| field.is_some_and(wanted))
     };
@@ -66,18 +71,32 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
             }
             let value = table.number_text(value);
             let key = || name.clone();
-            builder.edge_text(field, &Text { value: &value, key, place })?;
+            builder.edge_text(
+                field,
+                &Text {
+                    value: &value,
+                    key,
+                    place,
+                },
+            )?;
         }
         if nodes.is_some() {
             builder.edge_is_done(place);
         } else {
             let both = names.map(|column| column.and_then(|column| row.get(column)));
-            let both = if both.contains(&None) { [None; 2] } else { both };
+            let both = if both.contains(&None) {
+                [None; 2]
+            } else {
+                both
+            };
             builder.edge_with_places_is_done(both, place)?;
         }
     }
     let mut draft = builder.draft;
-    draft.segment_mm = edges.lines().take_while(|line| line.starts_with('#')).find_map(segment);
+    draft.segment_mm = edges
+        .lines()
+        .take_while(|line| line.starts_with('#'))
+        .find_map(segment);
     if nodes.is_none() {
         in_order_of_numbers(&mut draft);
     }
@@ -102,8 +121,14 @@ fn in_order_of_numbers(draft: &mut Draft) {
     for (new, &old) in (0..).zip(&order) {
         rank[old as usize] = new;
     }
-    draft.places = order.iter().map(|&old| draft.places[old as usize]).collect();
-    draft.names = order.iter().map(|&old| draft.names[old as usize].clone()).collect();
+    draft.places = order
+        .iter()
+        .map(|&old| draft.places[old as usize])
+        .collect();
+    draft.names = order
+        .iter()
+        .map(|&old| draft.names[old as usize].clone())
+        .collect();
     for edge in &mut draft.edges {
         edge.ends = edge.ends.map(|end| rank[end as usize]);
     }
@@ -111,7 +136,12 @@ fn in_order_of_numbers(draft: &mut Draft) {
 
 fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
     let of_nodes = |error| match error {
-        ImportError::BadValue { place, key, value, allowed } => ImportError::BadValue {
+        ImportError::BadValue {
+            place,
+            key,
+            value,
+            allowed,
+        } => ImportError::BadValue {
             place: format!("table of nodes, {place}"),
             key,
             value,
@@ -121,7 +151,13 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
             place: format!("table of nodes, {place}"),
             wanted,
         },
-        other => other,
+        other @ (ImportError::Empty
+        | ImportError::Malformed { .. }
+        | ImportError::NoVeins { .. }
+        | ImportError::NameTwice { .. }
+        | ImportError::NoScale { .. }
+        | ImportError::Faulty { .. }
+        | ImportError::BadMargin { .. }) => other,
     };
     let mut read = || -> Result<(), ImportError> {
         if is_blank(text) {
@@ -130,9 +166,14 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
                 wanted: "it is empty".to_owned(),
             });
         }
-        let mut table = Table::open(text, "a table of nodes", &|name| NodeField::of(name).is_some())?;
-        let mut fields: Vec<Option<NodeField>> =
-            table.header.iter().map(|name| NodeField::of(name)).collect();
+        let mut table = Table::open(text, "a table of nodes", &|name| {
+            NodeField::of(name).is_some()
+        })?;
+        let mut fields: Vec<Option<NodeField>> = table
+            .header
+            .iter()
+            .map(|name| NodeField::of(name))
+            .collect();
         // Of several columns that may name a node, the first does.
         let mut is_named = false;
         for field in &mut fields {
@@ -147,7 +188,14 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
                 let Some(field) = *field else { continue };
                 let value = table.number_text(value);
                 let key = || name.clone();
-                builder.node_text(field, &Text { value: &value, key, place })?;
+                builder.node_text(
+                    field,
+                    &Text {
+                        value: &value,
+                        key,
+                        place,
+                    },
+                )?;
             }
             builder.node_is_done(place)?;
         }
@@ -175,7 +223,9 @@ impl<'t> Table<'t> {
         what: &'static str,
         is_known: &dyn Fn(&str) -> bool,
     ) -> Result<Self, ImportError> {
-        let first = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
+        let first = text
+            .lines()
+            .find(|line| !line.starts_with('#') && !line.trim().is_empty());
         let first = first.unwrap_or_default();
         let count = |c: char| first.chars().filter(|x| *x == c).count();
         let delimiter = [',', ';', '\t'].into_iter().rev().max_by_key(|&c| count(c));
@@ -185,12 +235,15 @@ impl<'t> Table<'t> {
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-        let header = rows.headers().map_err(malformed)?;
+        let header = rows.headers().map_err(|error| malformed(&error))?;
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
         if !header.iter().any(|name| is_known(name)) {
             return Err(ImportError::Missing {
                 place: "line 1".to_owned(),
-                wanted: format!("{what} begins with the names of its columns; here are: {}", listed(&header)),
+                wanted: format!(
+                    "{what} begins with the names of its columns; here are: {}",
+                    listed(&header)
+                ),
             });
         }
         Ok(Self {
@@ -203,7 +256,11 @@ impl<'t> Table<'t> {
 
     /// The next row and its line.
     fn next(&mut self) -> Result<Option<(StringRecord, u64)>, ImportError> {
-        if !self.rows.read_record(&mut self.row).map_err(malformed)? {
+        if !self
+            .rows
+            .read_record(&mut self.row)
+            .map_err(|error| malformed(&error))?
+        {
             return Ok(None);
         }
         let line = self.row.position().map_or(0, csv::Position::line);
@@ -219,7 +276,7 @@ impl<'t> Table<'t> {
     }
 }
 
-fn malformed(error: csv::Error) -> ImportError {
+fn malformed(error: &csv::Error) -> ImportError {
     ImportError::Malformed {
         format: "table",
         problem: error.to_string(),

@@ -11,7 +11,10 @@ use crate::venation::network::VenationNetwork;
 const PRESETS: [&str; 6] = ["birch", "poplar", "maple", "xia-1", "arcuate", "ginkgo"];
 
 fn grown(preset: &str) -> (Outline, VenationNetwork) {
-    let lamina = species::find(preset).expect("a preset").plan().grow_lamina();
+    let lamina = species::find(preset)
+        .expect("a preset")
+        .plan()
+        .grow_lamina();
     let lamina = lamina.expect("presets grow");
     (lamina.outline, lamina.network)
 }
@@ -112,7 +115,10 @@ fn a_petiole_outside_the_margin_is_left_out_and_told() {
     let flat = crate::compound::FlatLeaf::with_petiole(&plan, &lamina).expect("a birch has one");
     assert!(flat.network.edges().len() > lamina.network.edges().len());
     let draft = read(Format::GraphMl, &export::graphml(&flat.network), None).expect("just written");
-    let read = draft.within(lamina.outline.clone()).network(&Wanted::default()).expect("a network");
+    let read = draft
+        .within(lamina.outline.clone())
+        .network(&Wanted::default())
+        .expect("a network");
     assert_eq!(read.network.edges(), lamina.network.edges());
     let told: Vec<(FaultKind, usize)> = read.faults.iter().map(|f| (f.kind, f.count)).collect();
     assert_eq!(told, [(FaultKind::OutsideMargin, 1)]);
@@ -145,7 +151,12 @@ fn a_graph_of_networkx_in_pixels_is_read_with_a_scale_and_turned_from_its_widest
         ..Wanted::default()
     };
     let read = draft.network(&wanted).expect("a scale is given");
-    let edges: Vec<(u32, u32)> = read.network.edges().iter().map(|e| (e.from, e.to)).collect();
+    let edges: Vec<(u32, u32)> = read
+        .network
+        .edges()
+        .iter()
+        .map(|e| (e.from, e.to))
+        .collect();
     assert_eq!(edges, [(0, 1), (1, 2), (1, 3)]);
     assert_eq!(read.network.nodes()[0].position.to_array(), [1.0, 0.0]);
     assert!((read.network.edges()[0].radius_from - 0.05).abs() < 1e-15);
@@ -167,7 +178,11 @@ fn node_link_lists_and_lines_of_maps_are_read() {
     let lists = r#"{"directed": false, "nodes": [{"id": "a", "x_mm": 0, "y_mm": 0}, {"id": "b", "pos": [0, 5], "x_mm": 0, "y_mm": 5}],
         "links": [{"source": "b", "target": "a", "diameter_um": 80}]}"#;
     // A place in units of the file beside one in millimetres needs a scale.
-    assert!(read(Format::Json, lists, None).expect("well-formed").lacks_unit());
+    assert!(
+        read(Format::Json, lists, None)
+            .expect("well-formed")
+            .lacks_unit()
+    );
     let read = imported(Format::Json, &lists.replace("\"pos\": [0, 5], ", ""));
     assert!((read.network.edges()[0].radius_from - 0.04).abs() < 1e-15);
     let map = r#"{"type": "FeatureCollection", "coordinate_unit": "um", "features": [
@@ -195,7 +210,10 @@ fn tables_have_columns_in_any_order_units_and_decimal_commas() {
 fn refused(format: Format, text: &str, nodes: Option<&str>) -> String {
     let draft = read(format, text, nodes);
     let network = draft.and_then(|draft| draft.network(&Wanted::default()));
-    network.err().map(|error| error.to_string()).expect("it cannot be measured")
+    network
+        .err()
+        .map(|error| error.to_string())
+        .expect("it cannot be measured")
 }
 
 #[test]
@@ -219,11 +237,20 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
         "line 12: width is \"wide\"; it must be a number"
     );
     let negative = NETWORKX.replace(">8<", ">-8<");
-    assert!(refused(Format::GraphMl, &negative, None).contains("edge 1 from node right to fork has the radius -4"));
+    assert!(
+        refused(Format::GraphMl, &negative, None)
+            .contains("edge 1 from node right to fork has the radius -4")
+    );
     let bare = NETWORKX.replace("<data key=\"d1\">0</data>", "");
-    assert!(refused(Format::GraphMl, &bare, None).starts_with("line 7: node stem has no y; a node needs x and y"));
+    assert!(
+        refused(Format::GraphMl, &bare, None)
+            .starts_with("line 7: node stem has no y; a node needs x and y")
+    );
     let twice = NETWORKX.replace("id=\"left\"", "id=\"fork\"");
-    assert_eq!(refused(Format::GraphMl, &twice, None), "line 9: two nodes are called fork");
+    assert_eq!(
+        refused(Format::GraphMl, &twice, None),
+        "line 9: two nodes are called fork"
+    );
     assert!(refused(Format::GraphMl, "<svg/>", None).contains("its outermost element is <svg>"));
     assert!(refused(Format::GraphMl, "hello", None).starts_with("is no GraphML"));
     assert!(refused(Format::Json, "[1]", None).starts_with("holds no veins: an object with nodes"));
@@ -232,8 +259,22 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
     assert!(refused(Format::Table, "from,to\n1,2\n", None).contains("--nodes FILE.csv"));
     let places = "from_x_mm,from_y_mm,to_x_mm,to_y_mm,order\n0,0,0,1,0\n";
     assert!(refused(Format::Table, places, None).starts_with("line 2: order is \"0\""));
-    assert!(refused(Format::Table, "from,to\na,b\n", Some("id,x_mm,y_mm\na,0,0\n")).contains("line 2: node b"));
-    assert!(refused(Format::Svg, "<svg xmlns=\"http://www.w3.org/2000/svg\"/>", None).starts_with("holds no veins"));
+    assert!(
+        refused(
+            Format::Table,
+            "from,to\na,b\n",
+            Some("id,x_mm,y_mm\na,0,0\n")
+        )
+        .contains("line 2: node b")
+    );
+    assert!(
+        refused(
+            Format::Svg,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\"/>",
+            None
+        )
+        .starts_with("holds no veins")
+    );
 }
 
 #[test]
@@ -241,7 +282,8 @@ fn each_fault_that_can_be_mended_is_told_with_its_place() {
     // A cross without a node, a twin node, an edge twice, one without length, a lone node, a part
     // of its own, and a node in the middle of an edge.
     let nodes = "id,x_mm,y_mm\n0,0,0\n1,0,4\n2,-1,2\n3,1,2\n4,0,4\n5,2,6\n6,9,9\n7,20,0\n8,20,1\n9,1,5\n10,5,5\n";
-    let edges = "from,to,radius_mm\n0,1,0.2\n2,3,0.1\n4,5,0.1\n0,1,0.1\n5,5,0.1\n7,8,0.1\n9,10,0.1\n";
+    let edges =
+        "from,to,radius_mm\n0,1,0.2\n2,3,0.1\n4,5,0.1\n0,1,0.1\n5,5,0.1\n7,8,0.1\n9,10,0.1\n";
     let draft = read(Format::Table, edges, Some(nodes)).expect("well-formed");
     let wanted = Wanted {
         root: Some(glam::DVec2::ZERO),
@@ -264,7 +306,12 @@ fn each_fault_that_can_be_mended_is_told_with_its_place() {
         assert!(line.contains(place), "{line}");
     }
     // The wider of the two edges stays.
-    assert!(read.network.edges().iter().any(|edge| edge.radius_from == 0.2));
+    assert!(
+        read.network
+            .edges()
+            .iter()
+            .any(|edge| edge.radius_from == 0.2)
+    );
 }
 
 #[test]
@@ -277,10 +324,23 @@ fn without_radii_and_margin_only_what_needs_them_is_missing() {
     };
     let partly = Subject::new(Blade::Unknown, &veins, known).measures(3.0);
     assert_eq!(partly.entries().len(), whole.entries().len());
-    for key in ["vein_length_mm", "areole_count", "areole_area_mm2_median", "spanning_tree_ratio", "junction_count"] {
+    for key in [
+        "vein_length_mm",
+        "areole_count",
+        "areole_area_mm2_median",
+        "spanning_tree_ratio",
+        "junction_count",
+    ] {
         assert_eq!(partly.number(key), whole.number(key), "{key}");
     }
-    for key in ["length_mm", "vein_density_mm_per_mm2", "murray_exponent_median", "loop_nesting", "minor_vein_share", "vein_distance_mm_mean"] {
+    for key in [
+        "length_mm",
+        "vein_density_mm_per_mm2",
+        "murray_exponent_median",
+        "loop_nesting",
+        "minor_vein_share",
+        "vein_distance_mm_mean",
+    ] {
         assert_eq!(partly.number(key), None, "{key}");
     }
     let area = Subject::new(Blade::Area(outline.area()), &veins, Known::ALL).measures(3.0);

@@ -69,16 +69,27 @@ fn interval(values: &[f64], measure: Measure, draws: u32, seed: u64) -> Option<(
         .filter_map(|draw| {
             let pick = |i: u64| {
                 // The same areoles are drawn for every measure.
-                let random = bits(seed, Use::Bootstrap, draw.wrapping_mul(count).wrapping_add(i));
+                let random = bits(
+                    seed,
+                    Use::Bootstrap,
+                    draw.wrapping_mul(count).wrapping_add(i),
+                );
                 values[((u128::from(random) * u128::from(count)) >> 64) as usize]
             };
             measure(&mut (0..count).map(pick).collect::<Vec<f64>>())
         })
         .collect();
     let middle = mean(&found)?;
-    let squares: f64 = found.iter().map(|value| (value - middle) * (value - middle)).sum();
+    let squares: f64 = found
+        .iter()
+        .map(|value| (value - middle) * (value - middle))
+        .sum();
     let error = (squares / (found.len() as f64 - 1.0)).sqrt();
-    Some((quantile(&mut found, TAIL)?, quantile(&mut found, 1.0 - TAIL)?, error))
+    Some((
+        quantile(&mut found, TAIL)?,
+        quantile(&mut found, 1.0 - TAIL)?,
+        error,
+    ))
 }
 
 #[cfg(test)]
@@ -103,8 +114,14 @@ mod tests {
         // The bootstrap's variance is that of the sample with n instead of n − 1.
         let expected = (squares / 400.0 / 400.0).sqrt();
         // A standard deviation of 4000 draws is known to 1 in √8000, or 1.1 %.
-        assert!((error / expected - 1.0).abs() < 0.045, "{error} is not {expected}");
-        assert!(((high - low) / (2.0 * 1.96 * expected) - 1.0).abs() < 0.08, "{low} to {high}");
+        assert!(
+            (error / expected - 1.0).abs() < 0.045,
+            "{error} is not {expected}"
+        );
+        assert!(
+            ((high - low) / (2.0 * 1.96 * expected) - 1.0).abs() < 0.08,
+            "{low} to {high}"
+        );
         assert!(low < middle && middle < high);
         let again = interval(&values, |list| mean(list), 4000, 1).expect("many");
         assert_eq!(again, (low, high, error));
@@ -115,8 +132,8 @@ mod tests {
     fn nineteen_of_twenty_intervals_hold_the_true_mean() {
         let held = (0..400)
             .filter(|&number| {
-                let (low, high, _) = interval(&sample(number, 100), |list| mean(list), 400, number)
-                    .expect("many");
+                let (low, high, _) =
+                    interval(&sample(number, 100), |list| mean(list), 400, number).expect("many");
                 (low..=high).contains(&0.5)
             })
             .count();

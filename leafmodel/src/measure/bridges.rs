@@ -86,10 +86,23 @@ mod tests {
             [5, 6],
             [6, Pipe::GROUND],
         ];
-        let pipes = ends.map(|ends| Pipe { ends, conductance: 1.0 });
+        let pipes = ends.map(|ends| Pipe {
+            ends,
+            conductance: 1.0,
+        });
         let outflow = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
         let found = beyond(7, &pipes, &outflow);
-        let expected = [Some(31.0), Some(30.0), None, None, None, Some(16.0), None, None, None];
+        let expected = [
+            Some(31.0),
+            Some(30.0),
+            None,
+            None,
+            None,
+            Some(16.0),
+            None,
+            None,
+            None,
+        ];
         assert_eq!(found, expected);
     }
 }

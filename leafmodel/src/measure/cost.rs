@@ -36,7 +36,8 @@ pub(super) fn by_order(graph: &PlaneGraph) -> Vec<OrderRow> {
         row.length_mm += length;
         // The area of the midline's strip, divided by its length in the end.
         row.width_mm += length * (r + s);
-        row.surface_mm2 += std::f64::consts::PI * (r + s) * (length * length + (r - s) * (r - s)).sqrt();
+        row.surface_mm2 +=
+            std::f64::consts::PI * (r + s) * (length * length + (r - s) * (r - s)).sqrt();
         row.volume_mm3 += std::f64::consts::PI / 3.0 * length * (r * r + r * s + s * s);
     }
     rows.retain(|row| row.length_mm > 0.0);
@@ -47,7 +48,10 @@ pub(super) fn by_order(graph: &PlaneGraph) -> Vec<OrderRow> {
 }
 
 fn parts(graph: &PlaneGraph, edge: &VeinEdge) -> (f64, f64, f64) {
-    let (from, to) = (graph.nodes()[edge.from as usize], graph.nodes()[edge.to as usize]);
+    let (from, to) = (
+        graph.nodes()[edge.from as usize],
+        graph.nodes()[edge.to as usize],
+    );
     ((to - from).length(), edge.radius_from, edge.radius_to)
 }
 
@@ -72,7 +76,10 @@ mod tests {
         // A cone of slant 5 between the radii 3.25 and 0.25, and a cylinder.
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} is not {b}");
         near(rows[0].surface_mm2, PI * 3.5 * 5.0);
-        near(rows[0].volume_mm3, PI / 3.0 * 4.0 * (3.25 * 3.25 + 3.25 * 0.25 + 0.25 * 0.25));
+        near(
+            rows[0].volume_mm3,
+            PI / 3.0 * 4.0 * (3.25 * 3.25 + 3.25 * 0.25 + 0.25 * 0.25),
+        );
         near(rows[0].width_mm, 3.5);
         near(rows[1].surface_mm2, 2.0 * PI * 0.5 * 3.0);
         near(rows[1].volume_mm3, PI * 0.25 * 3.0);

@@ -48,7 +48,11 @@ impl Subject<'_> {
         }
         self.add_veins(&mut samples);
         self.add_branches(&mut samples);
-        for ending in self.found.free_endings().filter(|ending| ending.areole.is_some()) {
+        for ending in self
+            .found
+            .free_endings()
+            .filter(|ending| ending.areole.is_some())
+        {
             samples.push(Sample {
                 kind: "free_ending_length",
                 order: None,
@@ -72,7 +76,10 @@ impl Subject<'_> {
     fn add_veins(&self, samples: &mut Vec<Sample>) {
         let (chains, graph) = (self.found.chains(), self.found.graph());
         for chain in 0..chains.len() as u32 {
-            let orders = chains.edges(chain).iter().map(|&edge| graph.edges()[edge as usize].order);
+            let orders = chains
+                .edges(chain)
+                .iter()
+                .map(|&edge| graph.edges()[edge as usize].order);
             let order = orders.min().filter(|_| self.known.orders);
             let points = chains.points(chain);
             let mut add = |kind, value| {
@@ -105,7 +112,10 @@ impl Subject<'_> {
             }
             let arrival = skeleton.arrival(parent);
             let turn = |edge: u32| angle_deg(arrival, skeleton.departure(edge));
-            let straightest = out.iter().copied().min_by(|&a, &b| turn(a).total_cmp(&turn(b)));
+            let straightest = out
+                .iter()
+                .copied()
+                .min_by(|&a, &b| turn(a).total_cmp(&turn(b)));
             let coarse = skeleton.edge(parent).order;
             for &edge in out {
                 let order = skeleton.edge(edge).order;

@@ -111,7 +111,10 @@ impl Factored {
                 }
             }
             let mine = self.starts[k]..self.starts[k + 1];
-            let sum: f64 = self.rows[mine.clone()].iter().map(|&row| joined[row as usize]).sum();
+            let sum: f64 = self.rows[mine.clone()]
+                .iter()
+                .map(|&row| joined[row as usize])
+                .sum();
             let pivot = sum + ground[k];
             self.pivots[k] = pivot;
             for i in mine.clone() {
@@ -251,7 +254,10 @@ fn pattern(count: usize, earlier: &Sorted) -> (Vec<u32>, Vec<usize>, Vec<u32>) {
 /// An order of elimination that fills in little.
 fn order(places: &[DVec2], pipes: &[Pipe]) -> Vec<u32> {
     let mut around: Vec<Vec<u32>> = vec![Vec::new(); places.len()];
-    for pipe in pipes.iter().filter(|pipe| !pipe.ends.contains(&Pipe::GROUND)) {
+    for pipe in pipes
+        .iter()
+        .filter(|pipe| !pipe.ends.contains(&Pipe::GROUND))
+    {
         let [a, b] = pipe.ends;
         around[a as usize].push(b);
         around[b as usize].push(a);
@@ -275,9 +281,14 @@ fn order(places: &[DVec2], pipes: &[Pipe]) -> Vec<u32> {
             around[a as usize].push(b);
             around[b as usize].push(a);
         }
-        open.extend(near.into_iter().filter(|&other| around[other as usize].len() <= 2));
+        open.extend(
+            near.into_iter()
+                .filter(|&other| around[other as usize].len() <= 2),
+        );
     }
-    let core: Vec<u32> = (0..places.len() as u32).filter(|&n| !is_gone[n as usize]).collect();
+    let core: Vec<u32> = (0..places.len() as u32)
+        .filter(|&n| !is_gone[n as usize])
+        .collect();
     let mut side = vec![0_u8; places.len()];
     dissect(core, places, &around, &mut side, &mut order);
     order
@@ -297,7 +308,9 @@ fn dissect(
     }
     let place = |node: u32| places[node as usize];
     let bounds = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) = nodes.iter().fold(bounds, |(low, high), &n| (low.min(place(n)), high.max(place(n))));
+    let (low, high) = nodes.iter().fold(bounds, |(low, high), &n| {
+        (low.min(place(n)), high.max(place(n)))
+    });
     let axis = usize::from(high.y - low.y > high.x - low.x);
     let half = nodes.len() / 2;
     nodes.select_nth_unstable_by(half, |&a, &b| {
@@ -307,9 +320,11 @@ fn dissect(
     for &node in &right {
         side[node as usize] = 1;
     }
-    let (between, left): (Vec<u32>, Vec<u32>) = nodes
-        .into_iter()
-        .partition(|&node| around[node as usize].iter().any(|&other| side[other as usize] == 1));
+    let (between, left): (Vec<u32>, Vec<u32>) = nodes.into_iter().partition(|&node| {
+        around[node as usize]
+            .iter()
+            .any(|&other| side[other as usize] == 1)
+    });
     for &node in &right {
         side[node as usize] = 0;
     }
@@ -331,12 +346,21 @@ mod tests {
     /// ground.
     fn lattice(side: u32, seed: u64) -> (Vec<DVec2>, Vec<Pipe>) {
         let places = (0..side * side).map(|i| DVec2::new(f64::from(i % side), f64::from(i / side)));
-        let mut pipes = vec![Pipe { ends: [0, Pipe::GROUND], conductance: 1.0 }];
+        let mut pipes = vec![Pipe {
+            ends: [0, Pipe::GROUND],
+            conductance: 1.0,
+        }];
         for i in 0..side * side {
-            let more = [(i % side + 1 < side).then_some(i + 1), (i / side + 1 < side).then_some(i + side)];
+            let more = [
+                (i % side + 1 < side).then_some(i + 1),
+                (i / side + 1 < side).then_some(i + side),
+            ];
             for other in more.into_iter().flatten() {
                 let random = uniform(seed, 80, pipes.len() as u64);
-                pipes.push(Pipe { ends: [i, other], conductance: libm::pow(10.0, 8.0 * random) });
+                pipes.push(Pipe {
+                    ends: [i, other],
+                    conductance: libm::pow(10.0, 8.0 * random),
+                });
             }
         }
         (places.collect(), pipes)
@@ -346,34 +370,64 @@ mod tests {
     fn flows_balance_at_every_node_whatever_the_contrast() {
         for (side, seed) in [(1, 1), (2, 1), (7, 2), (30, 3)] {
             let (places, pipes) = lattice(side, seed);
-            let inflow: Vec<f64> = (0..places.len() as u64).map(|i| uniform(seed, 81, i)).collect();
+            let inflow: Vec<f64> = (0..places.len() as u64)
+                .map(|i| uniform(seed, 81, i))
+                .collect();
             let factored = Factored::new(&places, &pipes).expect("a sound system");
             let pressure = factored.solve(&inflow);
             // All that flows in leaves through the one pipe to ground.
             let all: f64 = inflow.iter().sum();
-            assert!((pressure[0] - all).abs() < 1e-12 * all, "{} {all}", pressure[0]);
+            assert!(
+                (pressure[0] - all).abs() < 1e-12 * all,
+                "{} {all}",
+                pressure[0]
+            );
             // The dissipated power is the same by pipes and by inflows.
-            let at = |end: u32| if end == Pipe::GROUND { 0.0 } else { pressure[end as usize] };
+            let at = |end: u32| {
+                if end == Pipe::GROUND {
+                    0.0
+                } else {
+                    pressure[end as usize]
+                }
+            };
             let by_pipes: f64 = pipes
                 .iter()
                 .map(|pipe| pipe.conductance * (at(pipe.ends[0]) - at(pipe.ends[1])).powi(2))
                 .sum();
             let by_nodes: f64 = inflow.iter().zip(&pressure).map(|(q, p)| q * p).sum();
-            assert!((by_pipes / by_nodes - 1.0).abs() < 1e-6, "{by_pipes} {by_nodes}");
+            assert!(
+                (by_pipes / by_nodes - 1.0).abs() < 1e-6,
+                "{by_pipes} {by_nodes}"
+            );
         }
     }
 
     #[test]
     fn no_contrast_is_too_large_for_it() {
         let pipes = [
-            Pipe { ends: [0, Pipe::GROUND], conductance: 1e-200 },
-            Pipe { ends: [0, 1], conductance: 1.0 },
-            Pipe { ends: [1, 2], conductance: 1e100 },
+            Pipe {
+                ends: [0, Pipe::GROUND],
+                conductance: 1e-200,
+            },
+            Pipe {
+                ends: [0, 1],
+                conductance: 1.0,
+            },
+            Pipe {
+                ends: [1, 2],
+                conductance: 1e100,
+            },
         ];
         let factored = Factored::new(&[DVec2::ZERO, DVec2::X, DVec2::Y], &pipes);
         let pressure = factored.expect("sums are finite").solve(&[0.0, 0.0, 1.0]);
-        assert!(pressure.iter().all(|p| (p / 1e200 - 1.0).abs() < 1e-14), "{pressure:?}");
-        let endless = [Pipe { conductance: f64::INFINITY, ..pipes[0] }];
+        assert!(
+            pressure.iter().all(|p| (p / 1e200 - 1.0).abs() < 1e-14),
+            "{pressure:?}"
+        );
+        let endless = [Pipe {
+            conductance: f64::INFINITY,
+            ..pipes[0]
+        }];
         assert!(Factored::new(&[DVec2::ZERO], &endless).is_none());
     }
 
@@ -389,7 +443,10 @@ mod tests {
             let pressure = factored.solve(&inflow);
             let expected = pressure[a as usize] - pressure[b as usize];
             let found = factored.resistance(pipe.ends, &mut scratch);
-            assert!((found - expected).abs() <= 1e-6 * found, "{found} {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-6 * found,
+                "{found} {expected}"
+            );
         }
         assert!(scratch.iter().all(|value| *value == 0.0));
         // Foster: in a connected graph the g R of all pipes add up to the number of unknowns.

@@ -121,7 +121,9 @@ mod tests {
         for column in 0..walls.len() as u32 + 2 {
             let (low, high) = (2 * column, 2 * column + 1);
             places.extend([0.0, 1.0].map(|y| DVec2::new(f64::from(column), y)));
-            let inner = column.checked_sub(1).and_then(|wall| walls.get(wall as usize));
+            let inner = column
+                .checked_sub(1)
+                .and_then(|wall| walls.get(wall as usize));
             edges.push((low, high, inner.copied().unwrap_or(9.0), 1));
             if column > 0 {
                 edges.extend([(low - 2, low, 9.0, 1), (high - 2, high, 9.0, 1)]);
@@ -134,10 +136,16 @@ mod tests {
     fn halves_are_even_and_a_chain_is_as_uneven_as_can_be() {
         // Seven walls between eight squares.
         let halves = row(&[1.0, 2.0, 1.1, 3.0, 1.2, 2.1, 1.3]);
-        assert_eq!((halves.asymmetry, halves.depth, halves.strahler), (Some(0.0), 3, 4));
+        assert_eq!(
+            (halves.asymmetry, halves.depth, halves.strahler),
+            (Some(0.0), 3, 4)
+        );
         assert_eq!(halves.mean, Some(1.0));
         let chain = row(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-        assert_eq!((chain.asymmetry, chain.depth, chain.strahler), (Some(1.0), 7, 2));
+        assert_eq!(
+            (chain.asymmetry, chain.depth, chain.strahler),
+            (Some(1.0), 7, 2)
+        );
         // 1/1, 1/2 … 1/7.
         let harmonic: f64 = (1..=7).map(|n| 1.0 / f64::from(n)).sum();
         assert!((chain.mean.expect("merges") - harmonic / 7.0).abs() < 1e-15);
@@ -145,7 +153,11 @@ mod tests {
         assert_eq!(chain.merges[6].areoles, 8);
         assert_eq!(chain.merges[6].radius_mm, 7.0);
         // Each node but the root is a branch of one other.
-        let mut below: Vec<u32> = chain.merges.iter().flat_map(|merge| merge.branches).collect();
+        let mut below: Vec<u32> = chain
+            .merges
+            .iter()
+            .flat_map(|merge| merge.branches)
+            .collect();
         below.sort_unstable();
         assert_eq!(below, (0..14).collect::<Vec<u32>>());
     }

@@ -91,13 +91,27 @@ fn structure(points: &[DVec2], (low, high): (DVec2, DVec2)) -> Option<Structure>
     let unit = TAU * (inside.len() as f64 / (size.x * size.y)).sqrt();
     let length = |[m, n]: [i32; 2]| TAU * (DVec2::new(f64::from(m), f64::from(n)) / size).length();
     let chosen = chosen(unit, size, length);
-    let values = factors(&inside, &chosen.iter().map(|(wave, _)| *wave).collect::<Vec<_>>());
-    let all: Vec<(f64, f64)> = chosen.iter().zip(&values).map(|((wave, _), s)| (length(*wave), *s)).collect();
+    let values = factors(
+        &inside,
+        &chosen.iter().map(|(wave, _)| *wave).collect::<Vec<_>>(),
+    );
+    let all: Vec<(f64, f64)> = chosen
+        .iter()
+        .zip(&values)
+        .map(|((wave, _), s)| (length(*wave), *s))
+        .collect();
     let bins = (0..BINS).filter_map(|bin| {
-        let in_bin = chosen.iter().zip(&all).filter(|((_, place), _)| *place == Some(bin));
+        let in_bin = chosen
+            .iter()
+            .zip(&all)
+            .filter(|((_, place), _)| *place == Some(bin));
         bin_of(&in_bin.map(|(_, pair)| *pair).collect::<Vec<_>>())
     });
-    let fitted: Vec<(f64, f64)> = all.iter().copied().filter(|(k, _)| *k <= FITTED * unit).collect();
+    let fitted: Vec<(f64, f64)> = all
+        .iter()
+        .copied()
+        .filter(|(k, _)| *k <= FITTED * unit)
+        .collect();
     let enough = fitted.len() >= FEWEST_FITTED;
     let low_k = fitted.iter().map(|(_, s)| s).sum::<f64>() / fitted.len().max(1) as f64;
     Some(Structure {
@@ -105,7 +119,11 @@ fn structure(points: &[DVec2], (low, high): (DVec2, DVec2)) -> Option<Structure>
         count: inside.len(),
         bins: bins.collect(),
         low: enough.then_some(low_k),
-        exponent: if enough && low_k > NOTHING { exponent(&fitted) } else { None },
+        exponent: if enough && low_k > NOTHING {
+            exponent(&fitted)
+        } else {
+            None
+        },
     })
 }
 
@@ -137,17 +155,28 @@ fn chosen(
     };
     let mut chosen: Vec<([i32; 2], Option<usize>)> = Vec::new();
     for (bin, list) in bins.iter().enumerate() {
-        chosen.extend(thin(list, MOST_IN_BIN).into_iter().map(|wave| (wave, Some(bin))));
+        chosen.extend(
+            thin(list, MOST_IN_BIN)
+                .into_iter()
+                .map(|wave| (wave, Some(bin))),
+        );
     }
     let seen: std::collections::BTreeSet<[i32; 2]> = chosen.iter().map(|(wave, _)| *wave).collect();
-    let more = thin(&low, MOST_FITTED).into_iter().filter(|wave| !seen.contains(wave));
+    let more = thin(&low, MOST_FITTED)
+        .into_iter()
+        .filter(|wave| !seen.contains(wave));
     chosen.extend(more.map(|wave| (wave, None)));
     chosen
 }
 
 /// `S` at each wavevector; places in shares of the window.
 fn factors(places: &[DVec2], waves: &[[i32; 2]]) -> Vec<f64> {
-    let most = waves.iter().flatten().map(|n| n.unsigned_abs()).max().unwrap_or(0) as usize;
+    let most = waves
+        .iter()
+        .flatten()
+        .map(|n| n.unsigned_abs())
+        .max()
+        .unwrap_or(0) as usize;
     // Sums of chunks are added in their order, so that threads change nothing.
     let sums: Vec<Vec<DVec2>> = places
         .par_chunks(CHUNK)
@@ -163,7 +192,11 @@ fn factors(places: &[DVec2], waves: &[[i32; 2]]) -> Vec<f64> {
                 }
                 for (sum, [m, n]) in sums.iter_mut().zip(waves) {
                     let along = powers[1][n.unsigned_abs() as usize];
-                    let along = if *n < 0 { DVec2::new(along.x, -along.y) } else { along };
+                    let along = if *n < 0 {
+                        DVec2::new(along.x, -along.y)
+                    } else {
+                        along
+                    };
                     *sum += times(powers[0][*m as usize], along);
                 }
             }
@@ -171,7 +204,9 @@ fn factors(places: &[DVec2], waves: &[[i32; 2]]) -> Vec<f64> {
         })
         .collect();
     let whole = |wave: usize| sums.iter().map(|chunk| chunk[wave]).sum::<DVec2>();
-    (0..waves.len()).map(|wave| whole(wave).length_squared() / places.len() as f64).collect()
+    (0..waves.len())
+        .map(|wave| whole(wave).length_squared() / places.len() as f64)
+        .collect()
 }
 
 /// The product of two complex numbers.
@@ -186,7 +221,11 @@ fn bin_of(pairs: &[(f64, f64)]) -> Option<StructureBin> {
     (!pairs.is_empty()).then(|| StructureBin {
         k_per_mm: pairs.iter().map(|(k, _)| k).sum::<f64>() / count,
         value,
-        error: if pairs.len() > 1 { (squares / (count - 1.0) / count).sqrt() } else { value },
+        error: if pairs.len() > 1 {
+            (squares / (count - 1.0) / count).sqrt()
+        } else {
+            value
+        },
         wavevectors: pairs.len(),
     })
 }
@@ -198,7 +237,10 @@ fn exponent(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
     const STEPS: usize = 80;
     let count = pairs.len() as f64;
     let middle = pairs.iter().map(|(k, _)| libm::log(*k)).sum::<f64>() / count;
-    let centred: Vec<(f64, f64)> = pairs.iter().map(|(k, s)| (libm::log(*k) - middle, *s)).collect();
+    let centred: Vec<(f64, f64)> = pairs
+        .iter()
+        .map(|(k, s)| (libm::log(*k) - middle, *s))
+        .collect();
     let spread: f64 = centred.iter().map(|(x, _)| x * x).sum();
     // The slope of what is minimised, which rises with `a`.
     let slope = |a: f64| {
@@ -252,7 +294,8 @@ mod tests {
     fn poisson_points_have_a_structure_factor_of_one_and_no_exponent() {
         for seed in 1..5 {
             let count = u64::from(SIDE.unsigned_abs().pow(2));
-            let place = |i| f64::from(SIDE) * DVec2::new(uniform(seed, 78, i), uniform(seed, 79, i));
+            let place =
+                |i| f64::from(SIDE) * DVec2::new(uniform(seed, 78, i), uniform(seed, 79, i));
             let found = of(&(0..count).map(place).collect::<Vec<_>>());
             assert_eq!(found.count, 4096);
             // Some 400 exponential variables: their mean is known to 5 %, the exponent to 0.1.
@@ -274,12 +317,18 @@ mod tests {
             let found = of(&jittered(1.0, seed));
             let (exponent, error) = found.exponent.expect("many wavevectors");
             // In the fitted range S bends below k²: to first order the exponent is 0.05 less.
-            assert!((exponent - 1.97).abs() < 4.0 * error, "{exponent} ± {error}");
+            assert!(
+                (exponent - 1.97).abs() < 4.0 * error,
+                "{exponent} ± {error}"
+            );
             // Independent moves: S = 1 − |φ|², with φ = sinc(kₓ/2) sinc(k_y/2) for uniform ones;
             // on the average over directions 1 − φ² is k²/12 − k⁴ (…) at small k.
             let first = found.bins[2];
             let expected = first.k_per_mm * first.k_per_mm / 12.0;
-            assert!((first.value - expected).abs() < 5.0 * first.error, "{first:?} {expected}");
+            assert!(
+                (first.value - expected).abs() < 5.0 * first.error,
+                "{first:?} {expected}"
+            );
         }
     }
 
@@ -288,7 +337,10 @@ mod tests {
         let found = of(&jittered(0.0, 1));
         assert!(found.low.expect("many wavevectors") < 1e-20);
         assert_eq!(found.exponent, None);
-        let points: Vec<DVec2> = jittered(0.0, 1).iter().map(|p| *p / f64::from(SIDE)).collect();
+        let points: Vec<DVec2> = jittered(0.0, 1)
+            .iter()
+            .map(|p| *p / f64::from(SIDE))
+            .collect();
         let peak = factors(&points, &[[SIDE, 0], [0, SIDE], [SIDE, -SIDE], [SIDE, 1]]);
         for value in &peak[..3] {
             assert!((value - 4096.0).abs() < 1e-6, "{value}");
@@ -298,6 +350,9 @@ mod tests {
 
     #[test]
     fn few_points_have_none() {
-        assert_eq!(structure(&jittered(1.0, 1)[..40], (DVec2::ZERO, DVec2::splat(64.0))), None);
+        assert_eq!(
+            structure(&jittered(1.0, 1)[..40], (DVec2::ZERO, DVec2::splat(64.0))),
+            None
+        );
     }
 }

@@ -93,7 +93,12 @@ impl<'a> Subject<'a> {
     /// All measures; those that need what is not known are missing.
     pub fn measures(&self, murray_exponent: f64) -> Measures {
         let (found, known, outline) = (&self.found, self.known, self.blade.outline());
-        let edges: Vec<[u32; 2]> = found.graph().edges().iter().map(|e| [e.from, e.to]).collect();
+        let edges: Vec<[u32; 2]> = found
+            .graph()
+            .edges()
+            .iter()
+            .map(|e| [e.from, e.to])
+            .collect();
         let skeleton = Skeleton::new(found.graph(), &edges);
         let mut list = List::new(self.blade.area());
         list.shape(outline);
@@ -132,16 +137,30 @@ impl<'a> Subject<'a> {
         let volume = sum(|row| row.volume_mm3);
         list.number("vein_surface_mm2", "mm²", sum(|row| row.surface_mm2));
         list.number("vein_volume_mm3", "mm³", volume);
-        let per_area = volume.zip(self.blade.area()).map(|(volume, area)| volume / area);
+        let per_area = volume
+            .zip(self.blade.area())
+            .map(|(volume, area)| volume / area);
         list.number("vein_volume_per_area_mm", "mm", per_area);
         let tree = self.known.radii.then(|| nesting::nesting(&self.found));
-        list.number("loop_tree_asymmetry", "", tree.as_ref().and_then(|tree| tree.asymmetry));
+        list.number(
+            "loop_tree_asymmetry",
+            "",
+            tree.as_ref().and_then(|tree| tree.asymmetry),
+        );
         list.count_or_none("loop_tree_depth", tree.map(|tree| tree.depth as usize));
         list.count_or_none("centroid_count", structure.map(|found| found.count));
-        list.number("structure_factor_low", "", structure.and_then(|found| found.low));
+        list.number(
+            "structure_factor_low",
+            "",
+            structure.and_then(|found| found.low),
+        );
         let exponent = structure.and_then(|found| found.exponent);
         list.number("hyperuniformity_exponent", "", exponent.map(|pair| pair.0));
-        list.number("hyperuniformity_exponent_error", "", exponent.map(|pair| pair.1));
+        list.number(
+            "hyperuniformity_exponent_error",
+            "",
+            exponent.map(|pair| pair.1),
+        );
         list.supply(supply);
         list.measures()
     }

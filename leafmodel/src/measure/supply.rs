@@ -22,7 +22,7 @@ use super::laplacian::{Factored, Pipe};
 use crate::venation::network::VeinEdge;
 use crate::venation::planar::PlaneGraph;
 
-/// Viscosity of water at 20 °C, 1.0016 mPa s (\[huber2009\]), in MPa s: lengths in mm then give
+/// Viscosity of water at 20 °C, 1.0016 mPa s (\[huber2009\]), in megapascal seconds: lengths in mm then give
 /// conductances in mm³ s⁻¹ MPa⁻¹.
 const VISCOSITY_MPA_S: f64 = 1.0016e-9;
 
@@ -104,7 +104,8 @@ impl Subject<'_> {
             Vec::new()
         };
         Some(Supply {
-            conductance: std::f64::consts::PI / (8.0 * VISCOSITY_MPA_S) * whole.total * whole.total / power,
+            conductance: std::f64::consts::PI / (8.0 * VISCOSITY_MPA_S) * whole.total * whole.total
+                / power,
             supplied: whole.total / total,
             bridges: bridges / whole.total,
             cuts,
@@ -118,7 +119,9 @@ impl Subject<'_> {
         let mut places: Vec<[u64; 2]> = origins.iter().map(|node| bits(node.position)).collect();
         places.sort_unstable();
         let nodes = self.found.graph().nodes().iter();
-        nodes.map(|place| places.binary_search(&bits(*place)).is_ok()).collect()
+        nodes
+            .map(|place| places.binary_search(&bits(*place)).is_ok())
+            .collect()
     }
 
     fn cuts(
@@ -138,7 +141,13 @@ impl Subject<'_> {
             pipe_of[edge as usize] = pipe;
         }
         let mut scratch = vec![0.0; whole.places.len()];
-        let drop_at = |end: u32| if end == Pipe::GROUND { 0.0 } else { drops[end as usize] };
+        let drop_at = |end: u32| {
+            if end == Pipe::GROUND {
+                0.0
+            } else {
+                drops[end as usize]
+            }
+        };
         let cut = |&chain: &u32| {
             let edges = chains.edges(chain);
             let edge = edges[edges.len() / 2];
@@ -147,15 +156,14 @@ impl Subject<'_> {
                 return None; // It hangs together with no petiole.
             }
             let Pipe { ends, conductance } = whole.pipes[pipe as usize];
-            let (cut_off, lost) = match beyond[pipe as usize] {
-                Some(beyond) => (beyond / whole.total, 0.0),
-                None => {
-                    // By Sherman and Morrison's formula for one pipe less.
-                    let between = drop_at(ends[0]) - drop_at(ends[1]);
-                    let around = 1.0 - conductance * factored.resistance(ends, &mut scratch);
-                    let more = conductance * between * between / around;
-                    (0.0, more / (power + more))
-                }
+            let (cut_off, lost) = if let Some(beyond) = beyond[pipe as usize] {
+                (beyond / whole.total, 0.0)
+            } else {
+                // By Sherman and Morrison's formula for one pipe less.
+                let between = drop_at(ends[0]) - drop_at(ends[1]);
+                let around = 1.0 - conductance * factored.resistance(ends, &mut scratch);
+                let more = conductance * between * between / around;
+                (0.0, more / (power + more))
             };
             let first = &graph.edges()[edge as usize];
             Some(Cut {
@@ -181,7 +189,11 @@ impl Subject<'_> {
             let others = whole.total - lengths[usize::from(order)];
             let Some(left) = Pipes::new(graph, roots, |edge| edge.order != order) else {
                 let cut_off = if others > 0.0 { 1.0 } else { 0.0 };
-                return OrderLoss { order, cut_off, lost: None };
+                return OrderLoss {
+                    order,
+                    cut_off,
+                    lost: None,
+                };
             };
             let after = Factored::new(&left.places, &left.pipes);
             let after = after.map(|after| after.solve(&left.outflow));
@@ -215,6 +227,7 @@ fn length(graph: &PlaneGraph, edge: &VeinEdge) -> f64 {
 }
 
 /// The pipes that hang together with the petiole.
+#[expect(clippy::struct_field_names, reason = "they are its pipes")]
 struct Pipes {
     /// Places of the unknowns.
     places: Vec<DVec2>,
@@ -240,7 +253,11 @@ impl Pipes {
         is_wanted: impl Fn(&VeinEdge) -> bool,
     ) -> Option<Self> {
         let mut starts = vec![0_u32; graph.nodes().len() + 1];
-        let wanted = || (0..).zip(graph.edges()).filter(|(_, edge): &(u32, _)| is_wanted(edge));
+        let wanted = || {
+            (0..)
+                .zip(graph.edges())
+                .filter(|(_, edge): &(u32, _)| is_wanted(edge))
+        };
         for (_, edge) in wanted() {
             for end in [edge.from, edge.to] {
                 starts[end as usize + 1] += 1;
@@ -259,7 +276,11 @@ impl Pipes {
             }
         }
         let mut is_reached = roots.to_vec();
-        let mut open: Vec<u32> = (0..).zip(roots).filter(|(_, root)| **root).map(|(n, _)| n).collect();
+        let mut open: Vec<u32> = (0..)
+            .zip(roots)
+            .filter(|(_, root)| **root)
+            .map(|(n, _)| n)
+            .collect();
         while let Some(node) = open.pop() {
             let node = node as usize;
             for &edge in &around[starts[node] as usize..starts[node + 1] as usize] {

@@ -15,20 +15,25 @@ pub(super) fn largest(points: &[DVec2], outline: Option<&Outline>) -> Option<(DV
     if hull.len() < 3 {
         return None;
     }
-    let (low, high) = hull.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
-        (low.min(p), high.max(p))
-    });
+    let (low, high) = hull
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| {
+            (low.min(p), high.max(p))
+        });
     let cell = (high - low).max_element() / CELLS as f64;
     let columns = (((high.x - low.x) / cell) as usize).max(1);
     let rows = (((high.y - low.y) / cell) as usize).max(1);
     let corner = |column: usize, row: usize| low + DVec2::new(column as f64, row as f64) * cell;
     let is_inside = |p: DVec2| {
-        hull.iter().zip(hull.iter().cycle().skip(1)).all(|(a, b)| (*b - *a).perp_dot(p - *a) >= 0.0)
+        hull.iter()
+            .zip(hull.iter().cycle().skip(1))
+            .all(|(a, b)| (*b - *a).perp_dot(p - *a) >= 0.0)
             && outline.is_none_or(|outline| outline.contains(p))
     };
     let width = columns + 1;
-    let inside: Vec<bool> =
-        (0..width * (rows + 1)).map(|i| is_inside(corner(i % width, i / width))).collect();
+    let inside: Vec<bool> = (0..width * (rows + 1))
+        .map(|i| is_inside(corner(i % width, i / width)))
+        .collect();
     let is_free = |column: usize, row: usize| {
         let four = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(dx, dy)| (column + dx, row + dy));
         four.iter().all(|&(x, y)| inside[y * width + x])
@@ -97,14 +102,29 @@ mod tests {
     #[test]
     fn the_margin_cuts_the_rectangle() {
         // A blade with a bay from the right almost to its left side.
-        let corners = [(0.0, 0.0), (8.0, 0.0), (8.0, 3.0), (1.0, 3.5), (8.0, 4.0), (8.0, 10.0), (0.0, 10.0)];
-        let outline = Outline::new(corners.map(DVec2::from).to_vec(), (4.0, 0.0).into(), (4.0, 10.0).into())
-            .expect("a margin");
+        let corners = [
+            (0.0, 0.0),
+            (8.0, 0.0),
+            (8.0, 3.0),
+            (1.0, 3.5),
+            (8.0, 4.0),
+            (8.0, 10.0),
+            (0.0, 10.0),
+        ];
+        let outline = Outline::new(
+            corners.map(DVec2::from).to_vec(),
+            (4.0, 0.0).into(),
+            (4.0, 10.0).into(),
+        )
+        .expect("a margin");
         let points = [(0.0, 0.0), (8.0, 0.0), (8.0, 10.0), (0.0, 10.0)].map(DVec2::from);
         let (low, high) = largest(&points, Some(&outline)).expect("there is room");
         // The part above the bay: 8 by 6.
         let area = (high - low).x * (high - low).y;
-        assert!((45.0..=48.0).contains(&area) && low.y >= 3.9, "{low} {high}");
+        assert!(
+            (45.0..=48.0).contains(&area) && low.y >= 3.9,
+            "{low} {high}"
+        );
         assert_eq!(largest(&points[..2], None), None);
     }
 }

@@ -197,9 +197,7 @@ fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>
         Some(id) => paths
             .find(|node| node.attribute("id") == Some(id))
             .ok_or_else(|| SvgError::NoSuchPath { id: id.to_owned() }),
-        None => paths
-            .find(|&node| is_drawn(node))
-            .ok_or(SvgError::NoPath),
+        None => paths.find(|&node| is_drawn(node)).ok_or(SvgError::NoPath),
     }
 }
 
@@ -209,7 +207,9 @@ pub(crate) fn is_drawn(node: Node<'_, '_>) -> bool {
     const NOT_DRAWN: [&str; 7] = [
         "defs", "clipPath", "mask", "pattern", "symbol", "marker", "font",
     ];
-    !node.ancestors().any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
+    !node
+        .ancestors()
+        .any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
 }
 
 /// The transform from a path's own coordinates to those of the file.

@@ -157,12 +157,7 @@ fn carry_out(
     };
     for (path, kind) in &outputs.whole {
         let bytes = match kind {
-            Kind::Svg
-            | Kind::Png
-            | Kind::Json
-            | Kind::GraphMl
-            | Kind::GeoJson
-            | Kind::Csv => {
+            Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv => {
                 veins_file(*kind, page, outlines, all_veins, arguments.size)?
             }
             Kind::Ply | Kind::Obj => match &grown {

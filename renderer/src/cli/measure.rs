@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use leafmodel::import::Fault;
 use leafmodel::measure::{Blade, Subject};
+use leafmodel::shape::outline::Outline;
 
 use self::input::Input;
 use self::report::Report;
@@ -26,7 +27,7 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let blade = match input.outlines.as_slice() {
         [outline] => Blade::Margin(outline),
         [] => arguments.area.map_or(Blade::Unknown, Blade::Area),
-        several => Blade::Area(several.iter().map(|outline| outline.area()).sum()),
+        several => Blade::Area(several.iter().map(Outline::area).sum()),
     };
     tell_what_is_missing(&input, blade);
     let subject = Subject::new(blade, &input.network, input.known);
@@ -34,7 +35,11 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let seconds = measuring.elapsed().as_secs_f64();
     eprint!("{}", report.table());
     for path in &arguments.out {
-        let text = if is_json(path) { report.json() } else { report.csv() };
+        let text = if is_json(path) {
+            report.json()
+        } else {
+            report.csv()
+        };
         write(path, &text)?;
     }
     report.write_tables(arguments)?;
@@ -74,7 +79,11 @@ fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
             )));
         }
     }
-    let read = [Some(&arguments.file), arguments.nodes.as_ref(), arguments.outline.as_ref()];
+    let read = [
+        Some(&arguments.file),
+        arguments.nodes.as_ref(),
+        arguments.outline.as_ref(),
+    ];
     let mut seen: Vec<&PathBuf> = read.into_iter().flatten().collect();
     for path in arguments.out.iter().chain(tables) {
         if seen.contains(&path) {
@@ -88,16 +97,26 @@ fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
 
 /// Tells what is wrong with a network; with `--strict` it is an error.
 fn tell_faults(arguments: &MeasureArguments, faults: &[Fault]) -> Result<(), Failure> {
-    let wrong: Vec<&Fault> = faults.iter().filter(|fault| !fault.kind.is_note()).collect();
+    let wrong: Vec<&Fault> = faults
+        .iter()
+        .filter(|fault| !fault.kind.is_note())
+        .collect();
     if arguments.strict && !wrong.is_empty() {
-        let lines: String = wrong.iter().map(|fault| format!("\n  {}", fault.line())).collect();
+        let lines: String = wrong
+            .iter()
+            .map(|fault| format!("\n  {}", fault.line()))
+            .collect();
         let file = arguments.file.display();
         return Err(Failure::bad(format!(
             "{file}: is not without fault, as --strict asks:{lines}"
         )));
     }
     for fault in faults {
-        let word = if fault.kind.is_note() { "note" } else { "warning" };
+        let word = if fault.kind.is_note() {
+            "note"
+        } else {
+            "warning"
+        };
         eprintln!("{word}: {}", fault.line());
     }
     Ok(())
@@ -110,12 +129,16 @@ fn tell_what_is_missing(input: &Input, blade: Blade) {
              missing"
         );
     } else if input.orders_found {
-        eprintln!("note: vein orders are not in the file; they are found from widths and branching");
+        eprintln!(
+            "note: vein orders are not in the file; they are found from widths and branching"
+        );
     }
     match blade {
         Blade::Margin(_) => {}
         Blade::Area(_) => {
-            eprintln!("note: without a margin, measures of the shape and distances to veins are missing");
+            eprintln!(
+                "note: without a margin, measures of the shape and distances to veins are missing"
+            );
         }
         Blade::Unknown => eprintln!(
             "note: without a margin (--outline FILE.svg) or an area (--area MM2), measures of the shape, per area, and \
@@ -129,7 +152,8 @@ fn is_json(path: &Path) -> bool {
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension().is_some_and(|given| given.eq_ignore_ascii_case(ending))
+    path.extension()
+        .is_some_and(|given| given.eq_ignore_ascii_case(ending))
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Failure> {

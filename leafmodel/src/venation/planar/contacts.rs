@@ -39,7 +39,10 @@ impl Contacts {
     pub(super) fn touches(&self, nodes: &[DVec2]) -> Vec<DVec2> {
         let on_edges = self.touches.iter().map(|touch| touch.1);
         let on_nodes = self.meetings.iter().map(|meeting| meeting.1);
-        on_edges.chain(on_nodes).map(|node| nodes[node as usize]).collect()
+        on_edges
+            .chain(on_nodes)
+            .map(|node| nodes[node as usize])
+            .collect()
     }
 }
 

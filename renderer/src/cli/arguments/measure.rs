@@ -53,7 +53,7 @@ pub struct MeasureArguments {
     /// asked for
     #[arg(long)]
     pub quick: bool,
-    /// The exponent of murray_ratio_median
+    /// The exponent n of Murray's law that the measured ratio of widths at forks refers to
     #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>)]
     pub murray_exponent: f64,
     /// Files to write with all measures, units and definitions, their kind by their ending: csv,

@@ -33,11 +33,17 @@ enum Kind {
 
 impl Kind {
     fn of(path: &Path) -> Result<Self, Failure> {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or_default();
         if let Some(format) = Format::of_ending(ending) {
             return Ok(Self::Network(format));
         }
-        if PICTURES.iter().any(|picture| ending.eq_ignore_ascii_case(picture)) {
+        if PICTURES
+            .iter()
+            .any(|picture| ending.eq_ignore_ascii_case(picture))
+        {
             return Ok(Self::Picture);
         }
         let shown = path.display();
@@ -74,7 +80,11 @@ impl Input {
         let told = |error: ImportError| Failure::bad(format!("{}: {error}", path.display()));
         let draft = import::read(format, &text, nodes.as_deref()).map_err(told)?;
         drop((text, nodes));
-        let own = arguments.outline.as_deref().map(|path| margin(path, arguments)).transpose()?;
+        let own = arguments
+            .outline
+            .as_deref()
+            .map(|path| margin(path, arguments))
+            .transpose()?;
         let draft = match own {
             Some(own) => draft.within(own),
             None => draft,

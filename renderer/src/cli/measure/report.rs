@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use glam::DVec2;
 use leafmodel::measure::{
     Entry, Interval, Measures, Row, Sample, Structure, Subject, Supply, definition,
 };
@@ -31,9 +32,13 @@ impl<'a> Report<'a> {
         subject: &'a Subject<'a>,
     ) -> Self {
         let wants = |table: &Option<_>| !arguments.quick || table.is_some();
-        let structure = wants(&arguments.structure_factor).then(|| subject.structure()).flatten();
+        let structure = wants(&arguments.structure_factor)
+            .then(|| subject.structure())
+            .flatten();
         let cuts = arguments.cut as usize;
-        let supply = wants(&arguments.cuts).then(|| subject.supply(cuts)).flatten();
+        let supply = wants(&arguments.cuts)
+            .then(|| subject.supply(cuts))
+            .flatten();
         Self {
             file: arguments.file.display().to_string(),
             input,
@@ -60,7 +65,10 @@ impl<'a> Report<'a> {
         let mut text = self.measures.table();
         for interval in &self.intervals {
             let Interval { key, low, high, .. } = interval;
-            let _ = writeln!(text, "{key}: 95 % of the draws lie from {low:.4} to {high:.4}");
+            let _ = writeln!(
+                text,
+                "{key}: 95 % of the draws lie from {low:.4} to {high:.4}"
+            );
         }
         text
     }
@@ -89,14 +97,43 @@ impl<'a> Report<'a> {
         for row in self.subject.by_order() {
             let radii = self.input.known.radii;
             let columns = [
-                ("order_vein_length", "mm", "length of the veins of an order", Some(row.length_mm)),
-                ("order_vein_width", "mm", "mean width along them", Some(row.width_mm).filter(|_| radii)),
-                ("order_vein_surface", "mm²", "their surface", Some(row.surface_mm2).filter(|_| radii)),
-                ("order_vein_volume", "mm³", "their volume", Some(row.volume_mm3).filter(|_| radii)),
+                (
+                    "order_vein_length",
+                    "mm",
+                    "length of the veins of an order",
+                    Some(row.length_mm),
+                ),
+                (
+                    "order_vein_width",
+                    "mm",
+                    "mean width along them",
+                    Some(row.width_mm).filter(|_| radii),
+                ),
+                (
+                    "order_vein_surface",
+                    "mm²",
+                    "their surface",
+                    Some(row.surface_mm2).filter(|_| radii),
+                ),
+                (
+                    "order_vein_volume",
+                    "mm³",
+                    "their volume",
+                    Some(row.volume_mm3).filter(|_| radii),
+                ),
             ];
             for (key, unit, definition, value) in columns {
                 let part = Some(usize::from(row.order)).filter(|order| *order > 0);
-                add(&Row { key, part, value, unit, definition }, None);
+                add(
+                    &Row {
+                        key,
+                        part,
+                        value,
+                        unit,
+                        definition,
+                    },
+                    None,
+                );
             }
         }
         text
@@ -109,12 +146,14 @@ impl<'a> Report<'a> {
             report.extend(members);
         }
         let of = |value: &dyn Fn(&Entry) -> Value| {
-            let members = self.entries().map(|entry| (entry.key.to_owned(), value(entry)));
+            let members = self
+                .entries()
+                .map(|entry| (entry.key.to_owned(), value(entry)));
             Value::Object(members.collect())
         };
         let (known, network) = (self.input.known, &self.input.network);
         let faults = self.input.faults.iter().map(|fault| {
-            let places: Vec<[f64; 2]> = fault.places.iter().map(|p| p.to_array()).collect();
+            let places: Vec<[f64; 2]> = fault.places.iter().map(DVec2::to_array).collect();
             json!({
                 "kind": fault.kind.word(),
                 "count": fault.count,
@@ -133,12 +172,14 @@ impl<'a> Report<'a> {
             })
         });
         let intervals = self.intervals.iter().map(|interval| {
-            let body = json!({ "low": interval.low, "high": interval.high, "error": interval.error });
+            let body =
+                json!({ "low": interval.low, "high": interval.high, "error": interval.error });
             (interval.key.to_owned(), body)
         });
-        let window = self.structure.as_ref().map(|found| {
-            [found.window.0.to_array(), found.window.1.to_array()]
-        });
+        let window = self
+            .structure
+            .as_ref()
+            .map(|found| [found.window.0.to_array(), found.window.1.to_array()]);
         let more = [
             ("by_order", orders.collect()),
             ("confidence_95", Value::Object(intervals.collect())),
@@ -199,11 +240,14 @@ impl<'a> Report<'a> {
     }
 
     fn cuts(&self) -> String {
-        let mut text = String::from(
-            "x_mm,y_mm,order,radius_mm,length_mm,cut_off_share,conductance_lost\n",
-        );
+        let mut text =
+            String::from("x_mm,y_mm,order,radius_mm,length_mm,cut_off_share,conductance_lost\n");
         for cut in self.supply.iter().flat_map(|found| &found.cuts) {
-            let order = if self.input.known.orders { cut.order.to_string() } else { String::new() };
+            let order = if self.input.known.orders {
+                cut.order.to_string()
+            } else {
+                String::new()
+            };
             let _ = writeln!(
                 text,
                 "{},{},{order},{},{},{},{}",
@@ -218,7 +262,10 @@ impl<'a> Report<'a> {
 fn samples(samples: &[Sample]) -> String {
     let mut text = String::from("kind,order,value,unit,x_mm,y_mm\n");
     for sample in samples {
-        let order = sample.order.map(|order| order.to_string()).unwrap_or_default();
+        let order = sample
+            .order
+            .map(|order| order.to_string())
+            .unwrap_or_default();
         let _ = writeln!(
             text,
             "{},{order},{},{},{},{}",
