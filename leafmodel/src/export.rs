@@ -3,9 +3,10 @@
 //! - **In**: an [`Outline`](crate::shape::outline::Outline), or several of a compound leaf, and a
 //!   [`VenationNetwork`](crate::venation::network::VenationNetwork).
 //! - **Out**: [`svg`] to draw, [`graphml`] for graph programs, [`json`] with everything,
-//!   [`geojson`] for programs that know maps.
-//! - **Always true**: lengths are millimetres, apex up; the same network gives the same bytes.
-//!   `json` and `graphml` hold every number in full, the others are rounded to 10⁻⁴ mm.
+//!   [`geojson`] for programs that know maps, [`table`] for spreadsheets.
+//! - **Always true**: lengths are millimetres, apex up; the same network gives the same bytes. All
+//!   but `svg`, which is rounded to 10⁻⁴ mm, hold every number of a network in full, and
+//!   [`crate::import`] reads it back.
 //! - **Left out**: the blade in space, and tissue.
 //!
 //! ```
@@ -27,6 +28,7 @@ mod graphml;
 mod json;
 pub mod runs;
 mod svg;
+mod table;
 #[cfg(test)]
 mod tests;
 
@@ -34,6 +36,7 @@ pub use self::geojson::geojson;
 pub use self::graphml::graphml;
 pub use self::json::json;
 pub use self::svg::{SvgStyle, svg, svg_within};
+pub use self::table::table;
 
 /// Colours (sRGB) that tell vein orders apart on white, also for most colour-blind eyes (after
 /// Okabe and Ito); finer orders than there are colours share the last.

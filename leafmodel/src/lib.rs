@@ -57,7 +57,7 @@
 //! | a margin from an SVG file or from control points | [`shape`] |
 //! | how veins come to be | [`venation`], [`transport`] |
 //! | margin and main veins from one development | [`development`] |
-//! | measures of shape and veins; networks as files for other programs | [`measure`], [`export`] |
+//! | measures of shape and veins; networks as files for other programs, and from them | [`measure`], [`export`], [`import`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
 //! | leaflets on a rachis; fruits and caps; boughs | [`compound`], [`solid`], [`plant`] |
 //! | variegation by cells that divide | [`mosaic`] |
@@ -71,6 +71,7 @@ pub mod compound;
 pub mod development;
 pub mod document;
 pub mod export;
+pub mod import;
 pub mod leaf;
 pub mod measure;
 pub mod mosaic;

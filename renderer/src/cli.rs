@@ -33,6 +33,7 @@ mod check;
 mod columns;
 mod export;
 mod grow;
+mod measure;
 mod merge;
 mod needs;
 mod optics;
@@ -125,6 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
+        Command::Measure(measure) => measure::run(measure),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
         Command::Completions(shell) => {

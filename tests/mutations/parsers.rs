@@ -5,6 +5,7 @@ use std::path::Path;
 
 use leafmodel::document::assets::Assets;
 use leafmodel::document::report::DocumentErrors;
+use leafmodel::import::{Format, Wanted, read, read_margin};
 use renderer::checkpoint;
 use renderer::geometry::import::import;
 use renderer::image::{openexr, portable_network};
@@ -185,6 +186,45 @@ fn drawings() {
         },
         mend: None,
     });
+}
+
+/// Networks of a format, with and without a scale, and their margins.
+fn networks(name: &'static str, format: Format) {
+    let wanted = Wanted {
+        mm_per_unit: Some(0.01),
+        ..Wanted::default()
+    };
+    let read = |bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        let _ = read_margin(format, &text).and_then(|draft| draft.outlines(&wanted));
+        told(read(format, &text, None).and_then(|draft| draft.network(&wanted)))
+    };
+    run(&Parser {
+        name,
+        seeds: seeds(name),
+        read: &read,
+        mend: None,
+    });
+}
+
+#[test]
+fn networks_as_graphml() {
+    networks("graphml", Format::GraphMl);
+}
+
+#[test]
+fn networks_as_json() {
+    networks("network", Format::Json);
+}
+
+#[test]
+fn networks_as_tables() {
+    networks("edges", Format::Table);
+}
+
+#[test]
+fn networks_as_drawings() {
+    networks("strokes", Format::Svg);
 }
 
 #[test]

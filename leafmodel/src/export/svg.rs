@@ -31,7 +31,8 @@ pub struct SvgStyle {
 /// Margin and veins as SVG 1.1, in millimetres, apex up.
 ///
 /// There is a group for each order, finest first, so that coarse veins lie on top. Stretches of a
-/// vein with one width are one stroked path; where a vein tapers it is a filled outline.
+/// vein with one width are one stroked path; where a vein tapers it is a filled outline. A single
+/// margin has its ends as `data-base` and `data-apex`, in the coordinates of its path.
 pub fn svg(outline: &Outline, network: &VenationNetwork, style: SvgStyle) -> String {
     let outlines = std::slice::from_ref(outline);
     svg_within(outline.bounds(), outlines, network, style)
@@ -61,7 +62,14 @@ pub fn svg_within(
         points(&mut text, outline.points().iter().copied());
         text.push('Z');
     }
-    text += "\"/>\n";
+    text += "\"";
+    // For programs that read the margin back; nobody else looks at names that begin with data.
+    if let [outline] = outlines {
+        for (name, end) in [("base", outline.base()), ("apex", outline.apex())] {
+            let _ = write!(text, " data-{name}=\"{} {}\"", end.x, end.y);
+        }
+    }
+    text += "/>\n";
     if style.areoles {
         text += "<g id=\"areoles\" stroke=\"none\">\n";
         let found = areoles(network);

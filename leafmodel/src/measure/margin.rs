@@ -97,7 +97,7 @@ fn hull(outline: &Outline) -> Vec<DVec2> {
 
 /// Half of the hull of points sorted in one direction, without its last point, which starts the
 /// other half.
-fn chain(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
+pub(super) fn chain(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut hull: Vec<DVec2> = Vec::new();
     for p in points {
         while let [.., a, b] = hull[..] {

@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec2;
 use proptest::prelude::*;
 
+use super::subject::PROBES;
 use super::*;
 use crate::testing::fixed;
 use crate::venation::testing::{hexagons, network, poplar, rectangle, squares, wide};

@@ -11,7 +11,7 @@
 //! In SVG y points down: the base is the lowest point of the contour as one sees it, the apex the
 //! highest, unless both are given.
 
-mod path_data;
+pub(crate) mod path_data;
 
 use glam::{DAffine2, DMat2, DVec2};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -190,10 +190,6 @@ impl SvgContour {
 
 /// The path of that `id`, or else the first that is drawn.
 fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>, SvgError> {
-    // Paths within these elements are templates or clips, not drawn where they stand.
-    const NOT_DRAWN: [&str; 7] = [
-        "defs", "clipPath", "mask", "pattern", "symbol", "marker", "font",
-    ];
     let mut paths = document
         .descendants()
         .filter(|node| node.is_element() && node.tag_name().name() == "path");
@@ -201,17 +197,27 @@ fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>
         Some(id) => paths
             .find(|node| node.attribute("id") == Some(id))
             .ok_or_else(|| SvgError::NoSuchPath { id: id.to_owned() }),
-        None => paths
-            .find(|node| {
-                let mut around = node.ancestors();
-                !around.any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
-            })
-            .ok_or(SvgError::NoPath),
+        None => paths.find(|&node| is_drawn(node)).ok_or(SvgError::NoPath),
     }
 }
 
+/// Whether an element is drawn where it stands.
+pub(crate) fn is_drawn(node: Node<'_, '_>) -> bool {
+    // What is within these elements is a template or a clip.
+    const NOT_DRAWN: [&str; 7] = [
+        "defs", "clipPath", "mask", "pattern", "symbol", "marker", "font",
+    ];
+    !node
+        .ancestors()
+        .any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
+}
+
 /// The transform from a path's own coordinates to those of the file.
-fn transform_of(path: Node<'_, '_>) -> Result<DAffine2, SvgError> {
+///
+/// # Errors
+///
+/// [`SvgError::BadAttribute`] if a transform cannot be read.
+pub(crate) fn transform_of(path: Node<'_, '_>) -> Result<DAffine2, SvgError> {
     let mut whole = DAffine2::IDENTITY;
     for node in path.ancestors() {
         if node

@@ -63,6 +63,8 @@ pub(crate) enum Use {
     ProbeX = 101,
     /// Where the distance to the nearest vein is measured, along the leaf.
     ProbeY = 102,
+    /// Which areole is drawn for a confidence interval.
+    Bootstrap = 103,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.

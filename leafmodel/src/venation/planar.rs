@@ -28,7 +28,8 @@ pub struct PlaneGraph {
     nodes: Vec<DVec2>,
     edges: Vec<VeinEdge>,
     grid: EdgeGrid,
-    crossings: usize,
+    crossings: Vec<DVec2>,
+    touches: Vec<DVec2>,
 }
 
 impl PlaneGraph {
@@ -40,7 +41,7 @@ impl PlaneGraph {
         let mean_length = edges.iter().map(length).sum::<f64>() / (edges.len() as f64).max(1.0);
         let mut grid = EdgeGrid::new(&nodes, &edges, mean_length);
         let found = contacts::find(&nodes, &edges, &grid, mean_length);
-        let crossings = found.crossings();
+        let (crossings, touches) = (found.crossings(&nodes, &edges), found.touches(&nodes));
         if !found.are_none() {
             contacts::cut(&mut nodes, &mut edges, found);
             grid = EdgeGrid::new(&nodes, &edges, mean_length);
@@ -50,6 +51,7 @@ impl PlaneGraph {
             edges,
             grid,
             crossings,
+            touches,
         }
     }
 
@@ -67,7 +69,17 @@ impl PlaneGraph {
     /// Number of pairs of edges that crossed. Each crossing adds one loop to those of the network,
     /// unless it joins two components.
     pub fn crossings(&self) -> usize {
-        self.crossings
+        self.crossings.len()
+    }
+
+    /// Where pairs of edges crossed, mm.
+    pub fn crossing_places(&self) -> &[DVec2] {
+        &self.crossings
+    }
+
+    /// Where nodes lay on edges that did not end there, or on other nodes, mm.
+    pub fn touch_places(&self) -> &[DVec2] {
+        &self.touches
     }
 
     pub(crate) fn grid(&self) -> &EdgeGrid {

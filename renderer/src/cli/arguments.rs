@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod measure;
 mod optics;
 mod samples;
 mod shell;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+pub use measure::MeasureArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -104,6 +106,9 @@ pub enum Command {
     /// Grow a leaf and write its veins, its blade, its contents and measures
     #[command(after_help = GROW_EXAMPLES)]
     Grow(GrowArguments),
+    /// Measure a network of veins from a file of another program
+    #[command(after_help = measure::EXAMPLES)]
+    Measure(MeasureArguments),
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),
@@ -313,8 +318,8 @@ pub struct GrowArguments {
     /// Override a value of the file, written as in it: -D leaves.beech.seed=3
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson (veins), ply,
-    /// obj (blade), toml (plan)
+    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson, csv (veins),
+    /// ply, obj (blade), toml (plan)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub out: Vec<PathBuf>,
     /// Write every number of the plan into a toml, not only what differs from the preset

@@ -157,7 +157,7 @@ fn carry_out(
     };
     for (path, kind) in &outputs.whole {
         let bytes = match kind {
-            Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson => {
+            Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv => {
                 veins_file(*kind, page, outlines, all_veins, arguments.size)?
             }
             Kind::Ply | Kind::Obj => match &grown {
@@ -429,6 +429,7 @@ fn veins_file(
         Kind::Json => export::json(outlines, network, true).into_bytes(),
         Kind::GraphMl => export::graphml(network).into_bytes(),
         Kind::GeoJson => export::geojson(outlines, network).into_bytes(),
+        Kind::Csv => export::table(network).into_bytes(),
         Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
     })
 }

@@ -26,9 +26,23 @@ impl Contacts {
         self.crossings.is_empty() && self.touches.is_empty() && self.meetings.is_empty()
     }
 
-    /// Pairs of edges that cross.
-    pub(super) fn crossings(&self) -> usize {
-        self.crossings.len()
+    /// Where pairs of edges cross.
+    pub(super) fn crossings(&self, nodes: &[DVec2], edges: &[VeinEdge]) -> Vec<DVec2> {
+        let place = |&(first, _, t, _): &(u32, u32, f64, f64)| {
+            let edge = &edges[first as usize];
+            nodes[edge.from as usize].lerp(nodes[edge.to as usize], t)
+        };
+        self.crossings.iter().map(place).collect()
+    }
+
+    /// Where nodes lie on edges or on other nodes.
+    pub(super) fn touches(&self, nodes: &[DVec2]) -> Vec<DVec2> {
+        let on_edges = self.touches.iter().map(|touch| touch.1);
+        let on_nodes = self.meetings.iter().map(|meeting| meeting.1);
+        on_edges
+            .chain(on_nodes)
+            .map(|node| nodes[node as usize])
+            .collect()
     }
 }
 

@@ -71,7 +71,9 @@ pub(super) fn write(
                     None => Vec::new(),
                 }
             }
-            Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Ply | Kind::Obj => continue,
+            Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv | Kind::Ply | Kind::Obj => {
+                continue;
+            }
         };
         finish(path, &bytes, stop)?;
     }

@@ -13,6 +13,7 @@ pub(super) enum Kind {
     Json,
     GraphMl,
     GeoJson,
+    Csv,
     Ply,
     Obj,
     Toml,
@@ -26,11 +27,12 @@ impl Kind {
             Some("json") => Ok(Self::Json),
             Some("graphml") => Ok(Self::GraphMl),
             Some("geojson") => Ok(Self::GeoJson),
+            Some("csv") => Ok(Self::Csv),
             Some("ply") => Ok(Self::Ply),
             Some("obj") => Ok(Self::Obj),
             Some("toml") => Ok(Self::Toml),
             _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml or geojson (veins), ply or obj (blade), \
+                "{}: the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), ply or obj (blade), \
                  toml (plan)",
                 path.display()
             ))),
@@ -40,7 +42,7 @@ impl Kind {
     /// Whether it shows margin and veins, which exist at every stage of growth.
     pub(super) fn is_of_veins(self) -> bool {
         match self {
-            Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson => true,
+            Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson | Self::Csv => true,
             Self::Ply | Self::Obj | Self::Toml => false,
         }
     }
@@ -80,7 +82,7 @@ impl Outputs {
         }
         if in_stages && staged.is_empty() {
             return Err(Failure::bad(
-                "--frames needs an --out that shows veins: svg, png, json, graphml or geojson",
+                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson or csv",
             ));
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];

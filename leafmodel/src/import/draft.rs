@@ -1,0 +1,102 @@
+//! A network as a file tells it, before anything is checked.
+
+use glam::DVec2;
+
+use super::fields::Unit;
+use crate::shape::outline::Outline;
+
+/// Stands for a node that the file does not hold.
+pub(super) const ABSENT: u32 = u32::MAX;
+
+/// Nodes, edges and margins in the numbers of a file.
+#[derive(Clone, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a fact of its own about a file"
+)]
+pub struct Draft {
+    /// Places of the nodes.
+    pub(super) places: Vec<DVec2>,
+    /// Names of the nodes in the file; empty if they are numbered from 0.
+    pub(super) names: Vec<String>,
+    /// Steps in which the nodes were born; empty if the file does not say.
+    pub(super) born: Vec<u32>,
+    /// The edges.
+    pub(super) edges: Vec<DraftEdge>,
+    /// Edges to nodes that the file does not hold: the edge's own place in the file, and the name
+    /// of the node.
+    pub(super) loose: Vec<(String, String)>,
+    /// Corners of each margin, with base and apex where they are given.
+    pub(super) margins: Vec<DraftMargin>,
+    /// Whether edges have a direction.
+    pub(super) is_directed: bool,
+    /// Length of a vein segment, mm, if the file says so.
+    pub(super) segment_mm: Option<f64>,
+    /// Whether places are in the file's own units, not in millimetres.
+    pub(super) places_lack_unit: bool,
+    /// The same of radii.
+    pub(super) radii_lack_unit: bool,
+    /// The margin that is taken instead of the file's.
+    pub(super) given: Option<Outline>,
+    /// Whether y points down.
+    pub(super) is_y_down: bool,
+}
+
+/// An edge as a file tells it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DraftEdge {
+    /// Numbers of its nodes, or [`ABSENT`].
+    pub(super) ends: [u32; 2],
+    /// Radii at both ends, if the file says so.
+    pub(super) radii: [Option<f64>; 2],
+    /// Its order, if the file says so.
+    pub(super) order: Option<u8>,
+}
+
+/// A margin as a file tells it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DraftMargin {
+    pub(super) points: Vec<DVec2>,
+    pub(super) base: Option<DVec2>,
+    pub(super) apex: Option<DVec2>,
+}
+
+impl DraftEdge {
+    pub(super) fn between(from: u32, to: u32) -> Self {
+        Self {
+            ends: [from, to],
+            radii: [None; 2],
+            order: None,
+        }
+    }
+}
+
+impl Draft {
+    /// How a node is called in the file.
+    pub(super) fn name(&self, node: u32) -> String {
+        let name = self.names.get(node as usize);
+        name.map_or_else(|| node.to_string(), Clone::clone)
+    }
+
+    /// A length of a place, millimetres where it has a unit.
+    pub(super) fn place_in(&mut self, value: f64, unit: Unit) -> f64 {
+        match unit {
+            Unit::Millimetres(factor) => value * factor,
+            Unit::OfTheFile => {
+                self.places_lack_unit = true;
+                value
+            }
+        }
+    }
+
+    /// A radius, millimetres where it has a unit.
+    pub(super) fn radius_in(&mut self, value: f64, unit: Unit) -> f64 {
+        match unit {
+            Unit::Millimetres(factor) => value * factor,
+            Unit::OfTheFile => {
+                self.radii_lack_unit = true;
+                value
+            }
+        }
+    }
+}

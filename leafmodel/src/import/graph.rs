@@ -1,0 +1,311 @@
+//! Nodes and edges put together from named values.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use super::draft::{ABSENT, Draft, DraftEdge};
+use super::error::ImportError;
+use super::fields::{EdgeField, NodeField, Unit, two_numbers};
+
+/// A value as text, with its key and its place in the file, which are only asked for if it cannot
+/// be read.
+pub(super) struct Text<'a, K, P> {
+    pub(super) value: &'a str,
+    pub(super) key: K,
+    pub(super) place: P,
+}
+
+impl<K: Fn() -> String, P: Fn() -> String> Text<'_, K, P> {
+    fn refused(&self, allowed: &'static str) -> ImportError {
+        ImportError::BadValue {
+            place: (self.place)(),
+            key: (self.key)(),
+            value: shortened(self.value),
+            allowed,
+        }
+    }
+
+    /// A number. NaN and infinity are numbers here, since they are listed later with all others.
+    fn number(&self) -> Result<f64, ImportError> {
+        let number = self.value.trim().parse();
+        number.map_err(|_| self.refused("it must be a number"))
+    }
+
+    /// A radius: nothing, or a number. Half of it for widths.
+    fn radius(&self, share: f64) -> Result<Option<f64>, ImportError> {
+        if self.value.trim().is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(self.number()? * share))
+    }
+}
+
+/// A text in quotation marks, cut if it is long.
+pub(super) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("\"{}…\"", &text[..end]),
+        None => format!("\"{text}\""),
+    }
+}
+
+/// A graph that is being read: nodes first, then edges.
+pub(super) struct Builder {
+    pub(super) draft: Draft,
+    /// Numbers of the nodes by their names. It is only asked, never walked through.
+    numbers: HashMap<String, u32>,
+    is_without_name: bool,
+    edge_units: [Option<Unit>; 2],
+    ends: [[f64; 2]; 2],
+    by_place: HashMap<[u64; 2], u32>,
+}
+
+impl Builder {
+    pub(super) fn new(is_directed: bool) -> Self {
+        Self {
+            draft: Draft {
+                is_directed,
+                ..Draft::default()
+            },
+            numbers: HashMap::new(),
+            is_without_name: true,
+            edge_units: [None; 2],
+            ends: [[f64::NAN; 2]; 2],
+            by_place: HashMap::new(),
+        }
+    }
+
+    /// Begins a node.
+    pub(super) fn node(&mut self) {
+        self.draft.places.push(DVec2::splat(f64::MAX));
+        self.is_without_name = true;
+    }
+
+    /// Names the node that has begun.
+    pub(super) fn name(&mut self, name: String) {
+        self.draft.names.push(name);
+        self.is_without_name = false;
+    }
+
+    /// A value of the node that has begun.
+    pub(super) fn node_text<K: Fn() -> String, P: Fn() -> String>(
+        &mut self,
+        field: NodeField,
+        text: &Text<'_, K, P>,
+    ) -> Result<(), ImportError> {
+        let node = self.draft.places.len() - 1;
+        match field {
+            NodeField::Name => self.name(text.value.trim().to_owned()),
+            NodeField::Coordinate(axis, unit) => {
+                let value = self.draft.place_in(text.number()?, unit);
+                self.draft.places[node][axis] = value;
+            }
+            NodeField::Place(unit) => {
+                let pair = two_numbers(text.value)
+                    .ok_or_else(|| text.refused("it must be two numbers, x and y"))?;
+                self.draft.places[node] = pair.map(|value| self.draft.place_in(value, unit)).into();
+            }
+            NodeField::Born => {
+                let allowed = "it must be a whole number of steps";
+                let born = text.value.trim().parse();
+                let born = born.map_err(|_| text.refused(allowed))?;
+                self.draft.born.resize(node, 0);
+                self.draft.born.push(born);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends a node: it must have a place, and a name of its own if nodes are named.
+    pub(super) fn node_is_done(&mut self, place: impl Fn() -> String) -> Result<(), ImportError> {
+        let node = self.draft.places.len() - 1;
+        let at = self.draft.places[node];
+        for (axis, name) in [(at.x, "x"), (at.y, "y")] {
+            if axis == f64::MAX {
+                let wanted = format!(
+                    "node {} has no {name}; a node needs x and y (x_mm, y_mm), or pos",
+                    self.draft.name(node as u32)
+                );
+                return Err(ImportError::Missing {
+                    place: place(),
+                    wanted,
+                });
+            }
+        }
+        if !self.is_without_name {
+            let name = self.draft.name(node as u32);
+            if self.numbers.insert(name.clone(), node as u32).is_some() {
+                return Err(ImportError::NameTwice {
+                    place: place(),
+                    name,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the nodes.
+    pub(super) fn nodes_are_done(&mut self, place: String) -> Result<(), ImportError> {
+        let (names, nodes) = (self.draft.names.len(), self.draft.places.len());
+        if names != 0 && names != nodes {
+            let wanted = "some nodes have a name and some have none".to_owned();
+            return Err(ImportError::Missing { place, wanted });
+        }
+        if !self.draft.born.is_empty() {
+            self.draft.born.resize(nodes, 0);
+        }
+        Ok(())
+    }
+
+    /// Begins an edge.
+    pub(super) fn edge(&mut self) {
+        self.draft.edges.push(DraftEdge::between(ABSENT, ABSENT));
+        self.ends = [[f64::NAN; 2]; 2];
+        self.edge_units = [None; 2];
+    }
+
+    /// A value of the edge that has begun.
+    pub(super) fn edge_text<K: Fn() -> String, P: Fn() -> String>(
+        &mut self,
+        field: EdgeField,
+        text: &Text<'_, K, P>,
+    ) -> Result<(), ImportError> {
+        let edge = self.draft.edges.len() - 1;
+        match field {
+            EdgeField::End(end) => {
+                let number = self.number_of(text.value.trim());
+                self.draft.edges[edge].ends[end] = number;
+                if number == ABSENT {
+                    let name = text.value.trim().to_owned();
+                    self.draft.loose.push(((text.place)(), name));
+                }
+            }
+            EdgeField::EndCoordinate(end, axis, unit) => {
+                let value = self.draft.place_in(text.number()?, unit);
+                self.ends[end][axis] = value;
+                self.edge_units[end] = Some(unit);
+            }
+            EdgeField::Radius(unit) | EdgeField::Width(unit) => {
+                let share = if matches!(field, EdgeField::Width(_)) {
+                    0.5
+                } else {
+                    1.0
+                };
+                if let Some(radius) = text.radius(share)? {
+                    let radius = self.draft.radius_in(radius, unit);
+                    self.draft.edges[edge].radii = [Some(radius); 2];
+                }
+            }
+            EdgeField::EndRadius(end, unit) => {
+                if let Some(radius) = text.radius(1.0)? {
+                    let radius = self.draft.radius_in(radius, unit);
+                    self.draft.edges[edge].radii[end] = Some(radius);
+                }
+            }
+            EdgeField::Order => {
+                if text.value.trim().is_empty() {
+                    return Ok(());
+                }
+                let order = text.value.trim().parse::<f64>().ok();
+                let order = order.filter(|o| o.fract() == 0.0 && (1.0..=255.0).contains(o));
+                let order = order.ok_or_else(|| {
+                    text.refused("orders are whole numbers from 1 (the midrib) to 255")
+                })?;
+                self.draft.edges[edge].order = Some(order as u8);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends an edge whose nodes have names or numbers.
+    pub(super) fn edge_is_done(&mut self, _place: impl Fn() -> String) {
+        // A radius at one end alone holds for both.
+        if let Some(edge) = self.draft.edges.last_mut() {
+            edge.radii = match edge.radii {
+                [Some(only), None] | [None, Some(only)] => [Some(only); 2],
+                both => both,
+            };
+        }
+    }
+
+    /// Ends an edge that tells where its ends are; ends at one place are one node.
+    pub(super) fn edge_with_places_is_done(
+        &mut self,
+        names: [Option<&str>; 2],
+        place: impl Fn() -> String,
+    ) -> Result<(), ImportError> {
+        for (end, name) in names.into_iter().enumerate() {
+            let [x, y] = self.ends[end];
+            if self.edge_units[end].is_none() {
+                return Err(ImportError::Missing {
+                    place: place(),
+                    wanted: "an edge needs the places of both its ends".to_owned(),
+                });
+            }
+            let known = match name {
+                Some(name) => self.numbers.get(name).copied(),
+                None => self.by_place.get(&bits([x, y])).copied(),
+            };
+            let here = DVec2::new(x, y);
+            let node = known.unwrap_or_else(|| self.add(here, name));
+            let there = self.draft.places[node as usize];
+            if there != here && here.is_finite() {
+                return Err(ImportError::Missing {
+                    place: place(),
+                    wanted: format!(
+                        "node {} is at ({x}, {y}) here and at ({}, {}) in an earlier line",
+                        self.draft.name(node),
+                        there.x,
+                        there.y
+                    ),
+                });
+            }
+            let edge = self.draft.edges.len() - 1;
+            self.draft.edges[edge].ends[end] = node;
+        }
+        self.edge_is_done(place);
+        Ok(())
+    }
+
+    /// Adds a whole node.
+    fn add(&mut self, place: DVec2, name: Option<&str>) -> u32 {
+        let node = self.draft.places.len() as u32;
+        self.draft.places.push(place);
+        match name {
+            Some(name) => {
+                self.draft.names.push(name.to_owned());
+                self.numbers.insert(name.to_owned(), node);
+            }
+            None => {
+                self.by_place.insert(bits(place.into()), node);
+            }
+        }
+        node
+    }
+
+    /// The node at a place, made if there is none yet.
+    pub(super) fn node_at(&mut self, place: DVec2) -> u32 {
+        let known = self.by_place.get(&bits(place.into())).copied();
+        known.unwrap_or_else(|| self.add(place, None))
+    }
+
+    fn number_of(&self, name: &str) -> u32 {
+        if let Some(&number) = self.numbers.get(name) {
+            return number;
+        }
+        if !self.draft.names.is_empty() {
+            return ABSENT;
+        }
+        // Without names nodes are numbered from 0; a table may hold the numbers as 3.0.
+        let number = name.parse::<f64>().ok();
+        let number = number.filter(|n| n.fract() == 0.0 && *n >= 0.0);
+        let number = number.filter(|n| *n < self.draft.places.len() as f64);
+        number.map_or(ABSENT, |n| n as u32)
+    }
+}
+
+/// The bits of a place, −0 the same as 0.
+fn bits(place: [f64; 2]) -> [u64; 2] {
+    place.map(|value| (value + 0.0).to_bits())
+}

@@ -1,0 +1,340 @@
+//! From what a file tells to a network that can be measured.
+
+use glam::DVec2;
+
+use super::draft::{ABSENT, Draft};
+use super::error::ImportError;
+use super::faults::{Fault, FaultKind};
+use super::{margins, repair, roots};
+use crate::measure::Known;
+use crate::shape::outline::Outline;
+use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::order::orders;
+use crate::venation::planar::PlaneGraph;
+use crate::venation::topology::Topology;
+
+/// Greatest x and y, mm.
+const FARTHEST_MM: f64 = 1e6;
+
+/// What the person who asks knows beyond the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wanted {
+    /// Millimetres to a unit (a pixel) of the file, finite and above 0; for lengths without a unit.
+    pub mm_per_unit: Option<f64>,
+    /// Where the petiole is, mm: the node nearest to it is the root.
+    pub root: Option<DVec2>,
+    /// Whether y points down in the file.
+    pub y_down: bool,
+}
+
+/// A network from a file.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The veins, mm. Unknown radii and orders hold the place of numbers and mean nothing.
+    pub network: VenationNetwork,
+    /// The margins of the file: one, of a compound leaf several, or none.
+    pub outlines: Vec<Outline>,
+    /// What is known.
+    pub known: Known,
+    /// Whether orders were not in the file but found from radii.
+    pub orders_found: bool,
+    /// What is wrong, by kind; none is an error.
+    pub faults: Vec<Fault>,
+}
+
+impl Draft {
+    /// Whether lengths stand in it without a unit.
+    pub fn lacks_unit(&self) -> bool {
+        self.places_lack_unit || self.radii_lack_unit
+    }
+
+    /// The same with this margin instead of the file's own.
+    pub fn within(self, outline: Outline) -> Self {
+        Self {
+            given: Some(outline),
+            ..self
+        }
+    }
+
+    /// Whether there is a margin.
+    pub fn has_margin(&self) -> bool {
+        !self.margins.is_empty()
+    }
+
+    /// The margins alone.
+    ///
+    /// # Errors
+    ///
+    /// [`ImportError`] if a margin is none, or lacks a scale.
+    pub fn outlines(mut self, wanted: &Wanted) -> Result<Vec<Outline>, ImportError> {
+        self.scale(wanted)?;
+        self.made_outlines()
+    }
+
+    /// The network.
+    ///
+    /// Veins outside of all margins, such as the petiole, are left out. Edges that lead away from the
+    /// petiole stay as they are: those of a directed file without circles, with radii that do not
+    /// grow, where the nodes without an incoming edge come first or each part has one. Others are
+    /// turned by their distance from the root along veins. The root is the node nearest to
+    /// `wanted.root` or to the margin's base, else the widest end of a vein.
+    ///
+    /// # Errors
+    ///
+    /// [`ImportError`]: there are no veins, lengths lack a scale, or faults are such that measuring
+    /// makes no sense.
+    pub fn network(mut self, wanted: &Wanted) -> Result<Imported, ImportError> {
+        if self.edges.is_empty() {
+            return Err(ImportError::NoVeins {
+                wanted: "edges between nodes",
+            });
+        }
+        let faults = self.senseless();
+        if !faults.is_empty() {
+            return Err(ImportError::Faulty { faults });
+        }
+        self.scale(wanted)?;
+        let far = self.far_nodes();
+        if far.count > 0 {
+            return Err(ImportError::Faulty { faults: vec![far] });
+        }
+        let outlines = match self.given.take() {
+            Some(outline) => vec![outline],
+            None => self.made_outlines()?,
+        };
+        let mut faults = Vec::new();
+        margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
+        let known_radii = self
+            .edges
+            .iter()
+            .all(|edge| edge.radii.iter().all(Option::is_some));
+        let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
+        let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
+        let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
+        let network = if let Some(network) = self.as_it_is(segment_mm) {
+            network
+        } else {
+            repair::mend(&mut self, &mut faults);
+            let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
+            roots::turned(&self, base, segment_mm, &mut faults)?
+        };
+        let known = Known {
+            radii: known_radii,
+            orders: has_orders || known_radii,
+        };
+        let network = if has_orders || !known_radii {
+            network
+        } else {
+            with_orders(&network)?
+        };
+        warn_of(&network, &mut faults);
+        faults.sort_by_key(|fault| fault.kind);
+        Ok(Imported {
+            network,
+            outlines,
+            known,
+            orders_found: known.orders && !has_orders,
+            faults,
+        })
+    }
+
+    /// Faults with which nothing can be measured.
+    fn senseless(&self) -> Vec<Fault> {
+        let mut loose = Fault::new(FaultKind::LooseEnd);
+        for (edge, node) in &self.loose {
+            loose.named(|| format!("{edge}: node {node}"));
+        }
+        let mut places = Fault::new(FaultKind::BadPlace);
+        for (number, place) in (0..).zip(&self.places) {
+            if !place.is_finite() {
+                places.named(|| {
+                    format!(
+                        "node {} is at ({}, {})",
+                        self.name(number),
+                        place.x,
+                        place.y
+                    )
+                });
+            }
+        }
+        let mut radii = Fault::new(FaultKind::BadRadius);
+        for (number, edge) in self.edges.iter().enumerate() {
+            let bad = edge
+                .radii
+                .iter()
+                .flatten()
+                .find(|r| !(r.is_finite() && **r > 0.0));
+            if let Some(bad) = bad {
+                let [from, to] = edge.ends.map(|end| {
+                    if end == ABSENT {
+                        "?".to_owned()
+                    } else {
+                        self.name(end)
+                    }
+                });
+                radii.named(|| {
+                    format!("edge {number} from node {from} to {to} has the radius {bad}")
+                });
+            }
+        }
+        let all = [loose, places, radii].into_iter();
+        all.filter(|fault| fault.count > 0).collect()
+    }
+
+    fn far_nodes(&self) -> Fault {
+        let mut far = Fault::new(FaultKind::BadPlace);
+        for (number, place) in (0..).zip(&self.places) {
+            if place.abs().max_element() > FARTHEST_MM {
+                far.named(|| {
+                    format!(
+                        "node {} is at ({}, {}) mm",
+                        self.name(number),
+                        place.x,
+                        place.y
+                    )
+                });
+            }
+        }
+        far
+    }
+
+    /// Lengths in millimetres, y up.
+    fn scale(&mut self, wanted: &Wanted) -> Result<(), ImportError> {
+        let factor = |lacks: bool, what| match (lacks, wanted.mm_per_unit) {
+            (false, _) => Ok(1.0),
+            (true, Some(factor)) => Ok(factor),
+            (true, None) => Err(ImportError::NoScale { what }),
+        };
+        let places = factor(self.places_lack_unit, "places")?;
+        let radii = factor(self.radii_lack_unit, "radii")?;
+        let turn = if self.is_y_down || wanted.y_down {
+            -1.0
+        } else {
+            1.0
+        };
+        let image = |p: DVec2| DVec2::new(p.x * places, turn * p.y * places);
+        if places != 1.0 || turn != 1.0 {
+            for place in &mut self.places {
+                *place = image(*place);
+            }
+            for margin in &mut self.margins {
+                for point in &mut margin.points {
+                    *point = image(*point);
+                }
+                margin.base = margin.base.map(image);
+                margin.apex = margin.apex.map(image);
+            }
+        }
+        if radii != 1.0 {
+            for edge in &mut self.edges {
+                edge.radii = edge.radii.map(|radius| radius.map(|radius| radius * radii));
+            }
+        }
+        Ok(())
+    }
+
+    fn length(&self, ends: [u32; 2]) -> f64 {
+        let [from, to] = ends.map(|end| self.places[end as usize]);
+        (to - from).length()
+    }
+
+    /// Half of the edges are shorter; above 0.
+    fn median_length(&self) -> f64 {
+        let lengths = self.edges.iter().map(|edge| self.length(edge.ends));
+        let mut lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
+        lengths.sort_unstable_by(f64::total_cmp);
+        lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+    }
+
+    /// The network with the directions of the file, if they lead away from the petiole and nothing
+    /// has to be mended.
+    fn as_it_is(&self, segment_mm: f64) -> Option<VenationNetwork> {
+        if !self.is_directed {
+            return None;
+        }
+        let mut is_led_to = vec![false; self.places.len()];
+        for edge in &self.edges {
+            is_led_to[edge.ends[1] as usize] = true;
+        }
+        // Starts come first, as origins do, or each part has one; a bare node behind the first start
+        // has to be left out.
+        let starts = is_led_to.iter().filter(|led_to| !**led_to).count();
+        let first = is_led_to.iter().take_while(|led_to| !**led_to).count();
+        let born = |node: usize| self.born.get(node).copied().unwrap_or(0);
+        let nodes = self.places.iter().enumerate();
+        let nodes = nodes.map(|(node, &position)| VeinNode {
+            position,
+            born: born(node),
+        });
+        let edges = self.vein_edges(segment_mm);
+        let network = VenationNetwork::from_parts(nodes.collect(), edges, segment_mm).ok()?;
+        let leads_away = starts == first || (first > 0 && starts == network.components());
+        leads_away.then_some(network)
+    }
+
+    /// The edges, with numbers in place of what is unknown.
+    pub(super) fn vein_edges(&self, segment_mm: f64) -> Vec<VeinEdge> {
+        let unknown = 0.1 * segment_mm;
+        let edges = self.edges.iter().map(|edge| {
+            let [start, end] = edge.radii;
+            VeinEdge {
+                from: edge.ends[0],
+                to: edge.ends[1],
+                radius_from: start.or(end).unwrap_or(unknown),
+                radius_to: end.or(start).unwrap_or(unknown),
+                order: edge.order.unwrap_or(1),
+            }
+        });
+        edges.collect()
+    }
+}
+
+/// The same network with orders by width and branching.
+fn with_orders(network: &VenationNetwork) -> Result<VenationNetwork, ImportError> {
+    let ends: Vec<[u32; 2]> = network.edges().iter().map(|e| [e.from, e.to]).collect();
+    let topology = Topology::new(network.nodes().len(), &ends);
+    let broken = |_| ImportError::NoVeins {
+        wanted: "edges without circles",
+    };
+    let sorted = topology.base_to_tip().map_err(broken)?;
+    let places: Vec<DVec2> = network.nodes().iter().map(|node| node.position).collect();
+    let radii: Vec<f64> = network
+        .edges()
+        .iter()
+        .map(|edge| edge.radius_from)
+        .collect();
+    let found = orders(&topology, &places, &radii, &sorted, &[]);
+    let mut edges = network.edges().to_vec();
+    for (edge, order) in edges.iter_mut().zip(found.edges) {
+        edge.order = order.max(1);
+    }
+    let segment_mm = network.segment_mm();
+    VenationNetwork::from_parts(network.nodes().to_vec(), edges, segment_mm).map_err(|error| {
+        ImportError::Malformed {
+            format: "network",
+            problem: error.to_string(),
+        }
+    })
+}
+
+/// Faults that a valid network can have.
+fn warn_of(network: &VenationNetwork, faults: &mut Vec<Fault>) {
+    let plane = PlaneGraph::new(network);
+    for (kind, places) in [
+        (FaultKind::Crossing, plane.crossing_places()),
+        (FaultKind::Touch, plane.touch_places()),
+    ] {
+        if !places.is_empty() {
+            let mut fault = Fault::new(kind);
+            for &place in places {
+                fault.at(place);
+            }
+            faults.push(fault);
+        }
+    }
+    let mut apart = Fault::new(FaultKind::Apart);
+    for place in roots::parts_without_petiole(network) {
+        apart.at(place);
+    }
+    faults.extend((apart.count > 0).then_some(apart));
+}

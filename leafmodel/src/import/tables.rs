@@ -1,0 +1,284 @@
+//! Tables of edges and of nodes: CSV with commas, semicolons or tabs.
+//!
+//! A table of edges has a row for each piece of vein. Either the row tells where its ends are
+//! (`from_x_mm`, `from_y_mm`, `to_x_mm`, `to_y_mm`), or it names them (`from`, `to`) and a table of
+//! nodes has the places (`id`, `x_mm`, `y_mm`). Lines that begin with `#` are left out.
+
+use csv::{Reader, ReaderBuilder, StringRecord};
+
+use super::draft::Draft;
+use super::error::ImportError;
+use super::fields::{EdgeField, NodeField};
+use super::graph::{Builder, Text};
+use super::is_blank;
+
+/// Reads a table of edges, and one of nodes if there is one.
+///
+/// # Errors
+///
+/// [`ImportError`] if columns are missing or a value cannot be read; its places are lines, of the
+/// table of edges if nothing else is said.
+pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportError> {
+    // A row leads from its `from` to its `to`; whether that is away from the petiole is found later.
+    let mut builder = Builder::new(true);
+    if let Some(nodes) = nodes {
+        read_nodes(nodes, &mut builder)?;
+    }
+    let mut table = Table::open(edges, "a table of edges", &|name| {
+        EdgeField::of(name).is_some()
+    })?;
+    let fields: Vec<Option<EdgeField>> = table
+        .header
+        .iter()
+        .map(|name| EdgeField::of(name))
+        .collect();
+    let column = |wanted: &dyn Fn(EdgeField) -> bool| {
+        fields.iter().position(|field| field.is_some_and(wanted))
+    };
+    let names = [0, 1].map(|end| column(&|field| field == EdgeField::End(end)));
+    let tells_places = (0..4).all(|i| {
+        column(&|field| matches!(field, EdgeField::EndCoordinate(end, axis, _) if (end, axis) == (i / 2, i % 2)))
+            .is_some()
+    });
+    if nodes.is_none() && !tells_places {
+        return Err(ImportError::Missing {
+            place: "line 1".to_owned(),
+            wanted: format!(
+                "a table of edges has the columns from_x_mm, from_y_mm, to_x_mm, to_y_mm, or a table of \
+                 nodes beside it (--nodes FILE.csv) and the columns from and to; here are: {}",
+                listed(&table.header)
+            ),
+        });
+    }
+    if nodes.is_some() && names.contains(&None) {
+        return Err(ImportError::Missing {
+            place: "line 1".to_owned(),
+            wanted: format!(
+                "a table of edges beside one of nodes has the columns from and to; here are: {}",
+                listed(&table.header)
+            ),
+        });
+    }
+    while let Some((row, line)) = table.next()? {
+        let place = || format!("line {line}");
+        builder.edge();
+        for ((field, value), name) in fields.iter().zip(&row).zip(&table.header) {
+            let Some(field) = *field else { continue };
+            let is_place = matches!(field, EdgeField::EndCoordinate(..));
+            let is_name = matches!(field, EdgeField::End(_));
+            if (is_place && nodes.is_some()) || (is_name && nodes.is_none()) {
+                continue;
+            }
+            let value = table.number_text(value);
+            let key = || name.clone();
+            builder.edge_text(
+                field,
+                &Text {
+                    value: &value,
+                    key,
+                    place,
+                },
+            )?;
+        }
+        if nodes.is_some() {
+            builder.edge_is_done(place);
+        } else {
+            let both = names.map(|column| column.and_then(|column| row.get(column)));
+            let both = if both.contains(&None) {
+                [None; 2]
+            } else {
+                both
+            };
+            builder.edge_with_places_is_done(both, place)?;
+        }
+    }
+    let mut draft = builder.draft;
+    draft.segment_mm = edges
+        .lines()
+        .take_while(|line| line.starts_with('#'))
+        .find_map(segment);
+    if nodes.is_none() {
+        in_order_of_numbers(&mut draft);
+    }
+    Ok(draft)
+}
+
+/// The length of a segment out of a line `# segment_mm = 0.12`.
+fn segment(comment: &str) -> Option<f64> {
+    let (_, value) = comment.split_once("segment_mm =")?;
+    value.trim().parse().ok()
+}
+
+/// Nodes that are called by numbers are put in the order of those; they were found in that of edges.
+fn in_order_of_numbers(draft: &mut Draft) {
+    let numbers: Option<Vec<u32>> = draft.names.iter().map(|name| name.parse().ok()).collect();
+    let Some(numbers) = numbers.filter(|numbers| !numbers.is_empty()) else {
+        return;
+    };
+    let mut order: Vec<u32> = (0..numbers.len() as u32).collect();
+    order.sort_by_key(|&node| numbers[node as usize]);
+    let mut rank = vec![0; order.len()];
+    for (new, &old) in (0..).zip(&order) {
+        rank[old as usize] = new;
+    }
+    draft.places = order
+        .iter()
+        .map(|&old| draft.places[old as usize])
+        .collect();
+    draft.names = order
+        .iter()
+        .map(|&old| draft.names[old as usize].clone())
+        .collect();
+    for edge in &mut draft.edges {
+        edge.ends = edge.ends.map(|end| rank[end as usize]);
+    }
+}
+
+fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
+    let of_nodes = |error| match error {
+        ImportError::BadValue {
+            place,
+            key,
+            value,
+            allowed,
+        } => ImportError::BadValue {
+            place: format!("table of nodes, {place}"),
+            key,
+            value,
+            allowed,
+        },
+        ImportError::Missing { place, wanted } => ImportError::Missing {
+            place: format!("table of nodes, {place}"),
+            wanted,
+        },
+        other @ (ImportError::Empty
+        | ImportError::Malformed { .. }
+        | ImportError::NoVeins { .. }
+        | ImportError::NameTwice { .. }
+        | ImportError::NoScale { .. }
+        | ImportError::Faulty { .. }
+        | ImportError::BadMargin { .. }) => other,
+    };
+    let mut read = || -> Result<(), ImportError> {
+        if is_blank(text) {
+            return Err(ImportError::Missing {
+                place: "the file".to_owned(),
+                wanted: "it is empty".to_owned(),
+            });
+        }
+        let mut table = Table::open(text, "a table of nodes", &|name| {
+            NodeField::of(name).is_some()
+        })?;
+        let mut fields: Vec<Option<NodeField>> = table
+            .header
+            .iter()
+            .map(|name| NodeField::of(name))
+            .collect();
+        // Of several columns that may name a node, the first does.
+        let mut is_named = false;
+        for field in &mut fields {
+            if *field == Some(NodeField::Name) && std::mem::replace(&mut is_named, true) {
+                *field = None;
+            }
+        }
+        while let Some((row, line)) = table.next()? {
+            let place = || format!("line {line}");
+            builder.node();
+            for ((field, value), name) in fields.iter().zip(&row).zip(&table.header) {
+                let Some(field) = *field else { continue };
+                let value = table.number_text(value);
+                let key = || name.clone();
+                builder.node_text(
+                    field,
+                    &Text {
+                        value: &value,
+                        key,
+                        place,
+                    },
+                )?;
+            }
+            builder.node_is_done(place)?;
+        }
+        builder.nodes_are_done("its names".to_owned())
+    };
+    read().map_err(of_nodes)
+}
+
+fn listed(names: &[String]) -> String {
+    names.join(", ")
+}
+
+/// A table that is being read.
+struct Table<'t> {
+    header: Vec<String>,
+    rows: Reader<&'t [u8]>,
+    /// Whether numbers may have a decimal comma: columns are parted by something else.
+    has_decimal_commas: bool,
+    row: StringRecord,
+}
+
+impl<'t> Table<'t> {
+    fn open(
+        text: &'t str,
+        what: &'static str,
+        is_known: &dyn Fn(&str) -> bool,
+    ) -> Result<Self, ImportError> {
+        let first = text
+            .lines()
+            .find(|line| !line.starts_with('#') && !line.trim().is_empty());
+        let first = first.unwrap_or_default();
+        let count = |c: char| first.chars().filter(|x| *x == c).count();
+        let delimiter = [',', ';', '\t'].into_iter().rev().max_by_key(|&c| count(c));
+        let delimiter = delimiter.unwrap_or(',');
+        let mut rows = ReaderBuilder::new()
+            .delimiter(delimiter as u8)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
+        let header = rows.headers().map_err(|error| malformed(&error))?;
+        let header: Vec<String> = header.iter().map(str::to_owned).collect();
+        if !header.iter().any(|name| is_known(name)) {
+            return Err(ImportError::Missing {
+                place: "line 1".to_owned(),
+                wanted: format!(
+                    "{what} begins with the names of its columns; here are: {}",
+                    listed(&header)
+                ),
+            });
+        }
+        Ok(Self {
+            header,
+            rows,
+            has_decimal_commas: delimiter != ',',
+            row: StringRecord::new(),
+        })
+    }
+
+    /// The next row and its line.
+    fn next(&mut self) -> Result<Option<(StringRecord, u64)>, ImportError> {
+        if !self
+            .rows
+            .read_record(&mut self.row)
+            .map_err(|error| malformed(&error))?
+        {
+            return Ok(None);
+        }
+        let line = self.row.position().map_or(0, csv::Position::line);
+        Ok(Some((self.row.clone(), line)))
+    }
+
+    fn number_text<'v>(&self, value: &'v str) -> std::borrow::Cow<'v, str> {
+        if self.has_decimal_commas && value.contains(',') {
+            value.replace(',', ".").into()
+        } else {
+            value.into()
+        }
+    }
+}
+
+fn malformed(error: &csv::Error) -> ImportError {
+    ImportError::Malformed {
+        format: "table",
+        problem: error.to_string(),
+    }
+}

@@ -1,0 +1,102 @@
+//! `lamina measure`, as written.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use leafmodel::import::Format;
+
+use super::between;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  lamina grow birch --out birch.graphml birch.svg
+  lamina measure birch.graphml --outline birch.svg --out birch.csv birch.json
+  lamina measure traced.csv --mm-per-unit 0.005 --area 12.5 --distributions all.csv
+  lamina measure edges.csv --nodes nodes.csv --root 0,0 --bootstrap 1000";
+
+/// Greatest millimetres to a unit: a kilometre.
+const MOST_MM: u32 = 1_000_000;
+/// Greatest area of a blade, mm²: a hundred square metres.
+const MOST_MM2: u32 = 100_000_000;
+
+/// `lamina measure`: a network of veins from a file, its faults and its measures.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct MeasureArguments {
+    /// A network, its format by its ending: graphml, json, geojson, csv, tsv (edges with their
+    /// places, or with --nodes), svg (paths with stroke widths)
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The table of nodes beside a table of edges
+    #[arg(long, value_name = "FILE.csv")]
+    pub nodes: Option<PathBuf>,
+    /// The margin, instead of the file's own: svg (the path called margin, or the first), json or
+    /// geojson
+    #[arg(long, value_name = "FILE")]
+    pub outline: Option<PathBuf>,
+    /// Area in which the veins lie, mm², where there is no margin
+    #[arg(long, value_name = "MM2", conflicts_with = "outline", value_parser = between::<0, MOST_MM2>)]
+    pub area: Option<f64>,
+    /// Millimetres to a unit or a pixel, for lengths that the files give without a unit
+    #[arg(long, value_name = "MM", visible_alias = "mm-per-pixel", value_parser = between::<0, MOST_MM>)]
+    pub mm_per_unit: Option<f64>,
+    /// y points down in the file, as in pictures; an svg is turned in any case
+    #[arg(long)]
+    pub y_down: bool,
+    /// Where the petiole is, mm, y up; the default is the base of the margin, or else the lowest end
+    /// of a wide vein
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = place)]
+    pub root: Option<[f64; 2]>,
+    /// Fail where there is anything to warn of
+    #[arg(long)]
+    pub strict: bool,
+    /// Leave out the pair statistics of areoles and the supply with water, unless a table of them is
+    /// asked for
+    #[arg(long)]
+    pub quick: bool,
+    /// The exponent n of Murray's law that the measured ratio of widths at forks refers to
+    #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>)]
+    pub murray_exponent: f64,
+    /// Files to write with all measures, units and definitions, their kind by their ending: csv,
+    /// json
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub out: Vec<PathBuf>,
+    /// Write every single value with its place: areas, elongations and circularities of areoles,
+    /// lengths and widths of veins between junctions, angles, distances to the nearest vein
+    #[arg(long, value_name = "FILE.csv")]
+    pub distributions: Option<PathBuf>,
+    /// Write the structure factor of the centroids of areoles
+    #[arg(long, value_name = "FILE.csv")]
+    pub structure_factor: Option<PathBuf>,
+    /// Write the tree of loops
+    #[arg(long, value_name = "FILE.csv")]
+    pub loop_tree: Option<PathBuf>,
+    /// Write what is lost when each of the widest veins is cut
+    #[arg(long, value_name = "FILE.csv")]
+    pub cuts: Option<PathBuf>,
+    /// Number of the widest veins that are cut, one at a time
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub cut: u32,
+    /// Draw the areoles so many times anew for 95 % intervals of their measures; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub bootstrap: u32,
+    /// Seed of those draws
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+}
+
+impl MeasureArguments {
+    /// The endings of files that can be measured, for messages.
+    pub fn endings() -> String {
+        let endings: Vec<&str> = Format::ENDINGS.iter().map(|(ending, _)| *ending).collect();
+        endings.join(", ")
+    }
+}
+
+/// Two numbers with a comma between them.
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let parsed = text.split_once(',').and_then(|(x, y)| {
+        let pair: [f64; 2] = [x.trim().parse().ok()?, y.trim().parse().ok()?];
+        pair.iter().all(|value| value.is_finite()).then_some(pair)
+    });
+    parsed.ok_or_else(|| "it must be x and y in mm with a comma between them: 0,-1.5".to_owned())
+}

@@ -1,0 +1,152 @@
+//! What is measured: files of networks, their margins, and which of them are understood.
+
+use std::path::Path;
+
+use leafmodel::import::{self, Draft, Fault, Format, ImportError, Imported, Wanted};
+use leafmodel::measure::Known;
+use leafmodel::shape::outline::Outline;
+use leafmodel::venation::network::VenationNetwork;
+
+use crate::cli::Failure;
+use crate::cli::arguments::MeasureArguments;
+
+/// Endings of pictures, which are no networks.
+const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
+
+/// A network that is ready to be measured.
+#[derive(Debug)]
+pub(super) struct Input {
+    pub(super) network: VenationNetwork,
+    pub(super) outlines: Vec<Outline>,
+    pub(super) known: Known,
+    pub(super) orders_found: bool,
+    pub(super) faults: Vec<Fault>,
+}
+
+/// How a file becomes a network.
+enum Kind {
+    /// It holds one.
+    Network(Format),
+    /// It shows one.
+    Picture,
+}
+
+impl Kind {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or_default();
+        if let Some(format) = Format::of_ending(ending) {
+            return Ok(Self::Network(format));
+        }
+        if PICTURES
+            .iter()
+            .any(|picture| ending.eq_ignore_ascii_case(picture))
+        {
+            return Ok(Self::Picture);
+        }
+        let shown = path.display();
+        Err(Failure::bad(format!(
+            "{shown}: the ending tells the format of a network: {}",
+            MeasureArguments::endings()
+        )))
+    }
+}
+
+impl Input {
+    pub(super) fn read(arguments: &MeasureArguments) -> Result<Self, Failure> {
+        let path = &arguments.file;
+        match Kind::of(path)? {
+            Kind::Network(format) => Self::of_network(arguments, format),
+            Kind::Picture => Err(Failure::bad(format!(
+                "{} is a picture: trace its veins to a network first ({})",
+                path.display(),
+                MeasureArguments::endings()
+            ))),
+        }
+    }
+
+    fn of_network(arguments: &MeasureArguments, format: Format) -> Result<Self, Failure> {
+        let path = &arguments.file;
+        if arguments.nodes.is_some() && format != Format::Table {
+            return Err(Failure::bad(format!(
+                "{}: --nodes goes with a table of edges, a csv or tsv",
+                path.display()
+            )));
+        }
+        let nodes = arguments.nodes.as_deref().map(text_of).transpose()?;
+        let text = text_of(path)?;
+        let told = |error: ImportError| Failure::bad(format!("{}: {error}", path.display()));
+        let draft = import::read(format, &text, nodes.as_deref()).map_err(told)?;
+        drop((text, nodes));
+        let own = arguments
+            .outline
+            .as_deref()
+            .map(|path| margin(path, arguments))
+            .transpose()?;
+        let draft = match own {
+            Some(own) => draft.within(own),
+            None => draft,
+        };
+        let Imported {
+            network,
+            outlines,
+            known,
+            orders_found,
+            faults,
+        } = draft.network(&wanted(arguments)).map_err(told)?;
+        Ok(Self {
+            network,
+            outlines,
+            known,
+            orders_found,
+            faults,
+        })
+    }
+}
+
+fn wanted(arguments: &MeasureArguments) -> Wanted {
+    Wanted {
+        mm_per_unit: arguments.mm_per_unit,
+        root: arguments.root.map(Into::into),
+        y_down: arguments.y_down,
+    }
+}
+
+/// The margin in a file of its own.
+fn margin(path: &Path, arguments: &MeasureArguments) -> Result<Outline, Failure> {
+    let shown = path.display();
+    let format = match Kind::of(path)? {
+        Kind::Network(format @ (Format::Svg | Format::Json)) => format,
+        Kind::Network(Format::GraphMl | Format::Table) | Kind::Picture => {
+            return Err(Failure::bad(format!(
+                "{shown}: a margin is read from svg, json or geojson"
+            )));
+        }
+    };
+    let told = |error: ImportError| Failure::bad(format!("{shown}: {error}"));
+    let text = text_of(path)?;
+    let draft: Draft = import::read_margin(format, &text).map_err(told)?;
+    let wanted = wanted(arguments);
+    let mut outlines = draft.outlines(&wanted).map_err(told)?;
+    match (outlines.len(), outlines.pop()) {
+        (1, Some(outline)) => Ok(outline),
+        (count, _) => Err(Failure::bad(format!(
+            "{shown}: holds {count} margins; name a file with one"
+        ))),
+    }
+}
+
+/// The text of a file.
+fn text_of(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path)
+        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::bad(format!(
+            "{}: is no text in UTF-8: byte {at} is not part of a character",
+            path.display()
+        ))
+    })
+}
