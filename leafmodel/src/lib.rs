@@ -71,6 +71,7 @@ pub mod compound;
 pub mod development;
 pub mod document;
 pub mod export;
+pub mod inference;
 pub mod leaf;
 pub mod measure;
 pub mod mosaic;

@@ -26,6 +26,7 @@
 //! ```
 
 pub mod description;
+pub mod fitting;
 mod forks;
 mod fourier;
 mod hierarchy;

@@ -32,6 +32,7 @@ pub mod arguments;
 mod check;
 mod columns;
 mod export;
+mod fit_veins;
 mod grow;
 mod merge;
 mod needs;
@@ -127,6 +128,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Grow(grow) => grow::run(grow),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
+        Command::FitVeins(fit) => fit_veins::run(fit),
         Command::Completions(shell) => {
             shell::completions(shell);
             Ok(())

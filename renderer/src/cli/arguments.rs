@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod fit_veins;
 mod optics;
 mod samples;
 mod shell;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+pub use fit_veins::FitVeinsArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -104,6 +106,9 @@ pub enum Command {
     /// Grow a leaf and write its veins, its blade, its contents and measures
     #[command(after_help = GROW_EXAMPLES)]
     Grow(GrowArguments),
+    /// Find parameters of growth that bring forth the measures of a given leaf
+    #[command(after_help = fit_veins::EXAMPLES)]
+    FitVeins(FitVeinsArguments),
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),
