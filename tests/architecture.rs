@@ -249,12 +249,13 @@ fn leaves_are_grown_behind_one_seam() {
         "measure",
         "solid",
     ];
-    const SEAM: [&str; 6] = [
+    const SEAM: [&str; 7] = [
         "scene/plants",
         "scene/plant_cache",
         "scene/description",
         "scene/blocks/leaf",
         "cli/grow",
+        "cli/fit_veins",
         "export/drawing",
     ];
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../renderer/src");

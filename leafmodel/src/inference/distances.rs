@@ -121,7 +121,7 @@ pub(super) fn locate(
             (weight > 0.0).then(|| (learned.moved[i].clone(), weight))
         })
         .collect();
-    let sample = within_range(moved);
+    let sample = within_range(truncated(moved));
     if sample.len() < 2 {
         return Err(Shortage::NothingVaries);
     }
@@ -131,6 +131,18 @@ pub(super) fn locate(
         tolerance,
         constant,
     })
+}
+
+/// Weights cut at their mean times the root of their number (\[ionides2008\]): one simulation from
+/// where few were proposed would outweigh all others.
+fn truncated(mut sample: Vec<(Vec<f64>, f64)>) -> Vec<(Vec<f64>, f64)> {
+    let count = sample.len() as f64;
+    let sum: f64 = sample.iter().map(|(_, weight)| weight).sum();
+    let most = sum / count.sqrt();
+    for (_, weight) in &mut sample {
+        *weight = weight.min(most);
+    }
+    sample
 }
 
 /// The members within the prior's range, outside of which the posterior is 0. If next to none are,

@@ -7,6 +7,9 @@ use serde_json::{Map, Value, json};
 use crate::cli::Failure;
 use crate::cli::arguments::FitVeinsArguments;
 
+/// Effective sizes below this are told: ends of intervals are then off by half their width.
+const FEW: f64 = 50.0;
+
 /// The posterior: a column for each free key, and the weight of each row.
 pub(super) fn sample(problem: &Problem, found: &Fit) -> Result<Vec<u8>, Failure> {
     let mut table = Writer::from_writer(Vec::new());
@@ -109,6 +112,13 @@ fn prediction(one: &Prediction) -> Value {
 pub(super) fn sentences(found: &Fit) -> Vec<String> {
     let mut lines: Vec<String> = found.parameters.iter().map(Told::sentence).collect();
     lines.extend(found.correlations.iter().filter_map(|one| one.sentence()));
+    if found.effective_size < FEW {
+        lines.push(format!(
+            "the sample is worth {:.0} draws only: take more --simulations, and see whether another \
+             --seed says the same",
+            found.effective_size
+        ));
+    }
     if found.failed > 0 {
         let first = found.first_failure.as_deref().unwrap_or_default();
         lines.push(format!(
