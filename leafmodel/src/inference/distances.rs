@@ -209,12 +209,12 @@ impl Comparable {
             expected: Vec::new(),
         };
         for (i, place) in self.places.iter().enumerate() {
-            let error: Vec<f64> = match taught.next_if(|(index, _)| **index == i) {
-                Some((_, error)) => error.clone(),
-                None => {
-                    let estimate = regression.estimate(&self.measures[i]);
-                    place.iter().zip(estimate).map(|(x, e)| x - e).collect()
-                }
+            let taught = taught.next_if(|(index, _)| **index == i);
+            let error: Vec<f64> = if let Some((_, error)) = taught {
+                error.clone()
+            } else {
+                let estimate = regression.estimate(&self.measures[i]);
+                place.iter().zip(estimate).map(|(x, e)| x - e).collect()
             };
             let moved: Vec<f64> = expected.iter().zip(&error).map(|(x, e)| x + e).collect();
             let apart: Vec<f64> = place.iter().zip(&moved).map(|(x, m)| x - m).collect();

@@ -68,8 +68,8 @@ pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
         Ok(found) => found,
         Err(FitError::Stopped(failure)) => return Err(failure),
         Err(error @ (FitError::TooFew { .. } | FitError::NothingVaries)) => {
-            let (_, text) = (simulations.save()?, reason(&error));
-            return Err(Failure::bad(text));
+            simulations.save()?;
+            return Err(Failure::bad(reason(&error)));
         }
     };
     simulations.save()?;

@@ -43,10 +43,10 @@ pub struct FitVeinsArguments {
     /// Seed of the fit
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Change a value of the leaf: --set murray_exponent=2.5
+    /// Change a value of the leaf, with the keys that --free takes
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Override a value of the file, written as in it: -D leaves.mine.length_mm=55
+    /// Override a value of the file, written as in it: -D leaves.mine.seed=3
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Threads; the default is one for each processor

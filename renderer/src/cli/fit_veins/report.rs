@@ -1,7 +1,9 @@
 //! What a fit has found, as files and as a table.
 
 use csv::Writer;
-use leafmodel::inference::{Fit, Identified, Prediction, Problem, Role, Told};
+use leafmodel::inference::{
+    Correlation, Fit, Identified, Parameter, Prediction, Problem, Role, Told,
+};
 use serde_json::{Map, Value, json};
 
 use crate::cli::Failure;
@@ -14,7 +16,7 @@ const FEW: f64 = 50.0;
 pub(super) fn sample(problem: &Problem, found: &Fit) -> Result<Vec<u8>, Failure> {
     let mut table = Writer::from_writer(Vec::new());
     let unwritten = |error: csv::Error| Failure::system(error);
-    let keys = problem.parameters().iter().map(|one| one.name());
+    let keys = problem.parameters().iter().map(Parameter::name);
     let header: Vec<&str> = keys.chain(["weight"]).collect();
     table.write_record(header).map_err(unwritten)?;
     for (values, weight) in &found.sample {
@@ -111,7 +113,7 @@ fn prediction(one: &Prediction) -> Value {
 /// What a person should take away.
 pub(super) fn sentences(found: &Fit) -> Vec<String> {
     let mut lines: Vec<String> = found.parameters.iter().map(Told::sentence).collect();
-    lines.extend(found.correlations.iter().filter_map(|one| one.sentence()));
+    lines.extend(found.correlations.iter().filter_map(Correlation::sentence));
     if found.effective_size < FEW {
         lines.push(format!(
             "the sample is worth {:.0} draws only: take more --simulations, and see whether another \

@@ -88,14 +88,12 @@ impl<'p> Simulations<'p> {
             })
             .collect();
         let all: Option<Vec<Outcome>> = outcomes.into_iter().collect();
-        match all {
-            Some(outcomes) => Ok(outcomes),
-            None => {
-                self.save()?;
-                eprintln!("interrupted: the same command goes on");
-                Err(Failure::Interrupted)
-            }
+        if let Some(outcomes) = all {
+            return Ok(outcomes);
         }
+        self.save()?;
+        eprintln!("interrupted: the same command goes on");
+        Err(Failure::Interrupted)
     }
 
     /// Keeps a simulation; from time to time, or if a signal asks for it, all are written.
