@@ -256,6 +256,7 @@ fn leaves_are_grown_behind_one_seam() {
         "scene/blocks/leaf",
         "cli/grow",
         "cli/measure",
+        "cli/fit_veins",
         "export/drawing",
     ];
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../renderer/src");

@@ -58,6 +58,7 @@
 //! | how veins come to be | [`venation`], [`transport`] |
 //! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs, and from them | [`measure`], [`export`], [`import`] |
+//! | parameters that bring forth what was measured | [`inference`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
 //! | leaflets on a rachis; fruits and caps; boughs | [`compound`], [`solid`], [`plant`] |
 //! | variegation by cells that divide | [`mosaic`] |
@@ -72,6 +73,7 @@ pub mod development;
 pub mod document;
 pub mod export;
 pub mod import;
+pub mod inference;
 pub mod leaf;
 pub mod measure;
 pub mod mosaic;

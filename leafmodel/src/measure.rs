@@ -32,6 +32,7 @@ mod definitions;
 pub mod description;
 mod distributions;
 mod entries;
+pub mod fitting;
 mod forks;
 mod fourier;
 mod hierarchy;

@@ -32,6 +32,7 @@ pub mod arguments;
 mod check;
 mod columns;
 mod export;
+mod fit_veins;
 mod grow;
 mod measure;
 mod merge;
@@ -129,6 +130,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Measure(measure) => measure::run(measure),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
+        Command::FitVeins(fit) => fit_veins::run(fit),
         Command::Completions(shell) => {
             shell::completions(shell);
             Ok(())

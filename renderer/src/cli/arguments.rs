@@ -1,6 +1,7 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
 mod measure;
+mod fit_veins;
 mod optics;
 mod samples;
 mod shell;
@@ -12,6 +13,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub use measure::MeasureArguments;
+pub use fit_veins::FitVeinsArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -109,6 +111,9 @@ pub enum Command {
     /// Measure a network of veins from a file of another program
     #[command(after_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
+    /// Find parameters of growth that bring forth the measures of a given leaf
+    #[command(after_help = fit_veins::EXAMPLES)]
+    FitVeins(FitVeinsArguments),
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),

@@ -1,0 +1,123 @@
+//! `lamina fit-veins`: parameters of growth that bring forth the measures of a given leaf.
+
+mod free;
+mod observed;
+mod picture;
+mod report;
+mod simulations;
+
+use std::path::Path;
+
+use leafmodel::inference::{FitError, Problem, fit};
+
+use self::free::Grower;
+use self::observed::Observed;
+use self::simulations::Simulations;
+use crate::checkpoint::PROGRAM;
+use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::places::Lock;
+use crate::cli::signals::Signals;
+use crate::cli::{Failure, check_writable, say, stats};
+use crate::image::atomic;
+use crate::scene::fingerprint::fnv1a;
+
+pub(super) fn run(arguments: &FitVeinsArguments) -> Result<(), Failure> {
+    let observed = Observed::read(arguments)?;
+    let grower = Grower::new(arguments)?;
+    let problem = Problem::new(
+        grower.parameters().to_vec(),
+        observed.list.clone(),
+        arguments.simulations as usize,
+        arguments.seed,
+    );
+    let problem = problem.map_err(Failure::bad)?;
+    for note in observed.notes.iter().chain(&grower.notes(&observed)) {
+        eprintln!("note: {note}");
+    }
+    let folder = arguments.out.as_path();
+    let refused = |error| Failure::system(format!("{}: {error}", folder.display()));
+    std::fs::create_dir_all(folder).map_err(refused)?;
+    let [json, sample, picture, table] =
+        ["fit.json", "posterior.csv", "fit.svg", "simulations.csv"].map(|name| folder.join(name));
+    for path in [&json, &sample, &picture, &table] {
+        check_writable(path)?;
+    }
+    let signals = Signals::listen()?;
+    let _lock = Lock::take(&json, &signals)?;
+    let told = format!(
+        "{PROGRAM} {} {} {problem:?}",
+        grower.told(),
+        arguments.memory
+    );
+    let simulations = Simulations::open(&table, fnv1a(told.as_bytes()), &problem)?;
+    signals.begin_work();
+    let work = || {
+        fit(&problem, |draws| {
+            simulations.carry_out(draws, &grower, &signals)
+        })
+    };
+    let found = match arguments.threads {
+        None => work(),
+        Some(threads) => rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build()
+            .map_err(Failure::system)?
+            .install(work),
+    };
+    let found = match found {
+        Ok(found) => found,
+        Err(FitError::Stopped(failure)) => return Err(failure),
+        Err(error @ (FitError::TooFew { .. } | FitError::NothingVaries)) => {
+            simulations.save()?;
+            return Err(Failure::bad(reason(&error)));
+        }
+    };
+    simulations.save()?;
+    write(&sample, &report::sample(&problem, &found)?)?;
+    stats::write(
+        &json,
+        &report::json(arguments, grower.name(), &problem, &found),
+    )?;
+    write(&picture, picture::marginals(&problem, &found).as_bytes())?;
+    eprint!("{}", report::table(&found));
+    for path in [&json, &sample, &picture, &table] {
+        say(path.display());
+    }
+    Ok(())
+}
+
+/// Why there is no fit, in words.
+fn reason(error: &FitError<Failure>) -> String {
+    match error {
+        FitError::Stopped(_) => String::new(),
+        FitError::NothingVaries => {
+            "no measure that is fitted changes when the free keys or the seed do".to_owned()
+        }
+        FitError::TooFew {
+            usable,
+            needed,
+            all,
+            failed,
+            first_failure,
+            missing,
+        } => {
+            let mut text = format!(
+                "only {usable} of {all} leaves can be compared with the one that was measured, \
+                 fewer than {needed}"
+            );
+            if *failed > 0 {
+                let first = first_failure.as_deref().unwrap_or_default();
+                text += &format!("; {failed} failed, the first one: {first}");
+            }
+            if let Some((key, count)) = missing {
+                text += &format!("; {count} have nothing to measure for `{key}`");
+            }
+            text + ": let --free begin and end nearer to the leaf, or name other measures by --fit"
+        }
+    }
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    use std::io::Write as _;
+    atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
+}

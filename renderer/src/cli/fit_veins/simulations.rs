@@ -1,0 +1,230 @@
+//! The leaves that were grown, as a table from which an interrupted fit goes on.
+//!
+//! What is simulated depends on the problem and on earlier simulations alone, so a fit that begins
+//! again asks for the same leaves; those that the table has are not grown again.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use csv::{ReaderBuilder, StringRecord, Writer};
+use leafmodel::inference::{Draw, Outcome, Problem};
+use rayon::prelude::*;
+
+use super::free::Grower;
+use crate::cli::Failure;
+use crate::cli::signals::Signals;
+
+/// Time between two lines about the progress, and between two writings of the table.
+const BETWEEN: Duration = Duration::from_secs(10);
+
+/// Simulations by generation and number.
+type Grown = BTreeMap<(u32, u32), (Draw, Outcome)>;
+
+/// All simulations of a fit.
+#[derive(Debug)]
+pub(super) struct Simulations<'p> {
+    path: PathBuf,
+    /// Of the fit, so that the table of another one is not taken for its own.
+    identity: String,
+    problem: &'p Problem,
+    known: Mutex<Known>,
+}
+
+#[derive(Debug)]
+struct Known {
+    grown: Grown,
+    /// How many were there when the fit began.
+    before: usize,
+    began: Instant,
+    saved: Instant,
+}
+
+impl<'p> Simulations<'p> {
+    /// Reads the table at `path` if there is one.
+    pub(super) fn open(path: &Path, identity: u64, problem: &'p Problem) -> Result<Self, Failure> {
+        let now = Instant::now();
+        let identity = format!("{identity:016x}");
+        let grown = read(path, &identity, problem)?;
+        let before = grown.len();
+        if before > 0 {
+            eprintln!(
+                "{before} of {} leaves are grown already",
+                problem.simulations()
+            );
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            identity,
+            problem,
+            known: Mutex::new(Known {
+                grown,
+                before,
+                began: now,
+                saved: now,
+            }),
+        })
+    }
+
+    /// The outcomes of some draws, in order, on all threads.
+    pub(super) fn carry_out(
+        &self,
+        draws: &[Draw],
+        grower: &Grower,
+        signals: &Signals,
+    ) -> Result<Vec<Outcome>, Failure> {
+        let outcomes: Vec<Option<Outcome>> = draws
+            .par_iter()
+            .map(|draw| {
+                if let Some((_, outcome)) = self.known().grown.get(&place(draw)) {
+                    return Some(outcome.clone());
+                }
+                let outcome = grower.outcome(draw, self.problem.observed(), &signals.stop)?;
+                self.keep(draw, &outcome, signals);
+                Some(outcome)
+            })
+            .collect();
+        let all: Option<Vec<Outcome>> = outcomes.into_iter().collect();
+        if let Some(outcomes) = all {
+            return Ok(outcomes);
+        }
+        self.save()?;
+        eprintln!("interrupted: the same command goes on");
+        Err(Failure::Interrupted)
+    }
+
+    /// Keeps a simulation; from time to time, or if a signal asks for it, all are written.
+    fn keep(&self, draw: &Draw, outcome: &Outcome, signals: &Signals) {
+        let mut known = self.known();
+        known
+            .grown
+            .insert(place(draw), (draw.clone(), outcome.clone()));
+        if known.saved.elapsed() < BETWEEN && !signals.save.swap(false, Ordering::Relaxed) {
+            return;
+        }
+        known.saved = Instant::now();
+        let (done, all) = (known.grown.len(), self.problem.simulations());
+        let each = known.began.elapsed().as_secs_f64() / (done - known.before) as f64;
+        let left = each * all.saturating_sub(done) as f64;
+        eprintln!("{done} of {all} leaves, about {left:.0} s to go");
+        // The last writing, when all is done, tells what is wrong.
+        if let Ok(bytes) = self.table(&known.grown) {
+            let _ = super::write(&self.path, &bytes);
+        }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes the table.
+    pub(super) fn save(&self) -> Result<(), Failure> {
+        let known = self.known();
+        super::write(&self.path, &self.table(&known.grown)?)
+    }
+
+    fn table(&self, grown: &Grown) -> Result<Vec<u8>, Failure> {
+        let mut table = Writer::from_writer(Vec::new());
+        let unwritten = |error: csv::Error| Failure::system(error);
+        table
+            .write_record(header(self.problem))
+            .map_err(unwritten)?;
+        for (draw, outcome) in grown.values() {
+            let mut cells = vec![
+                self.identity.clone(),
+                draw.generation.to_string(),
+                draw.number.to_string(),
+                draw.seed.to_string(),
+            ];
+            cells.extend(draw.values.iter().map(|value| format!("{value:?}")));
+            match outcome {
+                Ok(measures) => {
+                    let text =
+                        |value: &Option<f64>| value.map_or_else(String::new, |v| format!("{v:?}"));
+                    cells.extend(measures.iter().map(text));
+                    cells.push(String::new());
+                }
+                Err(problem) => {
+                    cells.extend(self.problem.observed().iter().map(|_| String::new()));
+                    cells.push(problem.clone());
+                }
+            }
+            table.write_record(&cells).map_err(unwritten)?;
+        }
+        table.into_inner().map_err(Failure::system)
+    }
+}
+
+fn place(draw: &Draw) -> (u32, u32) {
+    (draw.generation, draw.number)
+}
+
+/// `fit` (which one), `generation`, `number`, `seed`, the free keys, the measures, and why a leaf
+/// failed.
+fn header(problem: &Problem) -> Vec<String> {
+    let first = ["fit", "generation", "number", "seed"].map(str::to_owned);
+    let keys = problem.parameters().iter().map(|one| one.name().to_owned());
+    let measures = problem.observed().iter().map(|one| one.key.clone());
+    let all = first.into_iter().chain(keys).chain(measures);
+    all.chain(["failed".to_owned()]).collect()
+}
+
+/// The simulations in a file, none if there is no file. Rows that are damaged count as none.
+fn read(path: &Path, identity: &str, problem: &Problem) -> Result<Grown, Failure> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Grown::new()),
+        Err(error) => return Err(Failure::system(format!("{}: {error}", path.display()))),
+    };
+    let foreign = || {
+        Failure::bad(format!(
+            "{} is of another fit: of another leaf, other measures, ranges, a seed, a number of \
+             simulations or a version of its own; name another folder by --out",
+            path.display()
+        ))
+    };
+    let mut reader = ReaderBuilder::new()
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let header = StringRecord::from(header(problem));
+    if reader.headers().ok() != Some(&header) {
+        return Err(foreign());
+    }
+    let mut grown = Grown::new();
+    for row in reader.records().flatten() {
+        if row.get(0) != Some(identity) {
+            return Err(foreign());
+        }
+        if let Some((draw, outcome)) = simulation(&row, header.len(), problem) {
+            grown.insert(place(&draw), (draw, outcome));
+        }
+    }
+    Ok(grown)
+}
+
+fn simulation(row: &StringRecord, cells: usize, problem: &Problem) -> Option<(Draw, Outcome)> {
+    if row.len() != cells {
+        return None;
+    }
+    let measures_from = 4 + problem.parameters().len();
+    let values = (4..measures_from).map(|cell| row[cell].parse::<f64>().ok());
+    let draw = Draw {
+        generation: row[1].parse().ok()?,
+        number: row[2].parse().ok()?,
+        seed: row[3].parse().ok()?,
+        values: values.collect::<Option<_>>()?,
+    };
+    let failed = &row[cells - 1];
+    if !failed.is_empty() {
+        return Some((draw, Err(failed.to_owned())));
+    }
+    let measures = (measures_from..cells - 1).map(|cell| match &row[cell] {
+        "" => Some(None),
+        text => text.parse::<f64>().ok().map(Some),
+    });
+    let measures: Option<Vec<Option<f64>>> = measures.collect();
+    Some((draw, Ok(measures?)))
+}
