@@ -84,5 +84,6 @@ pub mod solid;
 pub mod species;
 #[cfg(test)]
 mod testing;
+pub mod tracing;
 pub mod transport;
 pub mod venation;
