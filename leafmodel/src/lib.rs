@@ -58,6 +58,7 @@
 //! | how veins come to be | [`venation`], [`transport`] |
 //! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs | [`measure`], [`export`] |
+//! | margin and veins of a picture | [`tracing`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
 //! | leaflets on a rachis; fruits and caps; boughs | [`compound`], [`solid`], [`plant`] |
 //! | variegation by cells that divide | [`mosaic`] |

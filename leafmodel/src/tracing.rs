@@ -1,6 +1,6 @@
 //! A picture of veins becomes a margin and a network with radii.
 //!
-//! - **In**: a [`Raster`] of a cleared leaf, a drawing or a mask, the size of a pixel, [`Settings`].
+//! - **In**: a [`Raster`] of a cleared leaf, a drawing or a mask, and [`Settings`].
 //! - **Out**: [`Traced`]: an [`Outline`] and a [`VenationNetwork`] in millimetres, and what was
 //!   found on the way, with places.
 //! - **Always true**: the network is valid, its loops are the holes between the veins; the same
@@ -53,8 +53,8 @@ use thiserror::Error;
 
 pub use self::findings::{Finding, FindingKind};
 pub use self::frame::Frame;
-pub use self::grid::Raster;
 use self::grid::Mask;
+pub use self::grid::Raster;
 use crate::shape::outline::{Outline, OutlineError};
 use crate::venation::network::{NetworkError, VenationNetwork};
 
@@ -121,8 +121,8 @@ pub struct Settings {
     /// Area of the largest hole between veins that is filled, and of the largest speck that is left
     /// out, pixels.
     pub speck_px: usize,
-    /// Length of the pieces of veins, mm; `None` takes the median width of the veins, but at least 4
-    /// pixels.
+    /// Length of the pieces of veins, mm; `None` takes the median width of the veins, but at least
+    /// 4 pixels.
     pub segment_mm: Option<f64>,
     /// Where the petiole meets the blade, pixels from the upper left corner, if it is known.
     pub base_px: Option<DVec2>,
@@ -141,7 +141,7 @@ impl Settings {
             threshold: Threshold::Otsu { even_light: true },
             smoothing_px: 0.7,
             spur_radii: 2.5,
-            crossing_radii: 0.5,
+            crossing_radii: 1.0,
             speck_px: 16,
             segment_mm: None,
             base_px: None,
@@ -155,7 +155,13 @@ impl Settings {
                 value: self.mm_per_pixel,
             });
         }
-        let bad = |name, value, allowed| Err(TraceError::BadSetting { name, value, allowed });
+        let bad = |name, value, allowed| {
+            Err(TraceError::BadSetting {
+                name,
+                value,
+                allowed,
+            })
+        };
         for (name, value, most, allowed) in [
             ("smoothing_px", self.smoothing_px, 20.0, "0 to 20"),
             ("spur_radii", self.spur_radii, 100.0, "0 to 100"),
@@ -284,9 +290,17 @@ pub fn trace(picture: &Raster, settings: &Settings) -> Result<Traced, TraceError
     settings.check()?;
     let (width, height) = (picture.width(), picture.height());
     for (end, place) in [("base", settings.base_px), ("apex", settings.apex_px)] {
-        let Some(DVec2 { x, y }) = place else { continue };
+        let Some(DVec2 { x, y }) = place else {
+            continue;
+        };
         if !((0.0..=width as f64).contains(&x) && (0.0..=height as f64).contains(&y)) {
-            return Err(TraceError::OffPicture { end, x, y, width, height });
+            return Err(TraceError::OffPicture {
+                end,
+                x,
+                y,
+                width,
+                height,
+            });
         }
     }
     let mut blade = match &settings.blade {

@@ -47,6 +47,7 @@ mod signals;
 mod stats;
 mod sweep;
 mod tonemap;
+mod trace;
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Write as _};
@@ -125,6 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
+        Command::Trace(picture) => trace::run(picture),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
         Command::Completions(shell) => {

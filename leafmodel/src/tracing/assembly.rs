@@ -147,7 +147,11 @@ pub(super) fn network(
             i => inner[i - 1],
         };
         // A vein that comes back to its start leads from there both ways to its middle.
-        let turn = if vein.ends[0] == vein.ends[1] { last.div_ceil(2) } else { last };
+        let turn = if vein.ends[0] == vein.ends[1] {
+            last.div_ceil(2)
+        } else {
+            last
+        };
         for i in 0..last {
             let (near, far) = if i < turn { (i, i + 1) } else { (i + 1, i) };
             let (start, end) = (vein.radii[index(near)], vein.radii[index(far)]);
@@ -179,7 +183,10 @@ fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize) {
         return; // The network refuses a circle, with its place.
     };
     let positions: Vec<DVec2> = nodes.iter().map(|node| node.position).collect();
-    let radii: Vec<f64> = edges.iter().map(|e| 0.5 * (e.radius_from + e.radius_to)).collect();
+    let radii: Vec<f64> = edges
+        .iter()
+        .map(|e| 0.5 * (e.radius_from + e.radius_to))
+        .collect();
     let found = orders(&topology, &positions, &radii, &base_to_tip, &[]);
     for (edge, order) in edges.iter_mut().zip(&found.edges) {
         edge.order = (*order).max(1);
@@ -190,7 +197,11 @@ fn give_orders(nodes: &[VeinNode], edges: &mut [VeinEdge], roots: usize) {
     let mut of_base = vec![false; nodes.len()];
     of_base[0] = true;
     for &node in &base_to_tip {
-        if topology.entering(node).iter().any(|&e| of_base[pairs[e as usize][0] as usize]) {
+        if topology
+            .entering(node)
+            .iter()
+            .any(|&e| of_base[pairs[e as usize][0] as usize])
+        {
             of_base[node as usize] = true;
         }
     }

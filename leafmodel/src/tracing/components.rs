@@ -135,7 +135,9 @@ mod tests {
     fn corners_join_what_is_drawn_and_not_what_lies_between() {
         let set = drawn(&["##...", "..#..", "...##", "#...#"]);
         let mut sizes = Vec::new();
-        each_component(&set, true, Joined::Eight, |part| sizes.push(part.cells.len()));
+        each_component(&set, true, Joined::Eight, |part| {
+            sizes.push(part.cells.len());
+        });
         assert_eq!(sizes, [6, 1]);
         let ring = drawn(&[".#.", "#.#", ".#."]);
         let mut holes = Vec::new();

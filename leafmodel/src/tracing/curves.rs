@@ -1,8 +1,8 @@
 //! Lines of pixels as smooth lines with few points.
 //!
 //! Steps from pixel to pixel are up to 8 % longer than the line that they stand for. A Gaussian of
-//! two pixels takes the steps out; what is left of a straight line is its own length. Then a line is
-//! cut into even pieces, and further wherever the smooth line is more than a bound off them
+//! two pixels takes the steps out; what is left of a straight line is its own length. Then a line
+//! is cut into even pieces, and further wherever the smooth line is more than a bound off them
 //! (\[douglas1973\]).
 
 use glam::DVec2;

@@ -2,7 +2,8 @@
 //!
 //! # Source
 //!
-//! \[felzenszwalb2012\], Algorithm 1, along rows; distances along columns are counted.
+//! \[felzenszwalb2012\]: lower envelopes of parabolas along rows. Distances along columns are
+//! counted.
 
 use rayon::prelude::*;
 

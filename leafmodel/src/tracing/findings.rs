@@ -75,7 +75,9 @@ impl fmt::Display for Finding {
                 "{length_mm:.2} mm of vein are narrower than two pixels, the thinnest at {at}: \
                  thinner veins cannot be seen at this size of pixels"
             ),
-            FindingKind::Petiole => write!(f, "a petiole was taken off; it meets the blade at {at}"),
+            FindingKind::Petiole => {
+                write!(f, "a petiole was taken off; it meets the blade at {at}")
+            }
             FindingKind::BaseGuessed => write!(
                 f,
                 "the base is taken to be where the widest vein meets the margin, {at}: \
@@ -94,7 +96,12 @@ pub(super) fn clean(veins: &mut Mask, most: usize, findings: &mut Vec<Finding>) 
     let specks = flip_small(veins, true, most);
     let holes = flip_small(veins, false, most);
     for (parts, kind) in [
-        (&specks, FindingKind::Specks { count: specks.len() }),
+        (
+            &specks,
+            FindingKind::Specks {
+                count: specks.len(),
+            },
+        ),
         (&holes, FindingKind::Holes { count: holes.len() }),
     ] {
         if let Some((first, _)) = parts.first() {

@@ -79,7 +79,13 @@ pub(super) fn in_millimetres(
         axis: (apex - base).normalize_or(-DVec2::Y),
         mm_per_pixel: settings.mm_per_pixel,
     };
-    let outline = outline(&line, margin, &frame, apex, matches!(settings.blade, Blade::Frame))?;
+    let outline = outline(
+        &line,
+        &margin,
+        &frame,
+        apex,
+        matches!(settings.blade, Blade::Frame),
+    )?;
     let mut veins = lines.veins.clone();
     let mut roots = roots(&veins, &frame, &mut findings);
     join_base(&mut veins, &mut roots[0], base, lines.segment_px);
@@ -104,7 +110,7 @@ fn corners(blade: &Mask) -> Vec<DVec2> {
 /// apart), the line around the pixels themselves is taken, which never does.
 fn outline(
     line: &[DVec2],
-    margin: Vec<DVec2>,
+    margin: &[DVec2],
     frame: &Frame,
     apex: DVec2,
     is_frame: bool,
@@ -114,7 +120,7 @@ fn outline(
         let points = points.iter().map(|&p| frame.to_mm(p)).collect();
         Outline::new(points, DVec2::ZERO, frame.to_mm(apex))
     };
-    match of(&margin) {
+    match of(margin) {
         Err(OutlineError::SelfCrossing { .. }) if !is_frame => {
             let mut line = line.to_vec();
             // Base and apex become points of it.
@@ -147,7 +153,10 @@ fn nearest(line: &[DVec2], place: DVec2) -> DVec2 {
 /// The point of a line that is farthest from a place.
 fn farthest(line: &[DVec2], place: DVec2) -> DVec2 {
     let off = |p: &DVec2| p.distance_squared(place);
-    let far = line.iter().copied().max_by(|p, q| off(p).total_cmp(&off(q)));
+    let far = line
+        .iter()
+        .copied()
+        .max_by(|p, q| off(p).total_cmp(&off(q)));
     far.unwrap_or(place)
 }
 
@@ -167,12 +176,15 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
     found.map_or(DVec2::ZERO, |point| point.1)
 }
 
-/// Lets the veins begin at the base: the middle line of the widest vein ends about its radius before
-/// the margin, which cuts it.
+/// Lets the veins begin at the base: the middle line of the widest vein ends about its radius
+/// before the margin, which cuts it.
 fn join_base(veins: &mut Veins, root: &mut u32, base: DVec2, segment_px: f64) {
     let place = veins.nodes[*root as usize];
     let at_root = veins.list.iter().flat_map(|vein| {
-        let ends = [(vein.ends[0], vein.radii[0]), (vein.ends[1], vein.radii[vein.radii.len() - 1])];
+        let ends = [
+            (vein.ends[0], vein.radii[0]),
+            (vein.ends[1], vein.radii[vein.radii.len() - 1]),
+        ];
         ends.into_iter()
     });
     let radius = at_root
@@ -207,7 +219,11 @@ fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> 
         }
     }
     let longest = (0..lengths.len()).fold(0, |best, part| {
-        if lengths[part] > lengths[best] { part } else { best }
+        if lengths[part] > lengths[best] {
+            part
+        } else {
+            best
+        }
     });
     let mut roots = vec![nearest[longest].1];
     for (number, (_, root)) in nearest.into_iter().enumerate() {

@@ -115,7 +115,11 @@ fn evened(picture: &Raster, blade: &Mask, veins: Ink) -> Raster {
         let tissue = &tissue[y * width..][..width];
         for ((to, from), tissue) in to.iter_mut().zip(from).zip(tissue) {
             // Light that is not there at all has nothing to be compared with.
-            *to = if *tissue > 1e-6 { (from / tissue).min(4.0) } else { 1.0 };
+            *to = if *tissue > 1e-6 {
+                (from / tissue).min(4.0)
+            } else {
+                1.0
+            };
         }
     })
 }
@@ -198,7 +202,7 @@ fn otsu(picture: &Raster, blade: &Mask) -> Option<f32> {
     let (low, high) = values().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
     });
-    if !(high > low) {
+    if high <= low {
         return None;
     }
     let scale = BINS as f32 / (high - low);
@@ -208,7 +212,8 @@ fn otsu(picture: &Raster, blade: &Mask) -> Option<f32> {
     }
     let total: u64 = counts.iter().sum();
     let moment = |bins: &mut dyn Iterator<Item = (usize, u64)>| {
-        bins.map(|(bin, count)| bin as f64 * count as f64).sum::<f64>()
+        bins.map(|(bin, count)| bin as f64 * count as f64)
+            .sum::<f64>()
     };
     let all = moment(&mut counts.iter().copied().enumerate());
     let (mut below, mut of_below) = (0_u64, 0.0);
@@ -241,7 +246,7 @@ fn otsu(picture: &Raster, blade: &Mask) -> Option<f32> {
 
 /// The distance to the local level `m (1 + k (s/R − 1))` with the mean `m` and the standard
 /// deviation `s` of a window and the greatest deviation `R` of the picture
-/// (\[sauvola2000\], Eq. 5). Bright veins are dark ones of the negative.
+/// (\[sauvola2000\]). Bright veins are dark ones of the negative.
 fn sauvola(picture: &Raster, blade: &Mask, veins: Ink, half: usize, k: f64) -> Raster {
     let top = picture.values().iter().copied().fold(0.0_f32, f32::max);
     let dark = match veins {
@@ -260,7 +265,10 @@ fn sauvola(picture: &Raster, blade: &Mask, veins: Ink, half: usize, k: f64) -> R
     let mean = Means::new(&dark, blade, |_, _| true).over(&dark, half);
     let square = Means::new(&squares, blade, |_, _| true).over(&squares, half);
     let deviation = |at: usize| (square[at] - mean[at] * mean[at]).max(0.0).sqrt();
-    let greatest = (0..mean.len()).into_par_iter().map(deviation).reduce(|| 0.0, f32::max);
+    let greatest = (0..mean.len())
+        .into_par_iter()
+        .map(deviation)
+        .reduce(|| 0.0, f32::max);
     let width = dark.width();
     dark.mapped(|y, from, to| {
         for (x, (to, from)) in to.iter_mut().zip(from).enumerate() {
@@ -312,7 +320,10 @@ mod tests {
     fn light_that_falls_to_a_third_is_made_even() {
         let uneven = lined(|x, y| 1.0 - 0.35 * (x + y) as f32 / 200.0);
         let otsu = |even_light| Threshold::Otsu { even_light };
-        let sauvola = Threshold::Sauvola { window_px: 41.0, k: 0.3 };
+        let sauvola = Threshold::Sauvola {
+            window_px: 41.0,
+            k: 0.3,
+        };
         assert!(wrong(&uneven, otsu(false), Ink::Dark) > 4000);
         assert_eq!(wrong(&uneven, otsu(true), Ink::Dark), 0);
         assert_eq!(wrong(&uneven, sauvola, Ink::Dark), 0);

@@ -49,7 +49,10 @@ pub(super) fn lines(
         (crossings, FindingKind::Crossings { count: crossings }),
     ] {
         if count > 0 {
-            findings.push(Finding { kind, place_px: of_picture });
+            findings.push(Finding {
+                kind,
+                place_px: of_picture,
+            });
         }
     }
     let mut degree = vec![0_u32; graph.nodes.len()];
@@ -108,7 +111,10 @@ pub(super) fn lines(
         })
         .collect();
     Ok(Lines {
-        veins: Veins { nodes: places, list },
+        veins: Veins {
+            nodes: places,
+            list,
+        },
         segment_px,
     })
 }

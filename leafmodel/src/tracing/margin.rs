@@ -22,12 +22,8 @@ pub(super) fn boundary(set: &Mask) -> Vec<DVec2> {
     let left_of = [-row, 0, -1, -1 - row];
     let (x, y) = set.pixel(first);
     let start = (DVec2::new(x as f64, y as f64), 0_usize);
-    let cell_of = |corner: DVec2| {
-        (corner.y as usize + 1) * set.stride + corner.x as usize + 1
-    };
-    let is_in = |corner: DVec2, step: isize| {
-        set.cells[cell_of(corner).wrapping_add_signed(step)]
-    };
+    let cell_of = |corner: DVec2| (corner.y as usize + 1) * set.stride + corner.x as usize + 1;
+    let is_in = |corner: DVec2, step: isize| set.cells[cell_of(corner).wrapping_add_signed(step)];
     let mut points = Vec::new();
     let (mut corner, mut way) = start;
     loop {
@@ -77,7 +73,9 @@ mod tests {
 
     #[test]
     fn the_line_around_pixels_encloses_them() {
-        let set = Mask::new(7, 5, |x, y| (1..6).contains(&x) && (1..4).contains(&y) && (x, y) != (3, 2));
+        let set = Mask::new(7, 5, |x, y| {
+            (1..6).contains(&x) && (1..4).contains(&y) && (x, y) != (3, 2)
+        });
         let line = boundary(&set);
         assert_eq!(line.len(), 16);
         // Cut corners are an eighth of a pixel each.
@@ -96,10 +94,15 @@ mod tests {
         let (area, perimeter) = measures(&simplified(&boundary(&set), 0.25));
         // Ramanujan's second formula, exact here to ten digits.
         let h = ((a - b) / (a + b)).powi(2);
-        let around = std::f64::consts::PI
-            * (a + b)
-            * (1.0 + 3.0 * h / (10.0 + (4.0 - 3.0 * h).sqrt()));
-        assert!((area / (std::f64::consts::PI * a * b) - 1.0).abs() < 2e-3, "{area}");
-        assert!((perimeter / around - 1.0).abs() < 3e-3, "{perimeter} {around}");
+        let around =
+            std::f64::consts::PI * (a + b) * (1.0 + 3.0 * h / (10.0 + (4.0 - 3.0 * h).sqrt()));
+        assert!(
+            (area / (std::f64::consts::PI * a * b) - 1.0).abs() < 2e-3,
+            "{area}"
+        );
+        assert!(
+            (perimeter / around - 1.0).abs() < 3e-3,
+            "{perimeter} {around}"
+        );
     }
 }

@@ -116,7 +116,10 @@ impl Pruning {
         let mut count = 0;
         for number in 0..self.graph.chains.len() as u32 {
             let chain = &self.graph.chains[number as usize];
-            let is_free = chain.ends.iter().all(|&end| self.at[end as usize].len() == 1);
+            let is_free = chain
+                .ends
+                .iter()
+                .all(|&end| self.at[end as usize].len() == 1);
             let widest = chain.reaches.iter().copied().fold(0.0, f64::max);
             if !self.is_gone[number as usize] && is_free && chain.length() < radii * widest {
                 self.take_out(number);

@@ -86,7 +86,11 @@ fn filled(sections: &[Option<Section>], chain: &Chain) -> Vec<f64> {
     for forwards in [true, false] {
         let mut last: Option<usize> = None;
         for step in 0..sections.len() {
-            let i = if forwards { step } else { sections.len() - 1 - step };
+            let i = if forwards {
+                step
+            } else {
+                sections.len() - 1 - step
+            };
             if sections[i].is_some() {
                 last = Some(i);
             }

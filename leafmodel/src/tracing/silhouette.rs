@@ -124,11 +124,12 @@ impl Plane {
 /// The plane with the least squares of differences; `None` if the places do not span one.
 fn fitted(places: &[&[f64; 3]], [width, height]: [f64; 2]) -> Option<Plane> {
     let count = places.len() as f64;
-    let middle: [f64; 3] = std::array::from_fn(|i| {
-        places.iter().map(|place| place[i]).sum::<f64>() / count.max(1.0)
-    });
+    let middle: [f64; 3] =
+        std::array::from_fn(|i| places.iter().map(|place| place[i]).sum::<f64>() / count.max(1.0));
     let product = |i: usize, j: usize| -> f64 {
-        let terms = places.iter().map(|p| (p[i] - middle[i]) * (p[j] - middle[j]));
+        let terms = places
+            .iter()
+            .map(|p| (p[i] - middle[i]) * (p[j] - middle[j]));
         terms.sum::<f64>() / count.max(1.0)
     };
     let (xx, xy, yy) = (product(0, 0), product(0, 1), product(1, 1));
@@ -150,8 +151,8 @@ fn fitted(places: &[&[f64; 3]], [width, height]: [f64; 2]) -> Option<Plane> {
 /// Takes the petiole off a silhouette; the cell in the middle of where it was joined, if there was
 /// one.
 ///
-/// An opening by a disc (\[serra1982\]) a little wider than the widest vein leaves the blade. Of the
-/// parts that it takes away (teeth, tips), the petiole is the largest that consists of vein.
+/// An opening by a disc (\[serra1982\]) a little wider than the widest vein leaves the blade. Of
+/// the parts that it takes away (teeth, tips), the petiole is the largest that consists of vein.
 pub(super) fn take_off_petiole(leaf: &mut Mask, veins: &Mask, widest: f64) -> Option<usize> {
     let radius = STALK * widest + 1.0;
     let square = (radius * radius).ceil() as u32;
@@ -172,7 +173,10 @@ pub(super) fn take_off_petiole(leaf: &mut Mask, veins: &Mask, widest: f64) -> Op
     }
     let mut stalk: Vec<u32> = Vec::new();
     each_component(&rest, true, Joined::Eight, |part| {
-        let inked = part.cells.iter().filter(|&&cell| veins.cells[cell as usize]);
+        let inked = part
+            .cells
+            .iter()
+            .filter(|&&cell| veins.cells[cell as usize]);
         let is_vein = 2 * inked.count() > part.cells.len();
         if is_vein && part.cells.len() > stalk.len() {
             stalk.clone_from(&part.cells);

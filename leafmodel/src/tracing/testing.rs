@@ -10,6 +10,9 @@ use crate::venation::network::VenationNetwork;
 /// Grey values of paper, blade and veins.
 pub(crate) const GREYS: [f32; 3] = [1.0, 0.75, 0.25];
 
+/// Rows that are drawn together.
+const BAND: usize = 64;
+
 /// A leaf in pixels, its veins with their widths and round ends; each pixel is what its centre
 /// lies on. Leaves a border of 12 pixels.
 pub(crate) fn drawn(outline: &Outline, network: &VenationNetwork, mm_per_pixel: f64) -> Raster {
@@ -29,7 +32,6 @@ pub(crate) fn drawn(outline: &Outline, network: &VenationNetwork, mm_per_pixel: 
         .collect();
     let margin: Vec<DVec2> = outline.points().iter().map(|&p| place(p)).collect();
     // Bands of rows, each with the pieces that reach into it.
-    const BAND: usize = 64;
     let mut in_band: Vec<Vec<u32>> = vec![Vec::new(); height.div_ceil(BAND)];
     for (number, (ends, radii)) in (0..).zip(&pieces) {
         let reach = radii[0].max(radii[1]) + 1.0;

@@ -5,6 +5,7 @@ mod samples;
 mod shell;
 mod sweep;
 mod tonemap;
+mod trace;
 
 use std::path::PathBuf;
 
@@ -15,6 +16,7 @@ pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
 pub use tonemap::TonemapArguments;
+pub use trace::{ThresholdKind, TraceArguments};
 
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
 pub const GREETING: &str = "\
@@ -104,6 +106,9 @@ pub enum Command {
     /// Grow a leaf and write its veins, its blade, its contents and measures
     #[command(after_help = GROW_EXAMPLES)]
     Grow(GrowArguments),
+    /// Trace the margin and the veins of a picture of a leaf: a network with radii, and measures
+    #[command(after_help = trace::EXAMPLES)]
+    Trace(TraceArguments),
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),
