@@ -115,8 +115,8 @@ pub struct Settings {
     /// By how much of its own radius a vein with a free end must jut out of the vein on which it
     /// stands; what juts out less is a spur, 0 to 100.
     pub spur_radii: f64,
-    /// Veins that meet another on both sides meet at one point if the points are nearer than this
-    /// share of the vein's radius, 0 to 10.
+    /// Two junctions are one crossing if they are nearer than so many times the sum of the radii of
+    /// the finest veins at both, 0 to 10.
     pub crossing_radii: f64,
     /// Area of the largest hole between veins that is filled, and of the largest speck that is left
     /// out, pixels.
@@ -141,7 +141,7 @@ impl Settings {
             threshold: Threshold::Otsu { even_light: true },
             smoothing_px: 0.7,
             spur_radii: 2.5,
-            crossing_radii: 1.0,
+            crossing_radii: 1.5,
             speck_px: 16,
             segment_mm: None,
             base_px: None,

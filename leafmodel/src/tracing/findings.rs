@@ -51,14 +51,16 @@ pub enum FindingKind {
 pub struct Finding {
     /// What it is.
     pub kind: FindingKind,
-    /// Where, pixels from the upper left corner of the picture.
-    pub place_px: DVec2,
+    /// Where, pixels from the upper left corner of the picture; `None` for what is all over it.
+    pub place_px: Option<DVec2>,
 }
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let DVec2 { x, y } = self.place_px;
-        let at = format!("pixel ({x:.0}, {y:.0})");
+        let at = match self.place_px {
+            Some(DVec2 { x, y }) => format!("pixel ({x:.0}, {y:.0})"),
+            None => "many places".to_owned(),
+        };
         match self.kind {
             FindingKind::Specks { count } => {
                 write!(f, "{count} specks were left out, the first at {at}")
@@ -105,7 +107,7 @@ pub(super) fn clean(veins: &mut Mask, most: usize, findings: &mut Vec<Finding>) 
         (&holes, FindingKind::Holes { count: holes.len() }),
     ] {
         if let Some((first, _)) = parts.first() {
-            let place_px = veins.centre(*first as usize);
+            let place_px = Some(veins.centre(*first as usize));
             findings.push(Finding { kind, place_px });
         }
     }

@@ -56,7 +56,11 @@ pub(super) fn in_millimetres(
     let wanted = settings.base_px.or_else(|| {
         let place_px = blade.centre(joint?);
         let kind = FindingKind::Petiole;
-        findings.push(Finding { kind, place_px });
+        let place = Some(place_px);
+        findings.push(Finding {
+            kind,
+            place_px: place,
+        });
         Some(place_px)
     });
     let wanted = wanted.unwrap_or_else(|| {
@@ -65,7 +69,11 @@ pub(super) fn in_millimetres(
             Blade::Silhouette | Blade::Of(_) => widest_at_margin(&lines.veins, &margin),
         };
         let kind = FindingKind::BaseGuessed;
-        findings.push(Finding { kind, place_px });
+        let place = Some(place_px);
+        findings.push(Finding {
+            kind,
+            place_px: place,
+        });
         place_px
     });
     let base = nearest(&margin, wanted);
@@ -160,20 +168,52 @@ fn farthest(line: &[DVec2], place: DVec2) -> DVec2 {
     far.unwrap_or(place)
 }
 
-/// Where the widest vein that reaches the margin does so; the widest place of all if none does.
+/// Where the widest vein that reaches the margin does so, prolonged to the margin; the widest place
+/// of all if none does.
 fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
-    let points = veins.list.iter().flat_map(|vein| {
-        let pairs = vein.radii.iter().zip(&vein.points);
-        pairs.map(|(radius, place)| (*radius, *place))
+    let points = veins.list.iter().enumerate().flat_map(|(number, vein)| {
+        let radii = vein.radii.iter().enumerate();
+        radii.map(move |(i, radius)| (*radius, number, i))
     });
-    let mut points: Vec<(f64, DVec2)> = points.collect();
+    let mut points: Vec<(f64, usize, usize)> = points.collect();
     // The sort is stable, so that of equals the first is taken.
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let reaches = |(radius, place): &&(f64, DVec2)| {
-        nearest(margin, *place).distance(*place) <= AT_MARGIN * radius + 2.0
+    let reaches = |(radius, number, i): &&(f64, usize, usize)| {
+        let place = veins.list[*number].points[*i];
+        nearest(margin, place).distance(place) <= AT_MARGIN * radius + 2.0
     };
-    let found = points.iter().find(reaches).or(points.first());
-    found.map_or(DVec2::ZERO, |point| point.1)
+    let Some(&(radius, number, i)) = points.iter().find(reaches).or(points.first()) else {
+        return DVec2::ZERO;
+    };
+    let way = &veins.list[number].points;
+    let (start, inwards): (usize, Vec<DVec2>) = if 2 * i < way.len() {
+        (0, way.clone())
+    } else {
+        (way.len() - 1, way.iter().rev().copied().collect())
+    };
+    let end = way[start];
+    let inner = inwards.iter().find(|p| p.distance(end) >= 3.0 * radius);
+    let inner = inner.or(inwards.last()).copied().unwrap_or(end);
+    let ahead = (end - inner).normalize_or_zero();
+    crossing(margin, end, ahead)
+        .filter(|place| place.distance(end) <= 3.0 * radius + 4.0)
+        .unwrap_or(way[i])
+}
+
+/// Where a ray meets a closed line first.
+fn crossing(line: &[DVec2], start: DVec2, way: DVec2) -> Option<DVec2> {
+    let sides = line.iter().zip(line.iter().cycle().skip(1));
+    let meetings = sides.filter_map(|(&a, &b)| {
+        let side = b - a;
+        let turn = way.perp_dot(side);
+        let (far, share) = (
+            (a - start).perp_dot(side) / turn,
+            (a - start).perp_dot(way) / turn,
+        );
+        (far >= 0.0 && (0.0..=1.0).contains(&share)).then_some(far)
+    });
+    let far = meetings.fold(f64::INFINITY, f64::min);
+    far.is_finite().then(|| start + way * far)
 }
 
 /// Lets the veins begin at the base: the middle line of the widest vein ends about its radius
@@ -233,7 +273,7 @@ fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> 
                 kind: FindingKind::Apart {
                     length_mm: lengths[number] * frame.mm_per_pixel,
                 },
-                place_px: veins.nodes[root as usize],
+                place_px: Some(veins.nodes[root as usize]),
             });
         }
     }

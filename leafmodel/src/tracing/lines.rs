@@ -43,7 +43,6 @@ pub(super) fn lines(
             what: format!("{spurs} spurs were cut off and nothing was left"),
         });
     }
-    let of_picture = DVec2::ZERO;
     for (count, kind) in [
         (spurs, FindingKind::Spurs { count: spurs }),
         (crossings, FindingKind::Crossings { count: crossings }),
@@ -51,7 +50,7 @@ pub(super) fn lines(
         if count > 0 {
             findings.push(Finding {
                 kind,
-                place_px: of_picture,
+                place_px: None,
             });
         }
     }
@@ -163,7 +162,7 @@ fn tell_thin(
             kind: FindingKind::Thin {
                 length_mm: length * settings.mm_per_pixel,
             },
-            place_px: thinnest.1,
+            place_px: Some(thinnest.1),
         });
     }
 }

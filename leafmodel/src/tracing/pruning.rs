@@ -50,23 +50,39 @@ impl Pruning {
             (3.., 1) => start,
             _ => return None,
         };
-        let from_node = |i: usize| {
-            if node == start {
-                i
-            } else {
-                chain.points.len() - 1 - i
-            }
+        let last = if node == start {
+            chain.points.len() - 1
+        } else {
+            0
         };
-        let last = from_node(chain.points.len() - 1);
+        let mouth = self.mouth(number, node);
         let node = self.graph.nodes[node as usize];
         // Straight, since steps from pixel to pixel would make a spur on a wide vein longer.
         let way = chain.points[last].distance(node.place);
         let juts = way + chain.reaches[last] - node.reach;
-        let mouth = (0..chain.points.len())
-            .map(from_node)
-            .find(|&i| chain.points[i].distance(node.place) >= node.reach);
-        let mouth = (chain.reaches[mouth.unwrap_or(last)] - HALF_PIXEL).max(STAIR);
         Some(juts / mouth)
+    }
+
+    /// The radius of a chain where it leaves the disc of a node at one of its ends, or at its other
+    /// end if it does not; at least what stairs of pixels make.
+    fn mouth(&self, number: u32, node: u32) -> f64 {
+        let chain = &self.graph.chains[number as usize];
+        let last = chain.points.len() - 1;
+        let from_node = |i: usize| if chain.ends[0] == node { i } else { last - i };
+        let node = self.graph.nodes[node as usize];
+        let is_out = |i: &usize| chain.points[*i].distance(node.place) >= node.reach;
+        let mouth = (0..=last).map(from_node).find(is_out);
+        (chain.reaches[mouth.unwrap_or(from_node(last))] - HALF_PIXEL).max(STAIR)
+    }
+
+    /// The radius of the finest vein at a node but for one.
+    fn finest_but(&self, node: u32, number: u32) -> f64 {
+        let others = self.at[node as usize]
+            .iter()
+            .filter(|&&other| other != number);
+        others.fold(f64::INFINITY, |least, &other| {
+            least.min(self.mouth(other, node))
+        })
     }
 
     /// Takes out spurs that jut out by less than `radii` of their own radius, the least prominent
@@ -213,9 +229,9 @@ impl Pruning {
         }
     }
 
-    /// Joins nodes that a chain shorter than `share` of the lesser of their reaches keeps apart:
-    /// veins that cross at a slant meet twice on their common middle line. Chains so short between
-    /// one node and itself are no holes and stay.
+    /// Joins nodes if the chain between them is shorter than `share` of the sum of the radii of the
+    /// finest veins at both: veins that cross have a stretch of their middle lines in common. Two
+    /// chains between the same nodes are a loop and stay.
     pub(super) fn join_near_nodes(&mut self, share: f64) -> usize {
         let mut count = 0;
         for number in 0..self.graph.chains.len() as u32 {
@@ -231,7 +247,8 @@ impl Pruning {
                 ends.contains(&a) && ends.contains(&b)
             };
             let joined_twice = self.at[a as usize].iter().filter(|&o| between(o)).count() > 1;
-            if joined_twice || chain.length() >= share * near.reach.min(far.reach) {
+            let finest = self.finest_but(a, number) + self.finest_but(b, number);
+            if joined_twice || chain.length() >= share * finest {
                 continue;
             }
             self.take_out(number);

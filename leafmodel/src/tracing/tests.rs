@@ -212,8 +212,13 @@ fn turned_lines_have_their_lengths_and_radii() {
                 (length / 500.0 - 1.0).abs() < 0.01,
                 "{degrees}° {radius}: {length}"
             );
-            // Along rows or columns a line of two greys is a whole number of pixels wide.
-            let step = if degrees % 90.0 == 0.0 { 0.25 } else { 0.12 };
+            // Along rows or columns a line of two greys is a whole number of pixels wide. In very
+            // fine lines the Gaussian thins the ink, so that the level lies farther out.
+            let step = match (degrees % 90.0 == 0.0, radius < 2.0) {
+                (true, _) => 0.25,
+                (false, true) => 0.2,
+                (false, false) => 0.12,
+            };
             let is_near = (mean - radius).abs() < step + 0.01 * radius;
             assert!(is_near, "{degrees}° {radius}: {mean}");
         }

@@ -171,8 +171,8 @@ fn report(traced: &Traced) -> serde_json::Value {
     let findings = traced.findings.iter().map(|finding| {
         json!({
             "finding": finding.to_string(),
-            "place_px": finding.place_px.to_array(),
-            "place_mm": traced.frame.to_mm(finding.place_px).to_array(),
+            "place_px": finding.place_px.map(|place| place.to_array()),
+            "place_mm": finding.place_px.map(|place| traced.frame.to_mm(place).to_array()),
         })
     });
     json!({

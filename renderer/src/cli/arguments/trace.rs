@@ -87,8 +87,9 @@ pub struct TraceArguments {
     /// stands; what juts out less is cut off
     #[arg(long, value_name = "RADII", default_value_t = 2.5)]
     pub spur_radii: f64,
-    /// Two junctions nearer than so many radii of the vein are one crossing
-    #[arg(long, value_name = "RADII", default_value_t = 1.0)]
+    /// Two junctions are one crossing if they are nearer than so many times the radii of the finest
+    /// veins at both
+    #[arg(long, value_name = "RADII", default_value_t = 1.5)]
     pub crossing_radii: f64,
     /// Area of the largest speck that is left out and of the largest hole in a vein that is filled,
     /// pixels
