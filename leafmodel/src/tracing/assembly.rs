@@ -127,7 +127,11 @@ pub(super) fn network(
         });
         nodes.len() as u32 - 1
     };
-    let others = (0..veins.nodes.len() as u32).filter(|node| !roots.contains(node));
+    let mut is_root = vec![false; veins.nodes.len()];
+    for &root in roots {
+        is_root[root as usize] = true;
+    }
+    let others = (0..veins.nodes.len() as u32).filter(|node| !is_root[*node as usize]);
     for node in roots.iter().copied().chain(others) {
         number[node as usize] = add(veins.nodes[node as usize], &mut nodes);
     }

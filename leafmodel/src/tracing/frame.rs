@@ -13,6 +13,9 @@ use crate::shape::outline::{Outline, OutlineError};
 /// A vein reaches the margin if it comes nearer than this many of its radii.
 const AT_MARGIN: f64 = 1.5;
 
+/// So many of the widest points of veins are looked at for the one that reaches the margin.
+const MOST_WIDE: usize = 10_000;
+
 /// How places of a picture become places of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -182,7 +185,8 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
         let place = veins.list[*number].points[*i];
         nearest(margin, place).distance(place) <= AT_MARGIN * radius + 2.0
     };
-    let Some(&(radius, number, i)) = points.iter().find(reaches).or(points.first()) else {
+    let found = points.iter().take(MOST_WIDE).find(reaches);
+    let Some(&(radius, number, i)) = found.or(points.first()) else {
         return DVec2::ZERO;
     };
     let way = &veins.list[number].points;
