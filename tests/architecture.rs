@@ -237,7 +237,7 @@ fn documents_know_nothing_of_leaves() {
 
 #[test]
 fn leaves_are_grown_behind_one_seam() {
-    const ROOMS: [&str; 10] = [
+    const ROOMS: [&str; 11] = [
         "leaf",
         "blade",
         "venation",
@@ -248,8 +248,9 @@ fn leaves_are_grown_behind_one_seam() {
         "species",
         "measure",
         "solid",
+        "tracing",
     ];
-    const SEAM: [&str; 7] = [
+    const SEAM: [&str; 10] = [
         "scene/plants",
         "scene/plant_cache",
         "scene/description",
@@ -257,7 +258,9 @@ fn leaves_are_grown_behind_one_seam() {
         "cli/grow",
         "cli/measure",
         "cli/fit_veins",
+        "cli/trace",
         "export/drawing",
+        "export/overlay",
     ];
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../renderer/src");
     let mut texts = BTreeMap::new();

@@ -59,6 +59,7 @@
 //! | margin and main veins from one development | [`development`] |
 //! | measures of shape and veins; networks as files for other programs, and from them | [`measure`], [`export`], [`import`] |
 //! | parameters that bring forth what was measured | [`inference`] |
+//! | margin and veins of a picture | [`tracing`] |
 //! | the blade in space, contents over it, ageing | [`blade`] |
 //! | leaflets on a rachis; fruits and caps; boughs | [`compound`], [`solid`], [`plant`] |
 //! | variegation by cells that divide | [`mosaic`] |
@@ -87,5 +88,6 @@ pub mod solid;
 pub mod species;
 #[cfg(test)]
 mod testing;
+pub mod tracing;
 pub mod transport;
 pub mod venation;

@@ -5,8 +5,7 @@
 //!   table.
 //! - **Always true**: no value is NaN or infinite; a measure that does not exist (the median area
 //!   without areoles) is missing. The same network gives the same bits on every machine.
-//! - **Left out**: the analysis of images of cleared and stained leaves. Vein widths are those of
-//!   the model.
+//! - **Left out**: pictures of leaves, of which [`crate::tracing`] makes margins and networks.
 //!
 //! `docs/src/theory/measures.md` defines every measure.
 //!

@@ -49,6 +49,7 @@ mod signals;
 mod stats;
 mod sweep;
 mod tonemap;
+mod trace;
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Write as _};
@@ -128,6 +129,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
         Command::Measure(measure) => measure::run(measure),
+        Command::Trace(picture) => trace::run(picture),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),
         Command::FitVeins(fit) => fit_veins::run(fit),

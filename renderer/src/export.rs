@@ -44,3 +44,4 @@
 pub mod drawing;
 mod element;
 pub mod mitsuba;
+pub mod overlay;

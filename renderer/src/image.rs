@@ -30,6 +30,7 @@ pub mod jpeg;
 pub mod openexr;
 pub mod pixels;
 pub mod portable_network;
+pub mod scan;
 pub mod tone;
 pub mod white;
 

@@ -7,6 +7,7 @@ mod samples;
 mod shell;
 mod sweep;
 mod tonemap;
+mod trace;
 
 use std::path::PathBuf;
 
@@ -19,6 +20,7 @@ pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
 pub use sweep::{SweepArguments, TaskRange};
 pub use tonemap::TonemapArguments;
+pub use trace::{ThresholdKind, TraceArguments};
 
 /// What `lamina` prints when nothing is asked for: what it is, the first command, the guide.
 pub const GREETING: &str = "\
@@ -114,6 +116,9 @@ pub enum Command {
     /// Find parameters of growth that bring forth the measures of a given leaf
     #[command(after_help = fit_veins::EXAMPLES)]
     FitVeins(FitVeinsArguments),
+    /// Trace the margin and the veins of a picture of a leaf: a network with radii, and measures
+    #[command(after_help = trace::EXAMPLES)]
+    Trace(TraceArguments),
     /// Write what a scene file may hold, as a JSON Schema
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema(SchemaArguments),

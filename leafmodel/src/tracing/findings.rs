@@ -1,0 +1,114 @@
+//! What a picture makes one look twice at, with places.
+
+use std::fmt;
+
+use glam::DVec2;
+
+use super::components::flip_small;
+use super::grid::Mask;
+
+/// What was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FindingKind {
+    /// Dark spots too small to be veins were left out.
+    Specks {
+        /// How many; the place is that of the first.
+        count: usize,
+    },
+    /// Holes in veins too small to be areoles were filled.
+    Holes {
+        /// How many; the place is that of the first.
+        count: usize,
+    },
+    /// Spurs on veins were cut off.
+    Spurs {
+        /// How many.
+        count: usize,
+    },
+    /// Veins that cross met at two points near each other, which are one now.
+    Crossings {
+        /// How many.
+        count: usize,
+    },
+    /// Veins are narrower than two pixels there, so that some may be missing.
+    Thin {
+        /// Their length, mm; the place is where they are the thinnest.
+        length_mm: f64,
+    },
+    /// A petiole was taken off the blade.
+    Petiole,
+    /// The base was not given: it is where the widest vein meets the margin.
+    BaseGuessed,
+    /// Veins that do not hang together with the base.
+    Apart {
+        /// Their length, mm.
+        length_mm: f64,
+    },
+}
+
+/// Something found while a picture was traced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// What it is.
+    pub kind: FindingKind,
+    /// Where, pixels from the upper left corner of the picture; `None` for what is all over it.
+    pub place_px: Option<DVec2>,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at = match self.place_px {
+            Some(DVec2 { x, y }) => format!("pixel ({x:.0}, {y:.0})"),
+            None => "many places".to_owned(),
+        };
+        match self.kind {
+            FindingKind::Specks { count } => {
+                write!(f, "{count} specks were left out, the first at {at}")
+            }
+            FindingKind::Holes { count } => {
+                write!(f, "{count} holes in veins were filled, the first at {at}")
+            }
+            FindingKind::Spurs { count } => write!(f, "{count} spurs on veins were cut off"),
+            FindingKind::Crossings { count } => {
+                write!(f, "{count} pairs of junctions were joined to crossings")
+            }
+            FindingKind::Thin { length_mm } => write!(
+                f,
+                "{length_mm:.2} mm of vein are narrower than two pixels, the thinnest at {at}: \
+                 thinner veins cannot be seen at this size of pixels"
+            ),
+            FindingKind::Petiole => {
+                write!(f, "a petiole was taken off; it meets the blade at {at}")
+            }
+            FindingKind::BaseGuessed => write!(
+                f,
+                "the base is taken to be where the widest vein meets the margin, {at}: \
+                 give the base if that is wrong"
+            ),
+            FindingKind::Apart { length_mm } => write!(
+                f,
+                "{length_mm:.2} mm of vein at {at} do not hang together with the base"
+            ),
+        }
+    }
+}
+
+/// Leaves specks out and fills holes of at most `most` pixels.
+pub(super) fn clean(veins: &mut Mask, most: usize, findings: &mut Vec<Finding>) {
+    let specks = flip_small(veins, true, most);
+    let holes = flip_small(veins, false, most);
+    for (parts, kind) in [
+        (
+            &specks,
+            FindingKind::Specks {
+                count: specks.len(),
+            },
+        ),
+        (&holes, FindingKind::Holes { count: holes.len() }),
+    ] {
+        if let Some((first, _)) = parts.first() {
+            let place_px = Some(veins.centre(*first as usize));
+            findings.push(Finding { kind, place_px });
+        }
+    }
+}

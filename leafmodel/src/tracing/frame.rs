@@ -1,0 +1,285 @@
+//! From pixels to the frame of a leaf: base, apex, millimetres.
+
+use glam::DVec2;
+
+use super::assembly::{Vein, Veins, network, parts};
+use super::findings::{Finding, FindingKind};
+use super::grid::Mask;
+use super::lines::{BOUND, Lines};
+use super::margin::{boundary, simplified};
+use super::{Blade, Settings, TraceError, Traced};
+use crate::shape::outline::{Outline, OutlineError};
+
+/// A vein reaches the margin if it comes nearer than this many of its radii.
+const AT_MARGIN: f64 = 1.5;
+
+/// So many of the widest points of veins are looked at for the one that reaches the margin.
+const MOST_WIDE: usize = 10_000;
+
+/// How places of a picture become places of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The base, pixels from the upper left corner.
+    pub base_px: DVec2,
+    /// The direction from base to apex in the picture, y down; its length is 1.
+    pub axis: DVec2,
+    /// Side of a pixel, mm.
+    pub mm_per_pixel: f64,
+}
+
+impl Frame {
+    /// A place of the picture as a place of the leaf, mm.
+    pub fn to_mm(&self, place_px: DVec2) -> DVec2 {
+        let off = place_px - self.base_px;
+        // The picture's y points down: to the right of the axis is where the perpendicular leads.
+        DVec2::new(off.dot(self.axis.perp()), off.dot(self.axis)) * self.mm_per_pixel
+    }
+
+    /// A place of the leaf, mm, as a place of the picture.
+    pub fn to_px(&self, place_mm: DVec2) -> DVec2 {
+        let off = place_mm / self.mm_per_pixel;
+        self.base_px + self.axis.perp() * off.x + self.axis * off.y
+    }
+}
+
+/// Places margin and veins in the frame of the leaf. `joint` is the cell of the blade at which the
+/// petiole was.
+pub(super) fn in_millimetres(
+    lines: &Lines,
+    blade: &Mask,
+    joint: Option<usize>,
+    settings: &Settings,
+    mut findings: Vec<Finding>,
+) -> Result<Traced, TraceError> {
+    let line = boundary(blade);
+    let margin = match settings.blade {
+        Blade::Frame => corners(blade),
+        Blade::Silhouette | Blade::Of(_) => simplified(&line, BOUND),
+    };
+    let wanted = settings.base_px.or_else(|| {
+        let place_px = blade.centre(joint?);
+        let kind = FindingKind::Petiole;
+        let place = Some(place_px);
+        findings.push(Finding {
+            kind,
+            place_px: place,
+        });
+        Some(place_px)
+    });
+    let wanted = wanted.unwrap_or_else(|| {
+        let place_px = match settings.blade {
+            Blade::Frame => DVec2::new(0.5 * (blade.stride - 2) as f64, (blade.rows - 2) as f64),
+            Blade::Silhouette | Blade::Of(_) => widest_at_margin(&lines.veins, &margin),
+        };
+        let kind = FindingKind::BaseGuessed;
+        let place = Some(place_px);
+        findings.push(Finding {
+            kind,
+            place_px: place,
+        });
+        place_px
+    });
+    let base = nearest(&margin, wanted);
+    let apex = match (settings.apex_px, &settings.blade) {
+        (Some(apex), _) => nearest(&margin, apex),
+        (None, Blade::Frame) => nearest(&margin, DVec2::new(base.x, 0.0)),
+        (None, Blade::Silhouette | Blade::Of(_)) => farthest(&margin, base),
+    };
+    let frame = Frame {
+        base_px: base,
+        axis: (apex - base).normalize_or(-DVec2::Y),
+        mm_per_pixel: settings.mm_per_pixel,
+    };
+    let outline = outline(
+        &line,
+        &margin,
+        &frame,
+        apex,
+        matches!(settings.blade, Blade::Frame),
+    )?;
+    let mut veins = lines.veins.clone();
+    let mut roots = roots(&veins, &frame, &mut findings);
+    join_base(&mut veins, &mut roots[0], base, lines.segment_px);
+    let segment_mm = lines.segment_px * settings.mm_per_pixel;
+    let network = network(&veins, &roots, &frame, segment_mm)?;
+    Ok(Traced {
+        outline,
+        network,
+        findings,
+        frame,
+    })
+}
+
+/// The corners of the picture.
+fn corners(blade: &Mask) -> Vec<DVec2> {
+    let (width, height) = ((blade.stride - 2) as f64, (blade.rows - 2) as f64);
+    let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
+    corners.map(DVec2::from).to_vec()
+}
+
+/// The margin as an outline. Where the smooth line crosses itself (between two teeth a pixel
+/// apart), the line around the pixels themselves is taken, which never does.
+fn outline(
+    line: &[DVec2],
+    margin: &[DVec2],
+    frame: &Frame,
+    apex: DVec2,
+    is_frame: bool,
+) -> Result<Outline, TraceError> {
+    let of = |points: &[DVec2]| {
+        // The ends of the midrib lie on the line that is smooth; rounding may leave them off it.
+        let points = points.iter().map(|&p| frame.to_mm(p)).collect();
+        Outline::new(points, DVec2::ZERO, frame.to_mm(apex))
+    };
+    match of(margin) {
+        Err(OutlineError::SelfCrossing { .. }) if !is_frame => {
+            let mut line = line.to_vec();
+            // Base and apex become points of it.
+            for end in [frame.base_px, apex] {
+                let near = |i: &usize| line[*i].distance_squared(end);
+                let at = (0..line.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
+                if let Some(at) = at {
+                    line[at] = end;
+                }
+            }
+            Ok(of(&line)?)
+        }
+        result => Ok(result?),
+    }
+}
+
+/// The point of a closed line that is nearest to a place.
+fn nearest(line: &[DVec2], place: DVec2) -> DVec2 {
+    let ends = line.iter().zip(line.iter().cycle().skip(1));
+    let points = ends.map(|(&a, &b)| {
+        let along = (place - a).dot(b - a) / (b - a).length_squared().max(1e-300);
+        a + (b - a) * along.clamp(0.0, 1.0)
+    });
+    let off = |p: &DVec2| p.distance_squared(place);
+    points
+        .min_by(|p, q| off(p).total_cmp(&off(q)))
+        .unwrap_or(place)
+}
+
+/// The point of a line that is farthest from a place.
+fn farthest(line: &[DVec2], place: DVec2) -> DVec2 {
+    let off = |p: &DVec2| p.distance_squared(place);
+    let far = line
+        .iter()
+        .copied()
+        .max_by(|p, q| off(p).total_cmp(&off(q)));
+    far.unwrap_or(place)
+}
+
+/// Where the widest vein that reaches the margin does so, prolonged to the margin; the widest place
+/// of all if none does.
+fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
+    let points = veins.list.iter().enumerate().flat_map(|(number, vein)| {
+        let radii = vein.radii.iter().enumerate();
+        radii.map(move |(i, radius)| (*radius, number, i))
+    });
+    let mut points: Vec<(f64, usize, usize)> = points.collect();
+    // The sort is stable, so that of equals the first is taken.
+    points.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let reaches = |(radius, number, i): &&(f64, usize, usize)| {
+        let place = veins.list[*number].points[*i];
+        nearest(margin, place).distance(place) <= AT_MARGIN * radius + 2.0
+    };
+    let found = points.iter().take(MOST_WIDE).find(reaches);
+    let Some(&(radius, number, i)) = found.or(points.first()) else {
+        return DVec2::ZERO;
+    };
+    let way = &veins.list[number].points;
+    let (start, inwards): (usize, Vec<DVec2>) = if 2 * i < way.len() {
+        (0, way.clone())
+    } else {
+        (way.len() - 1, way.iter().rev().copied().collect())
+    };
+    let end = way[start];
+    let inner = inwards.iter().find(|p| p.distance(end) >= 3.0 * radius);
+    let inner = inner.or(inwards.last()).copied().unwrap_or(end);
+    let ahead = (end - inner).normalize_or_zero();
+    crossing(margin, end, ahead)
+        .filter(|place| place.distance(end) <= 3.0 * radius + 4.0)
+        .unwrap_or(way[i])
+}
+
+/// Where a ray meets a closed line first.
+fn crossing(line: &[DVec2], start: DVec2, way: DVec2) -> Option<DVec2> {
+    let sides = line.iter().zip(line.iter().cycle().skip(1));
+    let meetings = sides.filter_map(|(&a, &b)| {
+        let side = b - a;
+        let turn = way.perp_dot(side);
+        let (far, share) = (
+            (a - start).perp_dot(side) / turn,
+            (a - start).perp_dot(way) / turn,
+        );
+        (far >= 0.0 && (0.0..=1.0).contains(&share)).then_some(far)
+    });
+    let far = meetings.fold(f64::INFINITY, f64::min);
+    far.is_finite().then(|| start + way * far)
+}
+
+/// Lets the veins begin at the base: the middle line of the widest vein ends about its radius
+/// before the margin, which cuts it.
+fn join_base(veins: &mut Veins, root: &mut u32, base: DVec2, segment_px: f64) {
+    let place = veins.nodes[*root as usize];
+    let at_root = veins.list.iter().flat_map(|vein| {
+        let ends = [
+            (vein.ends[0], vein.radii[0]),
+            (vein.ends[1], vein.radii[vein.radii.len() - 1]),
+        ];
+        ends.into_iter()
+    });
+    let radius = at_root
+        .filter(|(end, _)| *end == *root)
+        .fold(0.0, |most, (_, radius)| f64::max(most, radius));
+    let off = place.distance(base);
+    if off < 1.0 || off > 4.0 * radius + 4.0 {
+        return;
+    }
+    let pieces = (off / segment_px).ceil().max(1.0) as usize;
+    let points = (0..=pieces).map(|i| base.lerp(place, i as f64 / pieces as f64));
+    let new = veins.nodes.len() as u32;
+    veins.nodes.push(base);
+    veins.list.push(Vein {
+        ends: [new, *root],
+        points: points.collect(),
+        radii: vec![radius; pieces + 1],
+    });
+    *root = new;
+}
+
+/// The node from which each part of the veins starts: in the longest part the free end (else the
+/// node) nearest to the base, first; in others the node nearest to the base.
+fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> {
+    let (part, lengths) = parts(veins);
+    let mut nearest: Vec<(f64, u32)> = vec![(f64::INFINITY, 0); lengths.len()];
+    for (node, &part) in (0..).zip(&part) {
+        let off = veins.nodes[node as usize].distance(frame.base_px);
+        let best = &mut nearest[part as usize];
+        if off < best.0 {
+            *best = (off, node);
+        }
+    }
+    let longest = (0..lengths.len()).fold(0, |best, part| {
+        if lengths[part] > lengths[best] {
+            part
+        } else {
+            best
+        }
+    });
+    let mut roots = vec![nearest[longest].1];
+    for (number, (_, root)) in nearest.into_iter().enumerate() {
+        if number != longest {
+            roots.push(root);
+            findings.push(Finding {
+                kind: FindingKind::Apart {
+                    length_mm: lengths[number] * frame.mm_per_pixel,
+                },
+                place_px: Some(veins.nodes[root as usize]),
+            });
+        }
+    }
+    roots
+}

@@ -1,0 +1,245 @@
+//! `lamina trace`: the margin and the veins of a picture as files.
+
+use std::io::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+use glam::DVec2;
+use leafmodel::export::{self, SvgStyle};
+use leafmodel::measure::measure;
+use leafmodel::tracing::{
+    Blade, Finding, FindingKind, Ink, Raster, Settings, Threshold, Traced, trace,
+};
+use serde_json::json;
+
+use crate::cli::arguments::{ThresholdKind, TraceArguments};
+use crate::cli::places::check_outputs;
+use crate::cli::{Failure, needs, say, stats};
+use crate::export::drawing::{Drawing, Style, draw_within};
+use crate::export::overlay::draw_over;
+use crate::image::{ImageError, atomic, portable_network, scan};
+
+/// Memory that tracing takes for a pixel, bytes; measured with pictures of 12 and 42 megapixels.
+const BYTES_A_PIXEL: f64 = 60.0;
+
+/// The kind of a file, by its ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Svg,
+    Png,
+    Json,
+    GraphMl,
+    GeoJson,
+}
+
+impl Kind {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            Some("json") => Ok(Self::Json),
+            Some("graphml") => Ok(Self::GraphMl),
+            Some("geojson") => Ok(Self::GeoJson),
+            _ => Err(Failure::bad(format!(
+                "{}: the ending tells what is written: svg, png, json, graphml or geojson",
+                path.display()
+            ))),
+        }
+    }
+
+    fn bytes(self, traced: &Traced, pixels: u32) -> Result<Vec<u8>, Failure> {
+        let (outline, network) = (&traced.outline, &traced.network);
+        let outlines = std::slice::from_ref(outline);
+        Ok(match self {
+            Self::Svg => export::svg(outline, network, SvgStyle::default()).into_bytes(),
+            Self::Png => {
+                let page = outline.bounds();
+                let drawing = draw_within(page, outlines, network, pixels, Style::OnPaper);
+                png(&drawing.map_err(Failure::bad)?)?
+            }
+            Self::Json => export::json(outlines, network, true).into_bytes(),
+            Self::GraphMl => export::graphml(network).into_bytes(),
+            Self::GeoJson => export::geojson(outlines, network).into_bytes(),
+        })
+    }
+}
+
+pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
+    let started = Instant::now();
+    let kinds = arguments.out.iter().map(|path| Kind::of(path));
+    let kinds: Vec<Kind> = kinds.collect::<Result<_, _>>()?;
+    if arguments.mask && arguments.margin.is_none() && !arguments.cut_out {
+        return Err(Failure::bad(
+            "a mask shows no blade: give its picture with --margin, or --cut-out if the whole \
+             picture is blade",
+        ));
+    }
+    let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
+    let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
+    let outputs: Vec<&Path> = outputs.map(|path| path.as_path()).collect();
+    if outputs.is_empty() {
+        return Err(Failure::bad(
+            "nothing is to be written: give --out, --measure, --overlay or --findings",
+        ));
+    }
+    let inputs = std::iter::once(arguments.picture.clone()).chain(arguments.margin.clone());
+    check_outputs(&outputs, &inputs.collect::<Vec<_>>(), "the command")?;
+    match arguments.threads {
+        None => carry_out(arguments, &kinds, started),
+        Some(threads) => rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build()
+            .map_err(Failure::system)?
+            .install(|| carry_out(arguments, &kinds, started)),
+    }
+}
+
+fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Result<(), Failure> {
+    let picture = read(&arguments.picture, arguments.memory)?;
+    let settings = settings(arguments)?;
+    let shown = arguments.picture.display();
+    let traced = trace(&picture, &settings);
+    let traced = traced.map_err(|error| Failure::bad(format!("{shown}: {error}")))?;
+    for finding in told(&traced.findings) {
+        eprintln!("note: {finding}");
+    }
+    for (path, kind) in arguments.out.iter().zip(kinds) {
+        write(path, &kind.bytes(&traced, arguments.size)?)?;
+    }
+    if let Some(path) = &arguments.overlay {
+        let drawing = draw_over(&picture, &traced, arguments.size).map_err(Failure::bad)?;
+        write(path, &png(&drawing)?)?;
+    }
+    if let Some(path) = &arguments.findings {
+        stats::write(path, &report(&traced))?;
+        say(path.display());
+    }
+    if let Some(path) = &arguments.measure {
+        let exponent = arguments.murray_exponent;
+        let measures = measure(&traced.outline, &traced.network, exponent);
+        stats::write(path, &measures.json())?;
+        say(path.display());
+        eprint!("{}", measures.table());
+    }
+    eprintln!(
+        "{shown}: {} vein nodes, {} loops, {:.2} mm of vein, {:.2} s",
+        traced.network.nodes().len(),
+        traced.network.loops(),
+        traced.network.vein_length_mm(),
+        started.elapsed().as_secs_f64(),
+    );
+    Ok(())
+}
+
+/// Findings to tell: of parts that are apart, the longest few.
+fn told(findings: &[Finding]) -> Vec<String> {
+    const MOST: usize = 5;
+    let length = |finding: &Finding| match finding.kind {
+        FindingKind::Apart { length_mm } => Some(length_mm),
+        FindingKind::Specks { .. }
+        | FindingKind::Holes { .. }
+        | FindingKind::Spurs { .. }
+        | FindingKind::Crossings { .. }
+        | FindingKind::Thin { .. }
+        | FindingKind::Petiole
+        | FindingKind::BaseGuessed => None,
+    };
+    let (mut apart, others): (Vec<&Finding>, Vec<&Finding>) = findings
+        .iter()
+        .partition(|finding| length(finding).is_some());
+    apart.sort_by(|a, b| {
+        length(b)
+            .unwrap_or(0.0)
+            .total_cmp(&length(a).unwrap_or(0.0))
+    });
+    let mut lines: Vec<String> = others.iter().map(ToString::to_string).collect();
+    lines.extend(apart.iter().take(MOST).map(ToString::to_string));
+    if apart.len() > MOST {
+        let rest = apart[MOST..].iter().filter_map(|finding| length(finding));
+        lines.push(format!(
+            "{} more parts do not hang together with the base, {:.2} mm in all; --findings tells \
+             where they are",
+            apart.len() - MOST,
+            rest.sum::<f64>(),
+        ));
+    }
+    lines
+}
+
+/// Findings and the frame as JSON.
+fn report(traced: &Traced) -> serde_json::Value {
+    let findings = traced.findings.iter().map(|finding| {
+        json!({
+            "finding": finding.to_string(),
+            "place_px": finding.place_px.map(|place| place.to_array()),
+            "place_mm": finding.place_px.map(|place| traced.frame.to_mm(place).to_array()),
+        })
+    });
+    json!({
+        "base_px": traced.frame.base_px.to_array(),
+        "axis_px": traced.frame.axis.to_array(),
+        "mm_per_pixel": traced.frame.mm_per_pixel,
+        "findings": findings.collect::<Vec<_>>(),
+    })
+}
+
+fn settings(arguments: &TraceArguments) -> Result<Settings, Failure> {
+    let blade = match (&arguments.margin, arguments.cut_out) {
+        (Some(path), _) => Blade::Of(read(path, arguments.memory)?),
+        (None, true) => Blade::Frame,
+        (None, false) => Blade::Silhouette,
+    };
+    let threshold = match (arguments.level, arguments.threshold) {
+        _ if arguments.mask => Threshold::Level(0.5),
+        (Some(level), _) => Threshold::Level(level),
+        (None, ThresholdKind::Otsu) => Threshold::Otsu { even_light: true },
+        (None, ThresholdKind::OtsuPlain) => Threshold::Otsu { even_light: false },
+        (None, ThresholdKind::Sauvola) => Threshold::Sauvola {
+            window_px: arguments.window_px,
+            k: arguments.sauvola_k,
+        },
+    };
+    Ok(Settings {
+        mm_per_pixel: arguments.mm_per_pixel,
+        blade,
+        veins: if arguments.bright {
+            Ink::Bright
+        } else {
+            Ink::Dark
+        },
+        threshold,
+        smoothing_px: arguments.smoothing_px,
+        spur_radii: arguments.spur_radii,
+        crossing_radii: arguments.crossing_radii,
+        speck_px: arguments.speck_px as usize,
+        segment_mm: arguments.segment_mm,
+        base_px: arguments.base.map(DVec2::from),
+        apex_px: arguments.apex.map(DVec2::from),
+    })
+}
+
+/// A picture as grey values, if there is memory to trace it.
+fn read(path: &Path, allowed: Option<f64>) -> Result<Raster, Failure> {
+    let picture = scan::read_grey(path).map_err(Failure::bad)?;
+    let pixels = f64::from(picture.width) * f64::from(picture.height);
+    needs::compare(
+        "tracing",
+        &[(BYTES_A_PIXEL * pixels, "the picture")],
+        allowed,
+    )?;
+    let values = picture.layers.into_iter().next();
+    let values = values.map_or_else(Vec::new, |layer| layer.data);
+    Raster::new(picture.width as usize, picture.height as usize, values)
+        .map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+}
+
+fn png(drawing: &Drawing) -> Result<Vec<u8>, Failure> {
+    portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let result: Result<(), ImageError> = atomic::replace(path, |file| file.write_all(bytes));
+    result.map_err(Failure::system)?;
+    say(path.display());
+    Ok(())
+}
