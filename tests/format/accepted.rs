@@ -4,8 +4,8 @@ use glam::{DMat4, DVec3};
 use renderer::camera::thin_lens::ThinLens;
 use renderer::camera::view::Projection;
 use renderer::scene::description::{
-    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum,
-    Tone,
+    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape,
+    Reflectance, Spectrum, Tone, Wrap,
 };
 
 use super::{accept, folder, load, text_of};
@@ -137,7 +137,7 @@ fn names_become_indices_in_the_order_of_the_file() {
         .map(|material| material.name.as_str())
         .collect();
     let expected = [
-        "paper", "glass", "green", "mapped", "measured", "rind", "flesh",
+        "paper", "glass", "green", "mapped", "measured", "rind", "flesh", "bark", "glaze",
     ];
     assert_eq!(names, expected);
     let shapes: Vec<ObjectShape> = scene
@@ -165,6 +165,8 @@ fn names_become_indices_in_the_order_of_the_file() {
             mesh(4, 0),
             mesh(3, 1),
             leaf(4),
+            mesh(0, 7),
+            mesh(6, 8),
         ]
     );
     assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
@@ -259,10 +261,11 @@ fn objects_are_scaled_then_turned_about_x_y_z_then_moved() {
 fn spectra_are_read_in_every_form() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let Material::Diffuse {
-        reflectance: Spectrum::Table {
-            points,
-            extrapolate,
-        },
+        reflectance:
+            Reflectance::Even(Spectrum::Table {
+                points,
+                extrapolate,
+            }),
     } = &scene.materials[0].value
     else {
         panic!("paper is {:?}", scene.materials[0].value);
@@ -316,6 +319,36 @@ fn spectra_are_read_in_every_form() {
     };
     assert_eq!(*position, DVec3::new(0.0, 0.0, 3.0));
     assert_near(cone_angle - penumbra_angle, std::f64::consts::PI / 9.0);
+}
+
+#[test]
+fn reflectances_may_be_a_pictures_or_a_models() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Material::Diffuse {
+        reflectance:
+            Reflectance::Picture {
+                file,
+                wrap,
+                repeats,
+                scale,
+            },
+    } = &scene.materials[7].value
+    else {
+        panic!("bark is {:?}", scene.materials[7].value);
+    };
+    assert!(file.ends_with("bark.png"));
+    assert_eq!((*wrap, *repeats, *scale), (Wrap::Mirror, [2.0, 3.0], 0.5));
+    assert!(matches!(
+        scene.materials[8].value,
+        Material::Plastic {
+            reflectance: Reflectance::OfMesh(6),
+            eta: 1.4,
+            roughness: 0.3
+        }
+    ));
+    assert!(
+        matches!(&scene.meshes[6].value, Mesh::Gltf { beside, scale: 0.01, .. } if beside.is_empty())
+    );
 }
 
 #[test]

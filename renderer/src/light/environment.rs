@@ -6,8 +6,8 @@ use glam::{Vec2, Vec3};
 
 use crate::light::LightSample;
 use crate::sampling::distribution::Piecewise2d;
-use crate::spectrum::rgb;
-use crate::spectrum::{Curve, Lanes, Table, WavelengthGrid, Wavelengths};
+use crate::spectrum::rgb::Primaries;
+use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
 /// down.
@@ -17,10 +17,7 @@ pub struct EnvironmentLight {
     height: usize,
     /// Linear sRGB, row by row from the zenith.
     texels: Box<[[f32; 3]]>,
-    /// Spectrum of RGB 1 1 1.
-    white: Curve,
-    /// Spectra of red, green and blue of 1.
-    primaries: Option<Table>,
+    primaries: Primaries,
     /// Rotation about +z, rad.
     rotation: f32,
     distribution: Piecewise2d,
@@ -53,8 +50,7 @@ impl EnvironmentLight {
             width,
             height,
             texels: texels.into(),
-            white,
-            primaries: None,
+            primaries: Primaries::new(white),
             rotation,
         }
     }
@@ -74,26 +70,12 @@ impl EnvironmentLight {
 
     /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
-        &self.white
+        self.primaries.white()
     }
 
     /// Evaluates its primaries at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
-        self.primaries = Some(Table::new(grid, |nm| self.primaries_at(nm)));
-    }
-
-    fn primaries_at(&self, nm: f32) -> [f32; 3] {
-        rgb::basis_at(nm).map(|basis| basis * self.white.at(nm))
-    }
-
-    fn primaries<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> [Lanes<N>; 3] {
-        let table = self.primaries.as_ref();
-        table
-            .and_then(|table| table.row(wavelengths))
-            .unwrap_or_else(|| {
-                let values = wavelengths.nm.map(|nm| self.primaries_at(nm));
-                std::array::from_fn(|primary| Lanes::from_fn(|lane| values[lane][primary]))
-            })
+        self.primaries.tabulate(grid);
     }
 
     fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
@@ -113,8 +95,7 @@ impl EnvironmentLight {
                 }
             }
         }
-        let [red, green, blue] = self.primaries(wavelengths);
-        red * colour[0] + green * colour[1] + blue * colour[2]
+        self.primaries.spectrum(colour, wavelengths)
     }
 
     fn uv_of(&self, wi: Vec3) -> [f32; 2] {

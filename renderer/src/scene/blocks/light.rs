@@ -93,8 +93,8 @@ const KINDS: [Variant<Light>; 6] = [
             } = light
             {
                 const PATH: FilePath = FilePath::of(
-                    "the path of an EXR or PNG picture",
-                    &["exr", "png"],
+                    "the path of an EXR, PNG or JPEG picture",
+                    &["exr", "png", "jpg", "jpeg"],
                     MOST_PICTURE_BYTES,
                 );
                 super::file(keys, "path", file, PATH, "The picture.");
