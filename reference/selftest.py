@@ -37,6 +37,7 @@ from lamina_reference import (
     half_space,
     leaf_bsdf,
     pigments,
+    plugins,
     prospect,
     relief_bsdf,
     render,
@@ -584,15 +585,15 @@ def test_comparison_catches_one_percent_lost_in_the_leaf() -> None:
 # Broken scenes that a schema cannot tell from good ones: numbers that do not go together, names
 # and files that are not there, curves that cross themselves.
 BEYOND_A_SCHEMA = """
-    area_light bands camera_at_itself camera_upside compound_bipinnate compound_overlap
+    area_light bands camera_at_itself camera_upside colours_of_mesh compound_bipinnate compound_overlap
     compound_pair compound_palmate compound_palmate_round coverage dark_light energy
     file_missing growth_arrival growth_steps instances_flood instances_rows leaf_individual
     lens_angle lens_behind lens_blades lens_magnification lens_near lens_object lens_tilt matrix
-    mosaic_shares no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
+    mosaic_shares model no_light outline_cubic_crossing outline_curve_crossing outline_curve_end
     outline_growth_crossing outline_growth_crossing_axis outline_specimen_inside
     outline_specimen_nested outline_specimen_notch outline_svg_crossing outline_svg_end outline_svg_parts outline_teeth_crossing outline_transport_cells
     plant_leaf plant_order plant_room plant_shines
-    path_outside senescence_auxin solid_mesh solid_mosaic surface_cells surface_stomata table_file
+    path_outside picture_infrared senescence_auxin solid_mesh solid_mosaic surface_cells surface_stomata table_file
     scatter_days scatter_effect scatter_order unknown_name unsorted
     venation_agrophic venation_cells venation_craspedodromous venation_origin venation_origins_meet
     venation_pairs venation_quaternaries venation_sinus venation_transport_fine venation_young
@@ -632,7 +633,7 @@ def test_broken_scenes_are_refused_by_the_schema_as_far_as_one_can_tell() -> Non
 
 def main() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
-    relief_bsdf.register()
+    plugins.register()
     return run_tests(globals(), f"reference ({VARIANT})")
 
 

@@ -33,7 +33,13 @@ fn folder() -> TempDir {
         fs::write(folder.path().join(name), text).expect("the folder was just made");
     };
     fs::create_dir(folder.path().join("maps")).expect("the folder was just made");
-    for name in ["maps/contents.exr", "pot.ply", "sky.exr"] {
+    for name in [
+        "maps/contents.exr",
+        "pot.ply",
+        "sky.exr",
+        "bark.png",
+        "glaze.jpg",
+    ] {
         write(name, "");
     }
     write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
@@ -105,8 +111,33 @@ fn folder() -> TempDir {
     );
     array("plain.npy", "'<f4'", "(0, 3)", &[]);
     array("cut.npy", &format!("[{floats}]"), "(9,)", &[]);
+    for (name, text) in models() {
+        write(name, &text);
+    }
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
+}
+
+/// Files of glTF: one triangle, the same with files beside it, and some that are refused.
+fn models() -> [(&'static str, String); 5] {
+    let buffer = "\"byteLength\":36,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"";
+    let model = |buffer: &str, other: &str| {
+        format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"primitives\":\
+             [{{\"attributes\":{{\"POSITION\":0}}}}]}}],\"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\
+             \"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}}],\"bufferViews\":[{{\"buffer\":0,\
+             \"byteLength\":36}}],\"buffers\":[{{{buffer}}}]{other}}}"
+        )
+    };
+    let of = |uri: &str| model(&format!("\"byteLength\":36,\"uri\":\"{uri}\""), "");
+    let draco = ",\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]";
+    [
+        ("model.gltf", model(buffer, "")),
+        ("apart.gltf", of("maps/apart.bin")),
+        ("outside.gltf", of("../secret.bin")),
+        ("draco.gltf", model(buffer, draco)),
+        ("damaged.gltf", "{\"asset\":\n{\"version\":2}".to_owned()),
+    ]
 }
 
 /// A file as `np.save` writes it.

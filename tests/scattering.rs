@@ -146,6 +146,48 @@ fn the_leaf_is_reciprocal() {
     }
 }
 
+/// A body below a coat, the same on both sides.
+fn coated(coats: &[Coat; 2], reflectance: f32) -> LeafBsdf<'_, 8> {
+    LeafBsdf::new(coats, Tissue::opaque(Lanes::splat(reflectance)))
+}
+
+#[test]
+fn a_white_body_below_a_coat_sends_back_all_light_and_a_black_one_what_the_coat_reflects() {
+    for (eta, alpha) in [(1.5, 0.05), (1.5, 0.3), (1.4, 0.8), (2.4, 0.2)] {
+        let coat = Coat::new(eta, alpha, alpha);
+        let coats = [coat.clone(), coat];
+        for wo in directions() {
+            let white = scattered(&coated(&coats, 1.0), wo, 3, 1.0);
+            assert!((white.reflected - 1.0).abs() < 1e-3, "{wo}: {white:?}");
+            assert!(white.transmitted == 0.0, "{wo}: {white:?}");
+            let black = scattered(&coated(&coats, 0.0), wo, 3, 1.0);
+            let coat = f64::from(coats[0].albedo().at(wo));
+            assert!(
+                (black.total() - coat).abs() < 1e-3,
+                "{wo}: {black:?} {coat}"
+            );
+            let half = scattered(&coated(&coats, 0.5), wo, 3, 1.0);
+            let expected = coat + 0.5 * (1.0 - coat);
+            assert!((half.total() - expected).abs() < 1e-3, "{wo}: {half:?}");
+        }
+    }
+}
+
+#[test]
+fn a_body_below_a_coat_is_reciprocal() {
+    let coat = Coat::new(1.5, 0.15, 0.15);
+    let coats = [coat.clone(), coat];
+    let body = coated(&coats, 0.4);
+    for i in 0..5000 {
+        let [a, b, c, d] = Stream::new(11, 0, 0, i).next4();
+        let wo = renderer::sampling::warp::cosine_hemisphere(Vec2::new(a, b));
+        let wi = renderer::sampling::warp::cosine_hemisphere(Vec2::new(c, d));
+        let (there, back) = (body.eval(wo, wi).0[5], body.eval(wi, wo).0[5]);
+        assert!((there - back).abs() <= 1e-4 * there.max(back), "{wo} {wi}");
+        assert_eq!(body.eval(wo, Vec3::new(wi.x, wi.y, -wi.z)), Lanes::ZERO);
+    }
+}
+
 #[test]
 fn equal_faces_look_the_same_from_both_sides() {
     let coat = Coat::new(1.45, 0.3, 0.2);
@@ -208,7 +250,10 @@ const OBLIQUE: [Vec3; 4] = [
 fn every_bsdf_is_sampled_as_its_density_says() {
     let glossy = [Coat::new(1.45, 0.15, 0.3), Coat::new(1.4, 0.5, 0.5)];
     let matt = coats(0.6);
-    let cases: [(&str, Bsdf<'_, 8>); 5] = [
+    let glaze = Coat::new(1.5, 0.1, 0.1);
+    let glaze = [glaze.clone(), glaze];
+    let cases: [(&str, Bsdf<'_, 8>); 6] = [
+        ("glazed body", Bsdf::Leaf(coated(&glaze, 0.3))),
         ("diffuse", Bsdf::Diffuse(Lanes::splat(0.5))),
         ("glossy leaf", Bsdf::Leaf(leaf(&glossy, 0.1, 0.08))),
         ("matt leaf", Bsdf::Leaf(leaf(&matt, 0.45, 0.45))),

@@ -33,13 +33,14 @@ SCENES = (
     "solid-fruit",
     "instances",
     "spots",
+    "pots",
 )
 
 
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the nine")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the ten")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"
@@ -87,10 +88,9 @@ def render_lamina(program: Path, scene: Path, spp: int, seeds: int, work: Path) 
 
 def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
     """Renders a scene twice and compares; gives the scene's name and the comparison."""
-    from . import compare, lights, relief_bsdf, render
+    from . import compare, plugins, render
 
-    relief_bsdf.register()
-    lights.register()
+    plugins.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     exported = work / "exported"
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", exported)
@@ -107,10 +107,9 @@ def compare_scene(folder: Path, options: argparse.Namespace, work: Path):
 
 def time_scene(folder: Path, options: argparse.Namespace, work: Path) -> str:
     """Seconds that both programs take for one picture at equal samples a pixel."""
-    from . import lights, relief_bsdf, render
+    from . import plugins, render
 
-    relief_bsdf.register()
-    lights.register()
+    plugins.register()
     scene_file = folder / "scene.toml" if folder.is_dir() else folder
     lamina(options.lamina, "export", "mitsuba", scene_file, "--out", work / "exported")
     scene, facts = render.load(work / "exported")

@@ -220,3 +220,28 @@ fn read_file(
         source: Box::new(source),
     })
 }
+
+/// Colours as linear light, by the light that each value in [0, 1] stands for.
+fn linear(
+    pixels: &image::ImageBuffer<image::Rgb<u16>, Vec<u16>>,
+    light: impl Fn(f64) -> f64,
+) -> Picture {
+    let (width, height) = pixels.dimensions();
+    // 8-bit values arrive as 257 times themselves, so one table serves both.
+    let table: Vec<f32> = (0..=u16::MAX)
+        .map(|value| light(f64::from(value) / 65535.0) as f32)
+        .collect();
+    let channel = |number: usize, name: &str| Layer {
+        name: name.to_owned(),
+        data: pixels
+            .pixels()
+            .map(|pixel| table[pixel.0[number] as usize])
+            .collect(),
+    };
+    Picture {
+        width,
+        height,
+        layers: vec![channel(0, "R"), channel(1, "G"), channel(2, "B")],
+        attributes: vec![("chromaticities".to_owned(), REC709)],
+    }
+}

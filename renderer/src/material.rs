@@ -14,11 +14,14 @@
 //! assert_eq!(bsdf.albedo(Vec3::Z).0, [0.1, 0.1, 0.7, 0.7]);
 //! ```
 
+pub mod colour_map;
 pub mod contents_texture;
 pub mod held;
 pub mod leaf;
 pub mod light_spread;
 pub mod palette;
+pub mod plastic;
+pub mod reflectance;
 pub mod relief;
 pub mod solid;
 
@@ -26,11 +29,14 @@ use glam::Vec2;
 
 use crate::bsdf::Bsdf;
 use crate::bsdf::dielectric::Dielectric;
-use crate::spectrum::{Spectrum, WavelengthGrid, Wavelengths};
+use crate::spectrum::{WavelengthGrid, Wavelengths};
+use colour_map::ColourMap;
 use contents_texture::ContentsTexture;
 use held::Held;
 use leaf::{LeafMaterial, LeafTissue};
 use palette::Palette;
+use plastic::PlasticMaterial;
+use reflectance::Reflectance;
 use relief::Relief;
 use solid::SolidMaterial;
 
@@ -38,9 +44,11 @@ use solid::SolidMaterial;
 #[derive(Clone, Debug)]
 pub enum Material {
     /// Lambertian, with a reflectance.
-    Diffuse(Spectrum),
+    Diffuse(Reflectance),
     /// The boundary of a transparent medium.
     Dielectric(Dielectric),
+    /// A diffuse body below a rough coat.
+    Plastic(Box<PlasticMaterial>),
     /// A leaf.
     Leaf(Box<LeafMaterial>),
     /// Solid tissue: fruit rind, a mushroom's cap.
@@ -78,7 +86,7 @@ impl Material {
     /// Its tissue, if it is tissue.
     pub fn tissue(&self) -> Option<Tissue<'_>> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) => None,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => None,
             Self::Leaf(leaf) => Some(Tissue {
                 palette: &leaf.palette,
                 held: match &leaf.tissue {
@@ -93,6 +101,15 @@ impl Material {
         }
     }
 
+    /// The map of its colours, if it has one.
+    pub fn colour_map(&self) -> Option<&ColourMap> {
+        match self {
+            Self::Diffuse(reflectance) => reflectance.colour_map(),
+            Self::Plastic(plastic) => plastic.reflectance().colour_map(),
+            Self::Dielectric(_) | Self::Leaf(_) | Self::Solid(_) => None,
+        }
+    }
+
     /// The map of its contents, if it has one.
     pub fn contents_map(&self) -> Option<&ContentsTexture> {
         match self.tissue()?.held? {
@@ -104,7 +121,7 @@ impl Material {
     /// Its coat, if that reflects more than the whole should at a wavelength of the range.
     pub fn exceeding_coat(&self, range_nm: [f64; 2]) -> Option<ExceedingCoat> {
         let (exceeds, coat, whole) = match self {
-            Self::Diffuse(_) | Self::Dielectric(_) => return None,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) => return None,
             Self::Leaf(leaf) => {
                 let exceeds = leaf.coat_exceeds_reflectance(range_nm);
                 (exceeds, "the adaxial coat", "the leaf")
@@ -122,6 +139,7 @@ impl Material {
         match self {
             Self::Diffuse(reflectance) => reflectance.tabulate(grid),
             Self::Dielectric(_) => {}
+            Self::Plastic(plastic) => plastic.tabulate(grid),
             Self::Leaf(leaf) => leaf.tabulate(grid),
             Self::Solid(solid) => solid.tabulate(grid),
         }
@@ -131,7 +149,7 @@ impl Material {
     #[inline]
     pub fn relief(&self) -> Option<&Relief> {
         match self {
-            Self::Diffuse(_) | Self::Dielectric(_) | Self::Solid(_) => None,
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
             Self::Leaf(leaf) => leaf.relief.as_ref(),
         }
     }
@@ -140,8 +158,9 @@ impl Material {
     #[inline]
     pub fn bsdf<const N: usize>(&self, uv: Vec2, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
         match self {
-            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.lanes(wavelengths)),
+            Self::Diffuse(reflectance) => Bsdf::Diffuse(reflectance.at(uv, wavelengths)),
             Self::Dielectric(dielectric) => Bsdf::Dielectric(*dielectric),
+            Self::Plastic(plastic) => Bsdf::Leaf(plastic.bsdf(uv, wavelengths)),
             Self::Leaf(leaf) => Bsdf::Leaf(leaf.bsdf(uv, wavelengths)),
             Self::Solid(solid) => Bsdf::Leaf(solid.bsdf(uv, wavelengths)),
         }

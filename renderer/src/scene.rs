@@ -45,6 +45,7 @@ mod blocks;
 pub mod description;
 pub mod fingerprint;
 pub mod load;
+pub mod model;
 pub mod plant_cache;
 pub mod plants;
 mod rigs;

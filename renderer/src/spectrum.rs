@@ -22,7 +22,6 @@ pub mod curve;
 pub mod grid;
 pub mod lanes;
 pub mod planck;
-pub mod primaries;
 pub mod recorded;
 pub mod rgb;
 pub mod table;

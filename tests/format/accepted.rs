@@ -4,8 +4,8 @@ use glam::{DMat4, DVec3};
 use renderer::camera::thin_lens::ThinLens;
 use renderer::camera::view::Projection;
 use renderer::scene::description::{
-    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape, Spectrum,
-    Tone,
+    Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape,
+    Reflectance, Spectrum, Tone, Wrap,
 };
 
 use super::{accept, folder, load, text_of};
@@ -144,6 +144,8 @@ fn names_become_indices_in_the_order_of_the_file() {
         "measured",
         "rind",
         "flesh",
+        "bark",
+        "glaze",
         "studio.cloth",
     ];
     assert_eq!(names, expected);
@@ -172,11 +174,13 @@ fn names_become_indices_in_the_order_of_the_file() {
             mesh(4, 0),
             mesh(3, 1),
             leaf(4),
+            mesh(0, 7),
+            mesh(6, 8),
             // The walls of the rig's tent; behind them stand the axes of the plant.
-            mesh(scene.meshes.len() - 5, 7),
-            mesh(scene.meshes.len() - 4, 7),
-            mesh(scene.meshes.len() - 3, 7),
-            mesh(scene.meshes.len() - 2, 7),
+            mesh(scene.meshes.len() - 5, 9),
+            mesh(scene.meshes.len() - 4, 9),
+            mesh(scene.meshes.len() - 3, 9),
+            mesh(scene.meshes.len() - 2, 9),
         ]
     );
     assert_eq!(scene.objects[9].value.shapes, [mesh(0, 0), mesh(1, 1)]);
@@ -271,10 +275,11 @@ fn objects_are_scaled_then_turned_about_x_y_z_then_moved() {
 fn spectra_are_read_in_every_form() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let Material::Diffuse {
-        reflectance: Spectrum::Table {
-            points,
-            extrapolate,
-        },
+        reflectance:
+            Reflectance::Even(Spectrum::Table {
+                points,
+                extrapolate,
+            }),
     } = &scene.materials[0].value
     else {
         panic!("paper is {:?}", scene.materials[0].value);
@@ -328,6 +333,36 @@ fn spectra_are_read_in_every_form() {
     };
     assert_eq!(*position, DVec3::new(0.0, 0.0, 3.0));
     assert_near(cone_angle - penumbra_angle, std::f64::consts::PI / 9.0);
+}
+
+#[test]
+fn reflectances_may_be_a_pictures_or_a_models() {
+    let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
+    let Material::Diffuse {
+        reflectance:
+            Reflectance::Picture {
+                file,
+                wrap,
+                repeats,
+                scale,
+            },
+    } = &scene.materials[7].value
+    else {
+        panic!("bark is {:?}", scene.materials[7].value);
+    };
+    assert!(file.ends_with("bark.png"));
+    assert_eq!((*wrap, *repeats, *scale), (Wrap::Mirror, [2.0, 3.0], 0.5));
+    assert!(matches!(
+        scene.materials[8].value,
+        Material::Plastic {
+            reflectance: Reflectance::OfMesh(6),
+            eta: 1.4,
+            roughness: 0.3
+        }
+    ));
+    assert!(
+        matches!(&scene.meshes[6].value, Mesh::Gltf { beside, scale: 0.01, .. } if beside.is_empty())
+    );
 }
 
 #[test]

@@ -8,9 +8,10 @@ use leafmodel::document::report::DocumentErrors;
 use leafmodel::import::{Format, Wanted, read, read_margin};
 use renderer::checkpoint;
 use renderer::geometry::import::import;
-use renderer::image::{openexr, portable_network};
+use renderer::image::{jpeg, openexr, portable_network};
 use renderer::scene::assets::{DECODER, mask, shining};
 use renderer::scene::load::{parse, parse_leaves, parse_picture};
+use renderer::scene::model::{self, Container};
 use renderer::sweep::{Sweep, Words};
 
 use super::seeds::{checkpoints, folder, mend_checkpoint, mend_png, seeds, whole_scene};
@@ -273,6 +274,33 @@ fn pictures_as_png() {
         },
         mend: Some(mend_png),
     });
+}
+
+#[test]
+fn pictures_as_jpeg() {
+    run(&Parser {
+        name: "jpeg",
+        seeds: seeds("jpeg"),
+        read: &|bytes| told(jpeg::decode(bytes)),
+        mend: None,
+    });
+}
+
+#[test]
+fn models() {
+    let read = |bytes: &[u8]| {
+        let container = Container::open(bytes);
+        let beside = |_: &str| None;
+        told(container.and_then(|container| model::read(&container, &beside, 1.0, true)))
+    };
+    for name in ["gltf", "glb"] {
+        run(&Parser {
+            name,
+            seeds: seeds(name),
+            read: &read,
+            mend: None,
+        });
+    }
 }
 
 #[test]

@@ -34,6 +34,8 @@ pub(super) fn folder() -> TempDir {
         ("body.obj", corpus.join("obj/closed.obj")),
         ("sky.exr", corpus.join("exr/plain_half.exr")),
         ("maps/contents.exr", corpus.join("exr/plain_float.exr")),
+        ("bark.png", corpus.join("png/rgb.png")),
+        ("model.gltf", corpus.join("gltf/square.gltf")),
         ("margin.svg", corpus.join("svg/plain.svg")),
         ("paper.csv", corpus.join("spectrum/commas.csv")),
         ("places.csv", corpus.join("placements/plain.csv")),

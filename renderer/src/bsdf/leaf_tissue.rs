@@ -71,6 +71,17 @@ impl<const N: usize> Tissue<N> {
         tissue
     }
 
+    /// A body of which both sides send back the same share of what has passed their coat, and which
+    /// lets nothing through.
+    #[must_use]
+    #[inline]
+    pub fn opaque(reflectance: Lanes<N>) -> Self {
+        Self {
+            reflectance: [reflectance; 2],
+            transmittance: [Lanes::ZERO; 2],
+        }
+    }
+
     /// The same reflectances with the transmittance of light that entered elsewhere. Where both
     /// faces could not send back what they do and let so much through, they let less through.
     #[must_use]

@@ -6,7 +6,7 @@ use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Mesh};
+use crate::scene::description::{Description, Held, Mesh, Reflectance};
 use crate::scene::load;
 use crate::scene::world::World;
 
@@ -56,16 +56,29 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
 /// Reads the files of a scene whose existence alone was checked so far.
 fn read_files(description: &Description) -> Result<(), Failure> {
     for mesh in &description.meshes {
+        let name = &mesh.name;
+        if let Mesh::Gltf {
+            file,
+            beside,
+            scale,
+        } = &mesh.value
+        {
+            let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
+            assets::model(file, beside, *scale, true).map_err(told)?;
+        }
         let Mesh::File { file, scale } = &mesh.value else {
             continue;
         };
         let bytes = assets::read(file).map_err(Failure::bad)?;
         let ending = file.extension().and_then(|ending| ending.to_str());
-        let name = &mesh.name;
         geometry::import(&bytes, ending.unwrap_or_default(), *scale as f32)
             .map_err(|error| Failure::bad(format!("meshes.{name}: {}: {error}", file.display())))?;
     }
     for material in &description.materials {
+        if let Some(Reflectance::Picture { file, .. }) = material.value.reflectance() {
+            let told = |error| Failure::bad(format!("materials.{}: {error}", material.name));
+            assets::reflectances(file).map_err(told)?;
+        }
         let Some(Held::Map { file, .. }) = material.value.held() else {
             continue;
         };

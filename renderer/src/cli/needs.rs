@@ -58,7 +58,7 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
             2.0 * across * along * OF_A_TRIANGLE
         }
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
-        Mesh::Rectangle { .. } | Mesh::File { .. } => 0.0,
+        Mesh::Rectangle { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
     });
     let places = scene.objects.iter().map(|object| {
         let own = object.value.instances.as_ref().map_or(1, Vec::len);
@@ -109,7 +109,12 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
     let size = match &scene.meshes[*mesh].value {
         Mesh::Rectangle { width, height } => width * height,
         Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
-        Mesh::Sphere { .. } | Mesh::Drop(_) | Mesh::Lump(_) | Mesh::File { .. } | Mesh::Axes(_) => {
+        Mesh::Sphere { .. }
+        | Mesh::Drop(_)
+        | Mesh::Lump(_)
+        | Mesh::File { .. }
+        | Mesh::Gltf { .. }
+        | Mesh::Axes(_) => {
             return 0.0;
         }
     };

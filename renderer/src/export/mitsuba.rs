@@ -2,11 +2,13 @@
 //! comparison.
 //!
 //! Leaves become the plugin `lamina_leaf`, those with a relief `lamina_relief`, solid tissue
-//! `lamina_solid`, skies and environment pictures textures on a sphere around the scene;
-//! `reference/` registers them. Everything else is Mitsuba's own. The sun's disc becomes a disk
-//! emitter so far away that irradiance differs by 2e-5 over the scene.
+//! `lamina_solid`, coated bodies `lamina_plastic`, maps of colours the texture `lamina_colours`,
+//! skies and pictures of surroundings textures on a sphere around the scene; `reference/` registers
+//! them. Everything else is Mitsuba's own. The sun's disc becomes a disk emitter so far away that
+//! irradiance differs by 2e-5 over the scene.
 
 mod bsdf;
+mod colours;
 mod emitter;
 mod mesh;
 mod plugin;
@@ -32,6 +34,7 @@ use crate::material::relief::Relief;
 use crate::scene::assets::{self, AssetError};
 use crate::scene::description::{Band, Description, FilmKind, Light};
 use crate::scene::world::World;
+use crate::spectrum::rgb;
 
 use self::spectra::Spectra;
 
@@ -153,6 +156,13 @@ fn fill(scene: &Description, world: &World, folder: &Path) -> Result<(), ExportE
                 units::material_id(scene, world, number)
             ));
             openexr::write(&map_picture(map), &path)?;
+        }
+        if let Some(map) = material.colour_map() {
+            let id = units::material_id(scene, world, number);
+            for (name, picture) in colours::pictures(&id, map) {
+                openexr::write(&picture, &folder.join(name))?;
+            }
+            save(colours::BASIS, rgb::basis_text().as_bytes())?;
         }
         if let Some(relief) = material.relief() {
             let id = units::material_id(scene, world, number);

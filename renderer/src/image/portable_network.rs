@@ -9,8 +9,7 @@ use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageRea
 use super::pixels::{Depth, Pixels};
 use super::tone::from_srgb;
 use super::{
-    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, REC709, atomic, check_held,
-    check_size,
+    ImageError, Layer, MOST_BYTES, MOST_TEXTURE_BYTES, Picture, atomic, check_held, check_size,
 };
 
 /// White D65 and the primaries of Rec. 709, x and y of each times 100 000: what sRGB means.
@@ -130,33 +129,45 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
     super::read_file(path, decode)
 }
 
-/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1, interpreting the
-/// values as sRGB whatever colour chunks the file has. Grey becomes three equal layers; alpha is
-/// left out.
+/// Reads the bytes of a PNG file: layers R, G and B in linear light, 0 to 1. Grey becomes three
+/// equal layers; alpha is left out.
+///
+/// Values are sRGB, unless the file tells of another gamma (`gAMA`) and of no colour space: then
+/// light is a power of them.
 ///
 /// # Errors
 ///
 /// [`ImageError::TooLarge`] from the header alone; [`ImageError::Malformed`].
 pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
     let pixels = decode_stored(bytes, 3)?.into_rgb16();
-    let (width, height) = pixels.dimensions();
-    // 8-bit values arrive as 257 times themselves, so one table serves both.
-    let linear: Vec<f32> = (0..=u16::MAX)
-        .map(|value| from_srgb(f64::from(value) / 65535.0) as f32)
-        .collect();
-    let channel = |number: usize, name: &str| Layer {
-        name: name.to_owned(),
-        data: pixels
-            .pixels()
-            .map(|pixel| linear[pixel.0[number] as usize])
-            .collect(),
+    let light: Box<dyn Fn(f64) -> f64> = match power_of(bytes) {
+        None => Box::new(from_srgb),
+        Some(power) => Box::new(move |value| libm::pow(value, power)),
     };
-    Ok(Picture {
-        width,
-        height,
-        layers: vec![channel(0, "R"), channel(1, "G"), channel(2, "B")],
-        attributes: vec![("chromaticities".to_owned(), REC709)],
-    })
+    Ok(super::linear(&pixels, light))
+}
+
+/// The power of a file's values that is light; `None` if they are sRGB.
+fn power_of(bytes: &[u8]) -> Option<f64> {
+    let mut at = AFTER_HEADER;
+    let mut power = None;
+    loop {
+        let length = bytes.get(at..at + 4)?.try_into().map(u32::from_be_bytes);
+        let length = length.expect("four bytes") as usize;
+        match bytes.get(at + 4..at + 8)? {
+            b"sRGB" | b"iCCP" | b"cICP" => return None,
+            b"IDAT" | b"IEND" => return power,
+            b"gAMA" => {
+                let gamma = bytes.get(at + 8..at + 12)?.try_into();
+                let gamma = gamma.map(u32::from_be_bytes).expect("four bytes");
+                // About 1/2.2 stands for the curve of sRGB; 0 has no meaning.
+                let is_srgb = gamma.abs_diff(GAMMA) < 500 || gamma == 0;
+                power = (!is_srgb).then(|| 100_000.0 / f64::from(gamma));
+            }
+            _ => {}
+        }
+        at += length.saturating_add(12);
+    }
 }
 
 /// Reads grey or alpha of a PNG file as written, 0 to 1, as a picture with one layer, `grey` or
@@ -250,6 +261,37 @@ mod tests {
         for (i, value) in rgb.into_iter().enumerate() {
             let expected = from_srgb(f64::from(value) / 65535.0) as f32;
             assert_eq!(picture.layers[i % 3].data[i / 3], expected);
+        }
+    }
+
+    #[test]
+    fn a_gamma_without_a_colour_space_is_the_power_of_light() {
+        let values = [0, 50, 100, 150, 200, 255].map(f64::from);
+        let rgb = [0, 50, 100, 150, 200, 255];
+        let tagged = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
+        let plain = encode(2, 1, &rgb, 6, ExtendedColorType::Rgb8).expect("two pixels");
+        let leading = leading_chunks().len();
+        for (gamma, power) in [(100_000_u32, Some(1.0)), (50_000, Some(2.0)), (GAMMA, None)] {
+            let mut chunk = b"\0\0\0\x04gAMA".to_vec();
+            chunk.extend(gamma.to_be_bytes());
+            chunk.extend(crc32fast::hash(&chunk[4..]).to_be_bytes());
+            let mut bytes = plain.clone();
+            bytes.splice(AFTER_HEADER..AFTER_HEADER + leading, chunk.clone());
+            assert_eq!(power_of(&bytes), power);
+            let picture = decode(&bytes).expect("a valid file");
+            for (i, value) in values.iter().enumerate() {
+                let value = value / 255.0;
+                let expected = power.map_or_else(|| from_srgb(value), |p| value.powf(p));
+                let found = f64::from(picture.layers[i % 3].data[i / 3]);
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{gamma}: {found} {expected}"
+                );
+            }
+            // A file that says it is sRGB is, whatever its gamma.
+            let mut both = tagged.clone();
+            both.splice(AFTER_HEADER..AFTER_HEADER, chunk);
+            assert_eq!(power_of(&both), None);
         }
     }
 

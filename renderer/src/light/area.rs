@@ -6,7 +6,7 @@ use crate::light::patch::{self, Patch};
 use crate::light::pattern::{Pattern, PlaneUv};
 use crate::light::tree::Emitter;
 use crate::light::{LightSample, Receiver};
-use crate::spectrum::primaries::Primaries;
+use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, Spectrum, WavelengthGrid, Wavelengths};
 
 /// Patches in world space with a common radiance, or one that follows a pattern. A patch is a
@@ -178,7 +178,7 @@ impl AreaLight {
         if factor[0] == factor[1] && factor[1] == factor[2] {
             return self.radiance.lanes(wavelengths) * factor[0];
         }
-        patterned.primaries.lanes(factor, wavelengths)
+        patterned.primaries.spectrum(factor, wavelengths)
     }
 }
 

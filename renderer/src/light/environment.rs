@@ -8,7 +8,7 @@ use super::radiance_table::RadianceTable;
 use super::texels::{Beyond, Texels};
 use crate::light::LightSample;
 use crate::sampling::distribution::Piecewise2d;
-use crate::spectrum::primaries::Primaries;
+use crate::spectrum::rgb::Primaries;
 use crate::spectrum::{Curve, Lanes, WavelengthGrid, Wavelengths};
 
 /// Radiance by direction: `u` runs with the azimuth from +x towards +y, `v` from the zenith (+z)
@@ -94,7 +94,7 @@ impl EnvironmentLight {
 
     fn radiance<const N: usize>(&self, uv: [f32; 2], wavelengths: &Wavelengths<N>) -> Lanes<N> {
         let colour = self.picture.at(uv, Beyond::Opposite);
-        self.primaries.lanes(colour, wavelengths)
+        self.primaries.spectrum(colour, wavelengths)
     }
 
     fn uv_of(&self, wi: Vec3) -> [f32; 2] {

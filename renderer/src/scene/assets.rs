@@ -1,6 +1,8 @@
 //! Files of a scene: read once, checked before they are decoded.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -9,8 +11,9 @@ use leafmodel::document::assets::{Assets, Raster, Triangles};
 use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
-use crate::image::{ImageError, openexr, portable_network};
+use crate::image::{ImageError, Picture, jpeg, openexr, portable_network};
 use crate::material::contents_texture::ContentsTexture;
+use crate::scene::model::{self, Container, Model, ModelError};
 
 /// Largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 30;
@@ -37,6 +40,14 @@ pub enum AssetError {
     /// It is not a valid picture.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// It is not a valid model.
+    #[error("{file}: {source}")]
+    Model {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: ModelError,
+    },
     /// A channel is missing.
     #[error("{file} has no channel \"{channel}\"")]
     NoChannel {
@@ -98,11 +109,28 @@ pub fn read(file: &Path) -> Result<Vec<u8>, AssetError> {
     fs::read(file).map_err(failed)
 }
 
+/// What a channel may hold.
+struct Allowed {
+    of: RangeInclusive<f32>,
+    /// The same in words.
+    range: &'static str,
+}
+
+const LIGHT: Allowed = Allowed {
+    of: 0.0..=f32::MAX,
+    range: "0 and above",
+};
+
+const SHARES: Allowed = Allowed {
+    of: 0.0..=1.0,
+    range: "0 to 1",
+};
+
 fn channel(
     file: &Path,
-    picture: &crate::image::Picture,
+    picture: &Picture,
     name: &'static str,
-    least: f32,
+    allowed: Allowed,
 ) -> Result<Vec<f32>, AssetError> {
     let layer = picture
         .layers
@@ -115,7 +143,7 @@ fn channel(
     if let Some(place) = layer
         .data
         .iter()
-        .position(|value| !value.is_finite() || *value < least)
+        .position(|value| !value.is_finite() || !allowed.of.contains(value))
     {
         let width = picture.width as usize;
         return Err(AssetError::Value {
@@ -124,11 +152,7 @@ fn channel(
             value: layer.data[place],
             x: place % width,
             y: place / width,
-            range: if least > 0.0 {
-                "1 and above"
-            } else {
-                "0 and above"
-            },
+            range: allowed.range,
         });
     }
     Ok(layer.data.clone())
@@ -149,7 +173,16 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
         if !constituent.is_prospect_d() && !picture.layers.iter().any(|layer| layer.name == name) {
             continue;
         }
-        let values = channel(file, &picture, name, constituent.least() as f32)?;
+        let least = constituent.least() as f32;
+        let allowed = Allowed {
+            of: least..=f32::MAX,
+            range: if least > 0.0 {
+                "1 and above"
+            } else {
+                LIGHT.range
+            },
+        };
+        let values = channel(file, &picture, name, allowed)?;
         for (row, line) in values.chunks(width).enumerate() {
             for (column, value) in line.iter().enumerate() {
                 texels[row * width + column][constituent] = *value;
@@ -238,34 +271,86 @@ impl AssetError {
     }
 }
 
-/// A picture that shines: EXR with R, G, B, or PNG (its sRGB values are converted to linear ones).
+/// A picture that shines: EXR with R, G, B, or PNG or JPEG (their values are converted to linear
+/// ones).
 ///
 /// # Errors
 ///
 /// [`AssetError`] if it is not such a picture, holds negative or non-finite values, or is dark
 /// everywhere.
 pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
-    let is_png = file
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-    let picture = if is_png {
-        portable_network::read(file)?
-    } else {
-        openexr::read_texture(file)?
-    };
-    let red = channel(file, &picture, "R", 0.0)?;
-    let green = channel(file, &picture, "G", 0.0)?;
-    let blue = channel(file, &picture, "B", 0.0)?;
-    let colours = red.into_iter().zip(green).zip(blue);
-    let texels: Vec<_> = colours.map(|((r, g), b)| [r, g, b]).collect();
-    if texels.iter().flatten().all(|value| *value == 0.0) {
+    let picture = colours(file, || LIGHT)?;
+    if picture.texels.iter().flatten().all(|value| *value == 0.0) {
         return Err(AssetError::Dark {
             file: file.to_owned(),
         });
     }
+    Ok(picture)
+}
+
+/// A picture of reflectances: as one that shines, with values in [0, 1].
+///
+/// # Errors
+///
+/// [`AssetError`] if it is not such a picture or holds other values.
+pub fn reflectances(file: &Path) -> Result<RgbPicture, AssetError> {
+    colours(file, || SHARES)
+}
+
+fn colours(file: &Path, allowed: impl Fn() -> Allowed) -> Result<RgbPicture, AssetError> {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    let ending = ending.unwrap_or_default().to_ascii_lowercase();
+    let picture = match ending.as_str() {
+        "png" => portable_network::read(file)?,
+        "jpg" | "jpeg" => jpeg::read(file)?,
+        _ => openexr::read_texture(file)?,
+    };
+    colours_of(&picture, file, allowed)
+}
+
+/// The colours of a picture that was read; `file` is its name in messages.
+fn colours_of(
+    picture: &Picture,
+    file: &Path,
+    allowed: impl Fn() -> Allowed,
+) -> Result<RgbPicture, AssetError> {
+    let red = channel(file, picture, "R", allowed())?;
+    let green = channel(file, picture, "G", allowed())?;
+    let blue = channel(file, picture, "B", allowed())?;
+    let texels = red
+        .into_iter()
+        .zip(green)
+        .zip(blue)
+        .map(|((r, g), b)| [r, g, b])
+        .collect();
     Ok(RgbPicture {
         width: picture.width as usize,
         texels,
+    })
+}
+
+/// The model of a glTF file; `beside` are the files that it names, as written there and where they
+/// are. Its pictures are read only if `colours` are asked for.
+///
+/// # Errors
+///
+/// [`AssetError`] if a file cannot be read or the model is not valid.
+pub fn model(
+    file: &Path,
+    beside: &[(String, PathBuf)],
+    scale: f64,
+    colours: bool,
+) -> Result<Model, AssetError> {
+    let bytes = read(file)?;
+    let others = beside.iter();
+    let others = others.map(|(name, file)| Ok((name, read(file)?)));
+    let others = others.collect::<Result<BTreeMap<_, _>, AssetError>>()?;
+    let bytes_of = |name: &str| others.get(&name.to_owned()).map(Vec::as_slice);
+    let model = Container::open(&bytes)
+        .and_then(|container| model::read(&container, &bytes_of, scale, colours));
+    model.map_err(|source| AssetError::Model {
+        file: file.to_owned(),
+        source,
     })
 }
 

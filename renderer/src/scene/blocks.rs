@@ -9,6 +9,7 @@
 mod camera;
 mod daylight;
 mod film;
+mod gltf;
 mod instances;
 mod integrator;
 mod leaf;
@@ -21,6 +22,7 @@ mod picture;
 mod placement;
 mod plant;
 mod references;
+mod reflectance;
 mod rig;
 mod scatter;
 mod solid;
@@ -44,7 +46,7 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
 use super::description::{
-    Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Solid, Spectrum,
+    Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Reflectance, Solid, Spectrum,
 };
 use super::plants::{boughs, individuals};
 use super::rigs;
@@ -174,7 +176,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
 fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
     let about = "What surfaces are made of.";
     let new = || Material::Diffuse {
-        reflectance: Spectrum::Constant(0.0),
+        reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
     };
     section(
         keys,

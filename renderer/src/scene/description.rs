@@ -5,6 +5,7 @@
 
 mod camera;
 mod object;
+mod reflectance;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,12 +20,14 @@ use leafmodel::solid::SolidPlan;
 
 pub use self::camera::{Camera, FocusObject};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
+pub use self::reflectance::Reflectance;
 pub use crate::geometry::shapes::{Drop, Lump, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
 pub use crate::image::white::White;
 pub use crate::light::daylight::Daylight;
+pub use crate::material::colour_map::Wrap;
 pub use crate::spectrum::recorded::{Band, FilmKind};
 pub use crate::spectrum::written::Spectrum;
 
@@ -69,7 +72,10 @@ impl Material {
                 ..
             }
             | Self::Solid { held, .. } => Some(held),
-            Self::Diffuse { .. } | Self::Dielectric { .. } | Self::Leaf { .. } => None,
+            Self::Diffuse { .. }
+            | Self::Dielectric { .. }
+            | Self::Plastic { .. }
+            | Self::Leaf { .. } => None,
         }
     }
 }
@@ -144,14 +150,23 @@ pub struct Integrator {
 pub enum Material {
     /// Lambertian.
     Diffuse {
-        /// Reflectance, 0 to 1.
-        reflectance: Spectrum,
+        /// Its reflectance.
+        reflectance: Reflectance,
     },
     /// A smooth or rough (GGX) boundary of a transparent medium.
     Dielectric {
         /// Refractive index inside over outside.
         eta: f64,
         /// GGX roughness; 0 is smooth.
+        roughness: f64,
+    },
+    /// A diffuse body below a rough dielectric coat.
+    Plastic {
+        /// Reflectance of the body, for light that has passed the coat.
+        reflectance: Reflectance,
+        /// Refractive index of the coat.
+        eta: f64,
+        /// Its GGX roughness.
         roughness: f64,
     },
     /// A leaf of uniform contents or measured spectra (grown leaves bring their own maps).
@@ -264,6 +279,15 @@ pub enum Mesh {
     File {
         /// The file.
         file: PathBuf,
+        /// Metres per unit of the file.
+        scale: f64,
+    },
+    /// A glTF 2.0 file, resolved and inside the scene's folder.
+    Gltf {
+        /// The file.
+        file: PathBuf,
+        /// The files that it names, as written there and resolved.
+        beside: Vec<(String, PathBuf)>,
         /// Metres per unit of the file.
         scale: f64,
     },

@@ -11,6 +11,7 @@ mod strewing;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -36,10 +37,11 @@ use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleM
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
+use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description, Named, Object};
+use crate::scene::description::{self, Description, Named, Object, Reflectance};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
@@ -221,15 +223,17 @@ impl World {
         options: &BuildOptions<'_>,
     ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
-        let mut meshes = build_meshes(scene, &mut notes)?;
+        let (mut meshes, colours) = build_meshes(scene, &mut notes)?;
         let wavelengths = WavelengthSampler::new(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
         let written = scene.materials.iter();
-        let built = written.map(|named| build_material(&named.name, &named.value, &mut known));
+        let built =
+            written.map(|named| build_material(&named.name, &named.value, &colours, &mut known));
         let mut materials = built.collect::<Result<Vec<_>, _>>()?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
+        notes.extend(notes::on_missing_uvs(scene, &meshes, &materials));
         let (for_leaves, for_solids) = known.for_grown(scene);
         let mut owners: Vec<MaterialOwner> =
             (0..materials.len()).map(MaterialOwner::Scene).collect();
@@ -328,20 +332,40 @@ impl World {
     }
 }
 
+/// Meshes, and the colours that each brings along.
+type MeshesAndColours = (Vec<TriangleMesh>, Vec<Option<ColourMap>>);
+
 /// Reads or makes the scene's meshes; what was dropped of them is noted.
 fn build_meshes(
     scene: &Description,
     notes: &mut Vec<String>,
-) -> Result<Vec<TriangleMesh>, WorldError> {
-    let mut meshes = Vec::new();
-    for mesh in &scene.meshes {
-        let built = build_mesh(&mesh.name, &mesh.value)?;
-        if built.dropped().total() > 0 {
-            notes.push(format!("meshes.{}: {}", mesh.name, built.dropped()));
+) -> Result<MeshesAndColours, WorldError> {
+    let coloured =
+        scene
+            .materials
+            .iter()
+            .filter_map(|material| match material.value.reflectance() {
+                Some(Reflectance::OfMesh(mesh)) => Some(*mesh),
+                Some(Reflectance::Even(_) | Reflectance::Picture { .. }) | None => None,
+            });
+    let coloured: BTreeSet<usize> = coloured.collect();
+    let (mut meshes, mut colours) = (Vec::new(), Vec::new());
+    for (number, mesh) in scene.meshes.iter().enumerate() {
+        let built = build_mesh(&mesh.name, &mesh.value, coloured.contains(&number))?;
+        if built.mesh.dropped().total() > 0 {
+            notes.push(format!("meshes.{}: {}", mesh.name, built.mesh.dropped()));
         }
-        meshes.push(built);
+        if !built.left_out.is_empty() {
+            let parts = built.left_out.join(", ");
+            notes.push(format!(
+                "meshes.{}: left out of its file: {parts}",
+                mesh.name
+            ));
+        }
+        meshes.push(built.mesh);
+        colours.push(built.colours);
     }
-    Ok(meshes)
+    Ok((meshes, colours))
 }
 
 /// Grows the scene's leaves; each is returned with its palette of pigments.

@@ -7,7 +7,17 @@
 
 use std::sync::OnceLock;
 
+use crate::spectrum::curve::Curve;
+use crate::spectrum::grid::{WavelengthGrid, Wavelengths};
+use crate::spectrum::lanes::Lanes;
 use crate::spectrum::table::parse_shipped;
+use crate::spectrum::tabulated::Table;
+
+/// First and last wavelength of the basis, nm; RGB says nothing of light beyond.
+pub const RANGE_NM: [f64; 2] = [360.0, 830.0];
+
+/// Range of curves, nm; it contains every wavelength of a film.
+const CURVES_NM: [f64; 2] = [300.0, 2600.0];
 
 fn basis_table() -> &'static [(f64, [f64; 3])] {
     static TABLE: OnceLock<Vec<(f64, [f64; 3])>> = OnceLock::new();
@@ -27,10 +37,96 @@ pub fn basis_at(nm: f32) -> [f32; 3] {
     })
 }
 
+/// The basis as it ships: `wavelength_nm,red,green,blue`, with comments.
+pub fn basis_text() -> &'static str {
+    include_str!("rgb_basis.csv")
+}
+
+/// The spectra of red, green and blue of 1 under some light.
+#[derive(Clone, Debug)]
+pub struct Primaries {
+    white: Curve,
+    table: Option<Table>,
+}
+
+impl Primaries {
+    /// Primaries of which RGB 1 1 1 has the spectrum `white`.
+    pub fn new(white: Curve) -> Self {
+        Self { white, table: None }
+    }
+
+    /// Spectrum of RGB 1 1 1.
+    pub fn white(&self) -> &Curve {
+        &self.white
+    }
+
+    /// Evaluates them at every wavelength of a grid.
+    pub fn tabulate(&mut self, grid: &WavelengthGrid) {
+        self.table = Some(Table::new(grid, |nm| self.at(nm)));
+    }
+
+    /// Red, green and blue as curves over every wavelength of a film.
+    pub fn curves(&self) -> [Curve; 3] {
+        let [first, last] = CURVES_NM;
+        [0, 1, 2].map(|primary| {
+            Curve::uniform(first, 1.0, (last - first) as usize, |nm| {
+                f64::from(self.at(nm as f32)[primary])
+            })
+        })
+    }
+
+    fn at(&self, nm: f32) -> [f32; 3] {
+        basis_at(nm).map(|basis| basis * self.white.at(nm))
+    }
+
+    /// The spectrum of a linear colour at a path's wavelengths.
+    #[inline]
+    pub fn spectrum<const N: usize>(
+        &self,
+        [r, g, b]: [f32; 3],
+        wavelengths: &Wavelengths<N>,
+    ) -> Lanes<N> {
+        let row = self.table.as_ref().and_then(|table| table.row(wavelengths));
+        let [red, green, blue] = row.unwrap_or_else(|| {
+            let values = wavelengths.nm.map(|nm| self.at(nm));
+            std::array::from_fn(|primary| Lanes::from_fn(|lane| values[lane][primary]))
+        });
+        red * r + green * g + blue * b
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::spectrum::cie;
+
+    #[test]
+    fn the_basis_covers_what_is_said_of_it() {
+        let table = basis_table();
+        assert_eq!([table[0].0, table[table.len() - 1].0], RANGE_NM);
+    }
+
+    #[test]
+    fn no_colour_of_a_picture_reflects_more_than_comes_in_or_changes_its_look() {
+        let white = cie::xyz_of(cie::d65)[1];
+        let mut worst = 0.0_f64;
+        let levels = [0.0_f32, 0.02, 0.3, 0.7, 1.0];
+        for colour in (0..125).map(|i| [levels[i / 25], levels[i / 5 % 5], levels[i % 5]]) {
+            let primaries = Primaries::new(Curve::Constant(1.0));
+            let reflectance =
+                |nm: f64| primaries.spectrum(colour, &Wavelengths::new([nm as f32])).0[0];
+            for nm in (360..=830).map(f64::from) {
+                let share = reflectance(nm);
+                assert!((0.0..=1.0 + 1e-6).contains(&share), "{colour:?}: {share}");
+            }
+            let xyz = cie::xyz_of(|nm| cie::d65(nm) / white * f64::from(reflectance(nm)));
+            for (back, given) in cie::srgb_from_xyz(xyz).into_iter().zip(colour) {
+                worst = worst.max((back - f64::from(given)).abs());
+            }
+        }
+        eprintln!("linear sRGB comes back within {worst:.1e}");
+        assert!(worst < 1e-4, "{worst}");
+    }
 
     #[test]
     fn a_colour_survives_the_way_to_a_spectrum_and_back_under_d65() {

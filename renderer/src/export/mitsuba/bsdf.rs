@@ -3,9 +3,12 @@
 use crate::export::element::{Element, Layout};
 use crate::material;
 use crate::material::held::Held;
-use crate::scene::description::{Description, LeafFaces, LeafTissue, Material, SolidOptics};
+use crate::scene::description::{
+    Description, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics,
+};
 use crate::scene::world::{MaterialOwner, World};
 
+use super::colours;
 use super::spectra::Spectra;
 use super::units::material_id;
 use super::{absorption_file, relief_file};
@@ -14,6 +17,8 @@ use super::{absorption_file, relief_file};
 const LEAF: &str = "lamina_leaf";
 /// Plugin for leaves with a relief, in `reference/`.
 const RELIEF: &str = "lamina_relief";
+/// Plugin for diffuse bodies below a coat, in `reference/`.
+const PLASTIC: &str = "lamina_plastic";
 /// Plugin for solid tissue, in `reference/`.
 const SOLID: &str = "lamina_solid";
 
@@ -59,7 +64,7 @@ pub(super) fn bsdf(
             let one_side = Element::plugin("bsdf", "diffuse");
             Element::plugin("bsdf", "twosided")
                 .called(&id)
-                .holding(one_side.holding(spectra.element("reflectance", reflectance, 1.0)))
+                .holding(one_side.holding(shared(&id, own, reflectance, spectra)))
                 .laid_out(Layout::Inline)
         }
         Material::Dielectric { eta, roughness } => {
@@ -80,6 +85,15 @@ pub(super) fn bsdf(
                 bsdf
             }
         }
+        Material::Plastic {
+            reflectance,
+            eta,
+            roughness,
+        } => Element::plugin("bsdf", PLASTIC)
+            .called(&id)
+            .float("eta", *eta)
+            .float("alpha", *roughness)
+            .holding(shared(&id, own, reflectance, spectra)),
         Material::Leaf {
             tissue,
             pigments: _,
@@ -101,6 +115,21 @@ pub(super) fn bsdf(
             pigments: _,
             optics,
         } => solid_optics(plugin(SOLID, held.extrapolates()), optics),
+    }
+}
+
+/// The parameter `reflectance`: a spectrum, or a texture that is written to files beside.
+fn shared(
+    id: &str,
+    material: &material::Material,
+    reflectance: &Reflectance,
+    spectra: &mut Spectra,
+) -> Element {
+    match (reflectance, material.colour_map()) {
+        (Reflectance::Even(spectrum), _) => spectra.element("reflectance", spectrum, 1.0),
+        (Reflectance::Picture { .. } | Reflectance::OfMesh(_), map) => {
+            colours::texture(id, "reflectance", map)
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::light::daylight::sun::HALF_DIAMETER as SUN_HALF_DIAMETER;
 use crate::scene::description::{AreaPattern, Light, Named, Spectrum};
 use crate::scene::world::World;
 use crate::spectrum::Curve;
-use crate::spectrum::primaries::Primaries;
+use crate::spectrum::rgb::Primaries;
 
 use super::plugin::look_at;
 use super::spectra::Spectra;

@@ -93,7 +93,7 @@ fn two_triangles_with_different_coordinates_are_two_patches_of_the_same_lamp() {
     for (triangle, uvs) in [(0, first), (1, second)] {
         for (corner, uv) in SQUARE[triangle as usize].into_iter().zip(uvs) {
             let emitted = light.emitted(Vec3::Z, -Vec3::Z, (triangle, corner), &wavelengths());
-            let expected = primaries.lanes(gels().at(uv), &wavelengths()).0;
+            let expected = primaries.spectrum(gels().at(uv), &wavelengths()).0;
             for (found, expected) in emitted.expect("it shines downwards").0.iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
             }

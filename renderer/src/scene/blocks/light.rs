@@ -21,8 +21,8 @@ use crate::scene::description::{AreaPattern, Light, Rig, Spectrum};
 
 /// A picture that shines, up to 4 GiB.
 const PICTURE: FilePath = FilePath::of(
-    "the path of an EXR or PNG picture",
-    &["exr", "png"],
+    "the path of an EXR, PNG or JPEG picture",
+    &["exr", "png", "jpg", "jpeg"],
     4 << 30,
 );
 const DARK: Spectrum = Spectrum::Constant(0.0);

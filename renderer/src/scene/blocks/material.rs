@@ -1,4 +1,4 @@
-//! `[materials.NAME.…]`: diffuse, dielectric, leaf, solid.
+//! `[materials.NAME.…]`: diffuse, dielectric, plastic, leaf, solid.
 
 use std::path::PathBuf;
 
@@ -10,9 +10,12 @@ use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
 use super::leaf::faces;
+use super::reflectance::reflectance;
 use super::solid::optics;
 use super::spectrum::SpectrumOf;
-use crate::scene::description::{Held, LeafFaces, LeafTissue, Material, SolidOptics, Spectrum};
+use crate::scene::description::{
+    Held, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
+};
 
 /// Largest map of contents that is read, bytes.
 const MOST_MAP_BYTES: u64 = 4 << 30;
@@ -22,22 +25,17 @@ pub(super) fn material(material: &mut Material, keys: &mut Keys<'_>) {
     keys.kind(material, &KINDS);
 }
 
-const KINDS: [Variant<Material>; 4] = [
+const KINDS: [Variant<Material>; 5] = [
     Variant {
         name: "diffuse",
         about: "Lambertian.",
         new: || Material::Diffuse {
-            reflectance: Spectrum::Constant(0.0),
+            reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
         },
         is: |material| matches!(material, Material::Diffuse { .. }),
         declare: |material, keys| {
-            if let Material::Diffuse { reflectance } = material {
-                keys.required(
-                    "reflectance",
-                    reflectance,
-                    SpectrumOf::Share,
-                    "Share of light that is reflected.",
-                );
+            if let Material::Diffuse { reflectance: of } = material {
+                reflectance(of, "Share of light that is reflected.", keys);
             }
         },
     },
@@ -64,6 +62,17 @@ const KINDS: [Variant<Material>; 4] = [
                 keys.key("roughness", roughness, limits, about);
             }
         },
+    },
+    Variant {
+        name: "plastic",
+        about: "A diffuse body below a rough clear coat: glaze, varnish, waxy bark and rind.",
+        new: || Material::Plastic {
+            reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
+            eta: 1.5,
+            roughness: 0.2,
+        },
+        is: |material| matches!(material, Material::Plastic { .. }),
+        declare: plastic,
     },
     Variant {
         name: "leaf",
@@ -111,6 +120,24 @@ const KINDS: [Variant<Material>; 4] = [
         },
     },
 ];
+
+fn plastic(material: &mut Material, keys: &mut Keys<'_>) {
+    if let Material::Plastic {
+        reflectance: of,
+        eta,
+        roughness,
+    } = material
+    {
+        let about = "Share of the light that passes the coat which the body sends back.";
+        reflectance(of, about, keys);
+        let limits = Number(Limits::closed(1.0, 2.5));
+        let about = "Refractive index of the coat; 1 is none.";
+        keys.key("eta", eta, limits, about);
+        let limits = Number(Limits::closed(0.02, 1.0));
+        let about = "GGX roughness of the coat: glaze 0.05, satin 0.3, matt 0.6 (our estimates).";
+        keys.key("roughness", roughness, limits, about);
+    }
+}
 
 /// Contents before any are read.
 const NOTHING: Held = Held::Contents {

@@ -1,9 +1,10 @@
-//! `[meshes.NAME.…]`: rectangle, sphere, drop, lump, terrain, file.
+//! `[meshes.NAME.…]`: rectangle, sphere, drop, lump, terrain, file, gltf.
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Degrees, FilePath, Integer, Number, Numbers};
 
+use super::gltf::gltf;
 use crate::scene::description::{Drop, Lump, Mesh, Terrain};
 
 /// Range of the extents of shapes, m.
@@ -16,7 +17,7 @@ pub(super) fn mesh(mesh: &mut Mesh, keys: &mut Keys<'_>) {
     keys.kind(mesh, &KINDS);
 }
 
-const KINDS: [Variant<Mesh>; 6] = [
+const KINDS: [Variant<Mesh>; 7] = [
     Variant {
         name: "rectangle",
         about: "A rectangle in the xy plane around the origin, its normal along +z.",
@@ -116,12 +117,36 @@ const KINDS: [Variant<Mesh>; 6] = [
                     MOST_MESH_BYTES,
                 );
                 super::file(keys, "path", file, PATH, "The file.");
-                let limits = Number(Limits::above(0.0, 1e6));
-                keys.key("scale", scale, limits, "Metres per unit of the file.");
+                keys.key("scale", scale, SCALES, "Metres per unit of the file.");
+            }
+        },
+    },
+    Variant {
+        name: "gltf",
+        about: "The mesh of a glTF 2.0 file, and the base colours for a material with `mesh`.",
+        new: || Mesh::Gltf {
+            file: std::path::PathBuf::new(),
+            beside: Vec::new(),
+            scale: 1.0,
+        },
+        is: |mesh| matches!(mesh, Mesh::Gltf { .. }),
+        declare: |mesh, keys| {
+            if let Mesh::Gltf {
+                file,
+                beside,
+                scale,
+            } = mesh
+            {
+                gltf(file, beside, keys);
+                let about = "Metres per unit of the file; glTF is in metres.";
+                keys.key("scale", scale, SCALES, about);
             }
         },
     },
 ];
+
+/// Factors on the coordinates of files.
+const SCALES: Number = Number(Limits::above(0.0, 1e6));
 
 /// Triangles around a shape.
 const SEGMENTS: Integer<u32> = Integer::within(8, 4096);

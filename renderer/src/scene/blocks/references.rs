@@ -8,7 +8,9 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::sections::{Names, singular};
 use leafmodel::document::source::escaped;
 
-use crate::scene::description::{Description, Light, ObjectShape};
+use crate::scene::description::{
+    Description, Light, Material, Mesh, Named, ObjectShape, Reflectance,
+};
 
 /// Sections to whose blocks others refer.
 pub(super) const SECTIONS: [&str; 6] = [
@@ -36,6 +38,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
     check_cards(scene, keys);
     check_shining(scene, keys);
     check_strewn(scene, keys);
+    check_colours(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -110,6 +113,58 @@ fn check_strewn(scene: &Description, keys: &Keys<'_>) {
             };
             let help = "name an object in its place, or one that is strewn further up in the file";
             keys.refuse(&["objects", &object.name, "scatter", key], problem, help);
+        }
+    }
+}
+
+/// A material that takes the colours of a mesh needs one from a glTF file, and is made for that.
+fn check_colours(scene: &Description, keys: &Keys<'_>) {
+    let taken = |material: &Named<Material>| match material.value.reflectance() {
+        Some(Reflectance::OfMesh(mesh)) => Some(*mesh),
+        Some(Reflectance::Even(_) | Reflectance::Picture { .. }) | None => None,
+    };
+    for material in &scene.materials {
+        // An unknown name is reported where it is written.
+        let Some(mesh) = taken(material).and_then(|mesh| scene.meshes.get(mesh)) else {
+            continue;
+        };
+        if !matches!(mesh.value, Mesh::Gltf { .. }) {
+            let problem = format!(
+                "the mesh `{}` is from no glTF file and has no colours",
+                mesh.name
+            );
+            let kind = match material.value {
+                Material::Plastic { .. } => "plastic",
+                Material::Diffuse { .. }
+                | Material::Dielectric { .. }
+                | Material::Leaf { .. }
+                | Material::Solid { .. } => "diffuse",
+            };
+            let help =
+                "write `reflectance` or `picture` instead, or name a mesh of the kind `gltf`";
+            keys.refuse(&["materials", &material.name, kind, "mesh"], problem, help);
+        }
+    }
+    for object in &scene.objects {
+        for shape in &object.value.shapes {
+            let ObjectShape::Mesh { mesh, material } = *shape else {
+                continue;
+            };
+            let Some(material) = scene.materials.get(material) else {
+                continue;
+            };
+            let Some(own) = taken(material).filter(|own| *own != mesh) else {
+                continue;
+            };
+            let Some(own) = scene.meshes.get(own) else {
+                continue;
+            };
+            let problem = format!(
+                "the material `{}` has the colours of the mesh `{}`, and fits no other",
+                material.name, own.name
+            );
+            let help = "name that mesh here, or another material";
+            keys.refuse(&["objects", &object.name, "material"], problem, help);
         }
     }
 }

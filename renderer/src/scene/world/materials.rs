@@ -5,11 +5,15 @@ use std::sync::Arc;
 use leafmodel::optics::solid::ReflectanceTable;
 
 use super::WorldError;
+use crate::bsdf::coat::Coat;
 use crate::bsdf::dielectric::Dielectric;
 use crate::material::Material;
+use crate::material::colour_map::{ColourMap, ColourTexture};
 use crate::material::held::Held;
 use crate::material::leaf::LeafTissue;
 use crate::material::palette::{Palette, Palettes};
+use crate::material::plastic::PlasticMaterial;
+use crate::material::reflectance::Reflectance;
 use crate::material::solid::ReflectanceTables;
 use crate::scene::assets;
 use crate::scene::description::{self, Description};
@@ -48,9 +52,11 @@ impl Known {
     }
 }
 
+/// Makes a material; `colours` are those that each of the scene's meshes brings along.
 pub(super) fn build_material(
     name: &str,
     material: &description::Material,
+    colours: &[Option<ColourMap>],
     known: &mut Known,
 ) -> Result<Material, WorldError> {
     let read = |held: &description::Held| match held {
@@ -65,12 +71,22 @@ pub(super) fn build_material(
     };
     Ok(match material {
         description::Material::Diffuse { reflectance } => {
-            Material::Diffuse(Curve::from_description(reflectance).into())
+            Material::Diffuse(build_reflectance(name, reflectance, colours)?)
         }
         description::Material::Dielectric { eta, roughness } => Material::Dielectric(Dielectric {
             eta: *eta as f32,
             alpha: *roughness as f32,
         }),
+        description::Material::Plastic {
+            reflectance,
+            eta,
+            roughness,
+        } => {
+            let alpha = *roughness as f32;
+            let coat = Coat::new(*eta as f32, alpha, alpha);
+            let reflectance = build_reflectance(name, reflectance, colours)?;
+            Material::Plastic(Box::new(PlasticMaterial::new(reflectance, coat)))
+        }
         description::Material::Leaf {
             tissue,
             pigments,
@@ -99,4 +115,34 @@ pub(super) fn build_material(
             Material::Solid(Box::new(tissue::solid(read(held)?, palette, optics, table)))
         }
     })
+}
+
+fn build_reflectance(
+    name: &str,
+    reflectance: &description::Reflectance,
+    colours: &[Option<ColourMap>],
+) -> Result<Reflectance, WorldError> {
+    match reflectance {
+        description::Reflectance::Even(spectrum) => Ok(Curve::from_description(spectrum).into()),
+        description::Reflectance::OfMesh(mesh) => {
+            let map = colours[*mesh].clone();
+            let map = map.expect("a mesh whose colours are wanted was read with them");
+            Ok(Reflectance::Picture(Box::new(map)))
+        }
+        description::Reflectance::Picture {
+            file,
+            wrap,
+            repeats,
+            scale,
+        } => {
+            let picture = assets::reflectances(file).map_err(|source| WorldError::Asset {
+                place: format!("materials.{name}"),
+                source,
+            })?;
+            let texture = ColourTexture::new(picture.width, picture.texels, [*wrap; 2]);
+            let repeats = repeats.map(|count| count as f32).into();
+            let map = ColourMap::of(texture, *scale as f32, repeats);
+            Ok(Reflectance::Picture(Box::new(map)))
+        }
+    }
 }

@@ -5,11 +5,51 @@ use glam::{Vec2, Vec3};
 use super::WorldError;
 use crate::geometry::TriangleMesh;
 use crate::geometry::shapes::sphere;
+use crate::material::colour_map::ColourMap;
 use crate::scene::assets;
 use crate::scene::description;
 use crate::scene::plants::tube;
 
-pub(super) fn build_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, WorldError> {
+/// A mesh that was built.
+pub(super) struct Built {
+    pub(super) mesh: TriangleMesh,
+    /// Its own colours, if it has some and they are wanted.
+    pub(super) colours: Option<ColourMap>,
+    /// What of its file was left out.
+    pub(super) left_out: Vec<String>,
+}
+
+/// Reads or makes a mesh; `colours` says whether a material wants its own.
+pub(super) fn build_mesh(
+    name: &str,
+    mesh: &description::Mesh,
+    colours: bool,
+) -> Result<Built, WorldError> {
+    if let description::Mesh::Gltf {
+        file,
+        beside,
+        scale,
+    } = mesh
+    {
+        let model = assets::model(file, beside, *scale, colours);
+        let model = model.map_err(|source| WorldError::Asset {
+            place: format!("meshes.{name}"),
+            source,
+        })?;
+        return Ok(Built {
+            mesh: model.mesh,
+            colours: model.colours,
+            left_out: model.left_out,
+        });
+    }
+    Ok(Built {
+        mesh: plain_mesh(name, mesh)?,
+        colours: None,
+        left_out: Vec::new(),
+    })
+}
+
+fn plain_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, WorldError> {
     let named = |source| WorldError::Mesh {
         name: name.to_owned(),
         source,
@@ -30,6 +70,7 @@ pub(super) fn build_mesh(name: &str, mesh: &description::Mesh) -> Result<Triangl
         description::Mesh::Drop(drop) => drop.mesh().map_err(named),
         description::Mesh::Lump(lump) => lump.mesh().map_err(named),
         description::Mesh::Terrain(terrain) => terrain.mesh().map_err(named),
+        description::Mesh::Gltf { .. } => unreachable!("it has colours and was built before"),
         description::Mesh::Axes(axes) => {
             let (positions, normals) = tube(axes);
             TriangleMesh::new(positions, Some(normals), None, axes.triangles.clone()).map_err(named)

@@ -1,11 +1,15 @@
 //! Notes about a scene's materials that can be given only after files are read and leaves are
 //! grown.
 
+use std::collections::BTreeSet;
+
 use super::MaterialOwner;
 use leafmodel::optics::Contents;
 
+use crate::geometry::TriangleMesh;
+use crate::material::colour_map::ColourMap;
 use crate::material::{ExceedingCoat, Material};
-use crate::scene::description::Description;
+use crate::scene::description::{Description, ObjectShape};
 
 /// Notes on leaves and solid tissue whose coat alone reflects more than the whole should, one for
 /// each.
@@ -59,6 +63,34 @@ pub(super) fn on_maps<'m>(
             )
         })
         .collect()
+}
+
+/// Notes on meshes without texture coordinates whose material has a picture.
+pub(super) fn on_missing_uvs(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    materials: &[Material],
+) -> Vec<String> {
+    let pairs = scene.objects.iter().flat_map(|object| {
+        object.value.shapes.iter().filter_map(|shape| match shape {
+            ObjectShape::Mesh { mesh, material } => Some((*mesh, *material)),
+            ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+        })
+    });
+    let pairs: BTreeSet<(usize, usize)> = pairs.collect();
+    let without = pairs.into_iter().filter(|(mesh, material)| {
+        let map = materials[*material].colour_map();
+        let has_picture = |map: &ColourMap| map.slots().iter().any(|slot| slot.texture.is_some());
+        meshes[*mesh].uvs().is_none() && map.is_some_and(has_picture)
+    });
+    let told = without.map(|(mesh, material)| {
+        format!(
+            "meshes.{}: it has no texture coordinates, so that the picture of materials.{} lies on each \
+             triangle by itself",
+            scene.meshes[mesh].name, scene.materials[material].name
+        )
+    });
+    told.collect()
 }
 
 #[cfg(test)]

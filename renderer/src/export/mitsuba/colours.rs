@@ -1,0 +1,68 @@
+//! Maps of colours, as the texture `lamina_colours` of `reference/`.
+//!
+//! The pictures are written as linear colours, row by row from the top, and the three spectra of
+//! which a colour is the sum beside them, so that both programs have the same reflectances.
+
+use crate::export::element::Element;
+use crate::image::{Layer, Picture};
+use crate::material::colour_map::ColourMap;
+
+/// Path, within the export, of the spectra of red, green and blue.
+pub(super) const BASIS: &str = "spectra/rgb_basis.csv";
+
+/// Path, within the export, of a picture of a material.
+fn file(id: &str, slot: usize) -> String {
+    format!("maps/{id}.colours-{slot}.exr")
+}
+
+/// The texture of a map, as the parameter `name`.
+///
+/// # Panics
+///
+/// If there is no map: a material with a picture has one.
+pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> Element {
+    let map = map.expect("what is built of a picture has a map");
+    let [u, v] = map.repeats().to_array().map(f64::from);
+    let texture = Element::plugin("texture", "lamina_colours")
+        .with("name", name)
+        .string("basis", BASIS)
+        .float("repeats_u", u)
+        .float("repeats_v", v);
+    let slots = map.slots().iter().enumerate();
+    slots.fold(texture, |texture, (number, slot)| {
+        let [r, g, b] = slot.factor;
+        let picture = slot.texture.as_ref().map(|picture| {
+            let [across, down] = picture.wrap().map(|wrap| wrap.word());
+            format!(" {across} {down} {}", file(id, number))
+        });
+        let picture = picture.unwrap_or_default();
+        let (begins, shift) = (slot.begins, slot.shift);
+        let value = format!("{begins:e} {shift:e} {r:e} {g:e} {b:e}{picture}");
+        texture.string(&format!("slot_{number}"), value)
+    })
+}
+
+/// The pictures of a map, each with its path within the export.
+pub(super) fn pictures(id: &str, map: &ColourMap) -> Vec<(String, Picture)> {
+    let slots = map.slots().iter().enumerate();
+    let pictures = slots.filter_map(|(number, slot)| {
+        let texture = slot.texture.as_ref()?;
+        let [width, height] = texture.size();
+        let layer = |channel: usize, name: &str| Layer {
+            name: name.to_owned(),
+            data: texture
+                .texels()
+                .iter()
+                .map(|texel| texel[channel])
+                .collect(),
+        };
+        let picture = Picture {
+            width: width as u32,
+            height: height as u32,
+            layers: vec![layer(0, "R"), layer(1, "G"), layer(2, "B")],
+            attributes: Vec::new(),
+        };
+        Some((file(id, number), picture))
+    });
+    pictures.collect()
+}

@@ -1,0 +1,66 @@
+//! What a glTF file has and a model lacks.
+
+use std::collections::BTreeSet;
+
+use gltf_json::Root;
+use gltf_json::material::{AlphaMode, Material};
+use gltf_json::mesh::Semantic;
+use gltf_json::validation::Checked;
+
+use super::shown;
+
+/// Extensions that are read, or change nothing of what is.
+const HARMLESS: [&str; 3] = [
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "KHR_materials_unlit",
+];
+
+/// What is left out, in words.
+pub(super) fn of_document(root: &Root) -> BTreeSet<String> {
+    let mut left_out = BTreeSet::new();
+    let mut add = |is_there: bool, what: &str| {
+        if is_there {
+            left_out.insert(what.to_owned());
+        }
+    };
+    add(!root.animations.is_empty(), "animations");
+    add(!root.skins.is_empty(), "skins (bones)");
+    add(!root.cameras.is_empty(), "cameras");
+    add(root.scenes.len() > 1, "further scenes");
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        add(
+            primitive.targets.iter().any(|targets| !targets.is_empty()),
+            "morph targets",
+        );
+        let mut attributes = primitive.attributes.keys();
+        let has_colours = attributes.any(|key| matches!(key, Checked::Valid(Semantic::Colors(_))));
+        add(has_colours, "colours of vertices");
+    }
+    for material in &root.materials {
+        of_material(material, &mut add);
+    }
+    let extensions = root.extensions_used.iter().map(String::as_str);
+    let extensions: BTreeSet<&str> = extensions.filter(|name| !HARMLESS.contains(name)).collect();
+    for name in extensions.into_iter().take(10) {
+        left_out.insert(format!("extension {}", shown(name)));
+    }
+    left_out
+}
+
+fn of_material(material: &Material, add: &mut impl FnMut(bool, &str)) {
+    let colour = &material.pbr_metallic_roughness;
+    // Pictures of roughness and metal are one; without one the factors hold.
+    let is_metal = colour.metallic_factor.0 > 0.0;
+    add(
+        is_metal,
+        "metal (its base colour is taken as that of paint)",
+    );
+    add(
+        material.alpha_mode != Checked::Valid(AlphaMode::Opaque),
+        "transparency",
+    );
+    add(material.normal_texture.is_some(), "maps of normals");
+    let glows = material.emissive_factor.0.iter().any(|part| *part > 0.0);
+    add(glows, "emitted light");
+}

@@ -1,0 +1,447 @@
+//! Models made here, whole and damaged.
+
+use std::collections::BTreeMap;
+
+use glam::{Vec2, Vec3};
+use serde_json::{Value, json};
+
+use super::*;
+use crate::image::portable_network;
+
+/// A document under construction: JSON and the bytes of its buffer.
+struct Made {
+    json: Value,
+    bytes: Vec<u8>,
+}
+
+impl Made {
+    /// One node with one mesh without primitives.
+    fn empty() -> Self {
+        let json = json!({
+            "asset": { "version": "2.0" },
+            "scenes": [{ "nodes": [0] }],
+            "nodes": [{ "mesh": 0 }],
+            "meshes": [{ "primitives": [] }],
+            "accessors": [], "bufferViews": [], "materials": [],
+            "textures": [], "images": [], "samplers": [],
+        });
+        Self {
+            json,
+            bytes: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, list: &str, value: Value) -> usize {
+        let list = self.json[list].as_array_mut().expect("a list");
+        list.push(value);
+        list.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        let start = self.bytes.len();
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let view = json!({ "buffer": 0, "byteOffset": start, "byteLength": bytes.len() });
+        self.push("bufferViews", view)
+    }
+
+    fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
+        let bytes: Vec<u8> = values
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes);
+        let kind = ["", "SCALAR", "VEC2", "VEC3", "VEC4"][N];
+        let accessor = json!({
+            "bufferView": view, "componentType": 5126, "count": values.len(), "type": kind,
+        });
+        self.push("accessors", accessor)
+    }
+
+    fn indices(&mut self, values: &[u16]) -> usize {
+        let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        let view = self.view(&bytes);
+        let accessor = json!({
+            "bufferView": view, "componentType": 5123, "count": values.len(), "type": "SCALAR",
+        });
+        self.push("accessors", accessor)
+    }
+
+    /// Adds a square of 1 m around the origin in the file's xy plane, z = `z`, to the mesh.
+    fn square(&mut self, z: f32, material: Option<usize>) -> &mut Value {
+        let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+        let positions = self.floats(&corners.map(|[x, y]| [x, y, z]));
+        let normals = self.floats(&[[0.0, 0.0, 1.0]; 4]);
+        // v runs down.
+        let uvs = self.floats(&corners.map(|[x, y]| [x + 0.5, 0.5 - y]));
+        let indices = self.indices(&[0, 1, 2, 0, 2, 3]);
+        let mut primitive = json!({
+            "attributes": { "POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs },
+            "indices": indices,
+        });
+        if let Some(material) = material {
+            primitive["material"] = json!(material);
+        }
+        let list = self.json["meshes"][0]["primitives"].as_array_mut();
+        let list = list.expect("a list");
+        list.push(primitive);
+        list.last_mut().expect("it was just added")
+    }
+
+    /// A picture of 2 × 1 pixels, black and white, in the buffer, as a texture.
+    fn texture(&mut self, wrap: u32) -> usize {
+        let png = portable_network::encoded(2, 1, &[0, 0, 0, 255, 255, 255]).expect("two pixels");
+        let view = self.view(&png);
+        let image = self.push(
+            "images",
+            json!({ "bufferView": view, "mimeType": "image/png" }),
+        );
+        let sampler = self.push("samplers", json!({ "wrapS": wrap, "wrapT": wrap }));
+        self.push("textures", json!({ "source": image, "sampler": sampler }))
+    }
+
+    fn paint(&mut self, factor: [f32; 4], texture: Option<Value>) -> usize {
+        let mut colour = json!({ "baseColorFactor": factor, "metallicFactor": 0 });
+        if let Some(texture) = texture {
+            colour["baseColorTexture"] = texture;
+        }
+        self.push("materials", json!({ "pbrMetallicRoughness": colour }))
+    }
+
+    fn glb(&self) -> Vec<u8> {
+        let mut json = self.json.clone();
+        json["buffers"] = json!([{ "byteLength": self.bytes.len() }]);
+        let mut json = json.to_string().into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let mut glb = b"glTF".to_vec();
+        let length = 12 + 8 + json.len() + 8 + self.bytes.len();
+        for number in [2, length as u32, json.len() as u32] {
+            glb.extend(number.to_le_bytes());
+        }
+        glb.extend(b"JSON");
+        glb.extend(json);
+        glb.extend((self.bytes.len() as u32).to_le_bytes());
+        glb.extend(b"BIN\0");
+        glb.extend(&self.bytes);
+        glb
+    }
+
+    /// As JSON that holds its bytes.
+    fn text(&self) -> Vec<u8> {
+        use base64::Engine as _;
+        let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
+        let uri = format!("data:application/octet-stream;base64,{data}");
+        let mut json = self.json.clone();
+        json["buffers"] = json!([{ "byteLength": self.bytes.len(), "uri": uri }]);
+        json.to_string().into_bytes()
+    }
+
+    fn model(&self) -> Result<Model, ModelError> {
+        opened(&self.glb())
+    }
+
+    /// The message of the error that it gives.
+    fn refused(&self) -> String {
+        let error = self.model().map(|_| ()).expect_err("it is damaged");
+        error.to_string()
+    }
+}
+
+fn opened(bytes: &[u8]) -> Result<Model, ModelError> {
+    read(&Container::open(bytes)?, &|_| None, 1.0, true)
+}
+
+fn square() -> Made {
+    let mut made = Made::empty();
+    made.square(0.0, None);
+    made
+}
+
+fn near(found: Vec3, expected: Vec3) {
+    assert!((found - expected).length() < 1e-6, "{found} {expected}");
+}
+
+#[test]
+fn a_square_that_stands_in_the_file_stands_in_the_scene() {
+    for bytes in [square().glb(), square().text()] {
+        let model = opened(&bytes).expect("a good model");
+        assert_eq!(model.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+        // +y of the file is up, and its +z towards −y.
+        near(model.mesh.positions()[0], Vec3::new(-0.5, 0.0, -0.5));
+        near(model.mesh.positions()[2], Vec3::new(0.5, 0.0, 0.5));
+        near(model.mesh.normals().expect("it has them")[0], -Vec3::Y);
+        // v is upwards.
+        let uvs = model.mesh.uvs().expect("it has them");
+        assert_eq!([uvs[0], uvs[2]], [Vec2::ZERO, Vec2::ONE]);
+        assert_eq!(model.left_out, Vec::<String>::new());
+    }
+}
+
+#[test]
+fn nodes_move_what_hangs_below_them() {
+    let mut made = square();
+    // Turned about y by 90°, twice as large, and moved; below a node that is moved too.
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    made.json["nodes"] = json!([
+        { "children": [1], "translation": [0, 1, 0] },
+        { "mesh": 0, "scale": [2, 2, 2], "rotation": [0, half, 0, half], "translation": [3, 0, 0] },
+    ]);
+    let model = made.model().expect("a good model");
+    // (−½, −½, 0) becomes (−1, −1, 0), (0, −1, 1), (3, 0, 1) in the file.
+    near(model.mesh.positions()[0], Vec3::new(3.0, -1.0, 0.0));
+    near(model.mesh.normals().expect("it has them")[0], Vec3::X);
+    let matrix = [0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 3, 1, 0, 1];
+    made.json["nodes"] = json!([{ "mesh": 0, "matrix": matrix }]);
+    near(
+        made.model().expect("a good model").mesh.positions()[0],
+        Vec3::new(3.0, -1.0, 0.0),
+    );
+    // A mirror image has its outside outside, and uneven scales turn normals.
+    made.json["nodes"] = json!([{ "mesh": 0, "scale": [-1, 2, 3] }]);
+    let model = made.model().expect("a good model");
+    let [a, b, c] = model.mesh.triangles()[0].map(|i| model.mesh.positions()[i as usize]);
+    let outward = (b - a).cross(c - a).normalize();
+    near(outward, -Vec3::Y);
+    near(model.mesh.normals().expect("it has them")[0], -Vec3::Y);
+}
+
+#[test]
+fn strips_fans_and_lists_without_indices_are_the_same_triangles() {
+    for (mode, corners) in [(5, [0_u16, 1, 3, 2]), (6, [0, 1, 2, 3])] {
+        let mut made = square();
+        let indices = made.indices(&corners);
+        let primitive = &mut made.json["meshes"][0]["primitives"][0];
+        primitive["mode"] = json!(mode);
+        primitive["indices"] = json!(indices);
+        let mesh = made.model().expect("a good model").mesh;
+        assert_eq!(mesh.triangles().len(), 2);
+        for triangle in mesh.triangles() {
+            let [a, b, c] = triangle.map(|i| mesh.positions()[i as usize]);
+            near((b - a).cross(c - a), -Vec3::Y);
+        }
+    }
+    let mut made = square();
+    let primitive = &mut made.json["meshes"][0]["primitives"][0];
+    primitive
+        .as_object_mut()
+        .expect("an object")
+        .remove("indices");
+    assert!(
+        made.refused()
+            .contains("4 corners, which is no multiple of 3")
+    );
+}
+
+#[test]
+fn shorts_and_bytes_stand_for_shares() {
+    let mut made = square();
+    let view = made.view(&[0, 255, 255, 255, 255, 0, 0, 0]);
+    let uvs = made.push(
+        "accessors",
+        json!({ "bufferView": view, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": true }),
+    );
+    made.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    made.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+    let model = made.model().expect("a good model");
+    let uvs = model.mesh.uvs().expect("it has them");
+    assert_eq!([uvs[0], uvs[2]], [Vec2::ZERO, Vec2::ONE]);
+}
+
+/// The colours that a model has at a place of each square, by the square's height.
+fn colours(model: &Model, at: Vec2) -> Vec<[f32; 3]> {
+    let map = model.colours.as_ref().expect("they were asked for");
+    let uvs = model.mesh.uvs().expect("it has them");
+    let squares = uvs.chunks(4);
+    let at = squares.map(|uvs| map.colour(uvs[0] + at * (uvs[2] - uvs[0])));
+    at.collect()
+}
+
+#[test]
+fn each_part_of_a_mesh_has_the_colour_of_its_own_material() {
+    let mut made = Made::empty();
+    let texture = made.texture(10497);
+    let red = made.paint([0.8, 0.1, 0.1, 1.0], None);
+    let grey = made.paint([0.5, 0.5, 0.25, 1.0], Some(json!({ "index": texture })));
+    made.square(0.0, Some(red));
+    made.square(1.0, Some(grey));
+    made.square(2.0, None);
+    made.square(3.0, Some(red));
+    let model = made.model().expect("a good model");
+    let red = [0.8, 0.1, 0.1];
+    let dark = colours(&model, Vec2::new(0.25, 0.5));
+    assert_eq!(dark, [red, [0.0; 3], [1.0; 3], red]);
+    let bright = colours(&model, Vec2::new(0.75, 0.5));
+    assert_eq!(bright, [red, [0.5, 0.5, 0.25], [1.0; 3], red]);
+    // One material alone keeps its texture coordinates.
+    let mut made = Made::empty();
+    let texture = made.texture(33071);
+    let alone = made.paint([1.0; 4], Some(json!({ "index": texture })));
+    made.square(0.0, Some(alone));
+    let model = made.model().expect("a good model");
+    assert_eq!(model.mesh.uvs().expect("it has them")[2], Vec2::ONE);
+    let map = model.colours.expect("they were asked for");
+    assert_eq!(map.colour(Vec2::new(5.0, 0.0)), [1.0; 3]);
+}
+
+#[test]
+fn a_transform_of_a_texture_turns_counter_clockwise_as_one_looks_at_it() {
+    let mut made = Made::empty();
+    let texture = made.texture(10497);
+    let transform =
+        json!({ "offset": [0.5, 0], "scale": [2, 1], "rotation": std::f64::consts::FRAC_PI_2 });
+    let info = json!({ "index": texture, "extensions": { "KHR_texture_transform": transform } });
+    let paint = made.paint([1.0; 4], Some(info));
+    made.square(0.0, Some(paint));
+    made.json["extensionsRequired"] = json!(["KHR_texture_transform"]);
+    let model = made.model().expect("a good model");
+    // The corner (u, v) = (1, 0): twice as far, turned to (0, −2), moved to (½, −2); v upwards is 3.
+    let uv = model.mesh.uvs().expect("it has them")[2];
+    assert!((uv - Vec2::new(0.5, 3.0)).length() < 1e-6, "{uv}");
+}
+
+#[test]
+fn pictures_may_be_files_beside_and_names_may_be_written_in_percent() {
+    let mut made = Made::empty();
+    let texture = made.texture(10497);
+    made.json["images"][0] = json!({ "uri": "the%20bark.png" });
+    let paint = made.paint([1.0; 4], Some(json!({ "index": texture })));
+    made.square(0.0, Some(paint));
+    let mut json = made.json.clone();
+    json["buffers"] = json!([{ "byteLength": made.bytes.len(), "uri": "pot.bin" }]);
+    let text = json.to_string();
+    let container = Container::open(text.as_bytes()).expect("good JSON");
+    let expected = [
+        ("pot.bin".to_owned(), FileKind::Buffer),
+        ("the bark.png".to_owned(), FileKind::Picture),
+    ];
+    assert_eq!(container.files(), expected);
+    let png = portable_network::encoded(1, 1, &[255, 0, 0]).expect("one pixel");
+    let files = BTreeMap::from([("pot.bin", made.bytes), ("the bark.png", png)]);
+    let bytes_of = |name: &str| files.get(name).map(Vec::as_slice);
+    let model = read(&container, &bytes_of, 0.5, true).expect("a good model");
+    assert_eq!(colours(&model, Vec2::splat(0.5)), [[1.0, 0.0, 0.0]]);
+    near(model.mesh.positions()[2], Vec3::new(0.25, 0.0, 0.25));
+    let none = read(&container, &|_| None, 1.0, false).map(|_| ());
+    let text = none.expect_err("its buffer is not there").to_string();
+    assert_eq!(text, "buffers[0]: the file \"pot.bin\" is not there");
+}
+
+#[test]
+fn what_is_left_out_is_told_by_name() {
+    let mut made = square();
+    made.json["animations"] = json!([{ "channels": [], "samplers": [] }]);
+    made.json["materials"] = json!([{ "alphaMode": "MASK", "emissiveFactor": [1, 0, 0] }]);
+    made.json["extensionsUsed"] = json!(["KHR_texture_transform", "KHR_materials_sheen"]);
+    let line = json!({ "attributes": { "POSITION": 0 }, "mode": 1 });
+    let list = made.json["meshes"][0]["primitives"].as_array_mut();
+    list.expect("a list").push(line);
+    let expected = [
+        "animations",
+        "emitted light",
+        "extension \"KHR_materials_sheen\"",
+        "lines and points",
+        "metal (its base colour is taken as that of paint)",
+        "transparency",
+    ];
+    assert_eq!(made.model().expect("a good model").left_out, expected);
+}
+
+#[test]
+fn damaged_models_are_refused_with_the_place() {
+    let mut cases: Vec<(Made, &str)> = Vec::new();
+    let mut case = |change: &dyn Fn(&mut Value), message: &'static str| {
+        let mut made = square();
+        change(&mut made.json);
+        cases.push((made, message));
+    };
+    case(
+        &|json| json["asset"]["version"] = json!("1.0"),
+        "only version 2",
+    );
+    case(
+        &|json| json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
+        "requires the extension \"KHR_draco_mesh_compression\"",
+    );
+    case(
+        &|json| json["nodes"][0]["mesh"] = json!(7),
+        "nodes[0].mesh: names what is not there",
+    );
+    case(
+        &|json| json["nodes"] = json!([{ "mesh": 0, "children": [0] }]),
+        "nodes[0]: has two parents, or is its own",
+    );
+    case(
+        &|json| json["nodes"][0]["rotation"] = json!([0, 0, 0, 0]),
+        "nodes[0]: its transform is not finite",
+    );
+    case(
+        &|json| json["meshes"][0]["primitives"][0]["attributes"] = json!({ "NORMAL": 1 }),
+        "meshes[0].primitives[0]: has no POSITION",
+    );
+    case(
+        &|json| json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(99),
+        "POSITION is accessor 99, but there are 4",
+    );
+    case(
+        &|json| json["accessors"][0]["count"] = json!(3),
+        "accessors[0]: vertex 3 is used, but there are 3",
+    );
+    case(
+        &|json| json["accessors"][0]["count"] = json!(u64::MAX),
+        "accessors[0]: claims 18446744073709551615 elements",
+    );
+    case(
+        &|json| json["bufferViews"][0]["byteLength"] = json!(u64::MAX),
+        "bufferViews[0]: shows bytes 0 to",
+    );
+    case(
+        &|json| json["accessors"][0]["type"] = json!("VEC2"),
+        "accessors[0]: has not the 3 numbers",
+    );
+    case(
+        &|json| json["accessors"][3]["componentType"] = json!(5126),
+        "accessors[3]: claims 6 elements",
+    );
+    case(
+        &|json| json["meshes"][0]["primitives"][0]["mode"] = json!(0),
+        "its scene has no triangles, only lines and points",
+    );
+    case(
+        &|json| json["nodes"] = json!([{}]),
+        "its scene has no triangles",
+    );
+    for (made, message) in cases {
+        let text = made.refused();
+        assert!(text.contains(message), "{text} has not: {message}");
+    }
+    // Positions that are not numbers.
+    let mut made = square();
+    made.bytes[..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert!(made.refused().contains("not finite"), "{}", made.refused());
+    // Colours beyond white, and a picture of no known kind.
+    let mut made = Made::empty();
+    let paint = made.paint([2.0, 0.0, 0.0, 1.0], None);
+    made.square(0.0, Some(paint));
+    assert!(made.refused().contains("baseColorFactor: is [2, 0, 0]"));
+    let mut made = Made::empty();
+    let texture = made.texture(10497);
+    let start = made.json["bufferViews"][0]["byteOffset"].as_u64();
+    made.bytes[start.expect("a number") as usize] = b'?';
+    let paint = made.paint([1.0; 4], Some(json!({ "index": texture })));
+    made.square(0.0, Some(paint));
+    assert!(made.refused().contains("images[0]: not a picture"));
+}
+
+#[test]
+fn a_file_that_is_cut_short_is_refused_at_any_length() {
+    let whole = square().glb();
+    assert!(opened(&whole).is_ok());
+    for length in 0..whole.len() {
+        assert!(opened(&whole[..length]).is_err(), "{length} bytes");
+    }
+    let text = square().text();
+    for length in 0..text.len() {
+        assert!(opened(&text[..length]).is_err(), "{length} bytes");
+    }
+}
