@@ -100,7 +100,7 @@ impl FaultKind {
             Self::Apart => "parts do not hang together with the part at the petiole",
             Self::Bare => "nodes have no vein; they are left out",
             Self::NoRoot => {
-                "nothing says where the petiole is (--root X,Y does); this end of a vein is taken for it"
+                "nothing says where the petiole is (--root X,Y does), so an end of a vein is taken for it"
             }
             Self::Turned => {
                 "edges did not lead away from the petiole; all are turned by their distance from it along veins"
@@ -150,9 +150,9 @@ impl Fault {
         }
     }
 
-    /// One line: how many, what, and where the first ones are.
+    /// One line: what, how many, and where the first ones are.
     pub fn line(&self) -> String {
-        let mut line = format!("{} {}", self.count, self.kind.sentence());
+        let mut line = format!("{} ({})", self.kind.sentence(), self.count);
         let mut shown: Vec<String> = self.names.iter().take(SHOWN).cloned().collect();
         if shown.is_empty() {
             let places = self.places.iter().take(SHOWN);

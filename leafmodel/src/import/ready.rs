@@ -115,6 +115,11 @@ impl Draft {
             network
         } else {
             repair::mend(&mut self, &mut faults);
+            if self.edges.is_empty() {
+                return Err(ImportError::NoVeins {
+                    wanted: "edges with a length; all join a node to itself or nodes at one place",
+                });
+            }
             let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
             roots::turned(&self, base, segment_mm, &mut faults)?
         };

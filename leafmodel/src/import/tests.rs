@@ -224,12 +224,12 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
     let gap = NETWORKX.replace("target=\"left\"", "target=\"lost\"");
     assert_eq!(
         refused(Format::GraphMl, &gap, None),
-        "cannot be measured:\n  1 edges lead to nodes that do not exist: line 11: node lost"
+        "cannot be measured:\n  edges lead to nodes that do not exist (1): line 11: node lost"
     );
     let nan = NETWORKX.replace(">300<", ">nan<");
     assert_eq!(
         refused(Format::GraphMl, &nan, None),
-        "cannot be measured:\n  2 nodes have a coordinate that is not a finite number within 10⁶ mm of the origin: node left is at (0, NaN), node right is at (250, NaN)"
+        "cannot be measured:\n  nodes have a coordinate that is not a finite number within 10⁶ mm of the origin (2): node left is at (0, NaN), node right is at (250, NaN)"
     );
     let word = NETWORKX.replace(">8<", ">wide<");
     assert_eq!(
@@ -253,6 +253,8 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
     );
     assert!(refused(Format::GraphMl, "<svg/>", None).contains("its outermost element is <svg>"));
     assert!(refused(Format::GraphMl, "hello", None).starts_with("is no GraphML"));
+    let point = "from_x_mm,from_y_mm,to_x_mm,to_y_mm\n1,1,1,1\n";
+    assert!(refused(Format::Table, point, None).starts_with("holds no veins: edges with a length"));
     assert!(refused(Format::Json, "[1]", None).starts_with("holds no veins: an object with nodes"));
     assert!(refused(Format::Json, "{\"nodes\": NaN}", None).starts_with("is no JSON"));
     assert!(refused(Format::Table, "a,b\n1,2\n", None).contains("here are: a, b"));

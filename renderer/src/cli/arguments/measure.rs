@@ -34,10 +34,10 @@ pub struct MeasureArguments {
     #[arg(long, value_name = "FILE")]
     pub outline: Option<PathBuf>,
     /// Area in which the veins lie, mm², where there is no margin
-    #[arg(long, value_name = "MM2", conflicts_with = "outline", value_parser = between::<0, MOST_MM2>)]
+    #[arg(long, value_name = "MM2", conflicts_with = "outline", value_parser = above_0::<MOST_MM2>)]
     pub area: Option<f64>,
     /// Millimetres to a unit or a pixel, for lengths that the files give without a unit
-    #[arg(long, value_name = "MM", visible_alias = "mm-per-pixel", value_parser = between::<0, MOST_MM>)]
+    #[arg(long, value_name = "MM", visible_alias = "mm-per-pixel", value_parser = above_0::<MOST_MM>)]
     pub mm_per_unit: Option<f64>,
     /// y points down in the file, as in pictures; an svg is turned in any case
     #[arg(long)]
@@ -90,6 +90,13 @@ impl MeasureArguments {
         let endings: Vec<&str> = Format::ENDINGS.iter().map(|(ending, _)| *ending).collect();
         endings.join(", ")
     }
+}
+
+/// A number above 0 and up to `HIGH`.
+fn above_0<const HIGH: u32>(text: &str) -> Result<f64, String> {
+    let number = between::<0, HIGH>(text)?;
+    let allowed = format!("it must be above 0 and at most {HIGH}");
+    (number > 0.0).then_some(number).ok_or(allowed)
 }
 
 /// Two numbers with a comma between them.
