@@ -22,7 +22,7 @@ pub(super) fn ink(
     blade: &Mask,
     settings: &Settings,
 ) -> Result<Raster, TraceError> {
-    let picture = smoothed(picture, settings.smoothing_px);
+    let picture = smoothed_within(picture, blade, settings.smoothing_px);
     let sign = match settings.veins {
         Ink::Dark => 1.0,
         Ink::Bright => -1.0,
@@ -60,8 +60,38 @@ pub(super) fn ink(
     })
 }
 
+/// The picture after a Gaussian that mixes no background into the blade: else the rim of a blade
+/// without veins would be paler than the rest of it.
+fn smoothed_within(picture: &Raster, blade: &Mask, deviation: f64) -> Raster {
+    let width = picture.width();
+    let row = |y: usize| &blade.cells[blade.cell(0, y)..][..width];
+    let masked = picture.mapped(|y, from, to| {
+        for ((to, from), is_in) in to.iter_mut().zip(from).zip(row(y)) {
+            *to = if *is_in { *from } else { 0.0 };
+        }
+    });
+    let weights = picture.mapped(|y, _, to| {
+        for (to, is_in) in to.iter_mut().zip(row(y)) {
+            *to = if *is_in { 1.0 } else { 0.0 };
+        }
+    });
+    let weights = smoothed(&weights, deviation);
+    let sums = smoothed(&masked, deviation);
+    let plain = smoothed(picture, deviation);
+    plain.mapped(|y, from, to| {
+        let at = y * width;
+        for (x, ((to, from), is_in)) in to.iter_mut().zip(from).zip(row(y)).enumerate() {
+            *to = if *is_in {
+                sums.values()[at + x] / weights.values()[at + x]
+            } else {
+                *from
+            };
+        }
+    })
+}
+
 /// The picture after a Gaussian of a standard deviation in pixels.
-pub(super) fn smoothed(picture: &Raster, deviation: f64) -> Raster {
+fn smoothed(picture: &Raster, deviation: f64) -> Raster {
     if deviation <= 0.0 {
         return picture.clone();
     }
@@ -110,7 +140,14 @@ fn evened(picture: &Raster, blade: &Mask, veins: Ink) -> Raster {
         Ink::Dark => value >= mean[at],
         Ink::Bright => value <= mean[at],
     });
-    let tissue = tissue.over(picture, half);
+    // Where a window holds little blade (about a petiole) the vein itself would be its tissue.
+    let whole = tissue.whole();
+    let mut tissue = tissue.over_at_least(picture, half, 0.25);
+    for level in &mut tissue {
+        if *level == 0.0 {
+            *level = whole;
+        }
+    }
     picture.mapped(|y, from, to| {
         let tissue = &tissue[y * width..][..width];
         for ((to, from), tissue) in to.iter_mut().zip(from).zip(tissue) {
@@ -160,8 +197,19 @@ impl Means {
         means
     }
 
+    /// The mean of all pixels that count, 0 without any.
+    fn whole(&self) -> f32 {
+        let last = self.sums.len() - 1;
+        (self.sums[last] / f64::from(self.counts[last].max(1))) as f32
+    }
+
     /// The mean about each pixel over a square with sides of 2 `half` + 1, 0 where nothing counts.
     fn over(&self, picture: &Raster, half: usize) -> Vec<f32> {
+        self.over_at_least(picture, half, 0.0)
+    }
+
+    /// The same, 0 where less than a share of the square's pixels counts.
+    fn over_at_least(&self, picture: &Raster, half: usize, share: f64) -> Vec<f32> {
         let mut means = vec![0.0; picture.values().len()];
         means
             .par_chunks_mut(self.width)
@@ -170,7 +218,9 @@ impl Means {
                 for (x, mean) in row.iter_mut().enumerate() {
                     let [a, b, c, d] = self.corners(x, y, half);
                     let count = self.counts[d] + self.counts[a] - self.counts[b] - self.counts[c];
-                    if count > 0 {
+                    let (across, down) = (b - a, (c - a) / (self.width + 1));
+                    let least = share * across as f64 * down as f64;
+                    if count > 0 && f64::from(count) >= least {
                         let sum = self.sums[d] + self.sums[a] - self.sums[b] - self.sums[c];
                         *mean = (sum / f64::from(count)) as f32;
                     }

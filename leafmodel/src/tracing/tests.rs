@@ -215,7 +215,8 @@ fn turned_lines_have_their_lengths_and_radii() {
             // Along rows or columns a line of two greys is a whole number of pixels wide. In very
             // fine lines the Gaussian thins the ink, so that the level lies farther out.
             let step = match (degrees % 90.0 == 0.0, radius < 2.0) {
-                (true, _) => 0.25,
+                (true, true) => 0.35,
+                (true, false) => 0.25,
                 (false, true) => 0.2,
                 (false, false) => 0.12,
             };
@@ -312,6 +313,11 @@ fn what_is_no_leaf_is_refused_with_its_reason() {
         let error = refused(&flat(0.5), &Settings::new(scale));
         assert!(matches!(error, TraceError::BadScale { .. }), "{error}");
     }
+    // A blade without veins.
+    let square = |at: usize| (16..48).contains(&(at % 64)) && (16..48).contains(&(at / 64));
+    let bare = (0..64 * 64).map(|at| if square(at) { 0.1 } else { 1.0 });
+    let bare = Raster::new(64, 64, bare.collect()).expect("good");
+    assert_eq!(refused(&bare, &Settings::new(1.0)), TraceError::NoContrast);
     let given = Settings {
         blade: Blade::Of(flat(0.1)),
         ..Settings::new(1.0)
