@@ -124,7 +124,7 @@ fn channel(
     file: &Path,
     picture: &Picture,
     name: &'static str,
-    allowed: Allowed,
+    allowed: &Allowed,
 ) -> Result<Vec<f32>, AssetError> {
     let layer = picture
         .layers
@@ -176,7 +176,7 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
                 LIGHT.range
             },
         };
-        let values = channel(file, &picture, name, allowed)?;
+        let values = channel(file, &picture, name, &allowed)?;
         for (row, line) in values.chunks(width).enumerate() {
             for (column, value) in line.iter().enumerate() {
                 texels[row * width + column][constituent] = *value;
@@ -272,7 +272,7 @@ impl AssetError {
 ///
 /// [`AssetError`] if it is not such a picture or holds negative or non-finite values.
 pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
-    colours(file, || LIGHT)
+    colours(file, &LIGHT)
 }
 
 /// A picture of reflectances: as an environment, with values in [0, 1].
@@ -281,10 +281,10 @@ pub fn environment(file: &Path) -> Result<RgbPicture, AssetError> {
 ///
 /// [`AssetError`] if it is not such a picture or holds other values.
 pub fn reflectances(file: &Path) -> Result<RgbPicture, AssetError> {
-    colours(file, || SHARES)
+    colours(file, &SHARES)
 }
 
-fn colours(file: &Path, allowed: impl Fn() -> Allowed) -> Result<RgbPicture, AssetError> {
+fn colours(file: &Path, allowed: &Allowed) -> Result<RgbPicture, AssetError> {
     let ending = file.extension().and_then(|ending| ending.to_str());
     let ending = ending.unwrap_or_default().to_ascii_lowercase();
     let picture = match ending.as_str() {
@@ -292,18 +292,9 @@ fn colours(file: &Path, allowed: impl Fn() -> Allowed) -> Result<RgbPicture, Ass
         "jpg" | "jpeg" => jpeg::read(file)?,
         _ => openexr::read_texture(file)?,
     };
-    colours_of(&picture, file, allowed)
-}
-
-/// The colours of a picture that was read; `file` is its name in messages.
-fn colours_of(
-    picture: &Picture,
-    file: &Path,
-    allowed: impl Fn() -> Allowed,
-) -> Result<RgbPicture, AssetError> {
-    let red = channel(file, picture, "R", allowed())?;
-    let green = channel(file, picture, "G", allowed())?;
-    let blue = channel(file, picture, "B", allowed())?;
+    let red = channel(file, &picture, "R", allowed)?;
+    let green = channel(file, &picture, "G", allowed)?;
+    let blue = channel(file, &picture, "B", allowed)?;
     let texels = red
         .into_iter()
         .zip(green)
