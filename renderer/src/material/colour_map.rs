@@ -55,6 +55,9 @@ impl Wrap {
     }
 }
 
+/// Greatest number of a texel, of either sign.
+const FARTHEST: f32 = 1e12;
+
 /// A picture of colours, bilinear between texel centres. Its lowest row is at v = 0, as one looks at
 /// it.
 #[derive(Clone, Debug)]
@@ -103,16 +106,16 @@ impl ColourTexture {
 
     #[inline]
     fn at(&self, uv: Vec2) -> [f32; 3] {
-        let x = uv.x * self.width as f32 - 0.5;
-        let y = (1.0 - uv.y) * self.height as f32 - 0.5;
+        // Far out there is no detail left, and beyond the range of floats no number.
+        let x = (uv.x * self.width as f32 - 0.5).clamp(-FARTHEST, FARTHEST);
+        let y = ((1.0 - uv.y) * self.height as f32 - 0.5).clamp(-FARTHEST, FARTHEST);
         let (x0, y0) = (x.floor(), y.floor());
         let (share_x, share_y) = (x - x0, y - y0);
         let mut colour = [0.0; 3];
         for (dy, weight_y) in [(0, 1.0 - share_y), (1, share_y)] {
-            // A float beyond the range of integers becomes its end, which `+ 1` must not leave.
-            let row = self.wrap[1].texel((y0 as i64).saturating_add(dy), self.height);
+            let row = self.wrap[1].texel(y0 as i64 + dy, self.height);
             for (dx, weight_x) in [(0, 1.0 - share_x), (1, share_x)] {
-                let column = self.wrap[0].texel((x0 as i64).saturating_add(dx), self.width);
+                let column = self.wrap[0].texel(x0 as i64 + dx, self.width);
                 let texel = self.texels[row * self.width + column];
                 for (sum, value) in colour.iter_mut().zip(texel) {
                     *sum += weight_x * weight_y * value;

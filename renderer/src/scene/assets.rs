@@ -130,7 +130,7 @@ fn channel(
     file: &Path,
     picture: &Picture,
     name: &'static str,
-    allowed: Allowed,
+    allowed: &Allowed,
 ) -> Result<Vec<f32>, AssetError> {
     let layer = picture
         .layers
@@ -182,7 +182,7 @@ pub fn contents_map(file: &Path) -> Result<ContentsTexture, AssetError> {
                 LIGHT.range
             },
         };
-        let values = channel(file, &picture, name, allowed)?;
+        let values = channel(file, &picture, name, &allowed)?;
         for (row, line) in values.chunks(width).enumerate() {
             for (column, value) in line.iter().enumerate() {
                 texels[row * width + column][constituent] = *value;
@@ -279,7 +279,7 @@ impl AssetError {
 /// [`AssetError`] if it is not such a picture, holds negative or non-finite values, or is dark
 /// everywhere.
 pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
-    let picture = colours(file, || LIGHT)?;
+    let picture = colours(file, &LIGHT)?;
     if picture.texels.iter().flatten().all(|value| *value == 0.0) {
         return Err(AssetError::Dark {
             file: file.to_owned(),
@@ -294,10 +294,10 @@ pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
 ///
 /// [`AssetError`] if it is not such a picture or holds other values.
 pub fn reflectances(file: &Path) -> Result<RgbPicture, AssetError> {
-    colours(file, || SHARES)
+    colours(file, &SHARES)
 }
 
-fn colours(file: &Path, allowed: impl Fn() -> Allowed) -> Result<RgbPicture, AssetError> {
+fn colours(file: &Path, allowed: &Allowed) -> Result<RgbPicture, AssetError> {
     let ending = file.extension().and_then(|ending| ending.to_str());
     let ending = ending.unwrap_or_default().to_ascii_lowercase();
     let picture = match ending.as_str() {
@@ -305,18 +305,9 @@ fn colours(file: &Path, allowed: impl Fn() -> Allowed) -> Result<RgbPicture, Ass
         "jpg" | "jpeg" => jpeg::read(file)?,
         _ => openexr::read_texture(file)?,
     };
-    colours_of(&picture, file, allowed)
-}
-
-/// The colours of a picture that was read; `file` is its name in messages.
-fn colours_of(
-    picture: &Picture,
-    file: &Path,
-    allowed: impl Fn() -> Allowed,
-) -> Result<RgbPicture, AssetError> {
-    let red = channel(file, picture, "R", allowed())?;
-    let green = channel(file, picture, "G", allowed())?;
-    let blue = channel(file, picture, "B", allowed())?;
+    let red = channel(file, &picture, "R", allowed)?;
+    let green = channel(file, &picture, "G", allowed)?;
+    let blue = channel(file, &picture, "B", allowed)?;
     let texels = red
         .into_iter()
         .zip(green)

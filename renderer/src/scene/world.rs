@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::lights::build_lights;
-use self::materials::{Known, build_material};
+use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
 pub use self::placing::{Pieces, WorldObject, WorldObjects};
 use self::placing::{Placed, place};
@@ -227,10 +227,7 @@ impl World {
         let wavelengths = WavelengthSampler::new(&scene.film.kind);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
-        let written = scene.materials.iter();
-        let built =
-            written.map(|named| build_material(&named.name, &named.value, &colours, &mut known));
-        let mut materials = built.collect::<Result<Vec<_>, _>>()?;
+        let mut materials = build_materials(scene, &colours, &mut known)?;
         let names = scene.materials.iter().map(|named| named.name.as_str());
         notes.extend(notes::on_maps(names.zip(&materials)));
         notes.extend(notes::on_missing_uvs(scene, &meshes, &materials));

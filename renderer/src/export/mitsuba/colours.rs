@@ -5,7 +5,7 @@
 
 use crate::export::element::Element;
 use crate::image::{Layer, Picture};
-use crate::material::colour_map::ColourMap;
+use crate::material::colour_map::{ColourMap, Wrap};
 
 /// Path, within the export, of the spectra of red, green and blue.
 pub(super) const BASIS: &str = "spectra/rgb_basis.csv";
@@ -32,7 +32,7 @@ pub(super) fn texture(id: &str, name: &'static str, map: Option<&ColourMap>) -> 
     slots.fold(texture, |texture, (number, slot)| {
         let [r, g, b] = slot.factor;
         let picture = slot.texture.as_ref().map(|picture| {
-            let [across, down] = picture.wrap().map(|wrap| wrap.word());
+            let [across, down] = picture.wrap().map(Wrap::word);
             format!(" {across} {down} {}", file(id, number))
         });
         let picture = picture.unwrap_or_default();

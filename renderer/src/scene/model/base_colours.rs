@@ -1,6 +1,7 @@
 //! The base colours of a glTF file's materials, side by side along u.
 
 use std::borrow::Cow;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -173,9 +174,9 @@ pub(super) fn colours(
                 };
                 let number = texture.source.value();
                 let key = (number, wrap.map(Wrap::word));
-                if !known.contains_key(&key) {
+                if let Entry::Vacant(entry) = known.entry(key) {
                     let picture = picture(root, number, buffers, files)?;
-                    known.insert(key, Arc::new(texture_of(&picture, wrap)));
+                    entry.insert(Arc::new(texture_of(&picture, wrap)));
                 }
                 known.get(&key).cloned()
             }

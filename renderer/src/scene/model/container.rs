@@ -50,11 +50,8 @@ impl<'a> Container<'a> {
             let what = format!("{}, but only version 2 is read", shown(version));
             return Err(ModelError::invalid("asset.version", what));
         }
-        let required = root.extensions_required.iter();
-        if let Some(unknown) = required
-            .into_iter()
-            .find(|name| !KNOWN.contains(&name.as_str()))
-        {
+        let mut required = root.extensions_required.iter();
+        if let Some(unknown) = required.find(|name| !KNOWN.contains(&name.as_str())) {
             return Err(ModelError::Extension(shown(unknown)));
         }
         check(&root)?;
@@ -92,14 +89,13 @@ impl<'a> Container<'a> {
         buffers
             .map(|(number, buffer)| {
                 let place = || format!("buffers[{number}]");
-                let bytes = match &buffer.uri {
-                    Some(uri) => resource(uri, files, &place)?,
-                    None => {
-                        let own = self.binary.filter(|_| number == 0);
-                        Cow::Borrowed(own.ok_or_else(|| {
-                            ModelError::invalid(place(), "has no uri, and the file no bytes for it")
-                        })?)
-                    }
+                let bytes = if let Some(uri) = &buffer.uri {
+                    resource(uri, files, &place)?
+                } else {
+                    let own = self.binary.filter(|_| number == 0);
+                    Cow::Borrowed(own.ok_or_else(|| {
+                        ModelError::invalid(place(), "has no uri, and the file no bytes for it")
+                    })?)
                 };
                 let claimed = buffer.byte_length.0;
                 if (bytes.len() as u64) < claimed {
@@ -145,14 +141,12 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ModelError> {
     let chunk = |at: usize| {
         let claimed = number(at)? as usize;
         let end = at.saturating_add(8).saturating_add(claimed);
-        let kind = bytes.get(at + 4..at + 8);
-        match (kind, bytes[..length].get(at + 8..end)) {
-            (Some(kind), Some(inside)) => Ok((kind, inside, end)),
-            (None, _) | (_, None) => {
-                let what = format!("a chunk claims {claimed} bytes, more than are left");
-                Err(wrong(at, what))
-            }
+        let inside = bytes[..length].get(at + 8..end);
+        if let (Some(kind), Some(inside)) = (bytes.get(at + 4..at + 8), inside) {
+            return Ok((kind, inside, end));
         }
+        let what = format!("a chunk claims {claimed} bytes, more than are left");
+        Err(wrong(at, what))
     };
     let (kind, json, mut at) = chunk(12)?;
     if kind != JSON_CHUNK {
@@ -255,15 +249,12 @@ fn decoded(uri: &str) -> String {
             .get(..2)
             .and_then(|pair| std::str::from_utf8(pair).ok());
         let code = pair.and_then(|pair| u8::from_str_radix(pair, 16).ok());
-        match code.filter(|_| *first == b'%') {
-            Some(code) => {
-                bytes.push(code);
-                rest = &behind[2..];
-            }
-            None => {
-                bytes.push(*first);
-                rest = behind;
-            }
+        if let Some(code) = code.filter(|_| *first == b'%') {
+            bytes.push(code);
+            rest = &behind[2..];
+        } else {
+            bytes.push(*first);
+            rest = behind;
         }
     }
     String::from_utf8(bytes).unwrap_or_else(|_| uri.to_owned())

@@ -69,20 +69,15 @@ fn upright(scale: f64) -> DMat4 {
 fn placed(root: &Root, upright: DMat4) -> Result<Vec<(&Node, DMat4)>, ModelError> {
     let chosen = root.scene.map(|scene| scene.value());
     let chosen = chosen.or((!root.scenes.is_empty()).then_some(0));
-    let roots: Vec<usize> = match chosen {
-        Some(scene) => {
-            let nodes = root.scenes[scene].nodes.iter();
-            nodes.map(Index::value).collect()
-        }
-        None => {
-            let inner = root
-                .nodes
-                .iter()
-                .flat_map(|node| node.children.iter().flatten());
-            let inner: BTreeSet<usize> = inner.map(Index::value).collect();
-            let all = 0..root.nodes.len();
-            all.filter(|number| !inner.contains(number)).collect()
-        }
+    let roots: Vec<usize> = if let Some(scene) = chosen {
+        let nodes = root.scenes[scene].nodes.iter();
+        nodes.map(Index::value).collect()
+    } else {
+        let nodes = root.nodes.iter();
+        let inner = nodes.flat_map(|node| node.children.iter().flatten());
+        let inner: BTreeSet<usize> = inner.map(Index::value).collect();
+        let all = 0..root.nodes.len();
+        all.filter(|number| !inner.contains(number)).collect()
     };
     let mut open: Vec<(usize, DMat4)> = roots.into_iter().rev().map(|n| (n, upright)).collect();
     let mut seen = vec![false; root.nodes.len()];
@@ -143,9 +138,8 @@ fn corners(
         let what = format!("the scene has more than {MOST_TRIANGLES} triangles up to here");
         return Err(ModelError::invalid(place, what));
     }
-    let mode = match primitive.mode {
-        Checked::Valid(mode) => mode,
-        Checked::Invalid => return Err(ModelError::invalid(place, "has an unknown mode")),
+    let Checked::Valid(mode) = primitive.mode else {
+        return Err(ModelError::invalid(place, "has an unknown mode"));
     };
     if matches!(
         mode,
@@ -154,13 +148,12 @@ fn corners(
         left_out.insert("lines and points".to_owned());
         return Ok(None);
     }
-    let indices = match primitive.indices {
-        Some(indices) => accessors.indices(indices)?,
-        None => {
-            let count = u32::try_from(claimed);
-            let count = count.map_err(|_| ModelError::invalid(place, "has too many vertices"))?;
-            (0..count).collect()
-        }
+    let indices = if let Some(indices) = primitive.indices {
+        accessors.indices(indices)?
+    } else {
+        let count = u32::try_from(claimed);
+        let count = count.map_err(|_| ModelError::invalid(place, "has too many vertices"))?;
+        (0..count).collect()
     };
     let fan = |pair: &[u32]| [indices[0], pair[0], pair[1]];
     Ok(Some(match mode {

@@ -52,8 +52,18 @@ impl Known {
     }
 }
 
-/// Makes a material; `colours` are those that each of the scene's meshes brings along.
-pub(super) fn build_material(
+/// Makes the scene's materials; `colours` are those that each of its meshes brings along.
+pub(super) fn build_materials(
+    scene: &Description,
+    colours: &[Option<ColourMap>],
+    known: &mut Known,
+) -> Result<Vec<Material>, WorldError> {
+    let written = scene.materials.iter();
+    let built = written.map(|named| build_material(&named.name, &named.value, colours, known));
+    built.collect()
+}
+
+fn build_material(
     name: &str,
     material: &description::Material,
     colours: &[Option<ColourMap>],
