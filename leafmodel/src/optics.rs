@@ -5,7 +5,8 @@
 //! [`absorption`] turns contents into the absorption
 //! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
 //! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
-//! [`pigments`] says which substances the pigment columns consist of.
+//! [`pigments`] says which substances the pigment columns consist of; [`inversion`] goes the way back,
+//! from spectra to contents.
 //!
 //! - **In**: [`Contents`] per leaf area, a wavelength in nm.
 //! - **Out**: [`ReflectanceTransmittance`], both in [0, 1], for light at near-normal incidence.
@@ -29,6 +30,7 @@ pub mod contents;
 pub mod dust;
 pub mod fast;
 pub mod interface;
+pub mod inversion;
 pub mod per_constituent;
 pub mod pigments;
 pub mod pile;

@@ -32,6 +32,7 @@ pub mod arguments;
 mod check;
 mod columns;
 mod export;
+mod fit;
 mod fit_veins;
 mod grow;
 mod measure;
@@ -124,6 +125,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(scene) => check::run(scene),
         Command::Tonemap(tonemap) => tonemap::run(tonemap),
         Command::Optics(optics) => optics::run(optics),
+        Command::Fit(fit) => fit::run(fit),
         Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),

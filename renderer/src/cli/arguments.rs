@@ -1,7 +1,8 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
-mod measure;
+mod fit;
 mod fit_veins;
+mod measure;
 mod optics;
 mod samples;
 mod shell;
@@ -13,8 +14,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-pub use measure::MeasureArguments;
+pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
+pub use measure::MeasureArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -59,6 +61,12 @@ Examples:
   lamina optics --cab 45 --car 10 --cw 0.011 --cm 0.006 --out leaf.csv
   lamina optics --preset birch-yellow --colour";
 
+const FIT_EXAMPLES: &str = "\
+Examples:
+  lamina optics --cab 30 --out leaf.csv && lamina fit leaf.csv
+  lamina fit leaves.csv --out contents.csv --spectra-out fitted.csv --plot fitted.svg
+  lamina fit visible.csv --range 400..800 --fix water=0.012 --fix dry_matter=0.006";
+
 const GROW_EXAMPLES: &str = "\
 Examples:
   lamina grow poplar --out poplar.png poplar.graphml
@@ -100,6 +108,9 @@ pub enum Command {
     /// Write reflectance and transmittance of a leaf by PROSPECT-D
     #[command(after_help = OPTICS_EXAMPLES)]
     Optics(OpticsArguments),
+    /// Find what leaves hold from their reflectance and transmittance
+    #[command(after_help = FIT_EXAMPLES)]
+    Fit(FitArguments),
     /// Hand a scene to another renderer
     #[command(subcommand)]
     Export(ExportCommand),

@@ -1,0 +1,196 @@
+//! What a leaf holds, from what it reflects and transmits: PROSPECT-D inverted.
+//!
+//! - **In**: R, T or both at wavelengths within PROSPECT's table, and which contents are free.
+//! - **Out**: the contents of the least sum of squares, their standard errors, and what is left.
+//! - **Always true**: contents are in range; the same spectra give the same bits.
+//! - **Left out**: errors of the model itself. Standard errors take what is left as independent
+//!   from one wavelength to the next, which noise is and the model's own error is not.
+//!
+//! [`least_squares`] finds a local minimum; it starts from leaves of several kinds on few
+//! wavelengths, and the best goes on with all of them.
+//!
+//! ```
+//! use leafmodel::optics::inversion::{Inversion, Spectra};
+//! use leafmodel::optics::{Constituent, Contents, ProspectD};
+//!
+//! let leaf = Contents::new(1.6, 42.0, 9.0, 1.0, 0.1, 0.012, 0.006)?;
+//! let nm: Vec<f64> = (0..211).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+//! let mut reflectance = Vec::new();
+//! for &nm in &nm {
+//!     reflectance.push(ProspectD::coefficients(nm)?.reflectance_transmittance(&leaf).reflectance);
+//! }
+//! let inversion = Inversion::new(&nm, &Inversion::PROSPECT_D, Contents::NOTHING)?;
+//! let found = inversion.of(Spectra { reflectance: Some(&reflectance), transmittance: None });
+//! assert!((found.contents[Constituent::Chlorophyll] - 42.0).abs() < 0.01);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod least_squares;
+
+use super::prospect_d::OutsideTable;
+use super::{Coefficients, Constituent, Contents, PerConstituent, ProspectD};
+use least_squares::{Parameter, minimise};
+
+/// Greatest number of wavelengths on which starts compete.
+const FEW: usize = 64;
+
+/// Greatest structure that is looked for; measured leaves have 1 to 3.
+const MOST_STRUCTURE: f64 = 5.0;
+
+/// Leaves of which one is near any other: green, pale, red, dry; structure, chlorophyll,
+/// carotenoids, anthocyanins, brown, water, dry matter.
+const STARTS: [[f64; 7]; 4] = [
+    [1.6, 40.0, 9.0, 1.0, 0.05, 0.012, 0.006],
+    [1.3, 5.0, 2.0, 0.5, 0.05, 0.008, 0.003],
+    [1.8, 20.0, 6.0, 15.0, 0.2, 0.015, 0.008],
+    [2.2, 2.0, 3.0, 1.0, 1.0, 0.001, 0.01],
+];
+
+/// Spectra at the wavelengths of an [`Inversion`].
+#[derive(Clone, Copy, Debug)]
+pub struct Spectra<'a> {
+    /// Reflectance.
+    pub reflectance: Option<&'a [f64]>,
+    /// Transmittance.
+    pub transmittance: Option<&'a [f64]>,
+}
+
+/// What is looked for, at which wavelengths.
+#[derive(Clone, Debug)]
+pub struct Inversion {
+    coefficients: Vec<Coefficients>,
+    free: Vec<Constituent>,
+    fixed: Contents,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The contents; those that were not free as they were given.
+    pub contents: Contents,
+    /// Standard errors; `None` for a content that was not free, is at the end of its range, or is
+    /// not told by the spectra.
+    pub errors: PerConstituent<Option<f64>>,
+    /// Found less measured, at each wavelength: reflectance; empty if there is none.
+    pub reflectance_left: Vec<f64>,
+    /// Of transmittance; empty if there is none.
+    pub transmittance_left: Vec<f64>,
+}
+
+impl Found {
+    /// Root of the mean square of what is left.
+    pub fn rms(&self) -> f64 {
+        let all = self.reflectance_left.iter().chain(&self.transmittance_left);
+        let (sum, count) = all.fold((0.0, 0), |(sum, count), left| {
+            (sum + left * left, count + 1)
+        });
+        (sum / f64::from(count.max(1))).sqrt()
+    }
+
+    /// Number of values that were fitted.
+    pub fn values(&self) -> usize {
+        self.reflectance_left.len() + self.transmittance_left.len()
+    }
+}
+
+impl Inversion {
+    /// PROSPECT-D's inputs.
+    pub const PROSPECT_D: [Constituent; 7] = [
+        Constituent::Structure,
+        Constituent::Chlorophyll,
+        Constituent::Carotenoids,
+        Constituent::Anthocyanins,
+        Constituent::Brown,
+        Constituent::Water,
+        Constituent::DryMatter,
+    ];
+
+    /// An inversion at wavelengths in nm. What is not `free` is as in `fixed`.
+    ///
+    /// # Errors
+    ///
+    /// [`OutsideTable`] for the first wavelength that is not in 400 to 2500 nm.
+    pub fn new(nm: &[f64], free: &[Constituent], fixed: Contents) -> Result<Self, OutsideTable> {
+        let coefficients = nm.iter().map(|&nm| ProspectD::coefficients(nm));
+        Ok(Self {
+            coefficients: coefficients.collect::<Result<_, _>>()?,
+            free: free.to_vec(),
+            fixed,
+        })
+    }
+
+    /// The contents of a leaf with these spectra.
+    pub fn of(&self, spectra: Spectra<'_>) -> Found {
+        let known: Vec<Parameter> = self.free.iter().map(|&of| parameter(of)).collect();
+        let step = self.coefficients.len().div_ceil(FEW).max(1);
+        let tried = STARTS.iter().map(|start| {
+            let start = Contents::prospect_d(*start);
+            let start: Vec<f64> = self.free.iter().map(|&of| start[of]).collect();
+            minimise(&known, &start, |at| self.left(at, spectra, step))
+        });
+        let best = tried.min_by(|a, b| a.sum.total_cmp(&b.sum));
+        let start = best.map_or_else(Vec::new, |best| best.parameters);
+        let found = minimise(&known, &start, |at| self.left(at, spectra, 1));
+        let mut errors = PerConstituent::splat(None);
+        for (&of, error) in self.free.iter().zip(found.errors) {
+            errors[of] = error;
+        }
+        let mut left = self.left(&found.parameters, spectra, 1);
+        let transmittance_left = match spectra.reflectance {
+            Some(_) => left.split_off(self.coefficients.len()),
+            None => std::mem::take(&mut left),
+        };
+        Found {
+            contents: self.with(&found.parameters),
+            errors,
+            reflectance_left: left,
+            transmittance_left,
+        }
+    }
+
+    fn with(&self, values: &[f64]) -> Contents {
+        let mut contents = self.fixed;
+        for (&of, &value) in self.free.iter().zip(values) {
+            contents[of] = value;
+        }
+        contents
+    }
+
+    /// Model less measurement at every `step`th wavelength: of R, then of T.
+    fn left(&self, values: &[f64], spectra: Spectra<'_>, step: usize) -> Vec<f64> {
+        let contents = self.with(values);
+        let every = self.coefficients.iter().enumerate().step_by(step);
+        let (mut of_r, mut of_t) = (Vec::new(), Vec::new());
+        for (i, coefficients) in every {
+            let leaf = coefficients.reflectance_transmittance(&contents);
+            if let Some(measured) = spectra.reflectance {
+                of_r.push(leaf.reflectance - measured[i]);
+            }
+            if let Some(measured) = spectra.transmittance {
+                of_t.push(leaf.transmittance - measured[i]);
+            }
+        }
+        of_r.append(&mut of_t);
+        of_r
+    }
+}
+
+fn parameter(of: Constituent) -> Parameter {
+    let [low, high] = of.range();
+    let (high, scale) = match of {
+        Constituent::Structure => (MOST_STRUCTURE, 0.5),
+        Constituent::Chlorophyll => (high, 20.0),
+        Constituent::Carotenoids | Constituent::Anthocyanins => (high, 5.0),
+        Constituent::Betacyanins | Constituent::Betaxanthins => (high, 5.0),
+        Constituent::Brown => (high, 0.5),
+        Constituent::Water => (high, 0.01),
+        Constituent::DryMatter => (high, 0.005),
+    };
+    Parameter {
+        bounds: [low, high],
+        scale,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,163 @@
+use super::*;
+use crate::shape::chance::{bits, share};
+
+/// The cases of the reference table: contents, and spectra that another implementation computed.
+struct Case {
+    name: String,
+    contents: Contents,
+    nm: Vec<f64>,
+    reflectance: Vec<f64>,
+    transmittance: Vec<f64>,
+}
+
+fn cases() -> Vec<Case> {
+    let text = include_str!("../../../../tests/data/prospect_d_reference.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let mut cases: Vec<Case> = Vec::new();
+    for row in rows {
+        let fields: Vec<&str> = row.split(',').collect();
+        let numbers: Vec<f64> = fields[1..]
+            .iter()
+            .map(|field| field.parse().expect("a number"))
+            .collect();
+        if cases.last().is_none_or(|case| case.name != fields[0]) {
+            let inputs = std::array::from_fn(|i| numbers[i]);
+            cases.push(Case {
+                name: fields[0].to_owned(),
+                contents: Contents::prospect_d(inputs),
+                nm: Vec::new(),
+                reflectance: Vec::new(),
+                transmittance: Vec::new(),
+            });
+        }
+        let case = cases.last_mut().expect("one was pushed");
+        case.nm.push(numbers[7]);
+        case.reflectance.push(numbers[8]);
+        case.transmittance.push(numbers[9]);
+    }
+    assert_eq!(cases.len(), 33);
+    cases
+}
+
+impl Case {
+    fn found(&self, with: [bool; 2]) -> Found {
+        let inversion = Inversion::new(&self.nm, &Inversion::PROSPECT_D, Contents::NOTHING)
+            .expect("within the table");
+        inversion.of(Spectra {
+            reflectance: with[0].then_some(&self.reflectance),
+            transmittance: with[1].then_some(&self.transmittance),
+        })
+    }
+
+    /// Greatest difference from the case's contents, over them or over a hundredth of what matters.
+    fn worst(&self, found: &Found) -> (f64, Constituent) {
+        let off = Inversion::PROSPECT_D.map(|of| {
+            let least = 0.01 * parameter(of).scale;
+            let off = (found.contents[of] - self.contents[of]).abs();
+            (off / self.contents[of].abs().max(least), of)
+        });
+        off.into_iter()
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .expect("seven of them")
+    }
+}
+
+#[test]
+fn contents_come_back_from_clean_spectra_of_both_or_of_one_kind() {
+    for case in cases() {
+        for with in [[true, true], [true, false], [false, true]] {
+            let found = case.found(with);
+            let (off, of) = case.worst(&found);
+            assert!(
+                off < 0.01,
+                "{} by {with:?}: {of:?} is off by {off}",
+                case.name
+            );
+            assert!(found.rms() < 1e-6, "{}: {}", case.name, found.rms());
+            let values = case.nm.len() * with.into_iter().filter(|with| *with).count();
+            assert_eq!(found.values(), values);
+        }
+    }
+}
+
+#[test]
+#[ignore = "slow: 3 s"]
+fn intervals_hold_the_truth_as_often_as_they_say_under_noise_of_one_percent() {
+    let mut counter = 0;
+    // Box and Muller's transform.
+    let mut normal = || {
+        counter += 2;
+        let [radius, turn] = [counter, counter + 1].map(|at| share(bits(5, 1, at)));
+        (-2.0 * libm::log(1.0 - radius)).sqrt() * libm::cos(std::f64::consts::TAU * turn)
+    };
+    let (mut inside, mut told) = (0, 0);
+    for case in cases() {
+        for _ in 0..4 {
+            let mut noisy = |clean: &[f64]| -> Vec<f64> {
+                let noise = clean.iter().map(|value| value * (1.0 + 0.01 * normal()));
+                noise.collect()
+            };
+            let noisy = Case {
+                name: case.name.clone(),
+                contents: case.contents,
+                nm: case.nm.clone(),
+                reflectance: noisy(&case.reflectance),
+                transmittance: noisy(&case.transmittance),
+            };
+            let found = noisy.found([true, true]);
+            for of in Inversion::PROSPECT_D {
+                if let Some(error) = found.errors[of] {
+                    told += 1;
+                    let off = (found.contents[of] - case.contents[of]).abs();
+                    inside += usize::from(off < 1.96 * error);
+                }
+            }
+        }
+    }
+    // Some 600 intervals of seven contents in 132 leaves; four standard deviations of their number.
+    let share = inside as f64 / f64::from(told);
+    let slack = 4.0 * (0.95 * 0.05 / f64::from(told)).sqrt();
+    assert!((share - 0.95).abs() < slack, "{inside} of {told}");
+}
+
+#[test]
+fn what_is_fixed_stays_and_the_rest_is_found_around_it() {
+    let case = &cases()[0];
+    let fixed = case.contents;
+    let free = [Constituent::Chlorophyll, Constituent::Water];
+    let inversion = Inversion::new(&case.nm, &free, fixed).expect("within the table");
+    let found = inversion.of(Spectra {
+        reflectance: Some(&case.reflectance),
+        transmittance: None,
+    });
+    assert_eq!(
+        found.contents[Constituent::DryMatter],
+        fixed[Constituent::DryMatter]
+    );
+    assert_eq!(found.errors[Constituent::DryMatter], None);
+    assert!(case.worst(&found).0 < 1e-4);
+}
+
+#[test]
+fn water_is_not_told_by_visible_light() {
+    let case = &cases()[0];
+    let visible = case.nm.iter().filter(|nm| **nm <= 700.0).count();
+    let inversion = Inversion::new(
+        &case.nm[..visible],
+        &Inversion::PROSPECT_D,
+        Contents::NOTHING,
+    );
+    let found = inversion.expect("within the table").of(Spectra {
+        reflectance: Some(&case.reflectance[..visible]),
+        transmittance: Some(&case.transmittance[..visible]),
+    });
+    assert!(found.contents[Constituent::Chlorophyll] > 0.0);
+    let error = found.errors[Constituent::Water];
+    assert!(error.is_none_or(|error| error > 0.01), "{error:?}");
+}
+
+#[test]
+fn a_wavelength_outside_of_the_table_is_refused() {
+    let outside = Inversion::new(&[500.0, 350.0], &Inversion::PROSPECT_D, Contents::NOTHING);
+    assert_eq!(outside.expect_err("350 nm").wavelength_nm, 350.0);
+}

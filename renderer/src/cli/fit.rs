@@ -1,0 +1,342 @@
+//! `lamina fit`: what leaves hold, from their reflectance and transmittance.
+
+mod plot;
+mod table;
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+use leafmodel::optics::inversion::{self, Found, Inversion};
+use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
+use leafmodel::optics::{Constituent, Contents};
+use rayon::prelude::*;
+use serde_json::{Map, Value as Json, json};
+
+use self::table::Leaf;
+use crate::checkpoint::PROGRAM;
+use crate::cli::arguments::FitArguments;
+use crate::cli::columns::in_columns;
+use crate::cli::{Failure, check_writable, say};
+use crate::image::atomic;
+
+/// Least number of wavelengths from which contents can be told.
+const LEAST_WAVELENGTHS: usize = 8;
+
+/// Half of the width of an interval of 95 % in standard errors, by the normal distribution.
+const INTERVAL: f64 = 1.96;
+
+/// A leaf and what it was found to hold.
+struct Fitted<'a> {
+    leaf: &'a Leaf,
+    found: Found,
+}
+
+pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
+    let out = arguments.out.as_deref();
+    let is_json = match out.map(|file| file.extension().and_then(|ending| ending.to_str())) {
+        None | Some(Some("csv")) => false,
+        Some(Some("json")) => true,
+        Some(_) => {
+            return Err(Failure::bad(
+                "--out writes csv or json: the ending says which",
+            ));
+        }
+    };
+    let files = [
+        out,
+        arguments.spectra_out.as_deref(),
+        arguments.plot.as_deref(),
+    ];
+    for (number, file) in files.into_iter().enumerate() {
+        let Some(file) = file else { continue };
+        if files[..number].contains(&Some(file)) {
+            return Err(Failure::written_twice(file));
+        }
+        check_writable(file)?;
+    }
+    let (free, fixed) = wanted(arguments)?;
+    let range = arguments
+        .range
+        .as_deref()
+        .map_or(Ok([FIRST_NM, LAST_NM]), parse_range)?;
+    let text = std::fs::read_to_string(&arguments.spectra)
+        .map_err(|error| Failure::bad(format!("{}: {error}", arguments.spectra.display())))?;
+    let spectra = table::read(&arguments.spectra, &text).map_err(Failure::bad)?;
+    for note in &spectra.notes {
+        eprintln!("note: {note}");
+    }
+    let mut leaves = spectra.leaves;
+    let before: usize = leaves.iter().map(|leaf| leaf.nm.len()).sum();
+    for leaf in &mut leaves {
+        leaf.keep(range);
+        if leaf.nm.len() < LEAST_WAVELENGTHS {
+            let [low, high] = range;
+            let (count, name) = (leaf.nm.len(), leaf.shown());
+            return Err(Failure::bad(format!(
+                "{}: {name} has {count} wavelengths from {low} to {high} nm, at least \
+                 {LEAST_WAVELENGTHS} are needed",
+                arguments.spectra.display()
+            )));
+        }
+    }
+    let left_out = before - leaves.iter().map(|leaf| leaf.nm.len()).sum::<usize>();
+    if left_out > 0 {
+        let [low, high] = range;
+        eprintln!("note: {left_out} values outside of {low} to {high} nm are left out");
+    }
+    let fitted: Vec<Fitted<'_>> = leaves
+        .par_iter()
+        .map(|leaf| fit(leaf, &free, fixed))
+        .collect::<Result<_, _>>()?;
+    if let Some(file) = out {
+        let text = if is_json {
+            report(&fitted, &free)
+        } else {
+            contents(&fitted, &free)
+        };
+        write(file, &text)?;
+    }
+    if let Some(file) = &arguments.spectra_out {
+        write(file, &fitted_spectra(&fitted))?;
+    }
+    if let Some(file) = &arguments.plot {
+        write(file, &plot::svg(&fitted))?;
+    }
+    if out.is_none() {
+        say(human(&fitted, &free));
+    }
+    Ok(())
+}
+
+/// The contents that are looked for, and all others as they are known.
+fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Failure> {
+    let named = |name: &str| {
+        let found = Constituent::ALL.into_iter().find(|of| of.name() == name);
+        found.ok_or_else(|| {
+            let names = Constituent::ALL.map(Constituent::name).join(", ");
+            let name = name.escape_debug();
+            Failure::bad(format!("there is no content `{name}`; allowed are {names}"))
+        })
+    };
+    let mut free = if arguments.free.is_empty() {
+        Inversion::PROSPECT_D.to_vec()
+    } else {
+        let free = arguments.free.iter().map(|name| named(name.trim()));
+        free.collect::<Result<Vec<_>, _>>()?
+    };
+    let mut fixed = Contents::NOTHING;
+    for written in &arguments.fix {
+        let (name, value) = written.split_once('=').unwrap_or((written, ""));
+        let of = named(name.trim())?;
+        let [low, high] = of.range();
+        let value = value.trim().parse::<f64>().ok();
+        let value = value
+            .filter(|value| (low..=high).contains(value))
+            .ok_or_else(|| {
+                Failure::bad(format!(
+                    "--fix {written}: a number from {low} to {high} is needed"
+                ))
+            })?;
+        if arguments.free.iter().any(|name| name.trim() == of.name()) {
+            return Err(Failure::bad(format!(
+                "{} is both free and fixed",
+                of.name()
+            )));
+        }
+        fixed[of] = value;
+        free.retain(|other| *other != of);
+    }
+    if free.is_empty() {
+        return Err(Failure::bad(
+            "every content is fixed: there is nothing to be found",
+        ));
+    }
+    Ok((free, fixed))
+}
+
+fn parse_range(written: &str) -> Result<[f64; 2], Failure> {
+    let ends = written.split_once("..").map(|(low, high)| [low, high]);
+    let ends = ends.map(|ends| ends.map(|end| end.trim().parse::<f64>()));
+    match ends {
+        Some([Ok(low), Ok(high)]) if FIRST_NM <= low && low < high && high <= LAST_NM => {
+            Ok([low, high])
+        }
+        _ => Err(Failure::bad(format!(
+            "--range {written}: write it as 400..800, from {FIRST_NM} to {LAST_NM} nm"
+        ))),
+    }
+}
+
+impl Leaf {
+    fn keep(&mut self, [low, high]: [f64; 2]) {
+        let kept: Vec<bool> = self.nm.iter().map(|nm| (low..=high).contains(nm)).collect();
+        for values in [&mut self.nm, &mut self.reflectance, &mut self.transmittance] {
+            let mut kept = kept.iter();
+            values.retain(|_| kept.next().copied().unwrap_or(true));
+        }
+    }
+
+    /// Its name in messages and tables.
+    fn shown(&self) -> &str {
+        if self.name.is_empty() {
+            "the leaf"
+        } else {
+            &self.name
+        }
+    }
+
+    fn spectra(&self) -> inversion::Spectra<'_> {
+        inversion::Spectra {
+            reflectance: (!self.reflectance.is_empty()).then_some(&self.reflectance),
+            transmittance: (!self.transmittance.is_empty()).then_some(&self.transmittance),
+        }
+    }
+}
+
+fn fit<'a>(leaf: &'a Leaf, free: &[Constituent], fixed: Contents) -> Result<Fitted<'a>, Failure> {
+    let inversion = Inversion::new(&leaf.nm, free, fixed).map_err(Failure::bad)?;
+    Ok(Fitted {
+        leaf,
+        found: inversion.of(leaf.spectra()),
+    })
+}
+
+/// A table with a line for each leaf.
+fn contents(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
+    let mut text = "leaf".to_owned();
+    for of in free {
+        let _ = write!(text, ",{0},{0}_standard_error", of.key());
+    }
+    text += ",rms,values\n";
+    for Fitted { leaf, found } in fitted {
+        text += &quoted(leaf.shown());
+        for &of in free {
+            let _ = write!(text, ",{}", found.contents[of]);
+            match found.errors[of] {
+                Some(error) => _ = write!(text, ",{error}"),
+                None => text.push(','),
+            }
+        }
+        let _ = writeln!(text, ",{},{}", found.rms(), found.values());
+    }
+    text
+}
+
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}
+
+/// Everything as JSON.
+fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
+    let leaves = fitted.iter().map(|Fitted { leaf, found }| {
+        let mut contents = Map::new();
+        for &of in free {
+            let value = found.contents[of];
+            let interval = found.errors[of].map(|error| {
+                let [low, high] = of.range();
+                [value - INTERVAL * error, value + INTERVAL * error].map(|end| end.clamp(low, high))
+            });
+            contents.insert(
+                of.key().to_owned(),
+                json!({
+                    "value": value,
+                    "standard_error": found.errors[of],
+                    "interval_95": interval,
+                }),
+            );
+        }
+        json!({
+            "leaf": leaf.shown(),
+            "contents": contents,
+            "rms": found.rms(),
+            "values": found.values(),
+            "wavelength_nm": leaf.nm,
+            "reflectance_left": found.reflectance_left,
+            "transmittance_left": found.transmittance_left,
+        })
+    });
+    let leaves: Vec<Json> = leaves.collect();
+    format!("{:#}\n", json!({ "program": PROGRAM, "leaves": leaves }))
+}
+
+/// Measured and fitted values, a line for each wavelength of each leaf.
+fn fitted_spectra(fitted: &[Fitted<'_>]) -> String {
+    let mut text = "leaf,wavelength_nm,R,R_fitted,T,T_fitted\n".to_owned();
+    for Fitted { leaf, found } in fitted {
+        for (i, nm) in leaf.nm.iter().enumerate() {
+            let _ = write!(text, "{},{nm}", quoted(leaf.shown()));
+            for (measured, left) in [
+                (&leaf.reflectance, &found.reflectance_left),
+                (&leaf.transmittance, &found.transmittance_left),
+            ] {
+                match measured.get(i) {
+                    Some(value) => _ = write!(text, ",{value},{}", value + left[i]),
+                    None => text += ",,",
+                }
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// What a reader of the terminal sees.
+fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
+    let mut lines = Vec::new();
+    for Fitted { leaf, found } in fitted {
+        let rms = found.rms();
+        lines.push(format!(
+            "{}: {} values, rms {rms:.2e}",
+            leaf.shown(),
+            found.values()
+        ));
+        let rows: Vec<[String; 3]> = free
+            .iter()
+            .map(|&of| {
+                let value = found.contents[of];
+                let error = match found.errors[of] {
+                    Some(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
+                    None if of.range().contains(&value) => "at the end of its range".to_owned(),
+                    None => "not told by these spectra".to_owned(),
+                };
+                let unit = of.unit();
+                [
+                    of.words().to_owned(),
+                    format!("{:.4} {unit}", Rounded(value)),
+                    error,
+                ]
+            })
+            .collect();
+        lines.push(in_columns(&rows));
+    }
+    lines.push(
+        "± is half of the interval of 95 %, if the noise of each value is its own".to_owned(),
+    );
+    lines.join("\n")
+}
+
+/// A number with so many digits that count.
+struct Rounded(f64);
+
+impl std::fmt::Display for Rounded {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = f.precision().unwrap_or(3) as i32;
+        if self.0 == 0.0 {
+            return f.write_str("0");
+        }
+        let before = libm::floor(libm::log10(self.0.abs())) as i32 + 1;
+        let places = (digits - before).clamp(0, 12) as usize;
+        write!(f, "{:.places$}", self.0)
+    }
+}
+
+fn write(file: &Path, text: &str) -> Result<(), Failure> {
+    atomic::replace(file, |out| out.write_all(text.as_bytes())).map_err(Failure::system)?;
+    say(file.display());
+    Ok(())
+}
