@@ -129,7 +129,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             writeln!(
                 out,
-                "{leaf},{},{truth:.5},{:.5},{:.5},{:.5},{:.5},{:.5},{:.3},{:.3},{seconds:.0}",
+                "{leaf},{},{truth:.5e},{:.5e},{:.5e},{:.5e},{:.5e},{:.5e},{:.3},{:.3},{seconds:.0}",
                 told.parameter.name(),
                 told.median,
                 half[0],
