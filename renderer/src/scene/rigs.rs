@@ -12,7 +12,8 @@ use leafmodel::document::names::Named;
 use crate::light::daylight::Daylight;
 use crate::light::pattern::Pattern;
 use crate::scene::description::{
-    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Rig, RigPreset, Spectrum,
+    AreaPattern, Description, Light, Material, Mesh, Object, ObjectShape, Reflectance, Rig,
+    RigPreset, Spectrum,
 };
 
 /// Irradiance of a level sheet at the subject, of D65, W m⁻² nm⁻¹ at 560 nm. With the tone
@@ -259,7 +260,7 @@ fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, l
     scene.materials.push(Named {
         name: format!("{rig}.cloth"),
         value: Material::Diffuse {
-            reflectance: Spectrum::Constant(CLOTH),
+            reflectance: Reflectance::Even(Spectrum::Constant(CLOTH)),
         },
     });
     let cloth = scene.materials.len() - 1;
