@@ -17,6 +17,8 @@ mod base_colours;
 mod container;
 mod left_out;
 mod surfaces;
+mod textures;
+
 #[cfg(test)]
 mod tests;
 

@@ -7,12 +7,13 @@ use std::sync::Arc;
 
 use glam::Vec2;
 use gltf_json::Root;
-use gltf_json::texture::{Info, WrappingMode};
+use gltf_json::texture::WrappingMode;
 use gltf_json::validation::Checked;
 
 use super::accessors::view;
 use super::container::resource;
 use super::surfaces::Patch;
+use super::textures::texture;
 use super::{Files, ModelError};
 use crate::image::{ImageError, Picture, jpeg, portable_network};
 use crate::material::colour_map::{ColourMap, ColourTexture, Slot, Wrap};
@@ -20,58 +21,6 @@ use crate::material::colour_map::{ColourMap, ColourTexture, Slot, Wrap};
 /// Width of all pictures beyond which their places in single precision are coarser than a
 /// thousandth of a picture's width.
 const WIDE: f32 = 8192.0;
-
-/// Where a material looks up its base colour.
-pub(super) struct Place {
-    /// Number of the set of texture coordinates.
-    pub(super) set: u32,
-    /// `KHR_texture_transform`: scale, turn (cosine, sine), offset.
-    transform: Option<[[f32; 2]; 3]>,
-}
-
-impl Place {
-    pub(super) fn of(root: &Root, material: Option<usize>) -> Self {
-        let Some(info) = texture(root, material) else {
-            let transform = None;
-            return Self { set: 0, transform };
-        };
-        let transform = info.extensions.as_ref();
-        let transform = transform.and_then(|of| of.texture_transform.as_ref());
-        let set = transform.and_then(|of| of.tex_coord);
-        Self {
-            set: set.unwrap_or(info.tex_coord),
-            transform: transform.map(|of| {
-                let turn = f64::from(of.rotation.0);
-                let turn = [libm::cos(turn) as f32, libm::sin(turn) as f32];
-                [of.scale.0, turn, of.offset.0]
-            }),
-        }
-    }
-
-    /// The coordinates of a picture, v upwards. glTF's v runs down.
-    pub(super) fn uv(&self, [mut u, mut v]: [f32; 2]) -> Vec2 {
-        if let Some([scale, [cos, sin], offset]) = self.transform {
-            let (x, y) = (u * scale[0], v * scale[1]);
-            // Counter-clockwise, as one looks at it with v downwards.
-            u = cos * x + sin * y + offset[0];
-            v = cos * y - sin * x + offset[1];
-        }
-        Vec2::new(u, 1.0 - v)
-    }
-}
-
-fn texture(root: &Root, material: Option<usize>) -> Option<&Info> {
-    let colour = &root.materials[material?].pbr_metallic_roughness;
-    colour.base_color_texture.as_ref()
-}
-
-/// Numbers of the pictures of base colours.
-pub(super) fn images(root: &Root) -> BTreeSet<usize> {
-    let materials = 0..root.materials.len();
-    let textures = materials.filter_map(|material| texture(root, Some(material)));
-    let images = textures.map(|info| root.textures[info.index.value()].source.value());
-    images.collect()
-}
 
 /// Where a material's picture lies.
 #[derive(Debug)]

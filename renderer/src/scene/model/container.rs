@@ -8,7 +8,7 @@ use gltf_json::Root;
 use gltf_json::mesh::Semantic;
 use gltf_json::validation::{Checked, Error, Validate};
 
-use super::{Files, ModelError, shown};
+use super::{Files, ModelError, shown, textures};
 
 /// First bytes of a GLB file.
 const MAGIC: &[u8] = b"glTF";
@@ -68,7 +68,7 @@ impl<'a> Container<'a> {
     pub fn files(&self) -> Vec<(String, FileKind)> {
         let buffers = self.root.buffers.iter();
         let buffers = buffers.filter_map(|buffer| Some((buffer.uri.as_ref()?, FileKind::Buffer)));
-        let pictures = super::base_colours::images(&self.root).into_iter();
+        let pictures = textures::images(&self.root).into_iter();
         let pictures = pictures.filter_map(|number| {
             let uri = self.root.images[number].uri.as_ref()?;
             Some((uri, FileKind::Picture))

@@ -8,8 +8,9 @@ use gltf_json::scene::Node;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
+use super::ModelError;
 use super::accessors::Accessors;
-use super::{ModelError, base_colours};
+use super::textures::Place;
 use crate::geometry::TriangleMesh;
 
 /// Greatest number of triangles of a model.
@@ -224,7 +225,7 @@ fn patch(
         None => vec![Vec3::ZERO; used.len()],
     };
     let material = primitive.material.map(|material| material.value());
-    let place = base_colours::Place::of(root, material);
+    let place = Place::of(root, material);
     let uvs = match attribute(primitive, Semantic::TexCoords(place.set)) {
         Some(uvs) => {
             let uvs = accessors.vectors::<2>(uvs, &used)?.into_iter();
