@@ -98,11 +98,7 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
     let picture = read(&arguments.picture, arguments.memory)?;
     let settings = settings(arguments)?;
     let shown = arguments.picture.display();
-    let traced = trace(&picture, &settings);
-    let traced = traced.map_err(|error| Failure::bad(format!("{shown}: {error}")))?;
-    for finding in told(&traced.findings) {
-        eprintln!("note: {finding}");
-    }
+    let traced = traced(&arguments.picture, &picture, &settings)?;
     for (path, kind) in arguments.out.iter().zip(kinds) {
         write(path, &kind.bytes(&traced, arguments.size)?)?;
     }
@@ -129,6 +125,22 @@ fn carry_out(arguments: &TraceArguments, kinds: &[Kind], started: Instant) -> Re
         started.elapsed().as_secs_f64(),
     );
     Ok(())
+}
+
+/// What a picture shows, traced with the usual settings.
+pub(super) fn with_usual_settings(picture: &Path, mm_per_pixel: f64) -> Result<Traced, Failure> {
+    let raster = read(picture, None)?;
+    traced(picture, &raster, &Settings::new(mm_per_pixel))
+}
+
+/// Traces a picture and tells what was found on the way.
+fn traced(path: &Path, picture: &Raster, settings: &Settings) -> Result<Traced, Failure> {
+    let traced = trace(picture, settings);
+    let traced = traced.map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+    for finding in told(&traced.findings) {
+        eprintln!("note: {finding}");
+    }
+    Ok(traced)
 }
 
 /// Findings to tell: of parts that are apart, the longest few.

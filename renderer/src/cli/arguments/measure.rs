@@ -12,6 +12,7 @@ Examples:
   lamina grow birch --out birch.graphml birch.svg
   lamina measure birch.graphml --outline birch.svg --out birch.csv birch.json
   lamina measure traced.csv --mm-per-unit 0.005 --area 12.5 --distributions all.csv
+  lamina measure scan.png --mm-per-pixel 0.01 --out leaf.csv
   lamina measure edges.csv --nodes nodes.csv --root 0,0 --bootstrap 1000";
 
 /// Greatest millimetres to a unit: a kilometre.
@@ -23,7 +24,8 @@ const MOST_MM2: u32 = 100_000_000;
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct MeasureArguments {
     /// A network, its format by its ending: graphml, json, geojson, csv, tsv (edges with their
-    /// places, or with --nodes), svg (paths with stroke widths)
+    /// places, or with --nodes), svg (paths with stroke widths); or a picture (png, tiff, jpeg),
+    /// traced as lamina trace does without further flags
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// The table of nodes beside a table of edges

@@ -7,8 +7,8 @@ use leafmodel::measure::Known;
 use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::VenationNetwork;
 
-use crate::cli::Failure;
 use crate::cli::arguments::MeasureArguments;
+use crate::cli::{Failure, trace};
 
 /// Endings of pictures, which are no networks.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
@@ -59,12 +59,38 @@ impl Input {
         let path = &arguments.file;
         match Kind::of(path)? {
             Kind::Network(format) => Self::of_network(arguments, format),
-            Kind::Picture => Err(Failure::bad(format!(
-                "{} is a picture: trace its veins to a network first ({})",
-                path.display(),
-                MeasureArguments::endings()
-            ))),
+            Kind::Picture => Self::of_picture(arguments),
         }
+    }
+
+    /// The network that a picture shows, traced with the usual settings.
+    fn of_picture(arguments: &MeasureArguments) -> Result<Self, Failure> {
+        let shown = arguments.file.display();
+        let Some(mm_per_pixel) = arguments.mm_per_unit else {
+            return Err(Failure::bad(format!(
+                "{shown}: a picture is measured with --mm-per-pixel, which is 25.4 over the dots \
+                 per inch of a scan"
+            )));
+        };
+        let foreign = [
+            ("--nodes", arguments.nodes.is_some()),
+            ("--outline", arguments.outline.is_some()),
+            ("--area", arguments.area.is_some()),
+            ("--root", arguments.root.is_some()),
+        ];
+        if let Some((flag, _)) = foreign.into_iter().find(|(_, given)| *given) {
+            return Err(Failure::bad(format!(
+                "{shown}: {flag} goes with a network; lamina trace has flags for pictures"
+            )));
+        }
+        let traced = trace::with_usual_settings(&arguments.file, mm_per_pixel)?;
+        Ok(Self {
+            network: traced.network,
+            outlines: vec![traced.outline],
+            known: Known::ALL,
+            orders_found: true,
+            faults: Vec::new(),
+        })
     }
 
     fn of_network(arguments: &MeasureArguments, format: Format) -> Result<Self, Failure> {
