@@ -186,8 +186,8 @@ fn node_link_lists_and_lines_of_maps_are_read() {
     let read = imported(Format::Json, &lists.replace("\"pos\": [0, 5], ", ""));
     assert!((read.network.edges()[0].radius_from - 0.04).abs() < 1e-15);
     let map = r#"{"type": "FeatureCollection", "coordinate_unit": "um", "features": [
-        {"type": "Feature", "geometry": {"type": "LineString", "coordinates": [[0, 0], [0, 1000], [500, 2000]]}, "properties": {"width": 60, "order": 1}},
-        {"type": "Feature", "geometry": {"type": "MultiLineString", "coordinates": [[[0, 1000], [-500, 2000]]]}, "properties": {"width": 30, "order": 2}},
+        {"type": "Feature", "geometry": {"type": "LineString", "coordinates": [[0, 0], [0, 1000], [200, 2000]]}, "properties": {"width": 60, "order": 1}},
+        {"type": "Feature", "geometry": {"type": "MultiLineString", "coordinates": [[[0, 1000], [-200, 2000]]]}, "properties": {"width": 30, "order": 2}},
         {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [[[-1000, 0], [1000, 0], [0, 3000], [-1000, 0]]]}, "properties": {}}]}"#;
     let read = imported(Format::Json, map);
     assert_eq!(read.network.edges().len(), 3);

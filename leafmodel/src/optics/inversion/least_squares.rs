@@ -311,7 +311,8 @@ mod tests {
             vec![p[0] + 1.0, p[0] + 2.0 * p[1] - 3.0]
         });
         assert_eq!(found.parameters[0], 0.0);
-        assert_near(found.parameters[1], 1.5, 1e-9);
+        // The sum tells a parameter within the root of its rounding.
+        assert_near(found.parameters[1], 1.5, 1e-7);
         assert_eq!(found.errors[0], None);
         assert!(found.errors[1].is_some());
     }
