@@ -4,7 +4,7 @@
 //! A net of 57,600 hexagons whose sides are six pieces each and whose corners are moved, so that no
 //! two areoles are alike; radii fall from the middle outwards.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -31,7 +31,7 @@ fn chance(number: u64) -> f64 {
 fn net() -> (Outline, VenationNetwork) {
     let mut numbers: BTreeMap<(i32, i32), u32> = BTreeMap::new();
     let mut corners: Vec<DVec2> = Vec::new();
-    let mut sides: BTreeMap<(u32, u32), ()> = BTreeMap::new();
+    let mut sides: BTreeSet<(u32, u32)> = BTreeSet::new();
     for row in 0..HEXAGONS {
         for column in 0..HEXAGONS {
             // Corners in units of (half a hexagon's width, half a side).
@@ -47,7 +47,7 @@ fn net() -> (Outline, VenationNetwork) {
             });
             for i in 0..6 {
                 let (a, b) = (six[i], six[(i + 1) % 6]);
-                sides.insert((a.min(b), a.max(b)), ());
+                sides.insert((a.min(b), a.max(b)));
             }
         }
     }
@@ -60,7 +60,7 @@ fn net() -> (Outline, VenationNetwork) {
     let node = |position| VeinNode { position, born: 0 };
     let mut nodes: Vec<VeinNode> = corners.iter().copied().map(node).collect();
     let mut edges = Vec::new();
-    for &(a, b) in sides.keys() {
+    for &(a, b) in &sides {
         let (from, to) = (corners[a as usize], corners[b as usize]);
         let away = (from.x - middle).abs() / (high.x - low.x);
         let radius = 0.03 - 0.05 * away;
@@ -115,7 +115,7 @@ fn a_million_nodes(criterion: &mut Criterion) {
     });
     let subject = Subject::new(Blade::Margin(&outline), &network, Known::ALL);
     group.bench_function("structure factor", |bencher| {
-        bencher.iter(|| subject.structure())
+        bencher.iter(|| subject.structure());
     });
     group.bench_function("conductance and 100 cuts", |bencher| {
         bencher.iter(|| subject.supply(black_box(100)));

@@ -121,7 +121,7 @@ pub struct Settings {
     /// Area of the largest hole between veins that is filled, and of the largest speck that is left
     /// out, pixels.
     pub speck_px: usize,
-    /// Length of the pieces of veins, mm; `None` takes the median width of the veins, but at least
+    /// Length of the pieces of veins, mm, at least a pixel; `None` takes the median width of the veins, but at least
     /// 4 pixels.
     pub segment_mm: Option<f64>,
     /// Where the petiole meets the blade, pixels from the upper left corner, if it is known.
@@ -172,9 +172,9 @@ impl Settings {
             }
         }
         if let Some(value) = self.segment_mm
-            && !(value.is_finite() && value > 0.0)
+            && !(value.is_finite() && value >= self.mm_per_pixel)
         {
-            return bad("segment_mm", value, "above 0");
+            return bad("segment_mm", value, "the side of a pixel and above");
         }
         match self.threshold {
             Threshold::Level(value) if !(0.0..=1.0).contains(&value) => {

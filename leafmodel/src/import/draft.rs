@@ -36,8 +36,14 @@ pub struct Draft {
     pub(super) places_lack_unit: bool,
     /// The same of radii.
     pub(super) radii_lack_unit: bool,
+    /// Whether places have a unit.
+    pub(super) places_have_unit: bool,
+    /// The same of radii.
+    pub(super) radii_have_unit: bool,
     /// The margin that is taken instead of the file's.
     pub(super) given: Option<Outline>,
+    /// Whether the base of that margin is only guessed.
+    pub(super) is_base_guessed: bool,
     /// Whether y points down.
     pub(super) is_y_down: bool,
 }
@@ -81,7 +87,10 @@ impl Draft {
     /// A length of a place, millimetres where it has a unit.
     pub(super) fn place_in(&mut self, value: f64, unit: Unit) -> f64 {
         match unit {
-            Unit::Millimetres(factor) => value * factor,
+            Unit::Millimetres(factor) => {
+                self.places_have_unit = true;
+                value * factor
+            }
             Unit::OfTheFile => {
                 self.places_lack_unit = true;
                 value
@@ -92,7 +101,10 @@ impl Draft {
     /// A radius, millimetres where it has a unit.
     pub(super) fn radius_in(&mut self, value: f64, unit: Unit) -> f64 {
         match unit {
-            Unit::Millimetres(factor) => value * factor,
+            Unit::Millimetres(factor) => {
+                self.radii_have_unit = true;
+                value * factor
+            }
             Unit::OfTheFile => {
                 self.radii_lack_unit = true;
                 value

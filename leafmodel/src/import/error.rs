@@ -61,6 +61,15 @@ pub enum ImportError {
         /// Places, radii or the margin.
         what: &'static str,
     },
+    /// Lengths of one kind with a unit beside others without one.
+    #[error(
+        "gives some {what} with a unit and some without one: name the unit in all their keys, as in \
+         x_mm or radius_um, or in none"
+    )]
+    MixedUnits {
+        /// Places or radii.
+        what: &'static str,
+    },
     /// What is wrong makes measuring senseless.
     #[error("cannot be measured:\n{}", listed(.faults))]
     Faulty {

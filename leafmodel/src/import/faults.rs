@@ -36,6 +36,8 @@ pub enum FaultKind {
     Turned,
     /// A vein gets wider away from the petiole.
     Widening,
+    /// An edge has no radius, and others have one.
+    NoRadius,
     /// A node lies outside the margin.
     OutsideMargin,
 }
@@ -55,6 +57,7 @@ impl FaultKind {
             | Self::NoRoot
             | Self::Turned
             | Self::Widening
+            | Self::NoRadius
             | Self::OutsideMargin => false,
         }
     }
@@ -80,6 +83,7 @@ impl FaultKind {
             Self::NoRoot => "no_root",
             Self::Turned => "turned",
             Self::Widening => "widening",
+            Self::NoRadius => "no_radius",
             Self::OutsideMargin => "outside_margin",
         }
     }
@@ -104,6 +108,10 @@ impl FaultKind {
             }
             Self::Turned => {
                 "edges did not lead away from the petiole; all are turned by their distance from it along veins"
+            }
+            Self::NoRadius => {
+                "edges have no radius or width, so those of all others are left out; measures of widths, and \
+                 of vein orders that are not in the file, are missing"
             }
             Self::Widening => {
                 "edges get wider away from the petiole; their mean radius is taken at both ends"

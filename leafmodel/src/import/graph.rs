@@ -250,7 +250,8 @@ impl Builder {
             let here = DVec2::new(x, y);
             let node = known.unwrap_or_else(|| self.add(here, name));
             let there = self.draft.places[node as usize];
-            if there != here && here.is_finite() {
+            // NaN in the line that makes a node is listed later with all others.
+            if bits(there.into()) != bits(here.into()) {
                 return Err(ImportError::Missing {
                     place: place(),
                     wanted: format!(

@@ -249,11 +249,9 @@ fn lists(
         let place = || format!("edges[{number}]");
         let members = object(edge, &place)?;
         builder.edge();
-        for end in ["source", "target"] {
-            if !["from", "to", end]
-                .iter()
-                .any(|key| members.contains_key(*key))
-            {
+        for (number, end) in ["source", "target"].into_iter().enumerate() {
+            let tells = |key: &String| EdgeField::of(key) == Some(EdgeField::End(number));
+            if !members.keys().any(tells) {
                 return Err(ImportError::Missing {
                     place: place(),
                     wanted: format!("an edge needs source and target; it has no {end}"),

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::draft::{ABSENT, Draft};
+use super::draft::{ABSENT, Draft, DraftMargin};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::{margins, repair, roots};
@@ -48,12 +48,27 @@ impl Draft {
         self.places_lack_unit || self.radii_lack_unit
     }
 
-    /// The same with this margin instead of the file's own.
+    /// The same with this margin instead of the file's own, whose base is where the petiole is.
     pub fn within(self, outline: Outline) -> Self {
         Self {
             given: Some(outline),
+            is_base_guessed: false,
             ..self
         }
+    }
+
+    /// The same with a margin that was read from a file without a base: directions of edges go
+    /// before its lowest point.
+    pub fn within_guessed(self, outline: Outline) -> Self {
+        Self {
+            is_base_guessed: true,
+            ..self.within(outline)
+        }
+    }
+
+    /// Whether its margin, if it is one, has a base of its own in the file.
+    pub fn tells_base(&self) -> bool {
+        matches!(self.margins.as_slice(), [DraftMargin { base: Some(_), .. }])
     }
 
     /// Whether there is a margin.
@@ -75,8 +90,8 @@ impl Draft {
     ///
     /// Veins outside of all margins, such as the petiole, are left out. Edges that lead away from the
     /// petiole stay as they are: those of a directed file without circles, with radii that do not
-    /// grow, where the nodes without an incoming edge come first or each part has one. Others are
-    /// turned by their distance from the root along veins. The root is the node nearest to
+    /// grow, where the nodes without an incoming edge come first or each part has one, and one of
+    /// these is the node nearest to the root if that is told. Others are turned by their distance from the root along veins. The root is the node nearest to
     /// `wanted.root` or to the margin's base, else the widest end of a vein.
     ///
     /// # Errors
@@ -98,20 +113,23 @@ impl Draft {
         if far.count > 0 {
             return Err(ImportError::Faulty { faults: vec![far] });
         }
-        let outlines = match self.given.take() {
-            Some(outline) => vec![outline],
-            None => self.made_outlines()?,
+        let (outlines, is_base_told) = match self.given.take() {
+            Some(outline) => (vec![outline], !self.is_base_guessed),
+            None => (self.made_outlines()?, self.tells_base()),
         };
+        let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
+        let told_root = base.filter(|_| wanted.root.is_some() || is_base_told);
         let mut faults = Vec::new();
         margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
         let known_radii = self
             .edges
             .iter()
             .all(|edge| edge.radii.iter().all(Option::is_some));
+        faults.extend(self.without_radius());
         let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
         let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
         let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
-        let network = if let Some(network) = self.as_it_is(segment_mm) {
+        let network = if let Some(network) = self.as_it_is(segment_mm, told_root) {
             network
         } else {
             repair::mend(&mut self, &mut faults);
@@ -120,7 +138,6 @@ impl Draft {
                     wanted: "edges with a length; all join a node to itself or nodes at one place",
                 });
             }
-            let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
             roots::turned(&self, base, segment_mm, &mut faults)?
         };
         let known = Known {
@@ -148,6 +165,13 @@ impl Draft {
         let mut loose = Fault::new(FaultKind::LooseEnd);
         for (edge, node) in &self.loose {
             loose.named(|| format!("{edge}: node {node}"));
+        }
+        if loose.count == 0 {
+            for (number, edge) in self.edges.iter().enumerate() {
+                if edge.ends.contains(&ABSENT) {
+                    loose.named(|| format!("edge {number} names no node at one end"));
+                }
+            }
         }
         let mut places = Fault::new(FaultKind::BadPlace);
         for (number, place) in (0..).zip(&self.places) {
@@ -186,6 +210,18 @@ impl Draft {
         all.filter(|fault| fault.count > 0).collect()
     }
 
+    /// Edges without a radius, if others have one.
+    fn without_radius(&self) -> Option<Fault> {
+        let mut fault = Fault::new(FaultKind::NoRadius);
+        for edge in self.edges.iter().filter(|edge| edge.radii.contains(&None)) {
+            fault.named(|| {
+                let [from, to] = edge.ends.map(|end| self.name(end));
+                format!("from node {from} to {to}")
+            });
+        }
+        (fault.count > 0 && fault.count < self.edges.len()).then_some(fault)
+    }
+
     fn far_nodes(&self) -> Fault {
         let mut far = Fault::new(FaultKind::BadPlace);
         for (number, place) in (0..).zip(&self.places) {
@@ -205,13 +241,14 @@ impl Draft {
 
     /// Lengths in millimetres, y up.
     fn scale(&mut self, wanted: &Wanted) -> Result<(), ImportError> {
-        let factor = |lacks: bool, what| match (lacks, wanted.mm_per_unit) {
-            (false, _) => Ok(1.0),
-            (true, Some(factor)) => Ok(factor),
-            (true, None) => Err(ImportError::NoScale { what }),
+        let factor = |lacks: bool, has: bool, what| match (lacks, has, wanted.mm_per_unit) {
+            (true, true, _) => Err(ImportError::MixedUnits { what }),
+            (false, ..) => Ok(1.0),
+            (true, false, Some(factor)) => Ok(factor),
+            (true, false, None) => Err(ImportError::NoScale { what }),
         };
-        let places = factor(self.places_lack_unit, "places")?;
-        let radii = factor(self.radii_lack_unit, "radii")?;
+        let places = factor(self.places_lack_unit, self.places_have_unit, "places")?;
+        let radii = factor(self.radii_lack_unit, self.radii_have_unit, "radii")?;
         let turn = if self.is_y_down || wanted.y_down {
             -1.0
         } else {
@@ -253,13 +290,33 @@ impl Draft {
 
     /// The network with the directions of the file, if they lead away from the petiole and nothing
     /// has to be mended.
-    fn as_it_is(&self, segment_mm: f64) -> Option<VenationNetwork> {
+    fn as_it_is(&self, segment_mm: f64, root: Option<DVec2>) -> Option<VenationNetwork> {
         if !self.is_directed {
             return None;
         }
         let mut is_led_to = vec![false; self.places.len()];
+        let mut is_left = is_led_to.clone();
         for edge in &self.edges {
+            is_left[edge.ends[0] as usize] = true;
             is_led_to[edge.ends[1] as usize] = true;
+        }
+        // Nothing grows from a bare node.
+        if is_led_to
+            .iter()
+            .zip(&is_left)
+            .any(|(to, left)| !to && !left)
+        {
+            return None;
+        }
+        if let Some(root) = root {
+            let away = |node: usize| (self.places[node] - root).length_squared();
+            let least = |nodes: &mut dyn Iterator<Item = usize>| {
+                nodes.map(away).fold(f64::INFINITY, f64::min)
+            };
+            let count = self.places.len();
+            if least(&mut (0..count).filter(|&node| !is_led_to[node])) > least(&mut (0..count)) {
+                return None;
+            }
         }
         // Starts come first, as origins do, or each part has one; a bare node behind the first start
         // has to be left out.

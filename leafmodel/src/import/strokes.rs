@@ -13,6 +13,7 @@ use svgtypes::{Length, LengthUnit, PathParser, PathSegment};
 use super::draft::{Draft, DraftEdge, DraftMargin};
 use super::error::ImportError;
 use super::fields::two_numbers;
+use super::graph::shortened;
 use crate::shape::cubic::FLATNESS;
 use crate::shape::svg_path::path_data::parts;
 use crate::shape::svg_path::{is_drawn, transform_of};
@@ -73,7 +74,13 @@ pub(super) fn read(text: &str) -> Result<Draft, ImportError> {
             continue;
         }
         let order = order_of(node);
-        if let Some(width) = stroke_width(node) {
+        let width = stroke_width(node).map_err(|value| ImportError::BadValue {
+            place: format!("line {}", document.text_pos_at(node.range().start).row),
+            key: "stroke-width".to_owned(),
+            value: shortened(&value),
+            allowed: "it must be a number of at least 0, alone or in mm, cm, in, pt, pc or px",
+        })?;
+        if let Some(width) = width {
             let width = width * libm::sqrt(whole.matrix2.determinant().abs());
             for points in flattened(&data, whole).map_err(bad)? {
                 let radii = vec![0.5 * width; 2 * points.len().saturating_sub(1)];
@@ -276,18 +283,37 @@ fn inherited(node: Node<'_, '_>, name: &str) -> Option<String> {
     })
 }
 
-/// Width of the stroke in the element's own units; `None` if it has none.
-fn stroke_width(node: Node<'_, '_>) -> Option<f64> {
-    let stroke = inherited(node, "stroke")?;
-    if stroke == "none" || stroke == "transparent" {
-        return None;
+/// Width of the stroke in the element's own units; `None` if it has none, an error with what stands
+/// there if that is no width.
+///
+/// A width with a unit of length is counted as CSS does, 96 units of the drawing to an inch.
+fn stroke_width(node: Node<'_, '_>) -> Result<Option<f64>, String> {
+    let stroke = inherited(node, "stroke");
+    if stroke.is_none_or(|stroke| stroke == "none" || stroke == "transparent") {
+        return Ok(None);
     }
-    let width = inherited(node, "stroke-width");
-    let width = width.map_or(Some(1.0), |width| {
-        let number = width.trim_end_matches("px").trim().parse().ok();
-        number.filter(|width: &f64| width.is_finite())
+    let Some(text) = inherited(node, "stroke-width") else {
+        return Ok(Some(1.0));
+    };
+    let length = text.trim().parse::<Length>().ok();
+    let width = length.and_then(|length| {
+        let units = match length.unit {
+            LengthUnit::None | LengthUnit::Px => 1.0,
+            LengthUnit::Mm => 96.0 / 25.4,
+            LengthUnit::Cm => 960.0 / 25.4,
+            LengthUnit::In => 96.0,
+            LengthUnit::Pt => 96.0 / 72.0,
+            LengthUnit::Pc => 16.0,
+            LengthUnit::Em | LengthUnit::Ex | LengthUnit::Percent => return None,
+        };
+        Some(length.number * units)
     });
-    width.filter(|width| *width > 0.0)
+    match width {
+        Some(width) if width.is_finite() && width >= 0.0 => {
+            Ok(Some(width).filter(|width| *width > 0.0))
+        }
+        Some(_) | None => Err(text),
+    }
 }
 
 /// The number behind `order-` in the name of the nearest group that has one.

@@ -156,6 +156,7 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
         | ImportError::NoVeins { .. }
         | ImportError::NameTwice { .. }
         | ImportError::NoScale { .. }
+        | ImportError::MixedUnits { .. }
         | ImportError::Faulty { .. }
         | ImportError::BadMargin { .. }) => other,
     };

@@ -280,6 +280,121 @@ fn each_bad_file_is_refused_by_a_sentence_that_names_its_place() {
 }
 
 #[test]
+fn an_edge_without_one_of_its_ends_is_refused() {
+    for (members, end) in [("\"from\":0", "target"), ("\"to\":1", "source")] {
+        let text = format!(
+            "{{\"nodes\":[{{\"id\":0,\"x_mm\":0,\"y_mm\":0}},{{\"id\":1,\"x_mm\":0,\"y_mm\":1}}],\
+             \"links\":[{{{members}}}]}}"
+        );
+        assert_eq!(
+            refused(Format::Json, &text, None),
+            format!("edges[0]: an edge needs source and target; it has no {end}")
+        );
+    }
+}
+
+#[test]
+fn a_place_that_is_no_number_is_refused_at_a_node_that_is_known_too() {
+    let text = "from,to,from_x_mm,from_y_mm,to_x_mm,to_y_mm\na,b,0,0,0,5\nb,c,nan,5,0,9\n";
+    assert_eq!(
+        refused(Format::Table, text, None),
+        "line 3: node b is at (NaN, 5) here and at (0, 5) in an earlier line"
+    );
+    let first = text.replace("0,5\n", "0,inf\n");
+    assert!(refused(Format::Table, &first, None).contains("node b is at"));
+}
+
+#[test]
+fn lengths_of_one_kind_have_all_a_unit_or_none() {
+    let wanted = Wanted {
+        mm_per_unit: Some(0.01),
+        ..Wanted::default()
+    };
+    for (header, what) in [
+        ("from_x,from_y,to_x_mm,to_y,radius_mm", "places"),
+        ("from_x,from_y,to_x,to_y,radius_from_mm,radius_to", "radii"),
+    ] {
+        let text = format!("{header}\n0,0,0,10,0.1,0.1\n");
+        let text = if what == "places" {
+            text.replace("0.1,0.1", "0.1")
+        } else {
+            text
+        };
+        let draft = read(Format::Table, &text, None).expect("well-formed");
+        let error = draft.network(&wanted).err();
+        assert_eq!(error, Some(ImportError::MixedUnits { what }));
+    }
+    // Places in pixels beside radii in micrometres are two quantities.
+    let text = "from_x,from_y,to_x,to_y,radius_um\n0,0,0,1000,50\n";
+    let draft = read(Format::Table, text, None).expect("well-formed");
+    let network = draft.network(&wanted).expect("a scale is given").network;
+    assert_eq!(network.vein_length_mm(), 10.0);
+    assert!((network.edges()[0].radius_from - 0.05).abs() < 1e-15);
+}
+
+#[test]
+fn widths_of_strokes_have_units() {
+    // 96 units are 25.4 mm here, as CSS counts them.
+    let drawing = |width: &str| {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"25.4mm\" viewBox=\"0 0 96 96\">\
+             <path d=\"M0 0V96\" stroke=\"black\" stroke-width=\"{width}\"/></svg>"
+        )
+    };
+    for (width, mm) in [
+        ("0.5mm", 0.5),
+        ("0.05cm", 0.5),
+        ("0.02in", 0.508),
+        ("1.44pt", 0.508),
+        ("1.92", 0.508),
+        ("1.92px", 0.508),
+    ] {
+        let edge = imported(Format::Svg, &drawing(width)).network.edges()[0];
+        let found = 2.0 * edge.radius_from;
+        assert!((found - mm).abs() < 1e-12, "{width}: {found} mm");
+    }
+    for width in ["wide", "5%", "-1", "1em"] {
+        let told = refused(Format::Svg, &drawing(width), None);
+        let expected = format!("line 1: stroke-width is \"{width}\"; it must be a number");
+        assert!(told.starts_with(&expected), "{told}");
+    }
+}
+
+#[test]
+fn edges_without_a_radius_among_others_are_told() {
+    let text = "from,to,from_x_mm,from_y_mm,to_x_mm,to_y_mm,radius_mm\n\
+                a,b,0,0,0,5,0.1\nb,c,0,5,0,9,\nb,d,0,5,2,9,0.05\n";
+    let read = imported(Format::Table, text);
+    assert!(!read.known.radii);
+    let told = read.faults.iter().find(|f| f.kind == FaultKind::NoRadius);
+    let told = told.expect("it is told");
+    assert_eq!(
+        (told.count, &told.names[..]),
+        (1, &["from node b to c".to_owned()][..])
+    );
+    let whole = imported(Format::Table, &text.replace("9,\n", "9,0.05\n"));
+    assert!(whole.faults.iter().all(|f| f.kind != FaultKind::NoRadius));
+}
+
+#[test]
+fn a_root_that_is_told_goes_before_the_directions_of_a_file() {
+    let text = "from_x_mm,from_y_mm,to_x_mm,to_y_mm,radius_um\n0,9,0,5,80\n0,5,0,0,80\n";
+    let root_of = |root: Option<[f64; 2]>| {
+        let draft = read(Format::Table, text, None).expect("well-formed");
+        let wanted = Wanted {
+            root: root.map(Into::into),
+            ..Wanted::default()
+        };
+        let read = draft.network(&wanted).expect("a network");
+        let turned = read.faults.iter().any(|f| f.kind == FaultKind::Turned);
+        (read.network.nodes()[0].position.to_array(), turned)
+    };
+    assert_eq!(root_of(None), ([0.0, 9.0], false));
+    assert_eq!(root_of(Some([0.1, 8.0])), ([0.0, 9.0], false));
+    assert_eq!(root_of(Some([0.0, -1.0])), ([0.0, 0.0], true));
+}
+
+#[test]
 fn each_fault_that_can_be_mended_is_told_with_its_place() {
     // A cross without a node, a twin node, an edge twice, one without length, a lone node, a part
     // of its own, and a node in the middle of an edge.

@@ -7,7 +7,9 @@
 //!
 //! What remains when a node is eliminated is the Laplacian of another graph: its neighbours `i`, `j`
 //! are joined by `wᵢ wⱼ / d` more, with its conductances `w` to them and their sum `d`. So only
-//! positive numbers are added, and no digit is lost whatever the contrast of the pipes.
+//! positive numbers are added, and no digit is lost whatever the contrast of the pipes; the same
+//! holds of solutions for inflows that are not negative. The resistance between two unknowns has
+//! inflows of both signs, in which digits may cancel.
 
 mod dissection;
 #[cfg(test)]

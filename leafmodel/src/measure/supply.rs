@@ -26,6 +26,10 @@ use crate::venation::planar::PlaneGraph;
 /// conductances in mm³ s⁻¹ MPa⁻¹.
 const VISCOSITY_MPA_S: f64 = 1.0016e-9;
 
+/// Where less of the flow between a pipe's ends than this share has a way around the pipe, that share
+/// is a difference of numbers too near to each other: the network is solved anew without the pipe.
+const LEAST_AROUND: f64 = 1e-8;
+
 /// What is lost when one vein is cut in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
@@ -89,6 +93,9 @@ impl Subject<'_> {
         let factored = Factored::new(&whole.places, &whole.pipes)?;
         let drops = factored.solve(&whole.outflow);
         let power = dot(&whole.outflow, &drops);
+        if !(power.is_finite() && power > 0.0) {
+            return None;
+        }
         let beyond = bridges::beyond(whole.places.len(), &whole.pipes, &whole.outflow);
         let bridges: f64 = whole
             .edges
@@ -163,7 +170,12 @@ impl Subject<'_> {
                 let between = drop_at(ends[0]) - drop_at(ends[1]);
                 let around = 1.0 - conductance * factored.resistance(ends, &mut scratch);
                 let more = conductance * between * between / around;
-                (0.0, more / (power + more))
+                let lost = more / (power + more);
+                if around >= LEAST_AROUND && lost.is_finite() {
+                    (0.0, lost)
+                } else {
+                    (0.0, whole.lost_without(pipe, power))
+                }
             };
             let first = &graph.edges()[edge as usize];
             Some(Cut {
@@ -206,7 +218,9 @@ impl Subject<'_> {
             OrderLoss {
                 order,
                 cut_off: (1.0 - left.total / others).max(0.0),
-                lost: after.map(|after| 1.0 - before / dot(&left.outflow, &after)),
+                lost: after
+                    .map(|after| 1.0 - before / dot(&left.outflow, &after))
+                    .filter(|lost| lost.is_finite()),
             }
         };
         let orders = (1..=u8::MAX).filter(|order| lengths[usize::from(*order)] > 0.0);
@@ -315,6 +329,18 @@ impl Pipes {
             }
         }
         (!pipes.places.is_empty()).then_some(pipes)
+    }
+
+    /// Share of the conductance that is lost without a pipe that is no bridge, from a solution
+    /// without it; `power` is `Σ qᵢ pᵢ` with it.
+    fn lost_without(&self, pipe: u32, power: f64) -> f64 {
+        let mut pipes = self.pipes.clone();
+        pipes.remove(pipe as usize);
+        let after = Factored::new(&self.places, &pipes)
+            .map(|after| dot(&self.outflow, &after.solve(&self.outflow)))
+            .filter(|after| after.is_finite());
+        // A way around with a conductance too small for a number conducts nothing.
+        after.map_or(1.0, |after| (1.0 - power / after).max(0.0))
     }
 
     fn add(&mut self, graph: &PlaneGraph, number: u32) {

@@ -105,6 +105,11 @@ impl Inversion {
         Constituent::DryMatter,
     ];
 
+    /// Least and greatest value that is looked for.
+    pub fn bounds(of: Constituent) -> [f64; 2] {
+        parameter(of).bounds
+    }
+
     /// An inversion at wavelengths in nm. What is not `free` is as in `fixed`.
     ///
     /// # Errors
@@ -180,8 +185,10 @@ fn parameter(of: Constituent) -> Parameter {
     let (high, scale) = match of {
         Constituent::Structure => (MOST_STRUCTURE, 0.5),
         Constituent::Chlorophyll => (high, 20.0),
-        Constituent::Carotenoids | Constituent::Anthocyanins => (high, 5.0),
-        Constituent::Betacyanins | Constituent::Betaxanthins => (high, 5.0),
+        Constituent::Carotenoids
+        | Constituent::Anthocyanins
+        | Constituent::Betacyanins
+        | Constituent::Betaxanthins => (high, 5.0),
         Constituent::Brown => (high, 0.5),
         Constituent::Water => (high, 0.01),
         Constituent::DryMatter => (high, 0.005),

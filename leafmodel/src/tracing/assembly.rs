@@ -132,7 +132,15 @@ pub(super) fn network(
         is_root[root as usize] = true;
     }
     let others = (0..veins.nodes.len() as u32).filter(|node| !is_root[*node as usize]);
-    for node in roots.iter().copied().chain(others) {
+    // The base alone is an origin of the network: water comes in by no other root. An origin is one
+    // of the first nodes, so the roots of parts apart are the last.
+    let (base, apart) = roots.split_at(roots.len().min(1));
+    let in_order = base
+        .iter()
+        .copied()
+        .chain(others)
+        .chain(apart.iter().copied());
+    for node in in_order {
         number[node as usize] = add(veins.nodes[node as usize], &mut nodes);
     }
     let mut edges: Vec<VeinEdge> = Vec::new();

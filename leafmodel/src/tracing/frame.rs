@@ -67,10 +67,11 @@ pub(super) fn in_millimetres(
         Some(place_px)
     });
     let wanted = wanted.unwrap_or_else(|| {
-        let place_px = match settings.blade {
-            Blade::Frame => DVec2::new(0.5 * (blade.stride - 2) as f64, (blade.rows - 2) as f64),
-            Blade::Silhouette | Blade::Of(_) => widest_at_margin(&lines.veins, &margin),
-        };
+        // A piece that is cut out has no base of its own: it is the middle of the lower side.
+        if settings.blade == Blade::Frame {
+            return DVec2::new(0.5 * (blade.stride - 2) as f64, (blade.rows - 2) as f64);
+        }
+        let place_px = widest_at_margin(&lines.veins, &margin);
         let kind = FindingKind::BaseGuessed;
         let place = Some(place_px);
         findings.push(Finding {
@@ -250,8 +251,8 @@ fn join_base(veins: &mut Veins, root: &mut u32, base: DVec2, segment_px: f64) {
     *root = new;
 }
 
-/// The node from which each part of the veins starts: in the longest part the free end (else the
-/// node) nearest to the base, first; in others the node nearest to the base.
+/// The node from which each part of the veins starts, the one nearest to the base; that of the
+/// longest part is the first.
 fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> {
     let (part, lengths) = parts(veins);
     let mut nearest: Vec<(f64, u32)> = vec![(f64::INFINITY, 0); lengths.len()];

@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
 
 /// Reads the files of a scene whose existence alone was checked so far.
 fn read_files(description: &Description) -> Result<(), Failure> {
-    for mesh in &description.meshes {
+    for (number, mesh) in description.meshes.iter().enumerate() {
         let name = &mesh.name;
         if let Mesh::Gltf {
             file,
@@ -64,7 +64,8 @@ fn read_files(description: &Description) -> Result<(), Failure> {
         } = &mesh.value
         {
             let told = |error| Failure::bad(format!("meshes.{name}: {error}"));
-            assets::model(file, beside, *scale, true).map_err(told)?;
+            let colours = description.wants_colours_of(number);
+            assets::model(file, beside, *scale, colours).map_err(told)?;
         }
         let Mesh::File { file, scale } = &mesh.value else {
             continue;

@@ -5,7 +5,7 @@ mod table;
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use leafmodel::optics::inversion::{self, Found, Inversion};
 use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
@@ -17,7 +17,8 @@ use self::table::Leaf;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitArguments;
 use crate::cli::columns::in_columns;
-use crate::cli::{Failure, check_writable, say};
+use crate::cli::places::check_outputs;
+use crate::cli::{Failure, say};
 use crate::image::atomic;
 
 /// Least number of wavelengths from which contents can be told.
@@ -43,18 +44,25 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
             ));
         }
     };
-    let files = [
-        out,
-        arguments.spectra_out.as_deref(),
-        arguments.plot.as_deref(),
-    ];
-    for (number, file) in files.into_iter().enumerate() {
-        let Some(file) = file else { continue };
-        if files[..number].contains(&Some(file)) {
-            return Err(Failure::written_twice(file));
+    for (file, ending, flag) in [
+        (
+            &arguments.spectra_out,
+            "csv",
+            "--spectra-out writes a table",
+        ),
+        (&arguments.plot, "svg", "--plot writes a drawing"),
+    ] {
+        let has = |file: &&PathBuf| file.extension().is_some_and(|own| own == ending);
+        if let Some(file) = file.as_ref().filter(|file| !has(file)) {
+            let file = file.display();
+            return Err(Failure::bad(format!("{flag}: let {file} end in .{ending}")));
         }
-        check_writable(file)?;
     }
+    let others = [&arguments.spectra_out, &arguments.plot];
+    let outputs = others.into_iter().filter_map(|file| file.as_deref());
+    let outputs: Vec<&Path> = out.into_iter().chain(outputs).collect();
+    let input = [arguments.spectra.clone()];
+    check_outputs(&outputs, &input, "the command")?;
     let (free, fixed) = wanted(arguments)?;
     let range = arguments
         .range
@@ -125,7 +133,7 @@ fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Fail
         let free = arguments.free.iter().map(|name| named(name.trim()));
         free.collect::<Result<Vec<_>, _>>()?
     };
-    let mut fixed = Contents::NOTHING;
+    let (mut fixed, mut known) = (Contents::NOTHING, Vec::new());
     for written in &arguments.fix {
         let (name, value) = written.split_once('=').unwrap_or((written, ""));
         let of = named(name.trim())?;
@@ -146,6 +154,22 @@ fn wanted(arguments: &FitArguments) -> Result<(Vec<Constituent>, Contents), Fail
         }
         fixed[of] = value;
         free.retain(|other| *other != of);
+        known.push(of);
+    }
+    if let Some(twice) = (1..free.len()).find(|&i| free[..i].contains(&free[i])) {
+        return Err(Failure::bad(format!(
+            "{} is free twice",
+            free[twice].name()
+        )));
+    }
+    let unknown = Inversion::PROSPECT_D.into_iter();
+    let unknown = unknown.filter(|of| !free.contains(of) && !known.contains(of));
+    let unknown: Vec<&str> = unknown.map(Constituent::name).collect();
+    if !unknown.is_empty() {
+        return Err(Failure::bad(format!(
+            "neither free nor known: {}; name each by --free, or give it by --fix NAME=VALUE",
+            unknown.join(", ")
+        )));
     }
     if free.is_empty() {
         return Err(Failure::bad(
@@ -238,7 +262,7 @@ fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
         for &of in free {
             let value = found.contents[of];
             let interval = found.errors[of].map(|error| {
-                let [low, high] = of.range();
+                let [low, high] = Inversion::bounds(of);
                 [value - INTERVAL * error, value + INTERVAL * error].map(|end| end.clamp(low, high))
             });
             contents.insert(
@@ -301,7 +325,9 @@ fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
                 let value = found.contents[of];
                 let error = match found.errors[of] {
                     Some(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
-                    None if of.range().contains(&value) => "at the end of its range".to_owned(),
+                    None if Inversion::bounds(of).contains(&value) => {
+                        "at the end of its range".to_owned()
+                    }
                     None => "not told by these spectra".to_owned(),
                 };
                 let unit = of.unit();

@@ -7,14 +7,14 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use leafmodel::import::Fault;
+use leafmodel::import::{Fault, FaultKind};
 use leafmodel::measure::{Blade, Subject};
 use leafmodel::shape::outline::Outline;
 
 use self::input::Input;
 use self::report::Report;
 use crate::cli::arguments::MeasureArguments;
-use crate::cli::{Failure, check_writable, say};
+use crate::cli::{Failure, places, say};
 use crate::image::atomic;
 
 pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Fails if files cannot be written, are named twice, or end in what is not written.
+/// Fails if files cannot be written, are named twice or read, or end in what is not written.
 fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
     let tables = [
         &arguments.distributions,
@@ -84,33 +84,16 @@ fn check_outputs(arguments: &MeasureArguments) -> Result<(), Failure> {
         arguments.nodes.as_ref(),
         arguments.outline.as_ref(),
     ];
-    let mut seen: Vec<&PathBuf> = read.into_iter().flatten().collect();
-    for path in arguments.out.iter().chain(tables) {
-        if seen.contains(&path) {
-            return Err(Failure::written_twice(path));
-        }
-        check_writable(path)?;
-        seen.push(path);
-    }
-    Ok(())
+    let inputs: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
+    let outputs = arguments.out.iter().chain(tables);
+    let outputs: Vec<&Path> = outputs.map(PathBuf::as_path).collect();
+    places::check_outputs(&outputs, &inputs, "the command")
 }
 
 /// Tells what is wrong with a network; with `--strict` it is an error.
 fn tell_faults(arguments: &MeasureArguments, faults: &[Fault]) -> Result<(), Failure> {
-    let wrong: Vec<&Fault> = faults
-        .iter()
-        .filter(|fault| !fault.kind.is_note())
-        .collect();
-    if arguments.strict && !wrong.is_empty() {
-        let lines: String = wrong
-            .iter()
-            .map(|fault| format!("\n  {}", fault.line()))
-            .collect();
-        let file = arguments.file.display();
-        return Err(Failure::bad(format!(
-            "{file}: is not without fault, as --strict asks:{lines}"
-        )));
-    }
+    let wrong = faults.iter().filter(|fault| !fault.kind.is_note());
+    forbid(arguments, wrong.map(Fault::line))?;
     for fault in faults {
         let word = if fault.kind.is_note() {
             "note"
@@ -122,13 +105,30 @@ fn tell_faults(arguments: &MeasureArguments, faults: &[Fault]) -> Result<(), Fai
     Ok(())
 }
 
+/// With `--strict`, fails if there is any of these lines about faults.
+fn forbid(
+    arguments: &MeasureArguments,
+    wrong: impl Iterator<Item = String>,
+) -> Result<(), Failure> {
+    let lines: String = wrong.map(|line| format!("\n  {line}")).collect();
+    if !arguments.strict || lines.is_empty() {
+        return Ok(());
+    }
+    let file = arguments.file.display();
+    Err(Failure::bad(format!(
+        "{file}: is not without fault, as --strict asks:{lines}"
+    )))
+}
+
 fn tell_what_is_missing(input: &Input, blade: Blade) {
-    if !input.known.radii {
+    let is_told = |fault: &Fault| fault.kind == FaultKind::NoRadius;
+    if !input.known.radii && !input.faults.iter().any(is_told) {
         eprintln!(
             "note: edges have no radius or width: measures of widths, and of vein orders that are not in the file, are \
              missing"
         );
-    } else if input.orders_found {
+    }
+    if input.orders_found {
         eprintln!(
             "note: vein orders are not in the file; they are found from widths and branching"
         );

@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     }
     let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
     let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
-    let outputs: Vec<&Path> = outputs.map(|path| path.as_path()).collect();
+    let outputs: Vec<&Path> = outputs.map(std::path::PathBuf::as_path).collect();
     if outputs.is_empty() {
         return Err(Failure::bad(
             "nothing is to be written: give --out, --measure, --overlay or --findings",

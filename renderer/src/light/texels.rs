@@ -5,8 +5,11 @@
 pub struct Texels {
     width: usize,
     height: usize,
-    texels: Box<[[f32; 3]]>,
+    colours: Box<[[f32; 3]]>,
 }
+
+/// Greatest number of a texel, of either sign.
+const FARTHEST: f32 = 1e12;
 
 /// What lies beyond the left and the right border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +26,7 @@ impl Texels {
         Self {
             width,
             height: texels.len() / width,
-            texels: texels.into(),
+            colours: texels.into(),
         }
     }
 
@@ -34,13 +37,14 @@ impl Texels {
 
     /// The texels, row by row from the top.
     pub fn texels(&self) -> &[[f32; 3]] {
-        &self.texels
+        &self.colours
     }
 
     /// The colour at a share of the width from the left and a share of the height from the top. A
     /// texel's colour is that of its middle; between middles it is linear.
     pub fn at(&self, [across, down]: [f32; 2], beyond: Beyond) -> [f32; 3] {
-        let x = across * self.width as f32 - 0.5;
+        // Far out there is no detail left, and beyond the range of floats no number.
+        let x = (across * self.width as f32 - 0.5).clamp(-FARTHEST, FARTHEST);
         let y = (down * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
         let (x0, y0) = (x.floor(), y.floor());
         let (share_x, share_y) = (x - x0, y - y0);
@@ -55,7 +59,7 @@ impl Texels {
         let mut colour = [0.0; 3];
         for (dy, weight_y) in [(0, 1.0 - share_y), (1, share_y)] {
             for (dx, weight_x) in [(0, 1.0 - share_x), (1, share_x)] {
-                let texel = self.texels[row(dy) * self.width + column(dx)];
+                let texel = self.colours[row(dy) * self.width + column(dx)];
                 for (sum, value) in colour.iter_mut().zip(texel) {
                     *sum += weight_x * weight_y * value;
                 }

@@ -90,6 +90,18 @@ impl Held {
 }
 
 impl Description {
+    /// Whether a material takes the colours of the mesh with this number.
+    pub fn wants_colours_of(&self, mesh: usize) -> bool {
+        let mut reflectances = self
+            .materials
+            .iter()
+            .filter_map(|named| named.value.reflectance());
+        reflectances.any(|reflectance| match reflectance {
+            Reflectance::OfMesh(of) => *of == mesh,
+            Reflectance::Even(_) | Reflectance::Picture { .. } => false,
+        })
+    }
+
     /// A scene with nothing in it.
     pub(crate) fn empty(name: &str, source: String) -> Self {
         Self {
@@ -350,7 +362,7 @@ pub enum Light {
     },
     /// A latitude–longitude picture at infinity, up is +z.
     Environment {
-        /// EXR or PNG with RGB, resolved and inside the scene's folder.
+        /// EXR, PNG or JPEG with RGB, resolved and inside the scene's folder.
         file: PathBuf,
         /// Factor on the picture.
         scale: f64,
@@ -432,7 +444,7 @@ impl Light {
 pub struct AreaPattern {
     /// Radiance in the middle of the edges of the uv square over that in its middle, in (0, 1].
     pub edge: f64,
-    /// EXR or PNG with RGB, resolved and inside the scene's folder.
+    /// EXR, PNG or JPEG with RGB, resolved and inside the scene's folder.
     pub picture: Option<PathBuf>,
 }
 

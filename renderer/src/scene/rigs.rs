@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use glam::{DMat3, DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use leafmodel::document::names::Named;
 
 use crate::light::daylight::Daylight;
@@ -159,6 +159,37 @@ impl Stage {
         )
     }
 
+    /// Whether a panel cuts the line from the subject to a point, or along a direction if the last
+    /// number is 0.
+    fn is_cut(&self, panel: &Panel, towards: DVec4) -> bool {
+        let to_panel = self.frame(panel).inverse();
+        let start = to_panel.transform_point3(self.subject);
+        let end = to_panel * towards;
+        let (step, is_point) = if towards.w == 0.0 {
+            (end.truncate(), false)
+        } else {
+            (end.truncate() - start, true)
+        };
+        let t = -start.z / step.z;
+        let reach = if is_point { 1.0 } else { f64::INFINITY };
+        let met = (start + t * step).truncate().abs();
+        t > 0.0 && t < reach && met.cmple(0.5 * self.size * panel.size).all()
+    }
+
+    /// Share of an even light from everywhere that reaches a level sheet between panels.
+    fn open_share(&self, panels: &[Panel]) -> f64 {
+        let mut open = 0;
+        for i in 0..CELLS * CELLS {
+            let [u, v] = [i % CELLS, i / CELLS].map(|i| (i as f64 + 0.5) / CELLS as f64);
+            let (sin, cos) = libm::sincos(2.0 * PI * v);
+            // Directions by the cosine of their angle from the normal.
+            let level = u.sqrt();
+            let towards = DVec4::new(level * cos, level * sin, (1.0 - u).sqrt(), 0.0);
+            open += usize::from(!panels.iter().any(|panel| self.is_cut(panel, towards)));
+        }
+        open as f64 / (CELLS * CELLS) as f64
+    }
+
     /// Irradiance of a level sheet at the subject by a panel of the radiance 1.
     fn irradiance(&self, panel: &Panel) -> f64 {
         let frame = self.frame(panel);
@@ -252,11 +283,14 @@ fn levelled(day: Daylight, level: f64) -> Daylight {
 
 /// Adds the panels and the even light of a preset.
 fn build(scene: &mut Description, rig: &str, preset: RigPreset, stage: &Stage, level: f64) {
-    let (panels, even) = panels(preset);
+    let (mut panels, even) = panels(preset);
+    // A tent is open where the camera looks in, from wherever that is.
+    let camera = scene.camera.view.position.extend(1.0);
+    panels.retain(|panel| !stage.is_cut(panel, camera));
     let lit = panels
         .iter()
         .map(|panel| panel.radiance * stage.irradiance(panel));
-    let unit = level / (lit.sum::<f64>() + PI * even);
+    let unit = level / (lit.sum::<f64>() + PI * even * stage.open_share(&panels));
     scene.materials.push(Named {
         name: format!("{rig}.cloth"),
         value: Material::Diffuse {

@@ -11,7 +11,6 @@ mod strewing;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -41,7 +40,7 @@ use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
 use crate::scene::assets::AssetError;
-use crate::scene::description::{self, Description, Named, Object, Reflectance};
+use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
 use crate::spectrum::WavelengthSampler;
@@ -337,18 +336,9 @@ fn build_meshes(
     scene: &Description,
     notes: &mut Vec<String>,
 ) -> Result<MeshesAndColours, WorldError> {
-    let coloured =
-        scene
-            .materials
-            .iter()
-            .filter_map(|material| match material.value.reflectance() {
-                Some(Reflectance::OfMesh(mesh)) => Some(*mesh),
-                Some(Reflectance::Even(_) | Reflectance::Picture { .. }) | None => None,
-            });
-    let coloured: BTreeSet<usize> = coloured.collect();
     let (mut meshes, mut colours) = (Vec::new(), Vec::new());
     for (number, mesh) in scene.meshes.iter().enumerate() {
-        let built = build_mesh(&mesh.name, &mesh.value, coloured.contains(&number))?;
+        let built = build_mesh(&mesh.name, &mesh.value, scene.wants_colours_of(number))?;
         if built.mesh.dropped().total() > 0 {
             notes.push(format!("meshes.{}: {}", mesh.name, built.mesh.dropped()));
         }

@@ -18,28 +18,35 @@ pub(super) fn order(places: &[DVec2], pipes: &[Pipe]) -> Vec<u32> {
         around[a as usize].push(b);
         around[b as usize].push(a);
     }
+    // Nodes that are gone stay in the lists of others; these are how many do not.
+    let mut degrees: Vec<usize> = around.iter().map(Vec::len).collect();
     let mut order = Vec::with_capacity(places.len());
     let mut is_gone = vec![false; places.len()];
     let mut open: Vec<u32> = (0..places.len() as u32).rev().collect();
     while let Some(node) = open.pop() {
-        if is_gone[node as usize] || around[node as usize].len() > 2 {
+        if is_gone[node as usize] || degrees[node as usize] > 2 {
             continue;
         }
         is_gone[node as usize] = true;
         order.push(node);
-        let near = std::mem::take(&mut around[node as usize]);
+        let mut near = std::mem::take(&mut around[node as usize]);
+        near.retain(|&other| !is_gone[other as usize]);
         for &other in &near {
-            around[other as usize].retain(|&n| n != node);
+            degrees[other as usize] -= 1;
         }
-        if let [a, b] = near[..]
-            && !around[a as usize].contains(&b)
-        {
-            around[a as usize].push(b);
-            around[b as usize].push(a);
+        if let [a, b] = near[..] {
+            let is_longer = around[a as usize].len() > around[b as usize].len();
+            let (short, other) = if is_longer { (b, a) } else { (a, b) };
+            if !around[short as usize].contains(&other) {
+                for (one, other) in [(a, b), (b, a)] {
+                    around[one as usize].push(other);
+                    degrees[one as usize] += 1;
+                }
+            }
         }
         open.extend(
             near.into_iter()
-                .filter(|&other| around[other as usize].len() <= 2),
+                .filter(|&other| degrees[other as usize] <= 2),
         );
     }
     let core: Vec<u32> = (0..places.len() as u32)

@@ -114,6 +114,28 @@ fn pipes_in_series_and_side_by_side_add_up_as_resistors_do() {
 }
 
 #[test]
+fn a_cut_beside_a_way_around_that_is_far_finer_is_finite_and_right() {
+    // Behind a stalk a thick pipe of length 8, beside it two thin ones of length 5, and a twig. Thin
+    // ones have 10²⁰ times the resistance a length: `1 − g R` is 0 in floating point.
+    let places = [(0.0, -1.0), (0.0, 0.0), (3.0, 4.0), (0.0, 8.0), (0.0, 9.0)].map(DVec2::from);
+    let edges = [
+        (0, 1, 1.0, 1),
+        (1, 3, 1.0, 2),
+        (1, 2, 1e-5, 3),
+        (2, 3, 1e-5, 3),
+        (3, 4, 1.0, 4),
+    ];
+    let found = supply(&wide(&places, &edges));
+    // The middle of the thin way loses 5, the end of the thick pipe 7 and the twig 0.5. In units of
+    // a thin pipe's resistance the power is 5² / 2 before, and 12.5² + 7.5² after the cut.
+    let thick = found.cuts.iter().find(|cut| cut.order == 2);
+    let thick = thick.expect("it is a vein");
+    assert_eq!(thick.cut_off, 0.0);
+    near(thick.lost, 1.0 - 12.5 / (12.5 * 12.5 + 7.5 * 7.5));
+    assert!(found.cuts.iter().all(|cut| cut.lost.is_finite()));
+}
+
+#[test]
 fn each_cut_of_a_grown_leaf_loses_what_a_solution_without_the_edge_says() {
     let (_, veins) = poplar(2);
     let subject = Subject::new(Blade::Unknown, &veins, Known::ALL);

@@ -233,7 +233,7 @@ impl Factor {
                 } else {
                     let diagonal = matrix[row][row];
                     let pivot = value + damping * diagonal;
-                    if !(pivot > least * diagonal) {
+                    if pivot.is_nan() || pivot <= least * diagonal {
                         return Err(i);
                     }
                     line[i] = pivot.sqrt();

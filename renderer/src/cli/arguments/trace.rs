@@ -24,7 +24,6 @@ pub enum ThresholdKind {
 
 /// `lamina trace`.
 #[derive(Args, Clone, Debug, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct TraceArguments {
     /// The picture: a cleared leaf, a drawing or a mask of veins, as PNG, TIFF or JPEG
     #[arg(value_name = "PICTURE")]

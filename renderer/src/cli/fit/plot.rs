@@ -75,16 +75,17 @@ fn panel(text: &mut String, Fitted { leaf, found }: &Fitted<'_>) {
         SIZE[0] - MARGIN + 8.0,
         SIZE[1] - 14.0
     );
-    let kinds: [(&[f64], &[f64], &str, fn(f64) -> f64); 2] = [
-        (&leaf.reflectance, &found.reflectance_left, "#2a7d2a", |r| r),
+    let through = |share: f64, is_r: bool| if is_r { share } else { 1.0 - share };
+    for (measured, left, colour, is_r) in [
+        (&leaf.reflectance, &found.reflectance_left, "#2a7d2a", true),
         (
             &leaf.transmittance,
             &found.transmittance_left,
             "#2a4d9d",
-            |t| 1.0 - t,
+            false,
         ),
-    ];
-    for (measured, left, colour, shown) in kinds {
+    ] {
+        let shown = |share: f64| through(share, is_r);
         let all = || leaf.nm.iter().zip(measured.iter().zip(left));
         for (nm, (value, _)) in all().step_by(all().count().div_ceil(200).max(1)) {
             let (x, y) = (x(*nm), y(shown(*value)));

@@ -40,7 +40,7 @@ enum Column {
 
 /// Wavelengths below this are micrometres: 0.4 to 2.5 against 400 to 2500.
 const MOST_UM: f64 = 30.0;
-/// Values above this are percent; noise takes no share so far beyond 1.
+/// Where the upper quarter of all values is above this they are percent.
 const MOST_SHARE: f64 = 1.5;
 /// Measured noise below 0, and of R + T beyond 1, that is let pass.
 const NOISE: f64 = 0.05;
@@ -169,42 +169,43 @@ fn columns(names: &StringRecord) -> Result<Vec<Column>, String> {
 
 /// What a column's name says of it.
 fn column(name: &str) -> Column {
-    let lower = name.to_lowercase();
-    let words: Vec<&str> = lower
-        .split(|c: char| !c.is_alphanumeric() && c != 'µ')
-        .collect();
-    let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
-    let says = |of: &[&str]| words.iter().any(|word| of.contains(word));
+    // Only ASCII changes its case, so that places in both are the same.
+    let lower = name.to_ascii_lowercase();
+    let words = words(&lower);
+    let says = |of: &[&str]| words.iter().any(|(_, word)| of.contains(word));
     if says(&["wavelength", "wavelengths", "wl", "lambda"])
-        || matches!(words[..], ["nm" | "um" | "µm"])
+        || matches!(words[..], [(_, "nm" | "um" | "µm")])
     {
         return Column::Wavelength;
     }
-    if matches!(words[..], ["leaf" | "case" | "sample" | "name" | "id"]) {
+    if matches!(words[..], [(_, "leaf" | "case" | "sample" | "name" | "id")]) {
         return Column::Name;
     }
-    let units = ["percent", "pct"];
-    let Some(last) = words.iter().rposition(|word| !units.contains(word)) else {
+    let is_unit = |(_, word): &(usize, &str)| ["percent", "pct"].contains(word);
+    let Some(&(place, last)) = words.iter().rfind(|word| !is_unit(word)) else {
         return Column::Other;
     };
-    let is_r = match words[last] {
+    let is_r = match last {
         "r" | "refl" | "reflectance" => true,
         "t" | "trans" | "transmittance" => false,
         _ => return Column::Other,
     };
     // The leaf's name is what stands before, as written.
-    let end = lower
-        .rfind(words[last])
-        .filter(|_| lower.len() == name.len())
-        .unwrap_or(0);
-    let leaf = name[..end]
-        .trim_end_matches(|c: char| !c.is_alphanumeric())
-        .to_owned();
+    let leaf = name[..place].trim_end_matches(|c: char| !c.is_alphanumeric());
+    let leaf = leaf.to_owned();
     if is_r {
         Column::Reflectance(leaf)
     } else {
         Column::Transmittance(leaf)
     }
+}
+
+/// The words of a name, each with its place.
+fn words(name: &str) -> Vec<(usize, &str)> {
+    let parts = name.split(|c: char| !c.is_alphanumeric() && c != 'µ');
+    // Each part lies within the name.
+    let placed = parts.map(|part| (part.as_ptr().addr() - name.as_ptr().addr(), part));
+    placed.filter(|(_, part)| !part.is_empty()).collect()
 }
 
 fn number(record: &StringRecord, names: &StringRecord, column: usize) -> Result<f64, String> {
@@ -234,18 +235,14 @@ fn to_nanometres(leaves: &mut [Leaf], notes: &mut Vec<String>) {
 }
 
 fn to_shares(leaves: &mut [Leaf], notes: &mut Vec<String>) {
-    let values = |leaf: &Leaf| {
-        leaf.reflectance
-            .iter()
-            .chain(&leaf.transmittance)
-            .copied()
-            .collect::<Vec<_>>()
-    };
-    if leaves
+    let mut values: Vec<f64> = leaves
         .iter()
-        .flat_map(values)
-        .any(|value| value > MOST_SHARE)
-    {
+        .flat_map(|leaf| leaf.reflectance.iter().chain(&leaf.transmittance))
+        .copied()
+        .collect();
+    values.sort_by(f64::total_cmp);
+    // One value that is wrong does not make a table percent: a quarter of all are that large.
+    if values[values.len() * 3 / 4] > MOST_SHARE {
         notes.push("values are taken for percent".to_owned());
         for leaf in leaves {
             for value in leaf.reflectance.iter_mut().chain(&mut leaf.transmittance) {
@@ -315,6 +312,29 @@ mod tests {
     }
 
     #[test]
+    fn units_in_a_name_belong_to_no_leaf() {
+        for (r, t, leaf) in [
+            ("R_percent", "T_percent", ""),
+            ("birch R (percent)", "birch T [pct]", "birch"),
+            ("Béla_R_pct", "Béla_T", "Béla"),
+        ] {
+            let text = format!("nm,{r},{t}\n400,5,1\n410,6,2\n");
+            let found = parsed(&text).expect("a good table");
+            assert_eq!(found.leaves.len(), 1, "{r}");
+            assert_eq!(found.leaves[0].name, leaf);
+            assert_eq!(found.leaves[0].transmittance, [0.01, 0.02]);
+        }
+    }
+
+    #[test]
+    fn one_value_that_is_wrong_does_not_make_a_table_percent() {
+        let lines = (0..20).map(|i| format!("{},{}\n", 400 + i, if i == 7 { 9.9 } else { 0.1 }));
+        let text = "nm,R\n".to_owned() + &lines.collect::<String>();
+        let error = parsed(&text).expect_err("9.9 is no share");
+        assert!(error.contains("9.9 at 407 nm"), "{error}");
+    }
+
+    #[test]
     fn lines_of_several_leaves_are_told_apart_by_a_column() {
         let text = "case;um;R;T;remark\na;0.4;5;1;x\na;0.41;6;2;x\nb;0.4;10;30;x\n";
         let found = parsed(text).expect("a good table");
@@ -349,7 +369,7 @@ mod tests {
             ("nm,R\n400,0.1\n400,0.1\n", "twice"),
             ("nm,R\n400,-0.2\n", "-0.2 at 400 nm"),
             ("nm,R,T\n400,0.6,0.6\n", "R + T is 1.2"),
-            ("nm,R,T\n400,0.6\n", "line 2"),
+            ("nm,R,T\n400,0.6\n", "line: 2"),
         ] {
             let error = parsed(text).expect_err(text);
             assert!(

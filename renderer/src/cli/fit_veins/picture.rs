@@ -64,8 +64,8 @@ fn panel(told: &Told, heights: &[f64; BINS]) -> String {
          <rect y=\"{:.2}\" width=\"{width}\" height=\"{scale:.2}\" fill=\"#ddd\"/>\n",
         told.parameter
             .name()
-            .replace('<', "&lt;")
-            .replace('&', "&amp;"),
+            .replace('&', "&amp;")
+            .replace('<', "&lt;"),
         height - scale,
     );
     for (number, tall) in heights.iter().enumerate().filter(|(_, tall)| **tall > 0.0) {

@@ -5,13 +5,18 @@ use std::path::Path;
 use leafmodel::import::{self, Draft, Fault, Format, ImportError, Imported, Wanted};
 use leafmodel::measure::Known;
 use leafmodel::shape::outline::Outline;
+use leafmodel::tracing::{Finding, FindingKind};
 use leafmodel::venation::network::VenationNetwork;
 
+use super::forbid;
 use crate::cli::arguments::MeasureArguments;
 use crate::cli::{Failure, trace};
 
-/// Endings of pictures, which are no networks.
+/// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
 const PICTURES: [&str; 8] = ["png", "tif", "tiff", "jpg", "jpeg", "bmp", "webp", "exr"];
+
+/// How many of them can be.
+const READ: usize = 5;
 
 /// A network that is ready to be measured.
 #[derive(Debug)]
@@ -48,8 +53,9 @@ impl Kind {
         }
         let shown = path.display();
         Err(Failure::bad(format!(
-            "{shown}: the ending tells the format of a network: {}",
-            MeasureArguments::endings()
+            "{shown}: the ending tells the format of a network: {}; or of a picture: {}",
+            MeasureArguments::endings(),
+            PICTURES[..READ].join(", ")
         )))
     }
 }
@@ -77,6 +83,7 @@ impl Input {
             ("--outline", arguments.outline.is_some()),
             ("--area", arguments.area.is_some()),
             ("--root", arguments.root.is_some()),
+            ("--y-down", arguments.y_down),
         ];
         if let Some((flag, _)) = foreign.into_iter().find(|(_, given)| *given) {
             return Err(Failure::bad(format!(
@@ -84,6 +91,8 @@ impl Input {
             )));
         }
         let traced = trace::with_usual_settings(&arguments.file, mm_per_pixel)?;
+        let wrong = traced.findings.iter().filter(|finding| is_fault(finding));
+        forbid(arguments, wrong.map(ToString::to_string))?;
         Ok(Self {
             network: traced.network,
             outlines: vec![traced.outline],
@@ -106,13 +115,20 @@ impl Input {
         let told = |error: ImportError| Failure::bad(format!("{}: {error}", path.display()));
         let draft = import::read(format, &text, nodes.as_deref()).map_err(told)?;
         drop((text, nodes));
+        if arguments.area.is_some() && draft.has_margin() {
+            return Err(Failure::bad(format!(
+                "{}: holds a margin, which gives the area: leave out --area",
+                path.display()
+            )));
+        }
         let own = arguments
             .outline
             .as_deref()
             .map(|path| margin(path, arguments))
             .transpose()?;
         let draft = match own {
-            Some(own) => draft.within(own),
+            Some((own, true)) => draft.within(own),
+            Some((own, false)) => draft.within_guessed(own),
             None => draft,
         };
         let Imported {
@@ -132,6 +148,19 @@ impl Input {
     }
 }
 
+/// Whether what tracing found may make measures wrong.
+fn is_fault(finding: &Finding) -> bool {
+    match finding.kind {
+        FindingKind::Apart { .. } | FindingKind::Thin { .. } => true,
+        FindingKind::Specks { .. }
+        | FindingKind::Holes { .. }
+        | FindingKind::Spurs { .. }
+        | FindingKind::Crossings { .. }
+        | FindingKind::Petiole
+        | FindingKind::BaseGuessed => false,
+    }
+}
+
 fn wanted(arguments: &MeasureArguments) -> Wanted {
     Wanted {
         mm_per_unit: arguments.mm_per_unit,
@@ -140,8 +169,8 @@ fn wanted(arguments: &MeasureArguments) -> Wanted {
     }
 }
 
-/// The margin in a file of its own.
-fn margin(path: &Path, arguments: &MeasureArguments) -> Result<Outline, Failure> {
+/// The margin in a file of its own, and whether the file tells its base.
+fn margin(path: &Path, arguments: &MeasureArguments) -> Result<(Outline, bool), Failure> {
     let shown = path.display();
     let format = match Kind::of(path)? {
         Kind::Network(format @ (Format::Svg | Format::Json)) => format,
@@ -155,9 +184,10 @@ fn margin(path: &Path, arguments: &MeasureArguments) -> Result<Outline, Failure>
     let text = text_of(path)?;
     let draft: Draft = import::read_margin(format, &text).map_err(told)?;
     let wanted = wanted(arguments);
+    let tells_base = draft.tells_base();
     let mut outlines = draft.outlines(&wanted).map_err(told)?;
     match (outlines.len(), outlines.pop()) {
-        (1, Some(outline)) => Ok(outline),
+        (1, Some(outline)) => Ok((outline, tells_base)),
         (count, _) => Err(Failure::bad(format!(
             "{shown}: holds {count} margins; name a file with one"
         ))),

@@ -16,7 +16,7 @@ const SQUARE: [[Vec3; 3]; 2] = [
 ];
 
 fn uvs() -> [[Vec2; 3]; 2] {
-    SQUARE.map(|corners| corners.map(|corner| corner.truncate()))
+    SQUARE.map(|corners| corners.map(Vec3::truncate))
 }
 
 fn gels() -> Pattern {
@@ -123,7 +123,7 @@ fn a_patch_is_chosen_by_its_share_of_the_pattern_but_never_forgotten() {
     let triangles = [lower, upper].concat();
     let uvs: Vec<_> = triangles
         .iter()
-        .map(|face| face.map(|p| p.truncate()))
+        .map(|face| face.map(Vec3::truncate))
         .collect();
     let picture = Texels::new(vec![[1.0; 3], [1.0; 3], [0.0; 3], [0.0; 3]], 1);
     let pattern = Pattern::new(1.0, Some(picture));

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use leafmodel::document::context::QUOTED;
+use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
@@ -18,6 +19,7 @@ use crate::light::daylight::Daylight;
 use crate::light::daylight::spctrl2::Atmosphere;
 use crate::scene::angle::sin_cos_deg;
 use crate::scene::description::{AreaPattern, Light, Rig, Spectrum};
+use crate::spectrum::rgb;
 
 /// A picture that shines, up to 4 GiB.
 const PICTURE: FilePath = FilePath::of(
@@ -245,6 +247,12 @@ fn area_pattern(pattern: &mut Option<AreaPattern>, keys: &mut Keys<'_>) {
         radiance: what RGB 1 1 1 stands for is `radiance_w_m2_sr_nm`.";
     keys.optional("picture", &mut picture, PICTURE, about);
     let picture = picture.map(|named| named.file);
+    if picture.is_some()
+        && let Some(block) = keys.reader()
+    {
+        let at = block.node("picture").map_or(&block.at, |node| &node.at);
+        require_coverage(block.cx, at, "a picture's colour", rgb::RANGE_NM);
+    }
     if edge < 1.0 || picture.is_some() {
         *pattern = Some(AreaPattern { edge, picture });
     }

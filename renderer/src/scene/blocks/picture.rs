@@ -65,17 +65,15 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
     let about = "An object that is brought to middle grey (0.18) first, such as a grey card, instead \
         of the whole picture; `exposure_ev` is then more or less than that.";
     keys.optional("grey_object", &mut picture.grey_object, OBJECT, about);
-    one_alone(
-        &mut picture.grey_object,
-        ["grey_object", "auto_exposure"],
-        keys,
-    );
+    let other = ("auto_exposure", picture.auto_exposure);
+    one_alone(&mut picture.grey_object, "grey_object", other, keys);
     let about = "The light that comes out white: `\"d65\"`, in which colours are as the film has \
         them, or a colour temperature in K (daylight from 4000 on, a black body below).";
     keys.key("white", &mut picture.white, WhiteKind, about);
     let about = "An object that comes out without colour, such as a grey card, instead of `white`.";
     keys.optional("white_object", &mut picture.white_object, OBJECT, about);
-    one_alone(&mut picture.white_object, ["white_object", "white"], keys);
+    let other = ("white", picture.white != White::D65);
+    one_alone(&mut picture.white_object, "white_object", other, keys);
     let words = [
         ("agx", Tone::Agx),
         ("standard", Tone::Standard),
@@ -102,12 +100,17 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
 }
 
 /// An empty name is none, so that a flag can take away what the scene said; with a name the other
-/// key has no effect.
-fn one_alone(object: &mut Option<String>, [key, other]: [&'static str; 2], keys: &Keys<'_>) {
+/// key has no effect, if it is set.
+fn one_alone(
+    object: &mut Option<String>,
+    key: &'static str,
+    (other, is_set): (&'static str, bool),
+    keys: &Keys<'_>,
+) {
     if object.as_ref().is_some_and(String::is_empty) {
         *object = None;
     }
-    if object.is_some() && keys.reader().is_some() && keys.has(other) {
+    if object.is_some() && is_set && keys.reader().is_some() {
         let problem = format!("`{other}` has no effect beside `{key}`");
         keys.refuse(&[other], problem, "leave one of them out");
     }

@@ -145,6 +145,14 @@ fn check_colours(scene: &Description, keys: &Keys<'_>) {
             keys.refuse(&["materials", &material.name, kind, "mesh"], problem, help);
         }
     }
+    for plant in &scene.plants {
+        let bark = plant.value.bark.and_then(|bark| scene.materials.get(bark));
+        if let Some(bark) = bark.filter(|bark| taken(bark).is_some()) {
+            let problem = format!("the material `{}` has the colours of a mesh", bark.name);
+            let help = "use a material with a reflectance of its own for bark";
+            keys.refuse(&["plants", &plant.name, "bark"], problem, help);
+        }
+    }
     for object in &scene.objects {
         for shape in &object.value.shapes {
             let ObjectShape::Mesh { mesh, material } = *shape else {

@@ -1,10 +1,12 @@
 //! `[lights.NAME.rig]`: lights by name.
 
+use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{Degrees, Number, Vector, Word};
 
 use super::camera::COORDINATES_M;
+use super::spectrum::D65_NM;
 use crate::scene::description::{Rig, RigPreset};
 
 const PRESETS: [(&str, RigPreset); 6] = [
@@ -29,10 +31,24 @@ impl Rig {
     }
 }
 
+impl RigPreset {
+    /// Whether its lamps or its sky have the spectrum of D65.
+    fn shines_as_d65(self) -> bool {
+        match self {
+            Self::Studio | Self::Tent | Self::Lightbox | Self::Overcast => true,
+            Self::GoldenHour | Self::ForestEdge => false,
+        }
+    }
+}
+
 /// The keys of the block.
 pub(super) fn rig(rig: &mut Rig, keys: &mut Keys<'_>) {
     let about = "How the lights stand.";
     keys.required("preset", &mut rig.preset, Word(&PRESETS), about);
+    if let Some(block) = keys.reader().filter(|_| rig.preset.shines_as_d65()) {
+        let at = block.node("preset").map_or(&block.at, |node| &node.at);
+        require_coverage(block.cx, at, "the lamps' D65", D65_NM);
+    }
     let about = "What is lit; left out, the point that the camera looks at.";
     keys.optional("subject_m", &mut rig.subject, Vector(COORDINATES_M), about);
     let limits = Number(Limits::closed(1e-4, 1e4));

@@ -149,7 +149,7 @@ impl Kind for SpectrumOf {
 /// Range of wavelengths of tables, nm; solar spectra start in the far ultraviolet.
 pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
-const D65_NM: [f64; 2] = [300.0, 830.0];
+pub(super) const D65_NM: [f64; 2] = [300.0, 830.0];
 const FACTORS: Limits = Limits::above(0.0, 1e12);
 /// Range of temperatures of black bodies, K.
 const KELVIN: Limits = Limits::closed(100.0, 1e6);

@@ -3,7 +3,10 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 
 use super::*;
-use crate::light::{Light as Built, Receiver};
+use std::f64::consts::TAU;
+
+use crate::geometry::ray::Ray;
+use crate::light::{Light as Built, LightSample, Receiver};
 use crate::scene::load::parse;
 use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
@@ -34,6 +37,33 @@ fn scene(rig: &str) -> Description {
     loaded.expect("the test's own scene is right").description
 }
 
+/// Whether anything but the sheet itself lies between a point on it and another.
+fn is_shaded(world: &World, from: Vec3, way: Vec3) -> bool {
+    let distance = way.length();
+    let ray = Ray {
+        t_min: 1e-4,
+        t_max: distance,
+        ..Ray::new(from + 1e-5 * Vec3::Z, way / distance)
+    };
+    world.geometry.occluded(&ray)
+}
+
+/// Share of directions over a level sheet, by their cosine, in which nothing lies.
+fn open_share(world: &World, from: Vec3) -> f64 {
+    let side: u32 = 128;
+    let open = (0..side * side).filter(|i| {
+        let u = (f64::from(i % side) + 0.5) / f64::from(side);
+        let turn = TAU * (f64::from(i / side) + 0.5) / f64::from(side);
+        let level = (1.0 - u * u).sqrt();
+        // Even over directions; each counts by its cosine.
+        let way = DVec3::new(level * turn.cos(), level * turn.sin(), u);
+        !is_shaded(world, from, 1e6 * way.as_vec3())
+    });
+    let cosine = |i: u32| (f64::from(i % side) + 0.5) / f64::from(side);
+    let all: f64 = (0..side * side).map(cosine).sum();
+    open.map(cosine).sum::<f64>() / all
+}
+
 /// Irradiance of a level sheet at the subject at 560 nm, by samples of every light.
 fn on_paper(world: &World) -> f64 {
     let receiver = Receiver {
@@ -46,7 +76,8 @@ fn on_paper(world: &World) -> f64 {
     for light in &world.lights {
         let parts = match light {
             Built::Constant(radiance) => {
-                sum += PI * f64::from(radiance.lanes(&wavelengths).mean());
+                let open = open_share(world, receiver.position);
+                sum += PI * open * f64::from(radiance.lanes(&wavelengths).mean());
                 continue;
             }
             Built::Area(area) => area.patches().len(),
@@ -60,7 +91,13 @@ fn on_paper(world: &World) -> f64 {
             for i in 0..side * side {
                 let u = Vec2::new((i % side) as f32 + 0.5, (i / side) as f32 + 0.5);
                 let sample = light.sample(part, &receiver, &wavelengths, u / side as f32);
-                if let Some(sample) = sample.filter(|sample| sample.wi.z > 0.0) {
+                let reaches = |sample: &LightSample<1>| {
+                    let point = sample
+                        .point
+                        .map_or(1e6 * sample.wi, |p| p - receiver.position);
+                    sample.wi.z > 0.0 && !is_shaded(world, receiver.position, 0.999 * point)
+                };
+                if let Some(sample) = sample.filter(reaches) {
                     let light = sample.radiance.mean() * sample.wi.z / sample.pdf;
                     sum += f64::from(light) / f64::from(side * side);
                 }
@@ -81,6 +118,25 @@ fn a_level_sheet_gets_the_light_of_a_picture_that_needs_no_exposure() {
             assert!(off < 0.01, "{preset} {keys}: {found}, not {expected}");
         }
     }
+}
+
+#[test]
+fn a_tent_is_open_where_the_camera_looks_in() {
+    let walls = |position: &str| {
+        let text = SCENE.replace("[0.3, -0.4, 0.5]", position);
+        let fov = "vertical_fov_deg = 20";
+        let text = text.replace(fov, &format!("{fov}\nup = [0, 1, 0.1]"));
+        let text = format!("{text}[lights.set.rig]\npreset = \"tent\"\n");
+        let scene = parse(&text, "scene.toml", Path::new("."), &[]);
+        let scene = scene.expect("the test's own scene is right").description;
+        let walls = scene
+            .objects
+            .iter()
+            .filter_map(|object| object.name.strip_prefix("set."));
+        walls.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(walls("[0.1, -0.6, 0.1]"), ["left", "right", "back", "roof"]);
+    assert_eq!(walls("[0.1, 0.2, 0.8]"), ["left", "right", "back"]);
 }
 
 #[test]
