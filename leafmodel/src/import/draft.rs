@@ -42,8 +42,6 @@ pub struct Draft {
     pub(super) radii_have_unit: bool,
     /// The margin that is taken instead of the file's.
     pub(super) given: Option<Outline>,
-    /// Whether the base of that margin is only guessed.
-    pub(super) is_base_guessed: bool,
     /// Whether y points down.
     pub(super) is_y_down: bool,
 }

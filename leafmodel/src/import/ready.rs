@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::draft::{ABSENT, Draft, DraftMargin};
+use super::draft::{ABSENT, Draft};
 use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::{margins, repair, roots};
@@ -48,27 +48,12 @@ impl Draft {
         self.places_lack_unit || self.radii_lack_unit
     }
 
-    /// The same with this margin instead of the file's own, whose base is where the petiole is.
+    /// The same with this margin instead of the file's own.
     pub fn within(self, outline: Outline) -> Self {
         Self {
             given: Some(outline),
-            is_base_guessed: false,
             ..self
         }
-    }
-
-    /// The same with a margin that was read from a file without a base: directions of edges go
-    /// before its lowest point.
-    pub fn within_guessed(self, outline: Outline) -> Self {
-        Self {
-            is_base_guessed: true,
-            ..self.within(outline)
-        }
-    }
-
-    /// Whether its margin, if it is one, has a base of its own in the file.
-    pub fn tells_base(&self) -> bool {
-        matches!(self.margins.as_slice(), [DraftMargin { base: Some(_), .. }])
     }
 
     /// Whether there is a margin.
@@ -91,7 +76,8 @@ impl Draft {
     /// Veins outside of all margins, such as the petiole, are left out. Edges that lead away from the
     /// petiole stay as they are: those of a directed file without circles, with radii that do not
     /// grow, where the nodes without an incoming edge come first or each part has one, and one of
-    /// these is the node nearest to the root if that is told. Others are turned by their distance from the root along veins. The root is the node nearest to
+    /// these is the node nearest to `wanted.root` if that is given. Others are turned by their
+    /// distance from the root along veins. The root is the node nearest to
     /// `wanted.root` or to the margin's base, else the widest end of a vein.
     ///
     /// # Errors
@@ -113,12 +99,10 @@ impl Draft {
         if far.count > 0 {
             return Err(ImportError::Faulty { faults: vec![far] });
         }
-        let (outlines, is_base_told) = match self.given.take() {
-            Some(outline) => (vec![outline], !self.is_base_guessed),
-            None => (self.made_outlines()?, self.tells_base()),
+        let outlines = match self.given.take() {
+            Some(outline) => vec![outline],
+            None => self.made_outlines()?,
         };
-        let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
-        let told_root = base.filter(|_| wanted.root.is_some() || is_base_told);
         let mut faults = Vec::new();
         margins::leave_out_outside(&mut self, &outlines, &mut faults)?;
         let known_radii = self
@@ -129,7 +113,7 @@ impl Draft {
         let has_orders = self.edges.iter().all(|edge| edge.order.is_some());
         let segment_mm = self.segment_mm.filter(|mm| mm.is_finite() && *mm > 0.0);
         let segment_mm = segment_mm.unwrap_or_else(|| self.median_length());
-        let network = if let Some(network) = self.as_it_is(segment_mm, told_root) {
+        let network = if let Some(network) = self.as_it_is(segment_mm, wanted.root) {
             network
         } else {
             repair::mend(&mut self, &mut faults);
@@ -138,6 +122,7 @@ impl Draft {
                     wanted: "edges with a length; all join a node to itself or nodes at one place",
                 });
             }
+            let base = wanted.root.or_else(|| outlines.first().map(Outline::base));
             roots::turned(&self, base, segment_mm, &mut faults)?
         };
         let known = Known {

@@ -127,8 +127,7 @@ impl Input {
             .map(|path| margin(path, arguments))
             .transpose()?;
         let draft = match own {
-            Some((own, true)) => draft.within(own),
-            Some((own, false)) => draft.within_guessed(own),
+            Some(own) => draft.within(own),
             None => draft,
         };
         let Imported {
@@ -169,8 +168,8 @@ fn wanted(arguments: &MeasureArguments) -> Wanted {
     }
 }
 
-/// The margin in a file of its own, and whether the file tells its base.
-fn margin(path: &Path, arguments: &MeasureArguments) -> Result<(Outline, bool), Failure> {
+/// The margin in a file of its own.
+fn margin(path: &Path, arguments: &MeasureArguments) -> Result<Outline, Failure> {
     let shown = path.display();
     let format = match Kind::of(path)? {
         Kind::Network(format @ (Format::Svg | Format::Json)) => format,
@@ -184,10 +183,9 @@ fn margin(path: &Path, arguments: &MeasureArguments) -> Result<(Outline, bool), 
     let text = text_of(path)?;
     let draft: Draft = import::read_margin(format, &text).map_err(told)?;
     let wanted = wanted(arguments);
-    let tells_base = draft.tells_base();
     let mut outlines = draft.outlines(&wanted).map_err(told)?;
     match (outlines.len(), outlines.pop()) {
-        (1, Some(outline)) => Ok((outline, tells_base)),
+        (1, Some(outline)) => Ok(outline),
         (count, _) => Err(Failure::bad(format!(
             "{shown}: holds {count} margins; name a file with one"
         ))),
