@@ -19,8 +19,8 @@
 //! let imported = draft.network(&Wanted::default())?;
 //! assert_eq!(imported.network.edges().len(), 2);
 //! assert_eq!(imported.network.edges()[0].radius_from, 0.08);
-//! // Nothing says where the petiole is: the widest end is taken for it, and that is told.
-//! assert!(!imported.faults.is_empty());
+//! // The table's own directions lead away from the petiole, so there is nothing to tell.
+//! assert!(imported.faults.is_empty());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
