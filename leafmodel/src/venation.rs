@@ -132,8 +132,8 @@ pub fn grow_unless(
     seed: u64,
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<VenationNetwork, VenationError> {
-    let (network, _) = develop(outline, plan, None, seed, &[], is_stopped)?;
-    Ok(network)
+    let (grown, _) = develop(outline, plan, None, seed, &[], is_stopped)?;
+    Ok(grown.network)
 }
 
 /// As [`grow_unless`], but from veins that are there, in the frame of the full-grown outline: finer
@@ -150,8 +150,8 @@ pub fn grow_around(
     seed: u64,
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<VenationNetwork, VenationError> {
-    let (network, _) = develop(outline, plan, Some(main), seed, &[], is_stopped)?;
-    Ok(network)
+    let (grown, _) = develop(outline, plan, Some(main), seed, &[], is_stopped)?;
+    Ok(grown.network)
 }
 
 /// A leaf at one step of its development.
@@ -164,6 +164,8 @@ pub struct Stage {
     /// The veins at that step, mm, in their size at that step. A node keeps its number from stage
     /// to stage.
     pub network: VenationNetwork,
+    /// The auxin sources that are there after that step, mm, in the order of their birth.
+    pub sources: Vec<DVec2>,
 }
 
 /// Grows the veins of a leaf and returns their state after each of `steps`; 0 is before the first.
@@ -203,13 +205,8 @@ fn stages_of(
     seed: u64,
     steps: &[u32],
 ) -> Result<Vec<Stage>, VenationError> {
-    let (network, mut stages) = develop(outline, plan, main, seed, steps, &|| false)?;
+    let (full_grown, mut stages) = develop(outline, plan, main, seed, steps, &|| false)?;
     stages.sort_by_key(|stage| stage.step);
-    let full_grown = Stage {
-        step: network.steps(),
-        outline: outline.clone(),
-        network,
-    };
     let at = |&step: &u32| {
         let found = stages.binary_search_by_key(&step, |stage| stage.step);
         found.map_or(&full_grown, |i| &stages[i]).clone()
@@ -217,7 +214,7 @@ fn stages_of(
     Ok(steps.iter().map(at).collect())
 }
 
-/// The full-grown network, and the stages after those of `steps` that are reached.
+/// The full-grown leaf, and the stages after those of `steps` that are reached.
 fn develop(
     outline: &Outline,
     plan: &AuxinPlan,
@@ -225,7 +222,7 @@ fn develop(
     seed: u64,
     steps: &[u32],
     is_stopped: &dyn Fn() -> bool,
-) -> Result<(VenationNetwork, Vec<Stage>), VenationError> {
+) -> Result<(Stage, Vec<Stage>), VenationError> {
     plan.validate()?;
     if main.is_some() && plan.architecture.is_some() {
         let (key, other) = ("architecture", "an outline that brings its main veins");
@@ -245,22 +242,23 @@ fn develop(
         return Err(VenationError::Stopped);
     }
     let base = outline.base();
+    let place = |&p: &DVec2| base + p * segment_mm;
     let stage = |grown: Grown| Stage {
         step: grown.steps,
         outline: outline.with_points(
-            grown
-                .margin
-                .iter()
-                .map(|&p| base + p * segment_mm)
-                .collect(),
+            grown.margin.iter().map(place).collect(),
             base + grown.apex * segment_mm,
         ),
+        sources: grown.live_sources.iter().map(place).collect(),
         network: grown.into_network(plan, segment_mm, base),
     };
-    Ok((
-        grown.into_network(plan, segment_mm, base),
-        young.into_iter().map(stage).collect(),
-    ))
+    let full_grown = Stage {
+        step: grown.steps,
+        outline: outline.clone(),
+        sources: grown.live_sources.iter().map(place).collect(),
+        network: grown.into_network(plan, segment_mm, base),
+    };
+    Ok((full_grown, young.into_iter().map(stage).collect()))
 }
 
 /// Checks that a plan can be carried out on an outline without doing it: refuses what [`grow`]

@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod caption;
 pub mod drawing;
 mod element;
 pub mod mitsuba;

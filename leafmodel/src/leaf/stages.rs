@@ -1,5 +1,7 @@
 //! A leaf at times of its growth, whatever it grows by.
 
+use glam::DVec2;
+
 use super::{LeafError, LeafPlan};
 use crate::development::{DevelopedLeaf, MainVeinStyle};
 use crate::leaf::lamina::Lamina;
@@ -8,7 +10,7 @@ use crate::shape::outline::Outline;
 use crate::transport::{FilledBlade, Ladder, TransportLeaf, VeinStyle};
 use crate::venation::network::VenationNetwork;
 use crate::venation::plan::{AuxinPlan, Growth};
-use crate::venation::{grow_stages, grow_stages_around};
+use crate::venation::{Stage, grow_stages, grow_stages_around};
 
 /// Margin and veins at one time of growth, true to the size they have then, mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +19,8 @@ pub struct LeafStage {
     pub outline: Outline,
     /// The veins.
     pub network: VenationNetwork,
+    /// The auxin sources that are there, mm; none where veins do not grow towards any.
+    pub sources: Vec<DVec2>,
 }
 
 impl LeafPlan {
@@ -48,13 +52,22 @@ impl LeafPlan {
         let outline = &lamina.outline;
         let all = |stages: Vec<(Outline, VenationNetwork)>| {
             let stages = stages.into_iter();
-            stages.map(|(outline, network)| LeafStage { outline, network })
+            stages.map(|(outline, network)| LeafStage {
+                outline,
+                network,
+                sources: Vec::new(),
+            })
         };
         Ok(match self.growing(lamina)? {
             Growing::Auxin(plan) => {
                 let stages = grow_stages(outline, plan, self.seed, steps)?;
                 let stages = stages.into_iter();
-                all(stages.map(|stage| (stage.outline, stage.network)).collect()).collect()
+                let stage = |stage: Stage| LeafStage {
+                    outline: stage.outline,
+                    network: stage.network,
+                    sources: stage.sources,
+                };
+                stages.map(stage).collect()
             }
             Growing::DevelopedThenAuxin(leaf, plan) => {
                 self.main_then_finer(lamina, leaf, plan, steps)?
@@ -111,8 +124,11 @@ impl LeafPlan {
                 Growth::Isogonic { .. } => outline.length() / stage.outline.length(),
                 Growth::None | Growth::Marginal { .. } | Growth::Anisotropic { .. } => 1.0,
             };
+            let base = outline.base();
+            let sources = stage.sources.iter();
             LeafStage {
-                network: stage.network.enlarged(outline.base(), factor),
+                network: stage.network.enlarged(base, factor),
+                sources: sources.map(|&p| base + (p - base) * factor).collect(),
                 outline: match plan.growth {
                     Growth::Anisotropic { .. } => stage.outline,
                     Growth::None | Growth::Marginal { .. } | Growth::Isogonic { .. } => {
@@ -196,6 +212,7 @@ impl DevelopedLeaf {
             Ok(LeafStage {
                 outline: young.outline(length_mm * share)?,
                 network: young.network(length_mm * share, style)?,
+                sources: Vec::new(),
             })
         };
         steps.iter().map(stage).collect()
@@ -231,6 +248,7 @@ mod tests {
     use crate::species;
     use crate::transport::{FilledPlan, TransportPlan};
     use crate::venation::arcuate::ArcuatePlan;
+    use crate::venation::plan::Pattern;
 
     fn preset(name: &str) -> LeafPlan {
         species::find(name).expect("there is one").plan()
@@ -320,5 +338,36 @@ mod tests {
             ..ToothWave::default()
         }];
         assert!(refused(&toothed).contains("teeth belong to the full-grown margin"));
+    }
+
+    #[test]
+    fn sources_stay_clear_of_open_veins_and_of_each_other_and_are_gone_at_the_end() {
+        let mut plan = preset("poplar");
+        let VenationPlan::Auxin(auxin) = &mut plan.venation else {
+            panic!("veins of the poplar grow towards auxin")
+        };
+        auxin.pattern = Pattern::Open;
+        auxin.final_length = 150.0;
+        let kill = auxin.kill_distance;
+        let (lamina, stages) = seedling_to_leaf(&plan);
+        let segment = lamina.network.segment_mm();
+        let mut seen = 0;
+        for stage in &stages[1..] {
+            for (number, &source) in stage.sources.iter().enumerate() {
+                assert!(stage.outline.contains(source));
+                let nodes = stage.network.nodes().iter();
+                let away = nodes.map(|node| node.position.distance(source));
+                let away = away.fold(f64::INFINITY, f64::min);
+                assert!(
+                    away >= kill * segment * (1.0 - 1e-9),
+                    "{away} {kill} {segment}"
+                );
+                assert!(!stage.sources[..number].contains(&source));
+                seen += 1;
+            }
+        }
+        assert!(seen > 20, "{seen}");
+        let end = stages.last().expect("six stages");
+        assert_eq!(end.sources, []);
     }
 }

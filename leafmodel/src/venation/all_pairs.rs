@@ -192,6 +192,7 @@ impl Oracle<'_> {
             origins: self.origins,
             steps: self.step,
             sources: self.born,
+            live_sources: self.sources.iter().map(|s| s.place * veins).collect(),
             ending,
         }
     }

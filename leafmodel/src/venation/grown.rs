@@ -23,6 +23,8 @@ pub(crate) struct Grown {
     pub(super) origins: u32,
     pub(super) steps: u32,
     pub(super) sources: u32,
+    /// Places of the sources that are there, in the order of their birth.
+    pub(super) live_sources: Vec<DVec2>,
     pub(super) ending: Ending,
     pub(super) margin: Vec<DVec2>,
     pub(super) apex: DVec2,

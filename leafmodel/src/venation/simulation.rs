@@ -159,6 +159,7 @@ impl<'a, I: Influence> Simulation<'a, I> {
             origins: self.origins,
             steps: self.step,
             sources: self.sources_born,
+            live_sources: self.sources.places().map(|place| place * veins).collect(),
             ending,
             margin: scaled(&self.lamina.margin_now(), margin),
             apex: self.lamina.now_of_full_grown(self.lamina.blade.apex()) * margin,

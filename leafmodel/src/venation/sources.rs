@@ -69,6 +69,13 @@ impl<I: Influence> Sources<I> {
         self.gone == self.basins.len()
     }
 
+    /// Places of the sources that are there, in the order of their birth.
+    pub(crate) fn places(&self) -> impl Iterator<Item = DVec2> + '_ {
+        let all = self.basins.iter().zip(&self.places);
+        all.filter(|(basin, _)| **basin != GONE)
+            .map(|(_, &place)| place)
+    }
+
     /// Adds source number `id`, whose tissue started at `start`. It may be lone if it is farther
     /// than `near` from all veins.
     pub(crate) fn push(

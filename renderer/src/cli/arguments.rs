@@ -2,6 +2,7 @@
 
 mod fit;
 mod fit_veins;
+mod grow;
 mod measure;
 mod optics;
 mod samples;
@@ -16,6 +17,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
+pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
 pub use measure::MeasureArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
@@ -67,12 +69,6 @@ Examples:
   lamina fit leaves.csv --out contents.csv --spectra-out fitted.csv --plot fitted.svg
   lamina fit visible.csv --range 400..800 --fix water=0.012 --fix dry_matter=0.006";
 
-const GROW_EXAMPLES: &str = "\
-Examples:
-  lamina grow poplar --out poplar.png poplar.graphml
-  lamina grow birch --set seed=7 --out birch.ply --measure birch.json
-  lamina grow scenes/first-leaf/scene.toml#aspen --frames 24 --out aspen.png";
-
 const SCHEMA_EXAMPLES: &str = "\
 Examples:
   lamina schema --out scene.schema.json
@@ -119,7 +115,7 @@ pub enum Command {
     /// Print what an EXR file holds
     Info(InfoArguments),
     /// Grow a leaf and write its veins, its blade, its contents and measures
-    #[command(after_help = GROW_EXAMPLES)]
+    #[command(after_help = grow::EXAMPLES)]
     Grow(GrowArguments),
     /// Measure a network of veins from a file of another program
     #[command(after_help = measure::EXAMPLES)]
@@ -313,87 +309,6 @@ pub struct SchemaArguments {
     /// `<!-- keys: BLOCK -->`
     #[arg(long, value_name = "FILE.md", num_args = 1.., conflicts_with = "out")]
     pub pages: Vec<PathBuf>,
-}
-
-/// `lamina grow`.
-#[derive(Args, Clone, Debug, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
-pub struct GrowArguments {
-    /// A preset, or a file with leaves or a scene, and which leaf if there are several:
-    /// scene.toml#beech
-    #[arg(
-        value_name = "PRESET|FILE.toml[#LEAF]",
-        required_unless_present = "list"
-    )]
-    pub leaf: Option<String>,
-    /// Name the presets
-    #[arg(long, exclusive = true)]
-    pub list: bool,
-    /// Tell what a preset is and where its numbers are from
-    #[arg(long, requires = "leaf")]
-    pub about: bool,
-    /// Change a value of the leaf: --set blade.ruffle=0.02; the end of a path is enough where only
-    /// one key has it
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// Override a value of the file, written as in it: -D leaves.beech.seed=3
-    #[arg(short = 'D', value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
-    /// Files to write, their kind by their ending: svg, png, json, graphml, geojson, csv (veins),
-    /// ply, obj (blade), toml (plan)
-    #[arg(long, value_name = "FILE", num_args = 1..)]
-    pub out: Vec<PathBuf>,
-    /// Write every number of the plan into a toml, not only what differs from the preset
-    #[arg(long)]
-    pub full: bool,
-    /// Write drawings and veins at N times from the first step to the last, as STEM-0001.png and so
-    /// on
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub frames: Option<u32>,
-    /// Write the flat leaf in daylight (png) and its maps of contents (--contents) on N days from
-    /// green to litter, as STEM-0001.png and so on; for leaves that age by days
-    #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub ages: Option<u32>,
-    /// Write N leaves of the plant of which this is one, numbered from 1: their plans into one file
-    /// (toml), their margins and veins side by side (svg, png)
-    #[arg(long, value_name = "N", conflicts_with_all = ["frames", "ages", "measure", "describe", "fields", "contents", "stats"], value_parser = clap::value_parser!(u16).range(1..=400))]
-    pub individuals: Option<u16>,
-    /// Write measures of the veins as JSON, and print them as a table
-    #[arg(long, value_name = "FILE.json")]
-    pub measure: Option<PathBuf>,
-    /// Describe the veins that have grown in the terms of the Manual of Leaf Architecture
-    #[arg(long)]
-    pub describe: bool,
-    /// Write what splines (`vein`, `net`, `fac`) or the cells of a transport leaf (`death`) tell
-    /// about every point, as an EXR texture
-    #[arg(long, value_name = "FILE.exr")]
-    pub fields: Option<PathBuf>,
-    /// Write the maps of contents into a folder
-    #[arg(long, value_name = "DIR")]
-    pub contents: Option<PathBuf>,
-    /// Write times, memory and counts as JSON
-    #[arg(long, value_name = "FILE.json")]
-    pub stats: Option<PathBuf>,
-    /// Seed, instead of the leaf's
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; the default is one for each processor
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
-    /// Memory that growing may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
-    pub memory: Option<f64>,
-    /// Pixels along the longer side of a png
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
-    pub size: u32,
-}
-
-impl GrowArguments {
-    /// Whether a file of any kind is asked for.
-    pub fn writes_anything(&self) -> bool {
-        let files = [&self.measure, &self.fields, &self.contents, &self.stats];
-        !self.out.is_empty() || self.describe || files.into_iter().any(Option::is_some)
-    }
 }
 
 /// The file, and the leaf in it if one is named behind `#`.

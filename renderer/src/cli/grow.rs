@@ -5,8 +5,11 @@ mod ages;
 mod blade_files;
 mod choice;
 mod colours;
+mod drawings;
 mod fields;
+mod films;
 mod frames;
+mod grown;
 mod individuals;
 mod maps;
 mod outputs;
@@ -17,32 +20,29 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use leafmodel::compound::{CompoundLeaf, FlatLeaf, StalkKind, WholeLeaf, leaflet_plans};
+use leafmodel::compound::{CompoundLeaf, StalkKind};
 use leafmodel::document::written::Extent;
-use leafmodel::export::{self, SvgStyle};
-use leafmodel::leaf::{Lamina, Leaf, LeafError, LeafPlan};
+use leafmodel::leaf::{Lamina, LeafPlan};
 use leafmodel::measure::description::describe;
 use leafmodel::measure::measure;
 use leafmodel::plan_file::{leaf_beside_preset, leaf_to_toml};
-use leafmodel::shape::outline::Outline;
 use leafmodel::species::PRESETS;
 use leafmodel::species::diagnosis::findings;
-use leafmodel::venation::VenationError;
-use leafmodel::venation::network::VenationNetwork;
 use serde_json::json;
 
 use self::blade_files::Parts;
 use self::choice::Chosen;
 pub(super) use self::choice::{NotChosen, is_word, unknown_preset};
-use self::frames::Page;
+use self::drawings::{Look, without_sources};
+use self::films::Films;
+use self::grown::Grown;
 use self::outputs::{Kind, Outputs};
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::GrowArguments;
 use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, needs, say, stats};
-use crate::export::drawing::{Style, draw_within};
-use crate::image::{atomic, portable_network};
+use crate::image::atomic;
 
 pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.list {
@@ -69,8 +69,12 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     if arguments.individuals.is_some() {
         individuals::check(&outputs)?;
     }
+    films::check(&outputs)?;
     if arguments.frames.is_some() {
         frames::check(&chosen.plan)?;
+        if arguments.sources {
+            frames::check_sources(&chosen.plan)?;
+        }
     }
     if arguments.ages.is_some() {
         ages::check(&chosen.plan)?;
@@ -155,17 +159,18 @@ fn carry_out(
         Some(flat) => (flat.bounds(), flat.outlines.as_slice(), &flat.network),
         None => (outline.bounds(), std::slice::from_ref(outline), network),
     };
+    let look = Look::asked_for(arguments, page, all_veins);
     for (path, kind) in &outputs.whole {
         let bytes = match kind {
             Kind::Svg | Kind::Png | Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv => {
-                veins_file(*kind, page, outlines, all_veins, arguments.size)?
+                look.file(*kind, without_sources(outlines, all_veins), None)?
             }
             Kind::Ply | Kind::Obj => match &grown {
                 Grown::Whole(leaf) if *kind == Kind::Ply => blade_files::ply(&Parts::of(leaf)),
                 Grown::Whole(leaf) => blade_files::obj(&Parts::of(leaf)).into_bytes(),
                 Grown::Flat { .. } => continue,
             },
-            Kind::Toml => continue,
+            Kind::Gif | Kind::Apng | Kind::Mp4 | Kind::Toml => continue,
         };
         finish(path, &bytes, stop)?;
     }
@@ -184,20 +189,19 @@ fn carry_out(
         fields::write(path, plan, grown.lamina(), stop)?;
     }
     if let Some(count) = arguments.frames {
-        let drawn = frames::Drawn {
-            page,
-            pixels: arguments.size,
-        };
-        frames::write(plan, grown.lamina(), outputs, count, &drawn, stop)?;
+        let films = Films::begun(arguments, outputs, count);
+        frames::write(plan, grown.lamina(), outputs, &look, films, stop)?;
     }
     if let Some(count) = arguments.ages {
         let written = ages::Written {
             count,
             pixels: arguments.size,
+            captions: arguments.caption,
             contents: arguments.contents.as_deref(),
             name,
         };
-        ages::write(plan, grown.lamina(), outputs, written, stop)?;
+        let films = Films::begun(arguments, outputs, count);
+        ages::write(plan, grown.lamina(), outputs, written, films, stop)?;
     }
     tell_veins(arguments, chosen, &grown, stop)?;
     let seconds = started.elapsed().as_secs_f64();
@@ -306,134 +310,6 @@ fn compound_measures(leaf: &CompoundLeaf) -> serde_json::Value {
     })
 }
 
-/// The parts of a leaf that the outputs need.
-enum Grown {
-    /// The different laminas; a simple leaf has one.
-    Flat {
-        laminas: Vec<Lamina>,
-        compound: Option<CompoundLeaf>,
-    },
-    Whole(Box<WholeLeaf>),
-}
-
-impl Grown {
-    fn new(plan: &LeafPlan, blade: bool, stop: &AtomicBool) -> Result<Self, Failure> {
-        if blade {
-            plan.tissue.validate().map_err(Failure::bad)?;
-            plan.form.validate().map_err(Failure::bad)?;
-            plan.check_senescence().map_err(Failure::bad)?;
-        }
-        // Overlapping leaflets are found before any veins are grown.
-        let compound = plan.compound.as_ref().map(|form| form.arrange(plan));
-        let compound = compound.transpose().map_err(Failure::bad)?;
-        let plans = match &plan.compound {
-            Some(form) => leaflet_plans(plan, form),
-            None => vec![plan.clone()],
-        };
-        let laminas: Result<Vec<Lamina>, Failure> =
-            plans.iter().map(|plan| lamina(plan, stop)).collect();
-        let laminas = laminas?;
-        if !blade {
-            return Ok(Self::Flat { laminas, compound });
-        }
-        let is_stopped = || stop.load(Ordering::Relaxed);
-        let blades: Result<Vec<Leaf>, LeafError> = plans
-            .iter()
-            .zip(laminas)
-            .map(|(plan, lamina)| Leaf::from_lamina_unless(plan, lamina, &is_stopped))
-            .collect();
-        let mut blades = blades.map_err(|error| {
-            if is_stopped() {
-                Failure::Interrupted
-            } else {
-                Failure::bad(error)
-            }
-        })?;
-        let mut whole = match (&plan.compound, compound) {
-            (Some(form), Some(flat)) => WholeLeaf::assembled(plan, form, flat, blades),
-            _ => WholeLeaf::simple(blades.remove(0)),
-        };
-        if plan.form.closed {
-            for blade in &mut whole.blades {
-                let frame = &blade.frame;
-                blade.mesh = blade.mesh.body(|place| frame.uv(place));
-            }
-        }
-        Ok(Self::Whole(Box::new(whole)))
-    }
-
-    /// The lamina; for a compound leaf that of the first leaflet.
-    fn lamina(&self) -> &Lamina {
-        match self {
-            Self::Flat { laminas, .. } => &laminas[0],
-            Self::Whole(leaf) => &leaf.blades[0].lamina,
-        }
-    }
-
-    fn compound(&self) -> Option<&CompoundLeaf> {
-        match self {
-            Self::Flat { compound, .. } => compound.as_ref(),
-            Self::Whole(leaf) => leaf.flat.as_ref(),
-        }
-    }
-
-    /// The whole leaf in the plane, if it consists of more than one lamina.
-    fn flat(&self, plan: &LeafPlan) -> Result<Option<FlatLeaf>, Failure> {
-        let laminas: Vec<&Lamina> = match self {
-            Self::Flat { laminas, .. } => laminas.iter().collect(),
-            Self::Whole(leaf) => leaf.blades.iter().map(|blade| &blade.lamina).collect(),
-        };
-        let Some(compound) = self.compound() else {
-            return Ok(FlatLeaf::with_petiole(plan, laminas[0]));
-        };
-        let flat = FlatLeaf::compound(compound, &laminas);
-        let vanished = || Failure::bad("the smallest leaflets are too small to be drawn");
-        flat.ok_or_else(vanished).map(Some)
-    }
-
-    fn triangles(&self) -> Option<usize> {
-        match self {
-            Self::Flat { .. } => None,
-            Self::Whole(leaf) => Some(Parts::of(leaf).triangles()),
-        }
-    }
-}
-
-/// Margin and veins of one blade.
-fn lamina(plan: &LeafPlan, stop: &AtomicBool) -> Result<Lamina, Failure> {
-    let is_stopped = || stop.load(Ordering::Relaxed);
-    let lamina = plan.grow_lamina_unless(&is_stopped).map_err(|error| {
-        if matches!(error, LeafError::Venation(VenationError::Stopped)) {
-            Failure::Interrupted
-        } else {
-            Failure::bad(error)
-        }
-    })?;
-    for warning in warnings::of(plan, &lamina) {
-        eprintln!("warning: {warning}");
-    }
-    Ok(lamina)
-}
-
-/// Margin and veins in a format that shows them; pictures have the page with the corners `page`.
-fn veins_file(
-    kind: Kind,
-    page: Page,
-    outlines: &[Outline],
-    network: &VenationNetwork,
-    pixels: u32,
-) -> Result<Vec<u8>, Failure> {
-    Ok(match kind {
-        Kind::Svg => export::svg_within(page, outlines, network, SvgStyle::default()).into_bytes(),
-        Kind::Png => drawn(page, outlines, network, pixels)?,
-        Kind::Json => export::json(outlines, network, true).into_bytes(),
-        Kind::GraphMl => export::graphml(network).into_bytes(),
-        Kind::GeoJson => export::geojson(outlines, network).into_bytes(),
-        Kind::Csv => export::table(network).into_bytes(),
-        Kind::Ply | Kind::Obj | Kind::Toml => Vec::new(),
-    })
-}
-
 /// Writes a file and prints its name, unless the run was interrupted.
 fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
@@ -446,16 +322,4 @@ fn finish(path: &Path, bytes: &[u8], stop: &AtomicBool) -> Result<(), Failure> {
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     atomic::replace(path, |file| file.write_all(bytes)).map_err(Failure::system)
-}
-
-/// A picture of margin and veins as PNG.
-fn drawn(
-    page: Page,
-    outlines: &[Outline],
-    network: &VenationNetwork,
-    pixels: u32,
-) -> Result<Vec<u8>, Failure> {
-    let drawing =
-        draw_within(page, outlines, network, pixels, Style::OnPaper).map_err(Failure::bad)?;
-    portable_network::encoded(drawing.width, drawing.height, &drawing.rgb).map_err(Failure::bad)
 }

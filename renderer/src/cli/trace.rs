@@ -15,7 +15,7 @@ use serde_json::json;
 use crate::cli::arguments::{ThresholdKind, TraceArguments};
 use crate::cli::places::check_outputs;
 use crate::cli::{Failure, needs, say, stats};
-use crate::export::drawing::{Drawing, Style, draw_within};
+use crate::export::drawing::{Drawing, Style, Subject, draw_within};
 use crate::export::overlay::draw_over;
 use crate::image::{ImageError, atomic, portable_network, scan};
 
@@ -54,7 +54,12 @@ impl Kind {
             Self::Svg => export::svg(outline, network, SvgStyle::default()).into_bytes(),
             Self::Png => {
                 let page = outline.bounds();
-                let drawing = draw_within(page, outlines, network, pixels, Style::OnPaper);
+                let subject = Subject {
+                    outlines,
+                    network,
+                    sources: &[],
+                };
+                let drawing = draw_within(page, subject, pixels, Style::OnPaper);
                 png(&drawing.map_err(Failure::bad)?)?
             }
             Self::Json => export::json(outlines, network, true).into_bytes(),

@@ -6,11 +6,14 @@
 //!   veins, also for veins finer than a pixel.
 //! - **Left out**: light. Coverage is mixed between sRGB values, as drawing programs do.
 
+#[cfg(test)]
+mod tests;
+
 use glam::DVec2;
 use leafmodel::export::order_colour;
 use leafmodel::export::runs::Runs;
 use leafmodel::shape::outline::Outline;
-use leafmodel::venation::network::VenationNetwork;
+use leafmodel::venation::network::{VeinEdge, VenationNetwork};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::image::{ImageError, MOST_BYTES, MOST_PIXELS};
@@ -45,6 +48,54 @@ pub enum Style {
     /// Each vein order in its own colour ([`leafmodel::export::ORDER_COLOURS`]), coarse veins on
     /// top.
     Orders,
+    /// Each piece of vein in the colour of the step that added it ([`age_colour`]), old ones on
+    /// top.
+    Ages {
+        /// The step that has the last colour.
+        last: u32,
+    },
+}
+
+/// What is drawn of a leaf.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Its margins, mm; a compound leaf has several.
+    pub outlines: &'a [Outline],
+    /// Its veins.
+    pub network: &'a VenationNetwork,
+    /// Auxin sources, mm, drawn as dots on top.
+    pub sources: &'a [DVec2],
+}
+
+/// Colour of the dots that mark auxin sources.
+pub const SOURCE_COLOUR: [u8; 3] = [213, 40, 60];
+
+/// Number of steps between colours of ages.
+const AGES: usize = 64;
+
+/// Colours of ages from the first step to the last, at equal distances: the dark part of
+/// matplotlib's map *viridis* (S. van der Walt and N. Smith, CC0), whose lightness rises evenly,
+/// so that it reads in print and for colour-blind eyes; its yellow end cannot be seen on white.
+const AGE_COLOURS: [[u8; 3]; 7] = [
+    [68, 1, 84],
+    [70, 48, 126],
+    [54, 92, 141],
+    [39, 127, 142],
+    [31, 161, 135],
+    [74, 193, 109],
+    [122, 209, 81],
+];
+
+/// The colour of what was born at `share` of the time from the first step to the last, 0 to 1.
+pub fn age_colour(share: f64) -> [u8; 3] {
+    let last = AGE_COLOURS.len() - 1;
+    let at = share.clamp(0.0, 1.0) * last as f64;
+    let below = (at as usize).min(last - 1);
+    let mix = at - below as f64;
+    let (from, to) = (AGE_COLOURS[below], AGE_COLOURS[below + 1]);
+    std::array::from_fn(|i| {
+        (f64::from(from[i]) * (1.0 - mix) + f64::from(to[i]) * mix).round() as u8
+    })
 }
 
 /// A picture in 8-bit sRGB.
@@ -62,8 +113,7 @@ pub struct Drawing {
 /// `pixels_per_long_side`.
 ///
 /// The sheet is given by the lower left and upper right corner of a blade's [`Outline::bounds`]: on
-/// the sheet of the full-grown leaf, pictures of all its stages have the same scale. A compound
-/// leaf has several margins.
+/// the sheet of the full-grown leaf, pictures of all its stages have the same scale.
 ///
 /// # Errors
 ///
@@ -71,14 +121,13 @@ pub struct Drawing {
 /// [`MOST_PIXELS`].
 pub fn draw_within(
     (low, high): (DVec2, DVec2),
-    outlines: &[Outline],
-    network: &VenationNetwork,
+    subject: Subject,
     pixels_per_long_side: u32,
     style: Style,
 ) -> Result<Drawing, ImageError> {
     let border = BORDER * (high - low).max_element();
     let size = high - low + DVec2::splat(2.0 * border);
-    let scale = f64::from(pixels_per_long_side) / size.max_element();
+    let scale = pixels_per_mm((low, high), pixels_per_long_side);
     let (width, height) = (
         (size.x * scale).round().max(1.0) as u32,
         (size.y * scale).round().max(1.0) as u32,
@@ -104,10 +153,11 @@ pub fn draw_within(
     };
     let (blade, margin) = match style {
         Style::OnPaper => ([238, 243, 226], [150, 168, 132]),
-        Style::Orders => ([246, 246, 242], [190, 190, 184]),
+        Style::Orders | Style::Ages { .. } => ([246, 246, 242], [190, 190, 184]),
     };
     canvas.fill(Color::WHITE);
-    for path in outlines
+    for path in subject
+        .outlines
         .iter()
         .filter_map(|outline| sheet.polygon(outline.points()))
     {
@@ -116,8 +166,11 @@ pub fn draw_within(
         let same = Transform::identity();
         canvas.stroke_path(&path, &ink(margin, 1.0), &line, same, None);
     }
-    for (colour, strength, path) in sheet.veins(network, style) {
+    for (colour, strength, path) in sheet.veins(subject.network, style) {
         fill(&mut canvas, &path, colour, strength);
+    }
+    if let Some(path) = sheet.dots(subject.sources, dot_radius(pixels_per_long_side)) {
+        fill(&mut canvas, &path, SOURCE_COLOUR, 1.0);
     }
     let rgb = canvas
         .pixels()
@@ -128,6 +181,16 @@ pub fn draw_within(
         height,
         rgb: rgb.collect(),
     })
+}
+
+/// Pixels to a millimetre on a sheet that [`draw_within`] draws.
+pub fn pixels_per_mm((low, high): (DVec2, DVec2), pixels_per_long_side: u32) -> f64 {
+    f64::from(pixels_per_long_side) / ((1.0 + 2.0 * BORDER) * (high - low).max_element())
+}
+
+/// Radius of the dot of a source, pixels: as fine as can well be seen.
+fn dot_radius(pixels_per_long_side: u32) -> f64 {
+    (f64::from(pixels_per_long_side) / 400.0).clamp(1.5, 6.0)
 }
 
 fn ink([red, green, blue]: [u8; 3], strength: f64) -> Paint<'static> {
@@ -166,11 +229,25 @@ impl Sheet {
         path.finish()
     }
 
+    /// Discs about places.
+    fn dots(&self, places: &[DVec2], radius: f64) -> Option<Path> {
+        let mut path = PathBuilder::new();
+        let disc = disc();
+        for &place in places {
+            let centre = self.place(place);
+            // A quarter of the corners is enough for some pixels.
+            let corners = disc.iter().step_by(4);
+            add(&mut path, corners.map(|&p| centre + p * radius));
+        }
+        path.finish()
+    }
+
     /// Areas to fill, with colour and strength, from the bottom to the top layer.
     fn veins(&self, network: &VenationNetwork, style: Style) -> Vec<([u8; 3], f64, Path)> {
         let layers = match style {
             Style::OnPaper => 1,
             Style::Orders => usize::from(u8::MAX) + 1,
+            Style::Ages { .. } => AGES,
         };
         // Everything of one colour and strength is one path, so that overlapping pieces are not
         // drawn twice.
@@ -179,10 +256,13 @@ impl Sheet {
         let nodes = network.nodes();
         for run in Runs::new(network).iter() {
             let edges = || run.iter().map(|&edge| &network.edges()[edge as usize]);
-            let order = network.edges()[run[0] as usize].order;
-            let layer = match style {
+            let layer = |edge: &VeinEdge| match style {
                 Style::OnPaper => 0,
-                Style::Orders => usize::from(order),
+                Style::Orders => usize::from(edge.order),
+                Style::Ages { last } => {
+                    let born = f64::from(nodes[edge.to as usize].born.min(last));
+                    (born / f64::from(last.max(1)) * (AGES - 1) as f64).round() as usize
+                }
             };
             let first = network.edges()[run[0] as usize];
             let mut tail = self.place(nodes[first.from as usize].position);
@@ -196,6 +276,7 @@ impl Sheet {
                 if short && number < last && (start - end).abs() < 0.05 * end {
                     continue;
                 }
+                let layer = layer(edge);
                 let width = start + end;
                 let steps = (width / LEAST_WIDTH * PALES as f64).ceil();
                 let pale = (steps as usize).clamp(1, PALES) - 1;
@@ -221,6 +302,7 @@ impl Sheet {
             let colour = match style {
                 Style::OnPaper => [60, 90, 42],
                 Style::Orders => order_colour(layer as u8),
+                Style::Ages { .. } => age_colour(layer as f64 / (AGES - 1) as f64),
             };
             for (pale, path) in paths.into_iter().enumerate() {
                 // Each strength is the middle of its level, except the last, which is full.
@@ -280,105 +362,4 @@ fn disc() -> Vec<DVec2> {
         .map(|i| std::f64::consts::TAU * i as f64 / CORNERS as f64)
         .map(|angle| DVec2::new(libm::cos(angle), libm::sin(angle)))
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use leafmodel::venation::network::{VeinEdge, VeinNode};
-
-    use super::*;
-
-    /// A square blade of 96 mm, drawn at a hundred pixels with its border: one pixel a millimetre.
-    fn blade() -> Outline {
-        let corners = [(0.0, 0.0), (96.0, 0.0), (96.0, 96.0), (0.0, 96.0)];
-        let corners = corners.map(DVec2::from).to_vec();
-        Outline::new(corners, DVec2::new(48.0, 0.0), DVec2::new(48.0, 96.0)).expect("a square")
-    }
-
-    fn line(ends: [(f64, f64); 2], pieces: u32, radius: f64) -> VenationNetwork {
-        let [a, b] = ends.map(DVec2::from);
-        let nodes = (0..=pieces).map(|i| VeinNode {
-            position: a + (b - a) * (f64::from(i) / f64::from(pieces)),
-            born: i,
-        });
-        let edges = (0..pieces).map(|i| VeinEdge {
-            from: i,
-            to: i + 1,
-            radius_from: radius,
-            radius_to: radius,
-            order: 1,
-        });
-        VenationNetwork::from_parts(nodes.collect(), edges.collect(), 1.0).expect("a line")
-    }
-
-    fn draw(veins: &VenationNetwork, pixels: u32, style: Style) -> Result<Drawing, ImageError> {
-        let blade = blade();
-        let page = blade.bounds();
-        draw_within(page, std::slice::from_ref(&blade), veins, pixels, style)
-    }
-
-    /// How many pixels the ink of veins would cover.
-    fn inked(veins: &VenationNetwork, style: Style) -> f64 {
-        let bare = line([(40.0, 1.0), (40.0, 2.0)], 1, 1e-9);
-        let pixels = (100.0 * 1.04) as u32;
-        let without = draw(&bare, pixels, style).expect("small");
-        let with = draw(veins, pixels, style).expect("small");
-        let paler = without
-            .rgb
-            .iter()
-            .zip(&with.rgb)
-            .map(|(a, b)| f64::from(*a) - f64::from(*b));
-        let full = match style {
-            Style::OnPaper => 238.0 - 60.0 + 243.0 - 90.0 + 226.0 - 42.0,
-            Style::Orders => 246.0 + 246.0 + 242.0,
-        };
-        let scale = f64::from(pixels) / (96.0 * 1.04);
-        paler.sum::<f64>() / full / (scale * scale)
-    }
-
-    #[test]
-    fn a_straight_vein_covers_its_length_times_its_width() {
-        for style in [Style::OnPaper, Style::Orders] {
-            for (width, tolerance) in [(0.2, 0.08), (0.6, 0.05), (2.0, 0.02), (7.3, 0.01)] {
-                for ends in [[(10.0, 10.0), (81.0, 33.0)], [(20.0, 11.0), (57.0, 88.0)]] {
-                    for pieces in [1, 40, 400] {
-                        let veins = line(ends, pieces, 0.5 * width);
-                        let length = veins.vein_length_mm();
-                        // The end is half a disc, if wide enough to be seen.
-                        let cap = if width > 1.2 {
-                            std::f64::consts::PI * width * width / 8.0
-                        } else {
-                            0.0
-                        };
-                        let expected = length * width + cap;
-                        let ink = inked(&veins, style);
-                        assert!(
-                            (ink / expected - 1.0).abs() < tolerance,
-                            "{ink} is not {expected}: {width} {pieces}"
-                        );
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_apex_is_up_and_the_blade_pale() {
-        let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
-        let drawing = draw(&veins, 104, Style::OnPaper).expect("small");
-        assert_eq!((drawing.width, drawing.height), (104, 104));
-        let pixel = |x: usize, y: usize| &drawing.rgb[3 * (104 * y + x)..][..3];
-        assert_eq!(pixel(52, 12), [60, 90, 42]);
-        assert_eq!(pixel(52, 90), [238, 243, 226]);
-        assert_eq!(pixel(0, 0), [255, 255, 255]);
-    }
-
-    #[test]
-    fn sizes_that_cannot_be_drawn_are_refused() {
-        let veins = line([(48.0, 80.0), (48.0, 90.0)], 3, 4.0);
-        for pixels in [0, 20_000, 40_000, u32::MAX] {
-            assert!(draw(&veins, pixels, Style::Orders).is_err());
-        }
-        assert!(draw(&veins, 1, Style::Orders).is_ok());
-    }
 }

@@ -3,15 +3,20 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use leafmodel::blade::UvFrame;
 use leafmodel::blade::contents_map::ContentsMap;
 use leafmodel::blade::senescence::Senescence;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan};
 
 use super::colours::in_daylight;
+use super::drawings::{has_caption, png};
+use super::films::Films;
 use super::maps;
-use super::outputs::{Outputs, numbered};
+use super::outputs::{Kind, Outputs, numbered};
 use crate::cli::Failure;
-use crate::image::portable_network;
+use crate::cli::arguments::CaptionedKinds;
+use crate::export::caption::{Note, captioned};
+use crate::export::drawing::Drawing;
 
 /// Refuses plans of leaves that do not age by days.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
@@ -61,6 +66,8 @@ pub(super) struct Written<'a> {
     pub(super) count: u32,
     /// Pixels along the longer side of a picture.
     pub(super) pixels: u32,
+    /// Kinds of pictures that have a caption.
+    pub(super) captions: CaptionedKinds,
     /// Folder of the maps of contents, if they are asked for.
     pub(super) contents: Option<&'a Path>,
     /// Name of the leaf.
@@ -73,6 +80,7 @@ pub(super) fn write(
     lamina: &Lamina,
     outputs: &Outputs,
     written: Written<'_>,
+    mut films: Films,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let Some(senescence) = plan.senescence else {
@@ -99,15 +107,35 @@ pub(super) fn write(
         }
         plan.paint_with(lamina, pattern.as_ref()).map_err(failed)
     };
-    for (number, day) in days(last_day(plan)?, written.count).enumerate() {
+    let last = last_day(plan)?;
+    for (number, day) in days(last, written.count).enumerate() {
         if !outputs.staged.is_empty() {
             let map = painted(day, written.pixels.clamp(16, 8192))?;
             let picture = in_daylight(&map, &plan.pigments, lamina.intact());
-            let png = portable_network::encoded(map.width, map.height, &picture);
-            let png = png.map_err(Failure::bad)?;
-            for (path, _) in &outputs.staged {
-                super::finish(&numbered(path, number + 1), &png, stop)?;
+            let picture = Drawing {
+                width: map.width,
+                height: map.height,
+                rgb: picture,
+            };
+            let across = UvFrame::around(lamina.intact().points()).size.x;
+            let notes = [
+                Note::ScaleBar {
+                    pixels_per_mm: f64::from(map.width) / across,
+                },
+                Note::Text(format!("day {day:>5.1} of {last:.1}")),
+            ];
+            let of_kind = |kind| {
+                if has_caption(written.captions, kind) {
+                    captioned(&picture, &notes)
+                } else {
+                    picture.clone()
+                }
+            };
+            let pngs = outputs.staged.iter().filter(|(_, kind)| !kind.is_film());
+            for (path, kind) in pngs {
+                super::finish(&numbered(path, number + 1), &png(&of_kind(*kind))?, stop)?;
             }
+            films.push(&[of_kind(Kind::Gif)])?;
         }
         if let Some(folder) = written.contents {
             let map = painted(day, plan.map_size)?;
@@ -116,7 +144,7 @@ pub(super) fn write(
         }
         eprintln!("day {day:.1}");
     }
-    Ok(())
+    films.finish(stop)
 }
 
 #[cfg(test)]

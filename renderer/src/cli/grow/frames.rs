@@ -2,30 +2,24 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::DVec2;
 use leafmodel::blade::petiole::PetiolePlan;
 use leafmodel::compound::FlatLeaf;
 use leafmodel::leaf::venation_plan::VenationPlan;
 use leafmodel::leaf::{Lamina, LeafError, LeafPlan, LeafStage};
 use rayon::prelude::*;
 
-use super::outputs::{Outputs, numbered};
-use super::veins_file;
+use super::drawings::Look;
+use super::films::Films;
+use super::outputs::{Kind, Outputs, numbered};
 use crate::cli::{Failure, say};
+use crate::export::drawing::{Drawing, Subject};
 
 /// Greatest total number of nodes of stages in memory at once, about a gigabyte.
 const MOST_NODES: usize = 10_000_000;
 /// Greatest number of stages in memory at once; their files are made in parallel.
 const MOST_STAGES: usize = 64;
-
-/// Settings for the drawings of all stages.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn {
-    /// Corners of their common page, which is that of the full-grown leaf.
-    pub(super) page: Page,
-    /// Pixels along the longer side of a picture.
-    pub(super) pixels: u32,
-}
+/// Greatest number of frames of a film in memory at once.
+const MOST_DRAWINGS: usize = 16;
 
 /// Refuses plans of leaves that have no stages.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
@@ -53,6 +47,19 @@ pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
         | VenationPlan::Cells(_)
         | VenationPlan::Transport(_)
         | VenationPlan::Development(_) => Ok(()),
+    }
+}
+
+/// Refuses plans of leaves whose veins grow without auxin.
+pub(super) fn check_sources(plan: &LeafPlan) -> Result<(), Failure> {
+    match &plan.venation {
+        VenationPlan::Auxin(_) => Ok(()),
+        VenationPlan::Arcuate(_)
+        | VenationPlan::Cells(_)
+        | VenationPlan::Transport(_)
+        | VenationPlan::Development(_) => Err(Failure::bad(
+            "--sources shows the sources towards which veins grow, and those of this leaf do not: its venation has no `auxin`",
+        )),
     }
 }
 
@@ -85,26 +92,27 @@ fn with_petiole(plan: &LeafPlan, grown: &Lamina, stage: LeafStage) -> LeafStage 
     let network = FlatLeaf::with_petiole(&young, &lamina).map(|flat| flat.network);
     LeafStage {
         network: network.unwrap_or(lamina.network),
+        sources: stage.sources,
         outline: lamina.outline,
     }
 }
 
-/// Writes `count` stages, evenly spaced in steps, in every format that is asked for.
+/// Writes stages, as many as the films have frames, evenly spaced in steps, in every format that is
+/// asked for.
 ///
 /// The leaf is grown anew for each group of stages, which costs far less memory than keeping all.
 pub(super) fn write(
     plan: &LeafPlan,
     lamina: &Lamina,
     outputs: &Outputs,
-    count: u32,
-    drawn: &Drawn,
+    look: &Look,
+    mut films: Films,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     check(plan)?;
-    let steps = steps(
-        plan.last_step(lamina).map_err(|error| no_stages(&error))?,
-        count,
-    );
+    let last_step = plan.last_step(lamina).map_err(|error| no_stages(&error))?;
+    let look = &Look { last_step, ..*look };
+    let steps = steps(last_step, films.count());
     let group = (MOST_NODES / lamina.network.nodes().len().max(1)).clamp(1, MOST_STAGES);
     for (index, group_steps) in steps.chunks(group).enumerate() {
         let stages = plan
@@ -114,12 +122,12 @@ pub(super) fn write(
             .into_iter()
             .map(|stage| with_petiole(plan, lamina, stage))
             .collect();
-        for (path, kind) in &outputs.staged {
-            let draw = |stage: &LeafStage| {
-                let outlines = std::slice::from_ref(&stage.outline);
-                veins_file(*kind, drawn.page, outlines, &stage.network, drawn.pixels)
-            };
-            let files: Vec<Result<Vec<u8>, Failure>> = stages.par_iter().map(draw).collect();
+        let staged = outputs.staged.iter();
+        for (path, kind) in staged.filter(|(_, kind)| !kind.is_film()) {
+            let draw =
+                |(stage, &step): (&LeafStage, &u32)| look.file(*kind, subject(stage), Some(step));
+            let files: Vec<Result<Vec<u8>, Failure>> =
+                stages.par_iter().zip(group_steps).map(draw).collect();
             for (number, file) in files.into_iter().enumerate() {
                 if stop.load(Ordering::Relaxed) {
                     return Err(Failure::Interrupted);
@@ -129,8 +137,30 @@ pub(super) fn write(
                 say(path.display());
             }
         }
+        if !films.is_empty() {
+            let draw = |(stage, &step): (&LeafStage, &u32)| {
+                look.drawn(Kind::Gif, subject(stage), Some(step))
+            };
+            let numbered: Vec<(&LeafStage, &u32)> = stages.iter().zip(group_steps).collect();
+            for few in numbered.chunks(MOST_DRAWINGS) {
+                let frames: Result<Vec<Drawing>, Failure> =
+                    few.par_iter().map(|&stage| draw(stage)).collect();
+                if stop.load(Ordering::Relaxed) {
+                    return Err(Failure::Interrupted);
+                }
+                films.push(&frames?)?;
+            }
+        }
     }
-    Ok(())
+    films.finish(stop)
+}
+
+fn subject(stage: &LeafStage) -> Subject<'_> {
+    Subject {
+        outlines: std::slice::from_ref(&stage.outline),
+        network: &stage.network,
+        sources: &stage.sources,
+    }
 }
 
 /// `count` steps from 0, before the first, to `last`; a single one is the last.
@@ -143,9 +173,6 @@ fn steps(last: u32, count: u32) -> Vec<u32> {
     };
     (0..u64::from(count)).map(step).collect()
 }
-
-/// Corners of the common page of all stages.
-pub(super) type Page = (DVec2, DVec2);
 
 #[cfg(test)]
 mod tests {

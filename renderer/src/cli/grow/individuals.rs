@@ -10,11 +10,11 @@ use leafmodel::shape::outline::Outline;
 use leafmodel::venation::network::VenationNetwork;
 
 use super::choice::Chosen;
-use super::frames::Page;
+use super::drawings::Page;
 use super::outputs::{Kind, Outputs};
 use super::{Grown, finish};
 use crate::cli::Failure;
-use crate::export::drawing::{Style, draw_within};
+use crate::export::drawing::{Style, Subject, draw_within};
 use crate::image::portable_network;
 
 /// Refuses files that hold one leaf only.
@@ -71,7 +71,15 @@ pub(super) fn write(
                     None => Vec::new(),
                 }
             }
-            Kind::Json | Kind::GraphMl | Kind::GeoJson | Kind::Csv | Kind::Ply | Kind::Obj => {
+            Kind::Gif
+            | Kind::Apng
+            | Kind::Mp4
+            | Kind::Json
+            | Kind::GraphMl
+            | Kind::GeoJson
+            | Kind::Csv
+            | Kind::Ply
+            | Kind::Obj => {
                 continue;
             }
         };
@@ -168,7 +176,12 @@ impl Sheet {
         let mut size = [0; 2];
         for ([column, row], leaf) in self.placed() {
             let page = self.page(leaf);
-            let drawn = draw_within(page, &leaf.outlines, &leaf.network, each, Style::OnPaper);
+            let subject = Subject {
+                outlines: &leaf.outlines,
+                network: &leaf.network,
+                sources: &[],
+            };
+            let drawn = draw_within(page, subject, each, Style::OnPaper);
             let drawn = drawn.map_err(Failure::bad)?;
             size = [drawn.width as usize, drawn.height as usize];
             let (whole, rgb) = sheet.get_or_insert_with(|| {

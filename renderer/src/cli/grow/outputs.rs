@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::arguments::GrowArguments;
+use crate::cli::arguments::{CaptionedKinds, GrowArguments, VeinColour};
 use crate::cli::{Failure, check_writable};
 
 /// The kind of a file, by its ending.
@@ -10,6 +10,9 @@ use crate::cli::{Failure, check_writable};
 pub(super) enum Kind {
     Svg,
     Png,
+    Gif,
+    Apng,
+    Mp4,
     Json,
     GraphMl,
     GeoJson,
@@ -24,6 +27,9 @@ impl Kind {
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("svg") => Ok(Self::Svg),
             Some("png") => Ok(Self::Png),
+            Some("gif") => Ok(Self::Gif),
+            Some("apng") => Ok(Self::Apng),
+            Some("mp4") => Ok(Self::Mp4),
             Some("json") => Ok(Self::Json),
             Some("graphml") => Ok(Self::GraphMl),
             Some("geojson") => Ok(Self::GeoJson),
@@ -32,8 +38,8 @@ impl Kind {
             Some("obj") => Ok(Self::Obj),
             Some("toml") => Ok(Self::Toml),
             _ => Err(Failure::bad(format!(
-                "{}: the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), ply or obj (blade), \
-                 toml (plan)",
+                "{}: the ending tells what is written: svg, png, json, graphml, geojson or csv (veins), gif, apng or mp4 \
+                 (films of them), ply or obj (blade), toml (plan)",
                 path.display()
             ))),
         }
@@ -43,8 +49,18 @@ impl Kind {
     pub(super) fn is_of_veins(self) -> bool {
         match self {
             Self::Svg | Self::Png | Self::Json | Self::GraphMl | Self::GeoJson | Self::Csv => true,
-            Self::Ply | Self::Obj | Self::Toml => false,
+            Self::Gif | Self::Apng | Self::Mp4 | Self::Ply | Self::Obj | Self::Toml => false,
         }
+    }
+
+    /// Whether it shows several stages one after another.
+    pub(super) fn is_film(self) -> bool {
+        matches!(self, Self::Gif | Self::Apng | Self::Mp4)
+    }
+
+    /// Whether it shows drawn veins in colours.
+    fn is_drawn(self) -> bool {
+        self.is_film() || matches!(self, Self::Png)
     }
 
     fn needs_blade(self) -> bool {
@@ -73,16 +89,25 @@ impl Outputs {
         let in_stages = arguments.frames.is_some();
         let in_ages = arguments.ages.is_some();
         let (staged, whole): (Vec<_>, Vec<_>) = files.partition(|(_, kind)| {
-            (in_stages && kind.is_of_veins()) || (in_ages && *kind == Kind::Png)
+            let is_film = kind.is_film();
+            (in_stages && (is_film || kind.is_of_veins()))
+                || (in_ages && (is_film || *kind == Kind::Png))
         });
+        if let Some((path, _)) = whole.iter().find(|(_, kind)| kind.is_film()) {
+            return Err(Failure::bad(format!(
+                "{}: a film needs --frames N, which shows growth, or --ages N, which shows ageing",
+                path.display()
+            )));
+        }
+        check_look(arguments, whole.iter().chain(&staged))?;
         if in_ages && staged.is_empty() && arguments.contents.is_none() {
             return Err(Failure::bad(
-                "--ages needs an --out that shows colours, a png, or --contents",
+                "--ages needs an --out that shows colours (png, gif, apng or mp4), or --contents",
             ));
         }
         if in_stages && staged.is_empty() {
             return Err(Failure::bad(
-                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson or csv",
+                "--frames needs an --out that shows veins: svg, png, json, graphml, geojson, csv, gif, apng or mp4",
             ));
         }
         let reports = [&arguments.measure, &arguments.stats, &arguments.fields];
@@ -128,6 +153,52 @@ impl Outputs {
         let has_plan = self.whole.iter().any(|(_, kind)| *kind == Kind::Toml);
         let shows_contents = self.blade || arguments.contents.is_some() || arguments.ages.is_some();
         !has_plan && !shows_contents
+    }
+}
+
+/// Fails if something is asked for that no file can show.
+fn check_look<'a>(
+    arguments: &GrowArguments,
+    files: impl IntoIterator<Item = &'a (PathBuf, Kind)>,
+) -> Result<(), Failure> {
+    let (mut is_drawn, mut has_svg) = (false, false);
+    for (_, kind) in files {
+        is_drawn |= kind.is_drawn();
+        has_svg |= *kind == Kind::Svg;
+    }
+    let refused = |flag: &str, needs: &str| Err(Failure::bad(format!("{flag} {needs}")));
+    let is_plain =
+        arguments.colour == VeinColour::Plain && arguments.caption == CaptionedKinds::default();
+    if arguments.individuals.is_some() && !is_plain {
+        return refused(
+            "--individuals",
+            "draws leaves without --colour and --caption",
+        );
+    }
+    if arguments.sources {
+        if arguments.frames.is_none() {
+            return refused(
+                "--sources",
+                "needs --frames: a full-grown leaf has none left",
+            );
+        }
+        if !is_drawn || has_svg {
+            return refused("--sources", "is shown by png, gif, apng and mp4 alone");
+        }
+    }
+    match arguments.colour {
+        VeinColour::Order | VeinColour::Age if arguments.ages.is_some() => refused(
+            "--colour",
+            "colours veins, and --ages shows the blade in its own colours",
+        ),
+        VeinColour::Age if !is_drawn || has_svg => {
+            refused("--colour age", "is shown by png, gif, apng and mp4 alone")
+        }
+        VeinColour::Order if !is_drawn && !has_svg => refused(
+            "--colour order",
+            "is shown by svg, png, gif, apng and mp4 alone",
+        ),
+        VeinColour::Plain | VeinColour::Order | VeinColour::Age => Ok(()),
     }
 }
 

@@ -1,0 +1,258 @@
+//! Films of a leaf that grows or ages.
+
+use std::io::{Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::AtomicBool;
+
+use tempfile::NamedTempFile;
+
+use super::outputs::{Kind, Outputs};
+use crate::cli::Failure;
+use crate::cli::arguments::GrowArguments;
+use crate::export::drawing::Drawing;
+use crate::image::animation::{Animation, Format, Timing};
+
+/// The program that makes mp4; nothing else needs it.
+const ENCODER: &str = "ffmpeg";
+
+/// Fails if a film needs a program that is not there.
+pub(super) fn check(outputs: &Outputs) -> Result<(), Failure> {
+    let mut staged = outputs.staged.iter();
+    let Some((path, _)) = staged.find(|(_, kind)| *kind == Kind::Mp4) else {
+        return Ok(());
+    };
+    let found = Command::new(ENCODER)
+        .arg("-version")
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    match found {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) | Err(_) => Err(Failure::bad(format!(
+            "{}: mp4 is made by the program `{ENCODER}`, which cannot be run here: install it, or let the name end in gif or \
+             apng, which need no other program",
+            path.display()
+        ))),
+    }
+}
+
+/// All films that are being written.
+pub(super) struct Films {
+    all: Vec<Film>,
+    count: u32,
+    timing: Timing,
+}
+
+struct Film {
+    path: PathBuf,
+    kind: Kind,
+    /// There is one from the first frame on, which tells the size.
+    writer: Option<Writer>,
+}
+
+enum Writer {
+    /// Boxed, since it is far larger.
+    Own(Box<Animation>),
+    Other(Encoding),
+}
+
+impl Films {
+    /// The films among the outputs, each of `count` frames.
+    pub(super) fn begun(arguments: &GrowArguments, outputs: &Outputs, count: u32) -> Self {
+        let films = outputs.staged.iter().filter(|(_, kind)| kind.is_film());
+        let films = films.map(|(path, kind)| Film {
+            path: path.clone(),
+            kind: *kind,
+            writer: None,
+        });
+        Self {
+            all: films.collect(),
+            count,
+            timing: Timing {
+                frames_per_second: arguments.fps,
+                last_frame_seconds: arguments.hold,
+            },
+        }
+    }
+
+    /// Number of frames of each.
+    pub(super) fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Adds frames to all films.
+    pub(super) fn push(&mut self, frames: &[Drawing]) -> Result<(), Failure> {
+        let Some(first) = frames.first() else {
+            return Ok(());
+        };
+        let size = [first.width, first.height];
+        for film in &mut self.all {
+            let writer = if let Some(writer) = &mut film.writer {
+                writer
+            } else {
+                let begun = Writer::begun(film.kind, &film.path, size, self.count, self.timing);
+                film.writer.insert(begun?)
+            };
+            match writer {
+                Writer::Own(film) => {
+                    let pixels: Vec<&[u8]> = frames.iter().map(|frame| &frame.rgb[..]).collect();
+                    film.push(&pixels).map_err(Failure::bad)?;
+                }
+                Writer::Other(encoding) => {
+                    for frame in frames {
+                        encoding.push(&frame.rgb)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the files.
+    pub(super) fn finish(self, stop: &AtomicBool) -> Result<(), Failure> {
+        for film in self.all {
+            let Some(writer) = film.writer else { continue };
+            let bytes = match writer {
+                Writer::Own(film) => film.finish().map_err(Failure::bad)?,
+                Writer::Other(encoding) => encoding.finish(self.timing)?,
+            };
+            super::finish(&film.path, &bytes, stop)?;
+        }
+        Ok(())
+    }
+}
+
+impl Writer {
+    fn begun(
+        kind: Kind,
+        path: &Path,
+        size: [u32; 2],
+        count: u32,
+        timing: Timing,
+    ) -> Result<Self, Failure> {
+        let format = match kind {
+            Kind::Apng => Format::Apng,
+            Kind::Mp4 => return Ok(Self::Other(Encoding::begun(path, size, timing)?)),
+            Kind::Gif
+            | Kind::Svg
+            | Kind::Png
+            | Kind::Json
+            | Kind::GraphMl
+            | Kind::GeoJson
+            | Kind::Csv
+            | Kind::Ply
+            | Kind::Obj
+            | Kind::Toml => Format::Gif,
+        };
+        let film = Animation::new(format, size, count, timing).map_err(Failure::bad)?;
+        Ok(Self::Own(Box::new(film)))
+    }
+}
+
+/// A run of the other program, which takes frames and writes to a file that nobody sees yet.
+struct Encoding {
+    child: Child,
+    file: NamedTempFile,
+    /// Shown once more at the end.
+    last: Vec<u8>,
+}
+
+impl Encoding {
+    fn begun(path: &Path, [width, height]: [u32; 2], timing: Timing) -> Result<Self, Failure> {
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        let file = tempfile::Builder::new()
+            .prefix(".lamina-")
+            .suffix(".mp4")
+            .tempfile_in(folder.unwrap_or(Path::new(".")))
+            .map_err(Failure::system)?;
+        let child = Command::new(ENCODER)
+            .args(["-nostdin", "-loglevel", "error", "-y"])
+            .args(["-f", "rawvideo", "-pixel_format", "rgb24"])
+            .args(["-video_size", &format!("{width}x{height}")])
+            .args(["-framerate", &timing.frames_per_second.to_string()])
+            .args(["-i", "-"])
+            // Players want even sides, and two colour values for four pixels.
+            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"])
+            .args(["-pix_fmt", "yuv420p", "-movflags", "+faststart"])
+            .arg(file.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(|error| Failure::system(format!("{ENCODER}: {error}")))?;
+        Ok(Self {
+            child,
+            file,
+            last: Vec::new(),
+        })
+    }
+
+    fn push(&mut self, rgb: &[u8]) -> Result<(), Failure> {
+        self.send(rgb)?;
+        rgb.clone_into(&mut self.last);
+        Ok(())
+    }
+
+    fn send(&mut self, rgb: &[u8]) -> Result<(), Failure> {
+        let sent = self.child.stdin.as_mut().map(|pipe| pipe.write_all(rgb));
+        match sent {
+            Some(Ok(())) => Ok(()),
+            // It has ended before its time and says why.
+            Some(Err(_)) | None => Err(self.failure()),
+        }
+    }
+
+    fn finish(mut self, timing: Timing) -> Result<Vec<u8>, Failure> {
+        let again = (timing.last_frame_seconds * timing.frames_per_second).round() - 1.0;
+        let last = std::mem::take(&mut self.last);
+        for _ in 0..again.max(0.0) as u32 {
+            self.send(&last)?;
+        }
+        drop(self.child.stdin.take());
+        let mut said = String::new();
+        if let Some(mut pipe) = self.child.stderr.take() {
+            let _ = pipe.read_to_string(&mut said);
+        }
+        let status = self.child.wait().map_err(Failure::system)?;
+        if !status.success() {
+            return Err(failed(&said));
+        }
+        std::fs::read(self.file.path()).map_err(Failure::system)
+    }
+
+    fn failure(&mut self) -> Failure {
+        drop(self.child.stdin.take());
+        let mut said = String::new();
+        if let Some(mut pipe) = self.child.stderr.take() {
+            let _ = pipe.read_to_string(&mut said);
+        }
+        failed(&said)
+    }
+}
+
+impl Drop for Encoding {
+    fn drop(&mut self) {
+        // After a failure or Ctrl-C it must not go on.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn failed(said: &str) -> Failure {
+    let said = said.trim();
+    let why = if said.is_empty() {
+        "it does not say why"
+    } else {
+        said
+    };
+    Failure::system(format!("{ENCODER} failed: {why}"))
+}
