@@ -349,7 +349,10 @@ mod tests {
         auxin.pattern = Pattern::Open;
         auxin.final_length = 150.0;
         let kill = auxin.kill_distance;
-        let (lamina, stages) = seedling_to_leaf(&plan);
+        let lamina = plan.grow_lamina().expect("a good plan");
+        let last = plan.last_step(&lamina).expect("it has stages");
+        let steps: Vec<u32> = (0..=20).map(|i| last * i / 20).collect();
+        let stages = plan.stages(&lamina, &steps).expect("it has stages");
         let segment = lamina.network.segment_mm();
         let mut seen = 0;
         for stage in &stages[1..] {
@@ -367,7 +370,7 @@ mod tests {
             }
         }
         assert!(seen > 20, "{seen}");
-        let end = stages.last().expect("six stages");
+        let end = stages.last().expect("stages");
         assert_eq!(end.sources, []);
     }
 }

@@ -11,16 +11,17 @@
 //! A vein holds many conduits far finer than itself, so `K` is far above that of a leaf; ratios
 //! between leaves and losses are what it is for.
 
+mod condensed;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
+use self::condensed::{Stretches, System};
 use super::Subject;
 use super::bridges;
 use super::laplacian::{Factored, Pipe};
-use crate::venation::network::VeinEdge;
-use crate::venation::planar::PlaneGraph;
 
 /// Viscosity of water at 20 °C, 1.0016 mPa s (\[huber2009\]), in megapascal seconds: lengths in mm then give
 /// conductances in mm³ s⁻¹ MPa⁻¹.
@@ -86,27 +87,38 @@ impl Subject<'_> {
         if !self.known.radii {
             return None;
         }
-        let graph = self.found.graph();
+        let (graph, chains) = (self.found.graph(), self.found.chains());
         let roots = self.roots();
-        let whole = Pipes::new(graph, &roots, |_| true)?;
-        let total: f64 = graph.edges().iter().map(|edge| length(graph, edge)).sum();
-        let factored = Factored::new(&whole.places, &whole.pipes)?;
+        let condensed = |is_reached: &dyn Fn(u32) -> bool| {
+            let cut = self.widest_chains(widest, is_reached);
+            let is_cut = |chain: u32| cut.binary_search(&chain).is_ok();
+            Stretches::new(graph, chains, &roots, is_cut)
+        };
+        let mut stretches = condensed(&|_| true);
+        let is_reached = stretches.reached_chains(chains.len());
+        // Chains apart from the petiole are no cuts; most networks have none.
+        if is_reached.contains(&false) {
+            stretches = condensed(&|chain| is_reached[chain as usize]);
+        }
+        let whole = stretches.system(|_| true)?;
+        let total: f64 = stretches.all.iter().map(|stretch| stretch.length).sum();
+        let factored = whole.factored()?;
         let drops = factored.solve(&whole.outflow);
-        let power = dot(&whole.outflow, &drops);
+        let power = whole.power(&drops);
         if !(power.is_finite() && power > 0.0) {
             return None;
         }
-        let beyond = bridges::beyond(whole.places.len(), &whole.pipes, &whole.outflow);
+        let beyond = bridges::beyond(whole.count(), &whole.pipes, &whole.outflow);
         let bridges: f64 = whole
-            .edges
+            .stretches
             .iter()
             .zip(&beyond)
             .filter(|(_, beyond)| beyond.is_some())
-            .map(|(&edge, _)| length(graph, &graph.edges()[edge as usize]))
+            .map(|(&stretch, _)| stretches.all[stretch as usize].length)
             .sum();
-        let cuts = self.cuts(&whole, &factored, (&drops, power), &beyond, widest);
+        let cuts = self.cuts(&stretches, &whole, &factored, (&drops, power), &beyond);
         let orders = if self.known.orders {
-            self.without_orders(&roots, &whole, &factored)
+            without_orders(&stretches, &whole, &factored)
         } else {
             Vec::new()
         };
@@ -120,6 +132,22 @@ impl Subject<'_> {
         })
     }
 
+    /// The widest chains among some, ascending by number.
+    fn widest_chains(&self, count: usize, among: &dyn Fn(u32) -> bool) -> Vec<u32> {
+        let radii = &self.found.chains().radii;
+        let mut order: Vec<u32> = (0..radii.len() as u32).filter(|&c| among(c)).collect();
+        let wider = |a: &u32, b: &u32| {
+            let (a_radius, b_radius) = (radii[*a as usize], radii[*b as usize]);
+            b_radius.total_cmp(&a_radius).then(a.cmp(b))
+        };
+        if count < order.len() {
+            order.select_nth_unstable_by(count, wider);
+            order.truncate(count);
+        }
+        order.sort_unstable();
+        order
+    }
+
     /// Which nodes of the plane graph are origins.
     fn roots(&self) -> Vec<bool> {
         let origins = &self.network.nodes()[..self.network.origins()];
@@ -131,23 +159,21 @@ impl Subject<'_> {
             .collect()
     }
 
+    /// What each cut loses, widest vein first.
     fn cuts(
         &self,
-        whole: &Pipes,
+        stretches: &Stretches,
+        whole: &System,
         factored: &Factored,
         (drops, power): (&[f64], f64),
         beyond: &[Option<f64>],
-        widest: usize,
     ) -> Vec<Cut> {
         let (chains, graph) = (self.found.chains(), self.found.graph());
-        let mut order: Vec<u32> = (0..chains.len() as u32).collect();
-        let radius = |chain: u32| chains.radii[chain as usize];
-        order.sort_by(|&a, &b| radius(b).total_cmp(&radius(a)).then(a.cmp(&b)));
-        let mut pipe_of = vec![u32::MAX; graph.edges().len()];
-        for (pipe, &edge) in (0..).zip(&whole.edges) {
-            pipe_of[edge as usize] = pipe;
+        let mut pipe_of = vec![u32::MAX; stretches.all.len()];
+        for (pipe, &stretch) in (0..).zip(&whole.stretches) {
+            pipe_of[stretch as usize] = pipe;
         }
-        let mut scratch = vec![0.0; whole.places.len()];
+        let mut scratch = vec![0.0; whole.count()];
         let drop_at = |end: u32| {
             if end == Pipe::GROUND {
                 0.0
@@ -155,10 +181,11 @@ impl Subject<'_> {
                 drops[end as usize]
             }
         };
-        let cut = |&chain: &u32| {
-            let edges = chains.edges(chain);
-            let edge = edges[edges.len() / 2];
-            let pipe = pipe_of[edge as usize];
+        let radius = |chain: u32| chains.radii[chain as usize];
+        let mut middles = stretches.middles.clone();
+        middles.sort_by(|a, b| radius(b.0).total_cmp(&radius(a.0)).then(a.0.cmp(&b.0)));
+        let cut = |(chain, stretch): (u32, u32)| {
+            let pipe = pipe_of[stretch as usize];
             if pipe == u32::MAX {
                 return None; // It hangs together with no petiole.
             }
@@ -177,7 +204,8 @@ impl Subject<'_> {
                     (0.0, whole.lost_without(pipe, power))
                 }
             };
-            let first = &graph.edges()[edge as usize];
+            let edges = chains.edges(chain);
+            let first = &graph.edges()[edges[edges.len() / 2] as usize];
             Some(Cut {
                 place: graph.nodes()[first.to as usize],
                 order: first.order,
@@ -187,175 +215,39 @@ impl Subject<'_> {
                 lost,
             })
         };
-        order.iter().filter_map(cut).take(widest).collect()
+        middles.into_iter().filter_map(cut).collect()
     }
+}
 
-    fn without_orders(&self, roots: &[bool], whole: &Pipes, factored: &Factored) -> Vec<OrderLoss> {
-        let graph = self.found.graph();
-        let mut lengths = vec![0.0; usize::from(u8::MAX) + 1];
-        for &edge in &whole.edges {
-            let edge = &graph.edges()[edge as usize];
-            lengths[usize::from(edge.order)] += length(graph, edge);
-        }
-        let without = |order: u8| {
-            let others = whole.total - lengths[usize::from(order)];
-            let Some(left) = Pipes::new(graph, roots, |edge| edge.order != order) else {
-                let cut_off = if others > 0.0 { 1.0 } else { 0.0 };
-                return OrderLoss {
-                    order,
-                    cut_off,
-                    lost: None,
-                };
-            };
-            let after = Factored::new(&left.places, &left.pipes);
-            let after = after.map(|after| after.solve(&left.outflow));
-            // The same outflow in the whole network.
-            let mut outflow = vec![0.0; whole.places.len()];
-            for (&node, value) in left.nodes.iter().zip(&left.outflow) {
-                outflow[whole.number[node as usize] as usize] = *value;
-            }
-            let before = dot(&outflow, &factored.solve(&outflow));
-            OrderLoss {
+fn without_orders(stretches: &Stretches, whole: &System, factored: &Factored) -> Vec<OrderLoss> {
+    let without = |order: u8| {
+        let others = whole.total - whole.lengths[usize::from(order)];
+        let Some(left) = stretches.system(|stretch| stretch.order != order) else {
+            let cut_off = if others > 0.0 { 1.0 } else { 0.0 };
+            return OrderLoss {
                 order,
-                cut_off: (1.0 - left.total / others).max(0.0),
-                lost: after
-                    .map(|after| 1.0 - before / dot(&left.outflow, &after))
-                    .filter(|lost| lost.is_finite()),
-            }
+                cut_off,
+                lost: None,
+            };
         };
-        let orders = (1..=u8::MAX).filter(|order| lengths[usize::from(*order)] > 0.0);
-        orders.map(without).collect()
-    }
+        let after = left.factored();
+        let after = after.map(|after| left.power(&after.solve(&left.outflow)));
+        // The same outflow in the whole network.
+        let before = whole.power_of(&left, factored);
+        OrderLoss {
+            order,
+            cut_off: (1.0 - left.total / others).max(0.0),
+            lost: after
+                .map(|after| 1.0 - before / after)
+                .filter(|lost| lost.is_finite()),
+        }
+    };
+    let orders: Vec<u8> = (1..=u8::MAX)
+        .filter(|order| whole.lengths[usize::from(*order)] > 0.0)
+        .collect();
+    orders.into_par_iter().map(without).collect()
 }
 
 fn bits(place: DVec2) -> [u64; 2] {
     [place.x.to_bits(), place.y.to_bits()]
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn length(graph: &PlaneGraph, edge: &VeinEdge) -> f64 {
-    (graph.nodes()[edge.to as usize] - graph.nodes()[edge.from as usize]).length()
-}
-
-/// The pipes that hang together with the petiole.
-#[expect(clippy::struct_field_names, reason = "they are its pipes")]
-struct Pipes {
-    /// Places of the unknowns.
-    places: Vec<DVec2>,
-    /// Nodes of the graph that are unknowns.
-    nodes: Vec<u32>,
-    /// Number of the unknown of each node of the graph.
-    number: Vec<u32>,
-    /// The pipes, conductances in units of `π/(8 μ)`.
-    pipes: Vec<Pipe>,
-    /// The edge of the graph that each pipe is.
-    edges: Vec<u32>,
-    /// What leaves at each unknown: length, mm.
-    outflow: Vec<f64>,
-    /// What leaves in all, at the petiole too.
-    total: f64,
-}
-
-impl Pipes {
-    /// `None` if no wanted edge begins at a root.
-    fn new(
-        graph: &PlaneGraph,
-        roots: &[bool],
-        is_wanted: impl Fn(&VeinEdge) -> bool,
-    ) -> Option<Self> {
-        let mut starts = vec![0_u32; graph.nodes().len() + 1];
-        let wanted = || {
-            (0..)
-                .zip(graph.edges())
-                .filter(|(_, edge): &(u32, _)| is_wanted(edge))
-        };
-        for (_, edge) in wanted() {
-            for end in [edge.from, edge.to] {
-                starts[end as usize + 1] += 1;
-            }
-        }
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0_u32; starts[starts.len() - 1] as usize];
-        for (number, edge) in wanted() {
-            for end in [edge.from, edge.to] {
-                let at = &mut next[end as usize];
-                around[*at as usize] = number;
-                *at += 1;
-            }
-        }
-        let mut is_reached = roots.to_vec();
-        let mut open: Vec<u32> = (0..)
-            .zip(roots)
-            .filter(|(_, root)| **root)
-            .map(|(n, _)| n)
-            .collect();
-        while let Some(node) = open.pop() {
-            let node = node as usize;
-            for &edge in &around[starts[node] as usize..starts[node + 1] as usize] {
-                let edge = &graph.edges()[edge as usize];
-                for end in [edge.from, edge.to] {
-                    if !std::mem::replace(&mut is_reached[end as usize], true) {
-                        open.push(end);
-                    }
-                }
-            }
-        }
-        let mut pipes = Self {
-            places: Vec::new(),
-            nodes: Vec::new(),
-            number: vec![Pipe::GROUND; graph.nodes().len()],
-            pipes: Vec::new(),
-            edges: Vec::new(),
-            outflow: Vec::new(),
-            total: 0.0,
-        };
-        for (node, place) in (0..).zip(graph.nodes()) {
-            if is_reached[node as usize] && !roots[node as usize] {
-                pipes.number[node as usize] = pipes.nodes.len() as u32;
-                pipes.nodes.push(node);
-                pipes.places.push(*place);
-            }
-        }
-        pipes.outflow = vec![0.0; pipes.nodes.len()];
-        for (number, edge) in wanted() {
-            if is_reached[edge.from as usize] {
-                pipes.add(graph, number);
-            }
-        }
-        (!pipes.places.is_empty()).then_some(pipes)
-    }
-
-    /// Share of the conductance that is lost without a pipe that is no bridge, from a solution
-    /// without it; `power` is `Σ qᵢ pᵢ` with it.
-    fn lost_without(&self, pipe: u32, power: f64) -> f64 {
-        let mut pipes = self.pipes.clone();
-        pipes.remove(pipe as usize);
-        let after = Factored::new(&self.places, &pipes)
-            .map(|after| dot(&self.outflow, &after.solve(&self.outflow)))
-            .filter(|after| after.is_finite());
-        // A way around with a conductance too small for a number conducts nothing.
-        after.map_or(1.0, |after| (1.0 - power / after).max(0.0))
-    }
-
-    fn add(&mut self, graph: &PlaneGraph, number: u32) {
-        let edge = &graph.edges()[number as usize];
-        let (l, r, s) = (length(graph, edge), edge.radius_from, edge.radius_to);
-        let (r3, s3) = (r * r * r, s * s * s);
-        let ends = [edge.from, edge.to].map(|end| self.number[end as usize]);
-        for end in ends.into_iter().filter(|end| *end != Pipe::GROUND) {
-            self.outflow[end as usize] += 0.5 * l;
-        }
-        self.total += l;
-        if ends != [Pipe::GROUND; 2] {
-            let conductance = 3.0 * r3 * s3 / (l * (r * r + r * s + s * s));
-            self.pipes.push(Pipe { ends, conductance });
-            self.edges.push(number);
-        }
-    }
 }

@@ -12,7 +12,7 @@
 //!   the graph after cutting), less those whose area is 0 up to rounding.
 //! - **Left out**: the width of veins. Corners lie on their midlines.
 
-mod chains;
+pub(crate) mod chains;
 mod faces;
 mod islands;
 #[cfg(test)]

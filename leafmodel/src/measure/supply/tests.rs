@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use super::*;
 use crate::measure::{Blade, Known};
-use crate::venation::network::VenationNetwork;
+use crate::venation::network::{VeinEdge, VenationNetwork};
+use crate::venation::planar::PlaneGraph;
 use crate::venation::testing::{poplar, wide};
 
 fn supply(network: &VenationNetwork) -> Supply {
@@ -142,36 +143,27 @@ fn each_cut_of_a_grown_leaf_loses_what_a_solution_without_the_edge_says() {
     let found = subject.supply(40).expect("radii and an origin");
     let graph = subject.areoles().graph();
     let roots = subject.roots();
-    let whole = Pipes::new(graph, &roots, |_| true).expect("veins");
-    let power = dot(
-        &whole.outflow,
-        &Factored::new(&whole.places, &whole.pipes)
-            .expect("sound")
-            .solve(&whole.outflow),
+    let whole = Direct::new(graph, &roots, |_| true);
+    let power = whole.power();
+    near(
+        found.conductance,
+        PI / (8.0 * VISCOSITY_MPA_S) * whole.total * whole.total / power,
     );
     assert_eq!(found.cuts.len(), 40);
     let mut compared = 0;
     for cut in &found.cuts {
-        let mut left = Pipes::new(graph, &roots, |_| true).expect("veins");
-        let is_cut = |edge: u32| {
-            let edge = &graph.edges()[edge as usize];
+        let is_cut = |edge: &VeinEdge| {
             graph.nodes()[edge.to as usize] == cut.place && edge.order == cut.order
         };
-        let pipes: Vec<usize> = (0..left.pipes.len())
-            .filter(|&i| is_cut(left.edges[i]))
-            .collect();
-        let &[pipe] = pipes.as_slice() else { continue };
-        left.pipes.remove(pipe);
-        if cut.cut_off > 0.0 {
+        if cut.cut_off > 0.0 || graph.edges().iter().filter(|edge| is_cut(edge)).count() != 1 {
             continue;
         }
-        let after = dot(
-            &left.outflow,
-            &Factored::new(&left.places, &left.pipes)
-                .expect("sound")
-                .solve(&left.outflow),
-        );
-        assert!((cut.lost - (1.0 - power / after)).abs() < 1e-7, "{cut:?}");
+        let mut left = Direct::new(graph, &roots, |edge| !is_cut(edge));
+        // What leaves stays the same.
+        left.outflow.clone_from(&whole.outflow);
+        let after = left.power();
+        let lost = 1.0 - power / after;
+        assert!((cut.lost - lost).abs() < 1e-7, "{cut:?} {lost}");
         compared += 1;
     }
     assert!(compared > 10, "only {compared} cuts were compared");
@@ -189,4 +181,137 @@ fn each_cut_of_a_grown_leaf_loses_what_a_solution_without_the_edge_says() {
             .filter_map(|loss| loss.lost)
             .all(|lost| (-1e-9..1.0).contains(&lost))
     );
+}
+
+/// A network without anything condensed: each edge a pipe, each node an unknown.
+struct Direct {
+    places: Vec<DVec2>,
+    pipes: Vec<Pipe>,
+    outflow: Vec<f64>,
+    total: f64,
+}
+
+impl Direct {
+    /// Of the wanted edges, which must all hang together with a root.
+    fn new(graph: &PlaneGraph, roots: &[bool], is_wanted: impl Fn(&VeinEdge) -> bool) -> Self {
+        let mut direct = Self {
+            places: Vec::new(),
+            pipes: Vec::new(),
+            outflow: Vec::new(),
+            total: 0.0,
+        };
+        let wanted = || graph.edges().iter().filter(|edge| is_wanted(edge));
+        let mut number = vec![Pipe::GROUND; roots.len()];
+        for node in wanted().flat_map(|edge| [edge.from, edge.to]) {
+            number[node as usize] = 0;
+        }
+        // In the order of nodes, so that it is the same with an edge less.
+        for (node, number) in number.iter_mut().enumerate() {
+            if roots[node] {
+                *number = Pipe::GROUND;
+            }
+            if *number != Pipe::GROUND {
+                *number = direct.places.len() as u32;
+                direct.places.push(graph.nodes()[node]);
+                direct.outflow.push(0.0);
+            }
+        }
+        for edge in wanted() {
+            let [from, to] = [edge.from, edge.to].map(|node| graph.nodes()[node as usize]);
+            let (l, r, s) = (from.distance(to), edge.radius_from, edge.radius_to);
+            let ends = [edge.from, edge.to].map(|node| number[node as usize]);
+            for end in ends.into_iter().filter(|end| *end != Pipe::GROUND) {
+                direct.outflow[end as usize] += 0.5 * l;
+            }
+            direct.total += l;
+            if ends != [Pipe::GROUND; 2] {
+                let conductance = 3.0 * (r * s).powi(3) / (l * (r * r + r * s + s * s));
+                direct.pipes.push(Pipe { ends, conductance });
+            }
+        }
+        direct
+    }
+
+    fn power(&self) -> f64 {
+        let factored = Factored::new(&self.places, &self.pipes).expect("sound");
+        let drops = factored.solve(&self.outflow);
+        self.outflow.iter().zip(drops).map(|(q, p)| q * p).sum()
+    }
+}
+
+#[test]
+fn what_is_condensed_loses_nothing_whatever_meets_where() {
+    // A ring on a stalk with a twig, a ring at a ring, two petioles with a way between them, and
+    // orders that change along a vein.
+    let places = [
+        (0.0, 0.0),
+        (0.0, 1.0),
+        (0.4, 1.5),
+        (0.5, 2.2),
+        (0.0, 2.5),
+        (-0.6, 1.7),
+        (-1.0, 1.8),
+        (-1.6, 2.1),
+        (0.9, 2.4),
+        (1.3, 2.0),
+        (1.0, 1.6),
+        (3.0, 0.0),
+        (2.0, -0.5),
+        (1.0, -0.4),
+    ]
+    .map(DVec2::from);
+    let edges = [
+        (0, 1, 0.2, 1),
+        (1, 2, 0.1, 2),
+        (2, 3, 0.08, 2),
+        (3, 4, 0.07, 3),
+        (1, 5, 0.11, 2),
+        (5, 4, 0.05, 2),
+        (5, 6, 0.04, 3),
+        (6, 7, 0.03, 4),
+        (3, 8, 0.06, 3),
+        (8, 9, 0.05, 3),
+        (9, 10, 0.04, 4),
+        (2, 10, 0.03, 3),
+        (0, 13, 0.02, 4),
+        (13, 12, 0.02, 4),
+        (12, 11, 0.03, 3),
+    ];
+    let veins = wide(&places, &edges);
+    for two_petioles in [false, true] {
+        let subject = Subject::new(Blade::Unknown, &veins, Known::ALL);
+        let graph = subject.areoles().graph();
+        let mut roots = subject.roots();
+        if two_petioles {
+            let second = graph.nodes().iter().position(|p| *p == places[11]);
+            roots[second.expect("a node")] = true;
+        }
+        let chains = subject.areoles().chains();
+        let direct = Direct::new(graph, &roots, |_| true);
+        for cuts in [0, 100] {
+            let stretches = Stretches::new(graph, chains, &roots, |chain| chain < cuts);
+            let system = stretches.system(|_| true).expect("veins");
+            let factored = system.factored().expect("sound");
+            let drops = factored.solve(&system.outflow);
+            near(system.total, direct.total);
+            near(system.power(&drops), direct.power());
+            near(system.power_of(&system, &factored), direct.power());
+            for order in 2..=4 {
+                let left = stretches.system(|stretch| stretch.order != order);
+                let left = left.expect("the stalk");
+                let drops = left.factored().expect("sound").solve(&left.outflow);
+                if order == 4 {
+                    // What hangs together with the petiole without it.
+                    let is_wanted = |edge: &VeinEdge| {
+                        let is_twig = graph.nodes()[edge.from as usize] == places[12]
+                            || graph.nodes()[edge.to as usize] == places[12];
+                        edge.order != 4 && (two_petioles || !is_twig)
+                    };
+                    let direct = Direct::new(graph, &roots, is_wanted);
+                    near(left.total, direct.total);
+                    near(left.power(&drops), direct.power());
+                }
+            }
+        }
+    }
 }
