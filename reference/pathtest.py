@@ -46,8 +46,9 @@ def walk(page: str) -> None:
     with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory() as programs:
         folder = Path(name)
         Path(programs, "lamina").symlink_to(program().resolve())
-        Path(programs, "python3").symlink_to(sys.executable)
-        paths = os.pathsep.join([programs, os.environ["PATH"]])
+        # Pages say python3: that of this environment, which has matplotlib.
+        here = str(Path(sys.executable).parent)
+        paths = os.pathsep.join([programs, here, os.environ["PATH"]])
         for picture in PICTURE.findall(text):
             shutil.copy(GUIDE / picture, folder)
         out: list[list[str]] = []
