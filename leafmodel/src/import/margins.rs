@@ -7,10 +7,15 @@ use super::error::ImportError;
 use super::faults::{Fault, FaultKind};
 use super::repair::leave_out_bare;
 use crate::shape::outline::Outline;
+use crate::shape::segments::nearest_on_closed;
 
 /// How far outside a margin, as a share of the blade's extent, a node still counts as on it: files
 /// round, and veins end at the margin.
 const NEAR: f64 = 2e-3;
+
+/// How far off the margin, as a share of the blade's extent, a base or an apex that is given is
+/// moved onto it.
+const ROUNDED: f64 = 1e-4;
 
 /// Greatest share of the nodes that may lie outside of the margins.
 const MOST_OUTSIDE: f64 = 0.5;
@@ -33,6 +38,23 @@ impl Draft {
                     break;
                 }
                 made = made.or_else(|_| Outline::new(margin.points.clone(), *base, *apex));
+            }
+            // Files round: an end that is given may lie off the line by its last digits.
+            if made.is_err() && !margin.points.is_empty() {
+                let extent = margin.points.iter().copied();
+                let low = extent.clone().reduce(DVec2::min).unwrap_or_default();
+                let high = extent.reduce(DVec2::max).unwrap_or_default();
+                let slack = ROUNDED * (high - low).max_element();
+                let snapped = |end: DVec2| {
+                    let place = nearest_on_closed(&margin.points, end).at;
+                    if place.distance(end) <= slack {
+                        place
+                    } else {
+                        end
+                    }
+                };
+                let ends = (snapped(bases[0]), snapped(apices[0]));
+                made = made.or_else(|_| Outline::new(margin.points.clone(), ends.0, ends.1));
             }
             made
         });

@@ -25,8 +25,17 @@ pub(super) fn read(edges: &str, nodes: Option<&str>) -> Result<Draft, ImportErro
         read_nodes(nodes, &mut builder)?;
     }
     let mut table = Table::open(edges, "a table of edges", &|name| {
-        EdgeField::of(name).is_some()
+        EdgeField::of(name).is_some() || NodeField::of(name).is_some()
     })?;
+    if nodes.is_none() && is_of_nodes(&table.header) {
+        return Err(ImportError::Missing {
+            place: "line 1".to_owned(),
+            wanted: format!(
+                "this is a table of nodes: give it by --nodes beside a table of edges; here are: {}",
+                listed(&table.header)
+            ),
+        });
+    }
     let fields: Vec<Option<EdgeField>> = table
         .header
         .iter()
@@ -134,6 +143,14 @@ fn in_order_of_numbers(draft: &mut Draft) {
     }
 }
 
+/// Whether columns are those of nodes: places, and nothing that an edge has alone.
+fn is_of_nodes(header: &[String]) -> bool {
+    let has_places = header
+        .iter()
+        .any(|name| matches!(NodeField::of(name), Some(NodeField::Coordinate(..))));
+    has_places && header.iter().all(|name| EdgeField::of(name).is_none())
+}
+
 fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
     let of_nodes = |error| match error {
         ImportError::BadValue {
@@ -151,10 +168,13 @@ fn read_nodes(text: &str, builder: &mut Builder) -> Result<(), ImportError> {
             place: format!("table of nodes, {place}"),
             wanted,
         },
+        ImportError::NameTwice { place, name } => ImportError::NameTwice {
+            place: format!("table of nodes, {place}"),
+            name,
+        },
         other @ (ImportError::Empty
         | ImportError::Malformed { .. }
         | ImportError::NoVeins { .. }
-        | ImportError::NameTwice { .. }
         | ImportError::NoScale { .. }
         | ImportError::MixedUnits { .. }
         | ImportError::Faulty { .. }

@@ -20,6 +20,7 @@ use thiserror::Error;
 use self::layout::Layout;
 pub use self::wave::{ToothForm, ToothWave};
 use super::outline::{Outline, OutlineError};
+use super::segments::{Place, nearest_on_closed};
 use super::tips::{Tip, lobe_corners, with_tips};
 
 /// Greatest number of waves of a margin.
@@ -285,7 +286,7 @@ impl Side {
 fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let points = outline.points();
     let n = points.len();
-    let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest(points, p));
+    let [base, apex] = [outline.base(), outline.apex()].map(|p| nearest_on_closed(points, p));
     // Counter-clockwise from one end to the other.
     let walk = |from: &Place, to: &Place| {
         let corners = if from.edge == to.edge && from.along <= to.along {
@@ -302,35 +303,6 @@ fn sides(outline: &Outline) -> [Vec<DVec2>; 2] {
     let mut left = walk(&apex, &base);
     left.reverse();
     [walk(&base, &apex), left]
-}
-
-/// A place on a polygon.
-struct Place {
-    edge: usize,
-    along: f64,
-    at: DVec2,
-}
-
-/// The place on a polygon that is nearest to `p`; the first of several.
-fn nearest(points: &[DVec2], p: DVec2) -> Place {
-    let mut best = Place {
-        edge: 0,
-        along: 0.0,
-        at: points[0],
-    };
-    for (edge, &start) in points.iter().enumerate() {
-        let way = points[(edge + 1) % points.len()] - start;
-        let along = ((p - start).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-        let at = if along == 1.0 {
-            start + way
-        } else {
-            start + way * along
-        };
-        if (at - p).length_squared() < (best.at - p).length_squared() {
-            best = Place { edge, along, at };
-        }
-    }
-    best
 }
 
 #[cfg(test)]

@@ -9,9 +9,23 @@ use super::lines::{BOUND, Lines};
 use super::margin::{boundary, simplified};
 use super::{Blade, Settings, TraceError, Traced};
 use crate::shape::outline::{Outline, OutlineError};
+use crate::shape::segments::nearest_on_closed;
 
 /// A vein reaches the margin if it comes nearer than this many of its radii.
 const AT_MARGIN: f64 = 1.5;
+
+/// A vein ends at the margin if its middle line, prolonged by so many of its radii, reaches it.
+const AT_END: f64 = 3.0;
+
+/// So many points at the end of a vein tell its radius there.
+const END_POINTS: usize = 8;
+
+/// Radius of a midrib at the base, as a share of the widest vein's greatest, at least.
+const LEAST_BASE: f64 = 0.4;
+
+/// Veins begin at the node that is nearest to the base when each is nearer by so many of the radii
+/// of its veins: a midrib that ends some pixels before the margin, and not a fine vein beside it.
+const NEARER_BY: f64 = 6.0;
 
 /// So many of the widest points of veins are looked at for the one that reaches the margin.
 const MOST_WIDE: usize = 10_000;
@@ -80,10 +94,10 @@ pub(super) fn in_millimetres(
         });
         place_px
     });
-    let base = nearest(&margin, wanted);
+    let base = nearest_on_closed(&margin, wanted).at;
     let apex = match (settings.apex_px, &settings.blade) {
-        (Some(apex), _) => nearest(&margin, apex),
-        (None, Blade::Frame) => nearest(&margin, DVec2::new(base.x, 0.0)),
+        (Some(apex), _) => nearest_on_closed(&margin, apex).at,
+        (None, Blade::Frame) => nearest_on_closed(&margin, DVec2::new(base.x, 0.0)).at,
         (None, Blade::Silhouette | Blade::Of(_)) => farthest(&margin, base),
     };
     let frame = Frame {
@@ -149,19 +163,6 @@ fn outline(
     }
 }
 
-/// The point of a closed line that is nearest to a place.
-fn nearest(line: &[DVec2], place: DVec2) -> DVec2 {
-    let ends = line.iter().zip(line.iter().cycle().skip(1));
-    let points = ends.map(|(&a, &b)| {
-        let along = (place - a).dot(b - a) / (b - a).length_squared().max(1e-300);
-        a + (b - a) * along.clamp(0.0, 1.0)
-    });
-    let off = |p: &DVec2| p.distance_squared(place);
-    points
-        .min_by(|p, q| off(p).total_cmp(&off(q)))
-        .unwrap_or(place)
-}
-
 /// The point of a line that is farthest from a place.
 fn farthest(line: &[DVec2], place: DVec2) -> DVec2 {
     let off = |p: &DVec2| p.distance_squared(place);
@@ -174,7 +175,13 @@ fn farthest(line: &[DVec2], place: DVec2) -> DVec2 {
 
 /// Where the widest vein that reaches the margin does so, prolonged to the margin; the widest place
 /// of all if none does.
+///
+/// A midrib ends at the base. Where no end of a vein reaches the margin, a place in the middle of
+/// one is taken, as where a picture is cut.
 fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
+    if let Some(place) = widest_end_at_margin(veins, margin) {
+        return place;
+    }
     let points = veins.list.iter().enumerate().flat_map(|(number, vein)| {
         let radii = vein.radii.iter().enumerate();
         radii.map(move |(i, radius)| (*radius, number, i))
@@ -184,7 +191,7 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
     let reaches = |(radius, number, i): &&(f64, usize, usize)| {
         let place = veins.list[*number].points[*i];
-        nearest(margin, place).distance(place) <= AT_MARGIN * radius + 2.0
+        nearest_on_closed(margin, place).at.distance(place) <= AT_MARGIN * radius + 2.0
     };
     let found = points.iter().take(MOST_WIDE).find(reaches);
     let Some(&(radius, number, i)) = found.or(points.first()) else {
@@ -203,6 +210,47 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
     crossing(margin, end, ahead)
         .filter(|place| place.distance(end) <= 3.0 * radius + 4.0)
         .unwrap_or(way[i])
+}
+
+/// Where the widest of the veins that end at the margin meets it.
+fn widest_end_at_margin(veins: &Veins, margin: &[DVec2]) -> Option<DVec2> {
+    let mut degrees = vec![0_u32; veins.nodes.len()];
+    for end in veins.list.iter().flat_map(|vein| vein.ends) {
+        degrees[end as usize] += 1;
+    }
+    let mut best: Option<(f64, DVec2)> = None;
+    for vein in &veins.list {
+        for (side, _) in (0..2)
+            .zip(vein.ends)
+            .filter(|(_, end)| degrees[*end as usize] == 1)
+        {
+            let inwards = |i: usize| {
+                if side == 0 {
+                    i
+                } else {
+                    vein.points.len() - 1 - i
+                }
+            };
+            // The very end is rounded: its radius is that of the first few points behind it.
+            let few = vein.points.len().min(END_POINTS);
+            let radius = (0..few).map(|i| vein.radii[inwards(i)]).sum::<f64>() / few as f64;
+            if best.is_some_and(|(widest, _)| widest >= radius) {
+                continue;
+            }
+            let end = vein.points[inwards(0)];
+            let mut behind = (0..vein.points.len()).map(|i| vein.points[inwards(i)]);
+            let inner = behind.rfind(|p| p.distance(end) <= 4.0 * radius);
+            let ahead = (end - inner.unwrap_or(end)).normalize_or_zero();
+            let reach = AT_END * radius + 4.0;
+            let met = crossing(margin, end, ahead).filter(|place| place.distance(end) <= reach);
+            best = met.map(|place| (radius, place)).or(best);
+        }
+    }
+    // One that is fine beside the widest veins is a tip at the margin, no base.
+    let widest = veins.list.iter().flat_map(|vein| &vein.radii);
+    let widest = widest.copied().fold(0.0, f64::max);
+    best.filter(|(radius, _)| *radius >= LEAST_BASE * widest)
+        .map(|(_, place)| place)
 }
 
 /// Where a ray meets a closed line first.
@@ -251,13 +299,22 @@ fn join_base(veins: &mut Veins, root: &mut u32, base: DVec2, segment_px: f64) {
     *root = new;
 }
 
-/// The node from which each part of the veins starts, the one nearest to the base; that of the
-/// longest part is the first.
+/// The node from which each part of the veins starts, a wide one near the base; that of the longest
+/// part is the first.
 fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> {
     let (part, lengths) = parts(veins);
+    let mut radii = vec![0.0_f64; veins.nodes.len()];
+    for vein in &veins.list {
+        let last = vein.radii.len() - 1;
+        for (end, radius) in vein.ends.into_iter().zip([vein.radii[0], vein.radii[last]]) {
+            let widest = &mut radii[end as usize];
+            *widest = widest.max(radius);
+        }
+    }
     let mut nearest: Vec<(f64, u32)> = vec![(f64::INFINITY, 0); lengths.len()];
     for (node, &part) in (0..).zip(&part) {
         let off = veins.nodes[node as usize].distance(frame.base_px);
+        let off = off - NEARER_BY * radii[node as usize];
         let best = &mut nearest[part as usize];
         if off < best.0 {
             *best = (off, node);
