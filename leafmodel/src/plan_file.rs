@@ -59,6 +59,7 @@ pub use self::pigments::pigments;
 pub use self::plant::{plant, plant_preset, usual_plant};
 pub use self::presets::{colour_preset, leaf_preset};
 pub use self::solid::{held_contents, solid, usual_solid};
+use crate::document::assets::Assets;
 use crate::document::context::Context;
 use crate::document::coverage::require_coverage;
 use crate::document::error::DocumentError;
@@ -91,6 +92,23 @@ const SURFACE: [&str; 3] = ["abaxial_ratio", "adaxial", "abaxial"];
 /// the file holds is not looked at.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Vec<Named<LeafPlan>>, DocumentErrors> {
     leaves_of(Opened::file(path, overrides, schema)?)
+}
+
+/// As [`load`], for leaves of which only margin and veins are wanted: their contents need not be
+/// said. `assets` reads what the file names.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_veins(
+    path: &Path,
+    assets: Option<&'static dyn Assets>,
+    overrides: &[String],
+) -> Result<Vec<Named<LeafPlan>>, DocumentErrors> {
+    let mut opened = Opened::file(path, overrides, schema)?;
+    opened.cx.assets = assets;
+    let leaves = plans_of_veins(&opened);
+    opened.finish(leaves).map(|(leaves, _)| leaves)
 }
 
 /// Reads the leaves of a text. `file_name` is what reports call it; paths start at `folder`.

@@ -17,7 +17,19 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         memory,
     } = arguments;
     if let Some(leaves) = load::load_if_only_leaves(&scene.scene, &scene.overrides) {
-        let (leaves, warnings) = leaves?;
+        let (leaves, warnings) = match leaves {
+            Ok(read) => read,
+            Err(errors) => {
+                let count = load::count_veins(&scene.scene, &scene.overrides);
+                let count = count.ok_or(errors)?;
+                let leaves = counted(count, "leaf", "leaves");
+                say(format!("{}: {leaves}", scene.scene.display()));
+                eprintln!(
+                    "note: margin and veins alone; a picture or a blade needs `contents` too"
+                );
+                return Ok(());
+            }
+        };
         for warning in warnings {
             eprint!("{}", warning.render(colour()));
         }

@@ -89,6 +89,13 @@ pub fn load_if_only_leaves(path: &Path, overrides: &[String]) -> Option<LeavesRe
     Some(opened.finish(leaves))
 }
 
+/// The number of leaves of the file at `path` if margin and veins of each can be grown, whether or
+/// not contents are said.
+pub fn count_veins(path: &Path, overrides: &[String]) -> Option<usize> {
+    let leaves = plan_file::load_veins(path, Some(&DECODER), overrides);
+    leaves.ok().map(|leaves| leaves.len())
+}
+
 /// Reads only the leaves of a text; `file_name` and `folder` as for [`parse`].
 ///
 /// # Errors
