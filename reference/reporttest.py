@@ -137,6 +137,28 @@ def test_a_sweep_has_its_tasks_pictures_and_plots() -> None:
                 assert f"<td>{float(row['mean.550nm']):.5g}</td>" in page.text
 
 
+def test_a_sweep_of_leaves_has_means_over_seeds_and_a_contact_sheet() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "made")
+        words = ["--over", "kill_distance_segments=1,4", "--seeds", "3", "--out", made]
+        subprocess.run([program(), "sweep", "poplar", *words], capture_output=True, check=True)
+        page = checked(report([made], Path(folder, "page.html")))
+        assert "6 of 6 tasks are done" in page.text
+        # Each leaf once; its page needs no drawing of a quarter of a megabyte.
+        assert len(page.pictures) == 6 and len(page.text) < 1_000_000
+        assert "kill_distance_segments 4, seed 3" in page.pictures
+        name = "vein_density_mm_per_mm2"
+        with (made / "sweep.csv").open(newline="") as table:
+            rows = list(csv.DictReader(table))
+        for kill in ("1", "4"):
+            values = [float(row[name]) for row in rows if row["kill_distance_segments"] == kill]
+            mean, error = np.mean(values), np.std(values, ddof=1) / np.sqrt(3)
+            assert f"<title>{kill}: {mean:.6g} ± {error:.2g}</title>" in page.text
+        # The length does not vary and has no plot; six measures have, over the key that was swept.
+        assert page.text.count('<figure class="plot">') == 6
+        assert "length_mm over" not in page.text
+
+
 def test_results_of_the_comparison_are_told_as_they_are() -> None:
     results = HERE / "results"
     told = json.loads((results / "flat-leaf.json").read_text())

@@ -14,6 +14,7 @@ import base64
 import csv
 import json
 import shlex
+import statistics
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -155,16 +156,19 @@ def of_sweep(folder: Path) -> tuple[str, str, list[Section]]:
     done = [task for task in tasks if task["state"] == "done"]
     shorts = {key: short_of(key, keys) for key in keys}
     plots = []
-    for key in keys:
+    others = [key for key in keys if key != "seed"]
+    for key in others or keys:
         for name in chosen(outputs):
-            points = [
-                (task[key], task[name], task.get(name.replace("mean.", "error."), ""))
-                for task in done
-                if task[name]
-            ]
             unit = f", {units[key]}" if units[key] else ""
-            error = name.startswith("mean.")
-            plots += plot(points, shorts[key] + unit, name, error)
+            if name.startswith("mean."):
+                points = [
+                    (task[key], task[name], task.get(name.replace("mean.", "error."), ""))
+                    for task in done
+                    if task[name]
+                ]
+            else:
+                points = over_seeds(done, key, others, name)
+            plots += plot(points, shorts[key] + unit, name, True)
     rows = []
     for number, task in enumerate(tasks[:MOST_ROWS]):
         picture: Any = ""
@@ -185,14 +189,19 @@ def of_sweep(folder: Path) -> tuple[str, str, list[Section]]:
             pair.append(embedded(folder / task["file"], f"task {task['task']}: {settings}"))
         if len({(picture["width"], picture["height"]) for picture in pair}) > 1:
             pair = []
+    is_of_leaves = any(task["file"].endswith(".svg") for task in done)
+    told = []
+    if is_of_leaves and others and "seed" in keys:
+        told = ["A point is the mean over the seeds of one setting, its bar a standard error."]
     sections: list[Section] = [
         {
             "title": "The sweep",
             "verdict": f"{len(done)} of {len(tasks)} tasks are done",
             "good": len(done) == len(tasks),
-            "lines": [f"{shorts[key]} is {key}" for key in keys if shorts[key] != key],
+            "lines": [f"{shorts[key]} is {key}" for key in keys if shorts[key] != key] + told,
             "pair": pair,
             "plots": plots,
+            "maps": contact_sheet(folder, done, shorts),
         },
         {
             "title": "Tasks",
@@ -216,10 +225,52 @@ def short_of(key: str, keys: Sequence[str]) -> str:
     return key
 
 
+def over_seeds(
+    tasks: Sequence[dict[str, str]], key: str, others: Sequence[str], name: str
+) -> list[tuple[str, str, str]]:
+    """For each setting of all keys but the seed the value of one, and mean and standard error."""
+    settings: dict[tuple[str, ...], list[float]] = {}
+    for task in tasks:
+        if task[name]:
+            setting = (task.get(key, ""), *(task[other] for other in others if other != key))
+            settings.setdefault(setting, []).append(float(task[name]))
+    if len({value for values in settings.values() for value in values}) < 2:
+        return []
+    points = []
+    for setting, values in settings.items():
+        mean = statistics.fmean(values)
+        many = len(values) > 1
+        error = statistics.stdev(values) / len(values) ** 0.5 if many else 0.0
+        points.append((setting[0], repr(mean), repr(error)))
+    return points
+
+
+def contact_sheet(
+    folder: Path, tasks: Sequence[dict[str, str]], shorts: dict[str, str]
+) -> list[dict[str, Any]]:
+    """The small pictures of the leaves of a sweep, with their settings."""
+    leaves = [task for task in tasks if task["file"].endswith(".svg")]
+    files = [(folder / task["file"]).with_suffix(".png") for task in leaves]
+    return [
+        embedded(file, ", ".join(f"{short} {task[key]}" for key, short in shorts.items()))
+        for task, file in zip(leaves, files, strict=True)
+        if file.is_file()
+    ][:MOST_PICTURES]
+
+
 def chosen(outputs: Sequence[str]) -> list[str]:
     """The outputs that are plotted: the means of a picture, or what leaves are most asked for."""
     means = [name for name in outputs if name.startswith("mean.") and name != "mean.A"]
-    leaf = ("vein_density_mm_per_mm2", "areoles_per_mm2", "length_mm", "area_mm2")
+    leaf = (
+        "vein_density_mm_per_mm2",
+        "areoles_per_mm2",
+        "freely_ending_veinlets_per_mm2",
+        "vein_distance_mm_mean",
+        "areole_area_cv",
+        "loop_nesting",
+        "length_mm",
+        "area_mm2",
+    )
     return means or [name for name in leaf if name in outputs]
 
 

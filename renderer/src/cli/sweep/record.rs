@@ -21,6 +21,9 @@ pub(super) struct Record {
     settings: Vec<String>,
 }
 
+/// Pixels along the longer side of a leaf's small picture, for contact sheets.
+const SKETCH_PIXELS: u32 = 400;
+
 /// The files that a task writes, and the words that ask for them.
 pub(super) fn files(
     sweep: &Sweep,
@@ -42,10 +45,11 @@ pub(super) fn files(
         }
         Target::Leaf(_) => {
             let measures = format!("{name}.measures.json");
-            let picture = format!("{name}.svg");
-            words.extend(["--out".to_owned(), at(&picture)]);
+            let [sketch, picture] = ["png", "svg"].map(|ending| format!("{name}.{ending}"));
+            words.extend(["--out".to_owned(), at(&picture), at(&sketch)]);
+            words.extend(["--size".to_owned(), SKETCH_PIXELS.to_string()]);
             words.extend(["--measure".to_owned(), at(&measures)]);
-            vec![measures, picture]
+            vec![measures, sketch, picture]
         }
     }
 }
