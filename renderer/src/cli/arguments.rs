@@ -16,7 +16,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
-pub use measure::MeasureArguments;
+pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -261,6 +261,15 @@ fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
     } else {
         Err(format!("must be from {LOW} to {HIGH}"))
     }
+}
+
+/// Two finite numbers with a comma between them; `wanted` tells what is to be written.
+fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let pair = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    pair.ok_or_else(|| wanted.to_owned())
 }
 
 /// `lamina export`.

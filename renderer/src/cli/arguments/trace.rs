@@ -133,12 +133,10 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Two numbers with a comma between them.
+/// A place in pixels.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let parts = text.split_once(',');
-    match parts.map(|(x, y)| (number(x), number(y))) {
-        Some((Some(x), Some(y))) => Ok([x, y]),
-        _ => Err("not a place; write pixels from the left and from the top: 512,1800".to_owned()),
-    }
+    super::two_numbers(
+        text,
+        "not a place; write pixels from the left and from the top: 512,1800",
+    )
 }
