@@ -9,5 +9,5 @@
 mod axis;
 mod canvas;
 
-pub(crate) use self::axis::{Axis, Tick, short};
+pub(crate) use self::axis::{Axis, short};
 pub(crate) use self::canvas::{Anchor, Canvas, escaped};

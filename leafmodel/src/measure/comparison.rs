@@ -41,7 +41,7 @@ pub use self::dominance::cliffs_delta;
 pub use self::leaves::{Permuted, permuted_leaves};
 pub use self::noncentral::hedges_g;
 pub use self::ranks::{Ranks, mann_whitney, smallest_p};
-pub use self::student::{Summary, Welch, summary, welch};
+pub use self::student::{Among, Summary, Welch, one_among, summary, welch};
 
 /// Share of all samples whose interval does not hold the truth.
 const OUTSIDE: f64 = 0.05;

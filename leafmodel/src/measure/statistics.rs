@@ -38,7 +38,16 @@ pub(super) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
 /// Variance of a sample (`n − 1`); `None` for fewer than two values.
 pub(super) fn variance(values: &[f64]) -> Option<f64> {
     let mean = mean(values)?;
-    let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+    // The mean of equal values may differ from them by rounding.
+    let is_even = values.iter().all(|value| *value == values[0]);
+    let square = |v: &f64| {
+        if is_even {
+            0.0
+        } else {
+            (v - mean) * (v - mean)
+        }
+    };
+    let squares: f64 = values.iter().map(square).sum();
     (values.len() > 1).then(|| squares / (values.len() - 1) as f64)
 }
 

@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod compare_networks;
 mod fit;
 mod fit_veins;
 mod measure;
@@ -14,6 +15,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
@@ -124,6 +126,9 @@ pub enum Command {
     /// Measure a network of veins from a file of another program
     #[command(after_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
+    /// Compare networks of veins, or groups of leaves: measures, effects, tests, a report
+    #[command(after_help = compare_networks::EXAMPLES)]
+    CompareNetworks(CompareNetworksArguments),
     /// Find parameters of growth that bring forth the measures of a given leaf
     #[command(after_help = fit_veins::EXAMPLES)]
     FitVeins(FitVeinsArguments),

@@ -95,7 +95,7 @@ pub(super) fn has_ending(path: &Path, ending: &str) -> bool {
         .is_some_and(|given| given.eq_ignore_ascii_case(ending))
 }
 
-pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
     atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
     say(path.display());
     Ok(())

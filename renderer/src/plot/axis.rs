@@ -115,7 +115,7 @@ fn steps([low, high]: [f64; 2], wanted: usize) -> Vec<(f64, String)> {
     let unit = libm::pow(10.0, power);
     let factor = [1.0, 2.0, 5.0]
         .into_iter()
-        .find(|factor| factor * unit >= 0.999 * rough)
+        .find(|factor| factor * unit >= 0.75 * rough)
         .unwrap_or(10.0);
     let step = factor * unit;
     // The power of ten that stands beside numbers which are all large or all small.
@@ -164,11 +164,11 @@ fn decades([low, high]: [f64; 2], wanted: usize) -> Vec<(f64, String)> {
 }
 
 /// A number with so many significant digits, digits before the point never dropped; very large and
-/// small ones with a power of ten.
+/// small ones with a power of ten, whole ones without a point.
 pub(crate) fn short(number: f64, digits: i32) -> String {
     let size = number.abs();
-    if size == 0.0 {
-        return "0".to_owned();
+    if size < PLAIN[1] && number.fract() == 0.0 {
+        return with_power(&format!("{number:.0}"), 0.0);
     }
     let power = libm::floor(libm::log10(size));
     if (PLAIN[0]..PLAIN[1]).contains(&size) {
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_with_the_digits_that_they_need() {
         let linear = |low, high| labels(Axis::linear([low, high], [0.0, 100.0]), 4);
-        assert_eq!(linear(0.0, 1.0), ["0.0", "0.5", "1.0"]);
+        assert_eq!(linear(0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(linear(0.0, 0.3), ["0.0", "0.1", "0.2", "0.3"]);
         assert_eq!(linear(-3.0, 8.0), ["0", "5"]);
         assert_eq!(
@@ -235,7 +235,7 @@ mod tests {
             ["−2·10⁶", "−1·10⁶", "0", "1·10⁶", "2·10⁶"]
         );
         // One value alone has a scale too.
-        assert_eq!(linear(5.0, 5.0), ["4.5", "5.0", "5.5"]);
+        assert_eq!(linear(5.0, 5.0), ["4.6", "4.8", "5.0", "5.2", "5.4"]);
         assert!(labels(Axis::around(std::iter::empty(), [0.0, 1.0]), 4).len() > 2);
     }
 
@@ -262,8 +262,16 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let all = [0.0, 1234.56, 0.012345, 6.12e-5, -2.5, 123456.7];
-        let wanted = ["0", "1235", "0.01235", "6.120·10⁻⁵", "−2.500", "1.235·10⁵"];
+        let all = [0.0, 27.0, 1234.56, 0.012345, 6.12e-5, -2.5, 123456.7];
+        let wanted = [
+            "0",
+            "27",
+            "1235",
+            "0.01235",
+            "6.120·10⁻⁵",
+            "−2.500",
+            "1.235·10⁵",
+        ];
         assert_eq!(all.map(|number| short(number, 4)), wanted);
     }
 }

@@ -54,8 +54,7 @@ mod tests {
     #[test]
     fn as_many_tests_count_as_in_the_published_trial() {
         let count = |p: Vec<f64>| p.into_iter().filter(|p| *p <= 0.05).count();
-        // "Controlling the FWER at 0.05, the Bonferroni approach rejects the three hypotheses
-        // with the smallest p": so does Holm's; the false discovery rate four.
+        // Bonferroni's correction leaves three, and so does Holm's; the false discovery rate four.
         assert_eq!(count(holm(&TRIAL)), 3);
         assert_eq!(count(benjamini_hochberg(&TRIAL)), 4);
         // In another order the same.

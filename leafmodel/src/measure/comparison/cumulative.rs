@@ -25,8 +25,8 @@ pub struct Steps {
 ///
 /// # Source
 ///
-/// \[hodges1958\], the recursion of section 3, here for the chance of having crossed the bound, so
-/// that small p keep their digits.
+/// \[hodges1958\] for counting ways along a lattice; here the chance of having crossed the bound is
+/// followed, so that small p keep their digits.
 pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<Steps> {
     let [m, n] = [first.len() as u64, second.len() as u64];
     if m == 0 || n == 0 {

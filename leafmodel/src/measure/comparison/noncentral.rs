@@ -19,7 +19,7 @@ const FAR: f64 = 8.5;
 ///
 /// # Source
 ///
-/// \[hedges1981\], equations 3 to 6.
+/// \[hedges1981\].
 pub fn hedges_g(first: &[f64], second: &[f64]) -> Option<Effect> {
     let [a, b] = [first.len() as f64, second.len() as f64];
     let squares = (a - 1.0) * variance(first)? + (b - 1.0) * variance(second)?;

@@ -26,7 +26,7 @@ pub struct Ranks {
 ///
 /// # Source
 ///
-/// \[mann1947\]; corrections of the normal distribution as in \[hollander2014\], chapter 4.
+/// \[mann1947\].
 pub fn mann_whitney(first: &[f64], second: &[f64]) -> Option<Ranks> {
     if first.is_empty() || second.is_empty() {
         return None;

@@ -83,6 +83,36 @@ pub fn welch(first: &[f64], second: &[f64]) -> Option<Welch> {
     })
 }
 
+/// The test of one value among others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Among {
+    /// The value less the mean of the others, over the standard error of that.
+    pub t: f64,
+    /// Degrees of freedom, ≥ 1.
+    pub freedom: f64,
+    /// Two-sided p, in [0, 1].
+    pub p: f64,
+}
+
+/// Does one value belong to those of a group? Takes the group as normal, and the value as drawn with
+/// the same spread.
+///
+/// `None` if the group has fewer than two values or no spread.
+///
+/// # Source
+///
+/// \[crawford1998\].
+pub fn one_among(value: f64, others: &[f64]) -> Option<Among> {
+    let count = others.len() as f64;
+    let error = (variance(others)? * (1.0 + 1.0 / count)).sqrt();
+    if error == 0.0 {
+        return None;
+    }
+    let (t, freedom) = ((value - mean(others)?) / error, count - 1.0);
+    let p = two_sided(t, freedom);
+    Some(Among { t, freedom, p })
+}
+
 /// Probability that Student's t with these degrees of freedom is farther from 0 than `t`.
 pub(super) fn two_sided(t: f64, freedom: f64) -> f64 {
     let half = 0.5 * freedom;
@@ -167,6 +197,23 @@ mod tests {
                 "{freedom}: {found} is not {t}"
             );
         }
+    }
+
+    #[test]
+    fn one_value_among_five_is_tested_as_by_hand() {
+        // (8 − 3) / (√2.5 √1.2); 2 scipy.stats.t.sf(t, 4) of SciPy 1.17.1.
+        let found = one_among(8.0, &[1.0, 2.0, 3.0, 4.0, 5.0]).expect("a group");
+        assert!(
+            (found.t - 2.886_751_345_948_128_7).abs() < 1e-14,
+            "{found:?}"
+        );
+        assert!(
+            (found.p - 0.044_708_587_279_680_585).abs() < 1e-10,
+            "{found:?}"
+        );
+        assert_eq!(found.freedom, 4.0);
+        assert_eq!(one_among(8.0, &[1.0]), None);
+        assert_eq!(one_among(8.0, &[1.0, 1.0]), None);
     }
 
     #[test]

@@ -48,6 +48,53 @@ pub struct ReadingArguments {
     pub strict: bool,
 }
 
+impl ReadingArguments {
+    /// The flags as columns of a table of leaves.
+    pub const COLUMNS: [&str; 6] = [
+        "nodes",
+        "outline",
+        "area_mm2",
+        "mm_per_unit",
+        "y_down",
+        "root",
+    ];
+
+    /// Sets what a column says.
+    ///
+    /// # Errors
+    ///
+    /// What the word of the column should be.
+    pub fn set(&mut self, column: &str, word: &str) -> Result<(), String> {
+        match column {
+            "nodes" => self.nodes = Some(word.into()),
+            "outline" => self.outline = Some(word.into()),
+            "area_mm2" => self.area = Some(area(word)?),
+            "mm_per_unit" => self.mm_per_unit = Some(scale(word)?),
+            "y_down" => {
+                let is_down = ["true", "false"].iter().position(|known| *known == word);
+                self.y_down = is_down.ok_or("it must be true or false")? == 0;
+            }
+            "root" => self.root = Some(place(word)?),
+            _ => return Err(format!("it must be one of {}", Self::COLUMNS.join(", "))),
+        }
+        Ok(())
+    }
+
+    /// The first of the flags that is given, as a column.
+    pub fn first(&self) -> Option<&'static str> {
+        let given = [
+            self.nodes.is_some(),
+            self.outline.is_some(),
+            self.area.is_some(),
+            self.mm_per_unit.is_some(),
+            self.y_down,
+            self.root.is_some(),
+        ];
+        let mut columns = Self::COLUMNS.into_iter().zip(given);
+        columns.find(|(_, given)| *given).map(|(column, _)| column)
+    }
+}
+
 /// How a network is measured.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct MeasuringArguments {
@@ -118,17 +165,17 @@ fn above_0<const HIGH: u32>(text: &str) -> Result<f64, String> {
 }
 
 /// Millimetres to a unit.
-pub(super) fn scale(text: &str) -> Result<f64, String> {
+fn scale(text: &str) -> Result<f64, String> {
     above_0::<MOST_MM>(text)
 }
 
 /// An area of a blade, mm².
-pub(super) fn area(text: &str) -> Result<f64, String> {
+fn area(text: &str) -> Result<f64, String> {
     above_0::<MOST_MM2>(text)
 }
 
 /// A place in mm.
-pub(super) fn place(text: &str) -> Result<[f64; 2], String> {
+fn place(text: &str) -> Result<[f64; 2], String> {
     two_numbers(
         text,
         "it must be x and y in mm with a comma between them: 0,-1.5",

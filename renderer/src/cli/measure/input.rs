@@ -70,11 +70,7 @@ impl Input {
 
     /// What is known of the blade, where `area` may say how large it is.
     pub(in crate::cli) fn blade(&self, area: Option<f64>) -> Blade<'_> {
-        match self.outlines.as_slice() {
-            [outline] => Blade::Margin(outline),
-            [] => area.map_or(Blade::Unknown, Blade::Area),
-            several => Blade::Area(several.iter().map(Outline::area).sum()),
-        }
+        Blade::of(&self.outlines, area)
     }
 
     /// What a person should know of it: faults, and what could not be understood.
