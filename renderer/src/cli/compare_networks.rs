@@ -1,5 +1,6 @@
 //! `lamina compare-networks`: measures of networks, or of groups of leaves, side by side.
 
+mod cells;
 mod compared;
 mod figures;
 mod leaves;
@@ -11,6 +12,8 @@ mod report;
 mod sources;
 mod spreads;
 mod tables;
+#[cfg(test)]
+mod tests;
 mod words;
 
 use std::io::Write as _;
@@ -28,6 +31,9 @@ use crate::cli::measure::{has_ending, is_json};
 use crate::cli::places::check_outputs;
 use crate::cli::{Failure, say};
 use crate::image::atomic;
+
+/// Groups whose names are a title.
+const MOST_NAMES: usize = 5;
 
 /// All that the report tells.
 #[derive(Clone, Debug)]
@@ -142,6 +148,9 @@ fn found(
         arguments.seed,
     );
     let title = arguments.title.clone().unwrap_or_else(|| {
+        if groups.len() > MOST_NAMES {
+            return format!("{} networks", leaves.len());
+        }
         let names: Vec<&str> = groups.iter().map(String::as_str).collect();
         names.join(", ")
     });

@@ -131,8 +131,10 @@ impl Compared {
             .collect();
         let is_wanted = |key: &str| only.is_empty() || only.iter().any(|wanted| wanted == key);
         let (mut measures, absent) = gathered(leaves, groups, &is_wanted);
+        let size = |group| leaves.iter().filter(|leaf| leaf.group == group).count();
+        let sizes: Vec<usize> = (0..groups).map(size).collect();
         measures.par_iter_mut().for_each(|measure| {
-            let contrast = |pair: &[usize; 2]| measure.contrast(*pair);
+            let contrast = |pair: &[usize; 2]| measure.contrast(*pair, &sizes);
             measure.contrasts = pairs.iter().map(contrast).collect();
         });
         let mut distributions = kinds(leaves, groups, &is_wanted);
@@ -236,7 +238,8 @@ fn numbers(values: &[(usize, f64)]) -> Vec<f64> {
 }
 
 impl Measure {
-    fn contrast(&self, pair: [usize; 2]) -> Contrast {
+    /// Compares two groups that have so many leaves, whether or not these have the measure.
+    fn contrast(&self, pair: [usize; 2], sizes: &[usize]) -> Contrast {
         let [first, second] = pair.map(|group| numbers(&self.values[group]));
         let means = pair.map(|group| self.summaries[group].map(|summary| summary.mean));
         let [Some(one), Some(other)] = means else {
@@ -257,10 +260,12 @@ impl Measure {
             contrast.untested = Some("one leaf each");
         } else if all().all(|value| (value - first[0]).abs() <= ROUNDING * first[0].abs()) {
             contrast.untested = Some("the same in all leaves");
-        } else if let [one] = first.as_slice() {
-            contrast.among = one_among(*one, &second);
-        } else if let [other] = second.as_slice() {
-            contrast.among = one_among(*other, &first);
+        } else if sizes[pair[0]] == 1 {
+            contrast.among = one_among(first[0], &second);
+        } else if sizes[pair[1]] == 1 {
+            contrast.among = one_among(second[0], &first);
+        } else if first.len() < 2 || second.len() < 2 {
+            contrast.untested = Some("one leaf of a group has it");
         } else {
             contrast.welch = welch(&first, &second);
             contrast.ranks = mann_whitney(&first, &second);
@@ -341,7 +346,7 @@ impl Distribution {
         contrast.pooled = kolmogorov_smirnov(&one, &other);
         contrast.delta = cliffs_delta(&one, &other);
         if self.kind == PROBES {
-            contrast.untested = Some("the program has chosen the points");
+            contrast.untested = Some("points are no sample");
             return contrast;
         }
         contrast.steps = contrast.pooled.map(|steps| Tested::new(steps.p));

@@ -260,8 +260,14 @@ pub(super) fn effects(findings: &Findings, pair: usize) -> Option<String> {
             })
         })
         .collect();
-    let farthest = |line: &Line| line.effect.interval.map(f64::abs);
-    let mut sizes: Vec<f64> = lines.iter().flat_map(farthest).collect();
+    let farthest = |line: &Line| {
+        line.effect
+            .interval
+            .map(f64::abs)
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    let mut sizes: Vec<f64> = lines.iter().map(farthest).collect();
     sizes.sort_by(f64::total_cmp);
     // A few huge effects must not make all others invisible.
     let most = sizes.get(sizes.len() * 9 / 10)?;

@@ -1,6 +1,6 @@
 //! The part of the report that says how it was done.
 
-use super::report::list;
+use super::cells::list;
 use super::{Findings, leaves};
 use crate::cli::arguments::CompareNetworksArguments;
 

@@ -15,7 +15,7 @@ const HUES: [(&str, &str); 7] = [
 ];
 
 const STYLE: &str = "\
-body{font:15px/1.5 system-ui,sans-serif;max-width:1180px;margin:2rem auto;padding:0 1rem;\
+body{font:15px/1.5 system-ui,sans-serif;max-width:1480px;margin:2rem auto;padding:0 1rem;\
 background:var(--paper);color:var(--ink)}\
 h1{font-size:1.7rem;line-height:1.2;margin:0 0 .3rem}h2{font-size:1.25rem;margin:2.2rem 0 .6rem;\
 border-bottom:1px solid var(--rule);padding-bottom:.2rem}h3{font-size:1rem;margin:0 0 .2rem;\
@@ -28,6 +28,7 @@ th,td{padding:.2rem .4rem;text-align:right;white-space:nowrap;border-bottom:1px 
 th{text-align:right;vertical-align:bottom;font-weight:600}\
 th:first-child,td:first-child,.names :is(th,td):nth-child(-n+3){text-align:left}\
 tr.sure td{font-weight:600}\
+.wide td:first-child{position:sticky;left:0;background:var(--paper)}\
 figure{margin:.8rem 0}figcaption{font-size:.87rem;color:var(--soft);max-width:75ch}\
 svg{max-width:100%;height:auto;font:11px system-ui,sans-serif}svg text{fill:var(--ink)}\
 svg text.soft{fill:var(--soft)}svg a{text-decoration:none}svg a:hover text{text-decoration:underline}\

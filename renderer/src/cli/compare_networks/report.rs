@@ -3,17 +3,16 @@
 use leafmodel::measure::comparison::{Effect, Summary};
 
 use super::Findings;
-use super::compared::{LEVEL, Measure, Tested};
+use super::cells::{DASH, capital, key, list, pair_title, shown_tests, three, unit_words};
+use super::compared::{LEVEL, Measure};
 use super::overlay::{MOST, overlay};
-use super::page::{anchor, figure, hue, page, table};
-use super::words::{conclusions, label, shown_effect, shown_p, test_of_means};
+use super::page::{anchor, figure, page, table};
+use super::words::{conclusions, label, shown_effect, test_of_means};
 use super::{figures, methods, spreads};
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
 use crate::cli::arguments::CompareNetworksArguments;
 use crate::plot::{escaped, short};
-
-pub(super) const DASH: &str = "–";
 
 /// One HTML file that needs no other.
 pub(super) fn html(
@@ -58,17 +57,6 @@ pub(super) fn html(
     Ok(page(&findings.title, &body))
 }
 
-/// A group's name beside its hue.
-pub(super) fn key(findings: &Findings, group: usize) -> String {
-    let name = escaped(&findings.groups[group]);
-    format!("<span class=\"key b{}\"></span>{name}", hue(group))
-}
-
-pub(super) fn pair_title(findings: &Findings, pair: [usize; 2]) -> String {
-    let [one, other] = pair.map(|group| key(findings, group));
-    format!("{other} against {one}")
-}
-
 fn compared(findings: &Findings) -> String {
     let area = |area: Option<f64>| area.map_or_else(|| DASH.to_owned(), |area| short(area, 4));
     let header = [
@@ -103,15 +91,6 @@ fn remarks(findings: &Findings) -> String {
     list(remarks.map(|(leaf, remark)| format!("{}: {}", escaped(&leaf.name), escaped(remark))))
 }
 
-/// Items that are HTML already; nothing without any.
-pub(super) fn list(items: impl Iterator<Item = String>) -> String {
-    let items: String = items.map(|item| format!("<li>{item}</li>\n")).collect();
-    if items.is_empty() {
-        return items;
-    }
-    format!("<ul class=\"small\">\n{items}</ul>\n")
-}
-
 fn overview(findings: &Findings) -> String {
     let mut text = String::new();
     for line in conclusions(findings) {
@@ -142,13 +121,6 @@ fn overview(findings: &Findings) -> String {
         }
     }
     text
-}
-
-/// A sentence that begins with a capital letter.
-pub(super) fn capital(line: &str) -> String {
-    let mut letters = line.chars();
-    let first = letters.next().map(char::to_uppercase);
-    first.into_iter().flatten().chain(letters).collect()
 }
 
 fn overlays(findings: &Findings, arguments: &CompareNetworksArguments) -> Result<String, Failure> {
@@ -196,10 +168,6 @@ fn link(measure: &Measure) -> String {
 
 fn four(value: Option<f64>) -> String {
     value.map_or_else(|| DASH.to_owned(), |value| short(value, 4))
-}
-
-pub(super) fn three(value: Option<f64>) -> String {
-    value.map_or_else(|| DASH.to_owned(), |value| format!("{value:.3}"))
 }
 
 fn single_table(findings: &Findings, number: usize, pair: [usize; 2]) -> String {
@@ -281,15 +249,6 @@ fn group_table(findings: &Findings, number: usize, pair: [usize; 2]) -> String {
     table(&caption, "", &rows, &sure)
 }
 
-/// p, and p after both corrections.
-pub(super) fn shown_tests(tested: Option<Tested>) -> [String; 3] {
-    let cell = |p: f64| escaped(&shown_p(p));
-    tested.map_or_else(
-        || [DASH, DASH, DASH].map(str::to_owned),
-        |tested| [tested.p, tested.holm, tested.fdr].map(cell),
-    )
-}
-
 fn cards(findings: &Findings) -> String {
     let mut text = String::new();
     if findings.compared.measures.is_empty() {
@@ -315,12 +274,4 @@ fn cards(findings: &Findings) -> String {
         );
     }
     text + "</div>\n"
-}
-
-pub(super) fn unit_words(unit: &str) -> String {
-    if unit.is_empty() {
-        String::new()
-    } else {
-        format!(", in {}", escaped(unit))
-    }
 }

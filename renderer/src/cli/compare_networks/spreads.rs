@@ -1,10 +1,10 @@
 //! The part of the report on single values.
 
 use super::Findings;
+use super::cells::{DASH, capital, key, pair_title, shown_tests, three, unit_words};
 use super::compared::{Distribution, LEVEL, PROBES, Tested};
 use super::figures;
 use super::page::{figure, table};
-use super::report::{DASH, capital, key, pair_title, shown_tests, three, unit_words};
 use super::tables::ratio;
 use super::words::shown_effect;
 use crate::plot::{escaped, short};

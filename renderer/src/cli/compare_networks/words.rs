@@ -222,7 +222,11 @@ pub(super) fn conclusions(findings: &Findings) -> Vec<String> {
     };
     let lines = [
         line(
-            "means of leaves (Welch; where a group is one leaf, that leaf among the others)",
+            if contrasts().any(|contrast| contrast.among.is_some()) {
+                "means of leaves (Welch; a group of one leaf as one among the others)"
+            } else {
+                "means of leaves (Welch)"
+            },
             contrasts().filter_map(|contrast| contrast.means).collect(),
         ),
         line(
