@@ -30,7 +30,7 @@ th:first-child,td:first-child,.names :is(th,td):nth-child(-n+3){text-align:left}
 tr.sure td{font-weight:600}\
 .wide td:first-child{position:sticky;left:0;background:var(--paper)}\
 figure{margin:.8rem 0}figcaption{font-size:.87rem;color:var(--soft);max-width:75ch}\
-svg{max-width:100%;height:auto;font:11px system-ui,sans-serif}svg text{fill:var(--ink)}\
+svg{display:block;max-width:100%;height:auto;font:11px system-ui,sans-serif}svg text{fill:var(--ink)}\
 svg text.soft{fill:var(--soft)}svg a{text-decoration:none}svg a:hover text{text-decoration:underline}\
 .axis{stroke:var(--soft);stroke-width:1}.grid{stroke:var(--rule);stroke-width:1}\
 .band{fill:var(--band)}.paper{fill:var(--paper)}\
