@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn measures_that_are_none_are_refused_by_name() {
         let leaf = json!({
-            "areoles_per_mm2": "many", "loop_nesting": null, "minor_vein_share": [1],
+            "areoles_per_mm2": "many", "loop_nesting": null, "widest_at": [1],
             "conductance_mm3_per_s_mpa": 3.0,
         });
         let refusal =
@@ -216,8 +216,8 @@ mod tests {
         assert!(refusal(&[], &[]).contains("`areoles_per_mm2` is the text \"many\""));
         assert!(refusal(&["loop_nestin"], &[]).contains("did you mean `loop_nesting`?"));
         assert!(refusal(&["loop_nesting"], &[]).contains("is null"));
-        assert!(refusal(&["minor_vein_share"], &[]).contains("is a list, not a number"));
-        let both = ["minor_vein_share"];
+        assert!(refusal(&["widest_at"], &[]).contains("is a list, not a number"));
+        let both = ["widest_at"];
         assert!(refusal(&both, &both).contains("both fitted and held out"));
         assert!(refusal(&["solidity"], &[]).contains("`solidity` is not in the file"));
         // Measured of a file, but never of a leaf that grows: no range of --free would help.
