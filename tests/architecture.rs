@@ -250,13 +250,14 @@ fn leaves_are_grown_behind_one_seam() {
         "solid",
         "tracing",
     ];
-    const SEAM: [&str; 10] = [
+    const SEAM: [&str; 11] = [
         "scene/plants",
         "scene/plant_cache",
         "scene/description",
         "scene/blocks/leaf",
         "cli/grow",
         "cli/measure",
+        "cli/compare_networks",
         "cli/fit_veins",
         "cli/trace",
         "export/drawing",

@@ -26,6 +26,7 @@
 
 mod bootstrap;
 mod bridges;
+pub mod comparison;
 mod cost;
 mod definitions;
 pub mod description;
@@ -54,7 +55,7 @@ mod window;
 
 pub use self::bootstrap::Interval;
 pub use self::cost::OrderRow;
-pub use self::definitions::definition;
+pub use self::definitions::{definition, keys};
 pub use self::distributions::Sample;
 pub use self::entries::{Entry, Measures, Row, Value};
 use self::forks::Forks;

@@ -31,6 +31,7 @@ macro_rules! eprintln {
 pub mod arguments;
 mod check;
 mod columns;
+mod compare_networks;
 mod export;
 mod fit;
 mod fit_veins;
@@ -131,6 +132,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Info(info) => pictures::info(info),
         Command::Grow(grow) => grow::run(grow),
         Command::Measure(measure) => measure::run(measure),
+        Command::CompareNetworks(compare) => compare_networks::run(compare),
         Command::Trace(picture) => trace::run(picture),
         Command::Schema(schema) => schema::run(schema),
         Command::Sweep(sweep) => sweep::run(sweep),

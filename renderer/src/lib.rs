@@ -82,6 +82,7 @@ pub mod image;
 pub mod integrator;
 pub mod light;
 pub mod material;
+mod plot;
 pub mod sampling;
 pub mod scene;
 pub mod simd;

@@ -66,7 +66,9 @@ pub fn svg_within(
     // For programs that read the margin back; nobody else looks at names that begin with data.
     if let [outline] = outlines {
         for (name, end) in [("base", outline.base()), ("apex", outline.apex())] {
-            let _ = write!(text, " data-{name}=\"{} {}\"", end.x, end.y);
+            // As the corners of the path, or the end would lie beside them and off the blade.
+            let (x, y) = (rounded(end.x), rounded(end.y));
+            let _ = write!(text, " data-{name}=\"{x} {y}\"");
         }
     }
     text += "/>\n";

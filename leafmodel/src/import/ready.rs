@@ -8,13 +8,10 @@ use super::faults::{Fault, FaultKind};
 use super::{margins, repair, roots};
 use crate::measure::Known;
 use crate::shape::outline::Outline;
-use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
+use crate::venation::network::{FARTHEST_MM, VeinEdge, VeinNode, VenationNetwork};
 use crate::venation::order::orders;
 use crate::venation::planar::PlaneGraph;
 use crate::venation::topology::Topology;
-
-/// Greatest x and y, mm.
-const FARTHEST_MM: f64 = 1e6;
 
 /// What the person who asks knows beyond the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -107,26 +107,23 @@ pub(super) fn locate(
     let tolerance = learned.distances[order[accepted - 1]];
     let mut members: Vec<usize> = order[..accepted].to_vec();
     members.sort_unstable();
-    let moved: Vec<(Vec<f64>, f64)> = members
-        .into_iter()
-        .filter_map(|i| {
-            let share = learned.distances[i] / tolerance;
-            // Where all distances are 0, all are alike.
-            let kernel = if tolerance > 0.0 {
-                1.0 - share * share
-            } else {
-                1.0
-            };
-            let weight = comparable.weights[i] * kernel;
-            (weight > 0.0).then(|| (learned.moved[i].clone(), weight))
-        })
-        .collect();
-    let sample = within_range(truncated(moved));
-    if sample.len() < 2 {
-        return Err(Shortage::NothingVaries);
+    let weighed = |kernel: &dyn Fn(f64) -> f64| -> Vec<(Vec<f64>, f64)> {
+        let members = members.iter().map(|i| {
+            let weight = comparable.weights[*i] * kernel(learned.distances[*i]);
+            (learned.moved[*i].clone(), weight)
+        });
+        members.filter(|(_, weight)| *weight > 0.0).collect()
+    };
+    let mut moved = weighed(&|distance| {
+        let share = distance / tolerance;
+        1.0 - share * share
+    });
+    // Where the nearest are all equally far, all are alike.
+    if moved.len() < 2 {
+        moved = weighed(&|_| 1.0);
     }
     Ok(Located {
-        sample,
+        sample: within_range(truncated(moved)),
         expected: learned.expected,
         tolerance,
         constant,
@@ -146,12 +143,17 @@ fn truncated(mut sample: Vec<(Vec<f64>, f64)>) -> Vec<(Vec<f64>, f64)> {
 }
 
 /// The members within the prior's range, outside of which the posterior is 0. If next to none are,
-/// the measures ask for something that lies beyond; then all are put to the nearest place within.
+/// or one alone, the measures ask for something that lies beyond; then all are put to the nearest
+/// place within.
 fn within_range(moved: Vec<(Vec<f64>, f64)>) -> Vec<(Vec<f64>, f64)> {
     let is_inside = |place: &[f64]| place.iter().all(|x| (0.0..=1.0).contains(x));
     let total: f64 = moved.iter().map(|(_, weight)| weight).sum();
-    let inside = moved.iter().filter(|(place, _)| is_inside(place));
-    if inside.map(|(_, weight)| weight).sum::<f64>() >= LEAST_INSIDE * total {
+    let inside: Vec<f64> = moved
+        .iter()
+        .filter(|(place, _)| is_inside(place))
+        .map(|(_, weight)| *weight)
+        .collect();
+    if inside.len() > 1 && inside.iter().sum::<f64>() >= LEAST_INSIDE * total {
         let mut moved = moved;
         moved.retain(|(place, _)| is_inside(place));
         return moved;
@@ -314,5 +316,28 @@ impl Scale {
             Self::Root => value.sqrt(),
             Self::Plain => value,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_member_within_the_range_is_no_sample() {
+        let beyond = |x: f64| (vec![x], 1.0);
+        // A tenth of the weight, but one place: an interval of it would have no width.
+        let mut moved: Vec<_> = (0..9).map(|i| beyond(1.5 + f64::from(i))).collect();
+        moved.push(beyond(0.7));
+        let sample = within_range(moved.clone());
+        assert_eq!(sample.len(), 10);
+        assert!(
+            sample
+                .iter()
+                .all(|(place, _)| (0.0..=1.0).contains(&place[0]))
+        );
+        // Two are one.
+        moved.push(beyond(0.6));
+        assert_eq!(within_range(moved).len(), 2);
     }
 }

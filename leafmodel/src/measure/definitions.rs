@@ -1,7 +1,7 @@
 //! What each measure is, in one phrase, for tables.
 
 /// Keys and definitions, in the order of tables.
-const DEFINITIONS: [(&str, &str); 72] = [
+const DEFINITIONS: [(&str, &str); 76] = [
     ("length_mm", "length of the midrib from base to tip"),
     ("width_mm", "largest width across the midrib"),
     ("width_over_length", "width over length"),
@@ -230,11 +230,48 @@ const DEFINITIONS: [(&str, &str); 72] = [
         "bridge_share",
         "share of the length of veins whose cut cuts something off",
     ),
+    ("order_vein_length", "length of the veins of an order"),
+    ("order_vein_width", "mean width along them"),
+    ("order_vein_surface", "their surface"),
+    ("order_vein_volume", "their volume"),
 ];
 
-/// What a measure is, in one phrase; empty for a key that there is not.
+/// Kinds of single values and what they are, in the order of tables.
+const KINDS: [(&str, &str); 8] = [
+    ("areole_area", "area of an areole"),
+    (
+        "areole_elongation",
+        "axes' ratio of the ellipse with an areole's second moments",
+    ),
+    ("areole_circularity", "4 pi area / perimeter^2 of an areole"),
+    (
+        "vein_length",
+        "length of a vein between junctions or free ends",
+    ),
+    ("vein_width", "mean width of a vein between junctions"),
+    (
+        "branch_angle",
+        "deflection of a branch from the vein that leads to its junction",
+    ),
+    (
+        "free_ending_length",
+        "length of a freely ending veinlet in an areole",
+    ),
+    (
+        "vein_distance",
+        "distance from a point of the blade to the nearest vein",
+    ),
+];
+
+/// Keys of measures, and of kinds of single values.
+pub fn keys() -> impl Iterator<Item = &'static str> {
+    DEFINITIONS.iter().chain(&KINDS).map(|(key, _)| *key)
+}
+
+/// What a measure or a kind of single values is, in one phrase; empty for a key that there is not.
 pub fn definition(key: &str) -> &'static str {
-    let found = DEFINITIONS.iter().find(|(known, _)| *known == key);
+    let mut all = DEFINITIONS.iter().chain(&KINDS);
+    let found = all.find(|(known, _)| *known == key);
     found.map_or("", |(_, definition)| definition)
 }
 
@@ -249,7 +286,7 @@ mod tests {
             "/../docs/src/theory/measures.md"
         );
         let page = std::fs::read_to_string(page).expect("the book is part of the repository");
-        for (key, definition) in DEFINITIONS {
+        for (key, definition) in DEFINITIONS.into_iter().chain(KINDS) {
             // A row may name several by their ends: `areole_area_mm2_mean`, `_median`.
             let stem = key.rsplit_once('_').map_or(key, |(stem, _)| stem);
             let end = &key[stem.len()..];

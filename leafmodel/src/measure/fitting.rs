@@ -4,6 +4,11 @@
 //! None of them depends on the size of the blade, so a leaf and its simulations may differ a little
 //! in area; none is a function of another. Lists are left out: their numbers go together.
 
+use glam::DVec2;
+
+use super::{Blade, Entry, Known, Subject, Value};
+use crate::venation::network::{VeinEdge, VeinNode, VenationNetwork};
+
 /// Measures that are fitted.
 pub const FITTED: [&str; 15] = [
     "vein_density_mm_per_mm2",
@@ -31,6 +36,31 @@ pub const HELD_OUT: [&str; 4] = [
     "spanning_tree_ratio",
 ];
 
+/// Keys of the single numbers that are measured of every leaf that is grown, in the order of
+/// tables: all that can be fitted or held out.
+pub fn possible() -> Vec<&'static str> {
+    let node = |y: f64| VeinNode {
+        position: DVec2::new(0.0, y),
+        born: 0,
+    };
+    let edge = VeinEdge {
+        from: 0,
+        to: 1,
+        radius_from: 0.1,
+        radius_to: 0.1,
+        order: 1,
+    };
+    let network = VenationNetwork::from_parts(vec![node(0.0), node(1.0)], vec![edge], 1.0)
+        .expect("one edge leads from one node to the other");
+    let measures = Subject::new(Blade::Unknown, &network, Known::ALL).measures(3.0);
+    let is_number = |entry: &&Entry| match entry.value {
+        Value::Count(_) | Value::Number(_) => true,
+        Value::List(_) | Value::Orders(_) => false,
+    };
+    let numbers = measures.entries().iter().filter(is_number);
+    numbers.map(|entry| entry.key).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use std::convert::Infallible;
@@ -50,6 +80,22 @@ mod tests {
         let measures = measure(&lamina.outline, &lamina.network, exponent);
         let keys = FITTED.iter().chain(&HELD_OUT);
         Ok(keys.map(|key| measures.number(key)).collect())
+    }
+
+    #[test]
+    fn what_is_possible_is_what_a_grown_leaf_has() {
+        let lamina = species::find("poplar").expect("a preset").plan();
+        let lamina = lamina.grow_lamina().expect("a good plan");
+        let measures = measure(&lamina.outline, &lamina.network, 2.0);
+        let possible = possible();
+        for key in FITTED.iter().chain(&HELD_OUT) {
+            assert!(possible.contains(key), "{key}");
+        }
+        for key in &possible {
+            assert!(measures.number(key).is_some(), "{key} of a poplar");
+        }
+        assert!(!possible.contains(&"conductance_mm3_per_s_mpa"));
+        assert!(!possible.contains(&"elliptic_fourier"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Means and medians of lists that may be empty.
+//! Means, spreads and medians of lists that may be empty.
 
 /// Bins in which [`mode`] counts.
 const BINS: usize = 64;
@@ -35,15 +35,27 @@ pub(super) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     Some(values[below] + (values[above] - values[below]) * part)
 }
 
+/// Variance of a sample (`n − 1`); `None` for fewer than two values.
+pub(super) fn variance(values: &[f64]) -> Option<f64> {
+    let mean = mean(values)?;
+    // The mean of equal values may differ from them by rounding.
+    let is_even = values.iter().all(|value| *value == values[0]);
+    let square = |v: &f64| {
+        if is_even {
+            0.0
+        } else {
+            (v - mean) * (v - mean)
+        }
+    };
+    let squares: f64 = values.iter().map(square).sum();
+    (values.len() > 1).then(|| squares / (values.len() - 1) as f64)
+}
+
 /// Standard deviation (of a sample, `n − 1`) over mean; `None` for fewer than two values or a mean
 /// of 0.
 pub(super) fn variation(values: &[f64]) -> Option<f64> {
-    let mean = mean(values)?;
-    if values.len() < 2 || mean == 0.0 {
-        return None;
-    }
-    let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
-    Some((squares / (values.len() - 1) as f64).sqrt() / mean)
+    let mean = mean(values).filter(|mean| *mean != 0.0)?;
+    Some(variance(values)?.sqrt() / mean)
 }
 
 /// Middle of the fullest of 64 equal bins from 0 to the largest value, the first of equally full

@@ -31,6 +31,15 @@ pub enum Blade<'a> {
 }
 
 impl<'a> Blade<'a> {
+    /// A blade with these margins; `area` (mm², > 0) where there is none.
+    pub fn of(outlines: &'a [Outline], area: Option<f64>) -> Self {
+        match outlines {
+            [outline] => Self::Margin(outline),
+            [] => area.map_or(Self::Unknown, Self::Area),
+            several => Self::Area(several.iter().map(Outline::area).sum()),
+        }
+    }
+
     pub(super) fn outline(self) -> Option<&'a Outline> {
         match self {
             Self::Margin(outline) => Some(outline),

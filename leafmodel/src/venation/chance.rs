@@ -65,6 +65,8 @@ pub(crate) enum Use {
     ProbeY = 102,
     /// Which areole is drawn for a confidence interval.
     Bootstrap = 103,
+    /// Which leaves change groups.
+    Permutation = 104,
 }
 
 /// 64 random bits for one use, number `counter` of its kind.

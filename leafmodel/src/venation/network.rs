@@ -14,7 +14,7 @@ use thiserror::Error;
 use super::conformal_map::ConformalMap;
 
 /// Greatest x and y of a node of an external network, mm: one kilometre.
-const FARTHEST_MM: f64 = 1e6;
+pub(crate) const FARTHEST_MM: f64 = 1e6;
 
 /// A piece of vein between two neighbouring nodes, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod compare_networks;
 mod fit;
 mod fit_veins;
 mod grow;
@@ -15,10 +16,11 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
-pub use measure::MeasureArguments;
+pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
 pub use shell::{CompletionsArguments, ManArguments};
@@ -120,6 +122,9 @@ pub enum Command {
     /// Measure a network of veins from a file of another program
     #[command(after_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
+    /// Compare networks of veins, or groups of leaves: measures, effects, tests, a report
+    #[command(after_help = compare_networks::EXAMPLES)]
+    CompareNetworks(CompareNetworksArguments),
     /// Find parameters of growth that bring forth the measures of a given leaf
     #[command(after_help = fit_veins::EXAMPLES)]
     FitVeins(FitVeinsArguments),
@@ -257,6 +262,15 @@ fn between<const LOW: u32, const HIGH: u32>(text: &str) -> Result<f64, String> {
     } else {
         Err(format!("must be from {LOW} to {HIGH}"))
     }
+}
+
+/// Two finite numbers with a comma between them; `wanted` tells what is to be written.
+fn two_numbers(text: &str, wanted: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let pair = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    pair.ok_or_else(|| wanted.to_owned())
 }
 
 /// `lamina export`.

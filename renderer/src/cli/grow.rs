@@ -32,7 +32,7 @@ use serde_json::json;
 
 use self::blade_files::Parts;
 use self::choice::Chosen;
-pub(super) use self::choice::{NotChosen, is_word, unknown_preset};
+pub(super) use self::choice::{NotChosen, Wish, is_word, unknown_preset};
 use self::drawings::{Look, without_sources};
 use self::films::Films;
 use self::grown::Grown;
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &GrowArguments) -> Result<(), Failure> {
     }
     let started = Instant::now();
     let outputs = Outputs::planned(arguments)?;
-    let chosen = choice::choose(arguments, outputs.show_only_veins(arguments))?;
+    let chosen = choice::choose(arguments.into(), outputs.show_only_veins(arguments))?;
     // Impossible requests are refused before anything is written.
     if arguments.fields.is_some() {
         fields::check(&chosen.plan)?;
@@ -125,8 +125,8 @@ fn grown_plan(arguments: &GrowArguments, plan: &LeafPlan) -> Result<LeafPlan, Fa
 }
 
 /// The leaf that a command line names, with its margin and veins as they would be grown.
-pub(super) fn named_plan(arguments: &GrowArguments) -> Result<(String, LeafPlan), NotChosen> {
-    let chosen = choice::choose(arguments, true)?;
+pub(super) fn named_plan(wish: Wish<'_>) -> Result<(String, LeafPlan), NotChosen> {
+    let chosen = choice::choose(wish, true)?;
     Ok((chosen.name, chosen.plan))
 }
 

@@ -22,6 +22,11 @@ use crate::image::{ImageError, atomic, portable_network, scan};
 /// Memory that tracing takes for a pixel, bytes; measured with pictures of 12 and 42 megapixels.
 const BYTES_A_PIXEL: f64 = 60.0;
 
+/// Side of the window of Sauvola's threshold, pixels, and how far its level lies below the mean, as
+/// a share of it, unless flags say otherwise.
+const WINDOW_PX: f64 = 61.0;
+const SAUVOLA_K: f64 = 0.2;
+
 /// The kind of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -78,6 +83,17 @@ pub(super) fn run(arguments: &TraceArguments) -> Result<(), Failure> {
             "a mask shows no blade: give its picture with --margin, or --cut-out if the whole \
              picture is blade",
         ));
+    }
+    if arguments.threshold != ThresholdKind::Sauvola {
+        let idle = [
+            ("--window-px", arguments.window_px.is_some()),
+            ("--sauvola-k", arguments.sauvola_k.is_some()),
+        ];
+        if let Some((flag, _)) = idle.into_iter().find(|(_, given)| *given) {
+            return Err(Failure::bad(format!(
+                "{flag} goes with --threshold sauvola: give both or neither"
+            )));
+        }
     }
     let reports = [&arguments.measure, &arguments.overlay, &arguments.findings];
     let outputs = arguments.out.iter().chain(reports.into_iter().flatten());
@@ -212,8 +228,8 @@ fn settings(arguments: &TraceArguments) -> Result<Settings, Failure> {
         (None, ThresholdKind::Otsu) => Threshold::Otsu { even_light: true },
         (None, ThresholdKind::OtsuPlain) => Threshold::Otsu { even_light: false },
         (None, ThresholdKind::Sauvola) => Threshold::Sauvola {
-            window_px: arguments.window_px,
-            k: arguments.sauvola_k,
+            window_px: arguments.window_px.unwrap_or(WINDOW_PX),
+            k: arguments.sauvola_k.unwrap_or(SAUVOLA_K),
         },
     };
     Ok(Settings {

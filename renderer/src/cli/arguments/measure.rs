@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use leafmodel::import::Format;
 
-use super::between;
+use super::{between, two_numbers};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -20,14 +20,9 @@ const MOST_MM: u32 = 1_000_000;
 /// Greatest area of a blade, mm²: a hundred square metres.
 const MOST_MM2: u32 = 100_000_000;
 
-/// `lamina measure`: a network of veins from a file, its faults and its measures.
-#[derive(Args, Clone, Debug, PartialEq)]
-pub struct MeasureArguments {
-    /// A network, its format by its ending: graphml, json, geojson, csv, tsv (edges with their
-    /// places, or with --nodes), svg (paths with stroke widths); or a picture (png, tiff, jpeg),
-    /// traced as lamina trace does without further flags
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+/// How a network is read from a file.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct ReadingArguments {
     /// The table of nodes beside a table of edges
     #[arg(long, value_name = "FILE.csv")]
     pub nodes: Option<PathBuf>,
@@ -36,10 +31,10 @@ pub struct MeasureArguments {
     #[arg(long, value_name = "FILE")]
     pub outline: Option<PathBuf>,
     /// Area in which the veins lie, mm², where there is no margin
-    #[arg(long, value_name = "MM2", conflicts_with = "outline", value_parser = above_0::<MOST_MM2>)]
+    #[arg(long, value_name = "MM2", conflicts_with = "outline", value_parser = area)]
     pub area: Option<f64>,
     /// Millimetres to a unit or a pixel, for lengths that the files give without a unit
-    #[arg(long, value_name = "MM", visible_alias = "mm-per-pixel", value_parser = above_0::<MOST_MM>)]
+    #[arg(long, value_name = "MM", visible_alias = "mm-per-pixel", value_parser = scale)]
     pub mm_per_unit: Option<f64>,
     /// y points down in the file, as in pictures; an svg is turned in any case
     #[arg(long)]
@@ -51,6 +46,58 @@ pub struct MeasureArguments {
     /// Fail where there is anything to warn of
     #[arg(long)]
     pub strict: bool,
+}
+
+impl ReadingArguments {
+    /// The flags as columns of a table of leaves.
+    pub const COLUMNS: [&str; 6] = [
+        "nodes",
+        "outline",
+        "area_mm2",
+        "mm_per_unit",
+        "y_down",
+        "root",
+    ];
+
+    /// Sets what a column says.
+    ///
+    /// # Errors
+    ///
+    /// What the word of the column should be.
+    pub fn set(&mut self, column: &str, word: &str) -> Result<(), String> {
+        match column {
+            "nodes" => self.nodes = Some(word.into()),
+            "outline" => self.outline = Some(word.into()),
+            "area_mm2" => self.area = Some(area(word)?),
+            "mm_per_unit" => self.mm_per_unit = Some(scale(word)?),
+            "y_down" => {
+                let is_down = ["true", "false"].iter().position(|known| *known == word);
+                self.y_down = is_down.ok_or("it must be true or false")? == 0;
+            }
+            "root" => self.root = Some(place(word)?),
+            _ => return Err(format!("it must be one of {}", Self::COLUMNS.join(", "))),
+        }
+        Ok(())
+    }
+
+    /// The first of the flags that is given, as a column.
+    pub fn first(&self) -> Option<&'static str> {
+        let given = [
+            self.nodes.is_some(),
+            self.outline.is_some(),
+            self.area.is_some(),
+            self.mm_per_unit.is_some(),
+            self.y_down,
+            self.root.is_some(),
+        ];
+        let mut columns = Self::COLUMNS.into_iter().zip(given);
+        columns.find(|(_, given)| *given).map(|(column, _)| column)
+    }
+}
+
+/// How a network is measured.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct MeasuringArguments {
     /// Leave out the pair statistics of areoles and the supply with water, unless a table of them is
     /// asked for
     #[arg(long)]
@@ -58,6 +105,25 @@ pub struct MeasureArguments {
     /// The exponent n of Murray's law that the measured ratio of widths at forks refers to
     #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = between::<0, 100>)]
     pub murray_exponent: f64,
+    /// Number of the widest veins that are cut, one at a time
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub cut: u32,
+}
+
+/// `lamina measure`: a network of veins from a file, its faults and its measures.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct MeasureArguments {
+    /// A network, its format by its ending: graphml, json, geojson, csv, tsv (edges with their
+    /// places, or with --nodes), svg (paths with stroke widths); or a picture (png, tiff, jpeg),
+    /// traced as lamina trace does without further flags
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// How it is read.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
+    /// How it is measured.
+    #[command(flatten)]
+    pub measuring: MeasuringArguments,
     /// Files to write with all measures, units and definitions, their kind by their ending: csv,
     /// json
     #[arg(long, value_name = "FILE", num_args = 1..)]
@@ -75,9 +141,6 @@ pub struct MeasureArguments {
     /// Write what is lost when each of the widest veins is cut
     #[arg(long, value_name = "FILE.csv")]
     pub cuts: Option<PathBuf>,
-    /// Number of the widest veins that are cut, one at a time
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    pub cut: u32,
     /// Draw the areoles so many times anew for 95 % intervals of their measures; 0 for none
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub bootstrap: u32,
@@ -101,11 +164,20 @@ fn above_0<const HIGH: u32>(text: &str) -> Result<f64, String> {
     (number > 0.0).then_some(number).ok_or(allowed)
 }
 
-/// Two numbers with a comma between them.
+/// Millimetres to a unit.
+fn scale(text: &str) -> Result<f64, String> {
+    above_0::<MOST_MM>(text)
+}
+
+/// An area of a blade, mm².
+fn area(text: &str) -> Result<f64, String> {
+    above_0::<MOST_MM2>(text)
+}
+
+/// A place in mm.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let parsed = text.split_once(',').and_then(|(x, y)| {
-        let pair: [f64; 2] = [x.trim().parse().ok()?, y.trim().parse().ok()?];
-        pair.iter().all(|value| value.is_finite()).then_some(pair)
-    });
-    parsed.ok_or_else(|| "it must be x and y in mm with a comma between them: 0,-1.5".to_owned())
+    two_numbers(
+        text,
+        "it must be x and y in mm with a comma between them: 0,-1.5",
+    )
 }

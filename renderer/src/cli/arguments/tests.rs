@@ -110,3 +110,62 @@ fn nothing_asked_is_nothing_to_do() {
             .is_none()
     );
 }
+
+#[test]
+fn groups_of_leaves_are_told_apart() {
+    let line = "lamina compare-networks --group sun a.svg b.svg --out x.html --group shade c=1.svg";
+    let arguments = parsed(line).expect("the line is right");
+    let Some(Command::CompareNetworks(compare)) = arguments.command else {
+        panic!("{line} is another command");
+    };
+    let named: Vec<(&str, usize)> = compare
+        .groups
+        .0
+        .iter()
+        .map(|group| (group.name.as_str(), group.leaves.len()))
+        .collect();
+    assert_eq!(named, [("sun", 2), ("shade", 1)]);
+    assert_eq!(compare.groups.0[1].leaves, ["c=1.svg"]);
+    assert!(compare.networks.is_empty());
+    for wrong in [
+        "lamina compare-networks --group sun",
+        "lamina compare-networks x.svg --group sun a.svg",
+        "lamina compare-networks --table t.csv --group sun a.svg",
+        "lamina compare-networks a.svg b.svg --align upside-down",
+        "lamina compare-networks a.svg b.svg --area 3 --outline m.svg",
+    ] {
+        assert!(parsed(wrong).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn a_column_of_a_table_says_what_its_flag_would() {
+    let mut reading = ReadingArguments::default();
+    assert_eq!(reading.first(), None);
+    let words = ["n.csv", "o.svg", "3.5", "0.01", "true", "1,-2"];
+    for (column, word) in ReadingArguments::COLUMNS.into_iter().zip(words) {
+        reading.set(column, word).expect("a good word");
+        assert!(reading.first().is_some(), "{column}");
+    }
+    let line = "lamina measure x.csv --nodes n.csv --mm-per-unit 0.01 --y-down --root 1,-2 --outline o.svg";
+    let arguments = parsed(line).expect("the line is right");
+    let Some(Command::Measure(measure)) = arguments.command else {
+        panic!("{line} is another command");
+    };
+    assert_eq!(
+        ReadingArguments {
+            area: None,
+            ..reading.clone()
+        },
+        measure.reading
+    );
+    assert_eq!(reading.area, Some(3.5));
+    for (column, word) in [
+        ("area_mm2", "0"),
+        ("y_down", "yes"),
+        ("root", "1"),
+        ("size", "1"),
+    ] {
+        assert!(reading.set(column, word).is_err(), "{column} = {word}");
+    }
+}

@@ -72,13 +72,13 @@ pub struct TraceArguments {
     /// found
     #[arg(long, value_name = "GREY", conflicts_with = "mask")]
     pub level: Option<f64>,
-    /// Side of the window of --threshold sauvola, pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 61.0)]
-    pub window_px: f64,
+    /// Side of the window of --threshold sauvola, pixels; 61 if it is not given
+    #[arg(long, value_name = "PIXELS", conflicts_with_all = ["level", "mask"])]
+    pub window_px: Option<f64>,
     /// How far the level of --threshold sauvola lies below the mean where nothing varies, as a
-    /// share of it
-    #[arg(long, value_name = "SHARE", default_value_t = 0.2)]
-    pub sauvola_k: f64,
+    /// share of it; 0.2 if it is not given
+    #[arg(long, value_name = "SHARE", conflicts_with_all = ["level", "mask"])]
+    pub sauvola_k: Option<f64>,
     /// Standard deviation of the Gaussian against noise, pixels, 0 to 20
     #[arg(long, value_name = "PIXELS", default_value_t = 0.7)]
     pub smoothing_px: f64,
@@ -133,12 +133,10 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Two numbers with a comma between them.
+/// A place in pixels.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let parts = text.split_once(',');
-    match parts.map(|(x, y)| (number(x), number(y))) {
-        Some((Some(x), Some(y))) => Ok([x, y]),
-        _ => Err("not a place; write pixels from the left and from the top: 512,1800".to_owned()),
-    }
+    super::two_numbers(
+        text,
+        "not a place; write pixels from the left and from the top: 512,1800",
+    )
 }

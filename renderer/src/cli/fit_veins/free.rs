@@ -2,15 +2,15 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::Parser as _;
 use leafmodel::inference::{Draw, Observation, Outcome, Parameter};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::measure::measure;
 use leafmodel::plan_file::{LeafFile, load_one_leaf};
 
 use super::observed::Observed;
-use crate::cli::arguments::{Arguments, Command, FitVeinsArguments};
-use crate::cli::{Failure, grow};
+use crate::cli::Failure;
+use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::grow::{self, Wish};
 use crate::scene::assets::DECODER;
 
 const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
@@ -30,7 +30,12 @@ pub(super) struct Grower {
 impl Grower {
     /// Chooses the leaf, and tries both ends of each range.
     pub(super) fn new(arguments: &FitVeinsArguments) -> Result<Self, Failure> {
-        let (name, plan) = chosen(arguments)?;
+        let (name, plan) = grow::named_plan(Wish {
+            leaf: &arguments.leaf,
+            overrides: &arguments.overrides,
+            settings: &arguments.set,
+            seed: None,
+        })?;
         let mut grower = Self {
             name,
             plan,
@@ -173,22 +178,6 @@ impl Grower {
         let measures = measure(&lamina.outline, &lamina.network, exponent);
         Ok(wanted.iter().map(|one| measures.number(&one.key)).collect())
     }
-}
-
-/// The leaf as the command line names it.
-fn chosen(arguments: &FitVeinsArguments) -> Result<(String, LeafPlan), Failure> {
-    let mut line = vec!["lamina".to_owned(), "grow".to_owned()];
-    for (flag, settings) in [("--set", &arguments.set), ("-D", &arguments.overrides)] {
-        for setting in settings {
-            line.extend([flag.to_owned(), setting.clone()]);
-        }
-    }
-    line.extend(["--".to_owned(), arguments.leaf.clone()]);
-    let parsed = Arguments::try_parse_from(line).map(|parsed| parsed.command);
-    let Ok(Some(Command::Grow(arguments))) = parsed else {
-        return Err(Failure::bad("the leaf's name is no word of a command"));
-    };
-    Ok(grow::named_plan(&arguments)?)
 }
 
 /// A value as `--set` takes it: the shortest text that reads back to the same bits.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use leafmodel::document::nearest::nearest;
 use leafmodel::inference::{Observation, Role};
-use leafmodel::measure::fitting::{FITTED, HELD_OUT};
+use leafmodel::measure::fitting::{FITTED, HELD_OUT, possible};
 use serde_json::{Map, Value};
 
 use crate::cli::Failure;
@@ -73,15 +73,20 @@ impl Observed {
         role: Role,
         keys: &[String],
     ) -> Result<(), String> {
+        let possible = possible();
         for key in keys {
-            let Some(value) = members.get(key) else {
-                let known = members.keys().map(String::as_str);
-                let meant = nearest(key, known)
+            if !possible.contains(&key.as_str()) {
+                let meant = nearest(key, possible.iter().copied())
                     .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
                 return Err(format!(
-                    "there is no measure `{}`{meant}",
-                    key.escape_debug()
+                    "`{}` is no number that is measured of leaves that grow{meant}\n  These can be \
+                     fitted or held out: {}",
+                    key.escape_debug(),
+                    possible.join(", ")
                 ));
+            }
+            let Some(value) = members.get(key) else {
+                return Err(format!("the measure `{key}` is not in the file"));
             };
             let value = number(key, value)?
                 .ok_or_else(|| format!("`{key}` is null: the leaf has nothing to measure"))?;
@@ -202,14 +207,28 @@ mod tests {
 
     #[test]
     fn measures_that_are_none_are_refused_by_name() {
-        let leaf = json!({ "areoles_per_mm2": "many", "loop_nesting": null, "list": [1] });
+        let leaf = json!({
+            "areoles_per_mm2": "many", "loop_nesting": null, "widest_at": [1],
+            "conductance_mm3_per_s_mpa": 3.0,
+        });
         let refusal =
             |fit: &[&str], held: &[&str]| read(&leaf, fit, held).expect_err("something is wrong");
         assert!(refusal(&[], &[]).contains("`areoles_per_mm2` is the text \"many\""));
         assert!(refusal(&["loop_nestin"], &[]).contains("did you mean `loop_nesting`?"));
         assert!(refusal(&["loop_nesting"], &[]).contains("is null"));
-        assert!(refusal(&["list"], &[]).contains("is a list, not a number"));
-        assert!(refusal(&["list"], &["list"]).contains("both fitted and held out"));
+        assert!(refusal(&["widest_at"], &[]).contains("is a list, not a number"));
+        let both = ["widest_at"];
+        assert!(refusal(&both, &both).contains("both fitted and held out"));
+        assert!(refusal(&["solidity"], &[]).contains("`solidity` is not in the file"));
+        // Measured of a file, but never of a leaf that grows: no range of --free would help.
+        for key in ["conductance_mm3_per_s_mpa", "elliptic_fourier"] {
+            let told = refusal(&[], &[key]);
+            assert!(
+                told.contains("no number that is measured of leaves that grow"),
+                "{told}"
+            );
+            assert!(told.contains("areoles_per_mm2, "), "{told}");
+        }
         let empty = read(&json!({}), &[], &[]).expect_err("nothing is there");
         assert!(empty.contains("none of the measures that are fitted"));
     }

@@ -2,7 +2,7 @@
 
 use leafmodel::inference::{Fit, Problem, Told};
 
-use crate::checkpoint::PROGRAM;
+use crate::plot::{Anchor, Axis, Canvas};
 
 const PANEL: [f64; 2] = [260.0, 150.0];
 const GAP: [f64; 2] = [30.0, 56.0];
@@ -13,32 +13,26 @@ const BINS: usize = 40;
 /// posterior, the thick line below is the 95 % interval and the mark on it the median.
 pub(super) fn marginals(problem: &Problem, found: &Fit) -> String {
     let count = found.parameters.len() as f64;
-    let [width, height] = [
+    let mut canvas = Canvas::new([
         GAP[0] + count * (PANEL[0] + GAP[0]),
         PANEL[1] + 1.5 * GAP[1],
-    ];
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"11\">\n\
-         <desc>Written by Lamina {PROGRAM}.</desc>\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
-    );
+    ]);
     for (index, told) in found.parameters.iter().enumerate() {
         let left = GAP[0] + index as f64 * (PANEL[0] + GAP[0]);
-        svg += &format!("<g transform=\"translate({left} {})\">\n", 0.5 * GAP[1]);
-        svg += &panel(told, &heights(problem, found, index));
-        svg += "</g>\n";
+        canvas.shifted([left, 0.5 * GAP[1]], |canvas| {
+            panel(canvas, told, &heights(problem, found, index));
+        });
     }
-    svg + "</svg>\n"
+    canvas.file()
 }
 
-/// Where a value stands in the prior, 0 to 1.
-fn share(told: &Told, value: f64) -> f64 {
-    let [low, high] = told.parameter.range();
+/// The prior's range, in which it is uniform, over these pixels.
+fn axis(told: &Told, width: f64) -> Axis {
+    let (range, pixels) = (told.parameter.range(), [0.0, width]);
     if told.parameter.is_logarithmic() {
-        libm::log(value / low) / libm::log(high / low)
+        Axis::logarithmic(range, pixels)
     } else {
-        (value - low) / (high - low)
+        Axis::linear(range, pixels)
     }
 }
 
@@ -46,50 +40,45 @@ fn share(told: &Told, value: f64) -> f64 {
 fn heights(problem: &Problem, found: &Fit, index: usize) -> [f64; BINS] {
     debug_assert!(index < problem.parameters().len());
     let mut heights = [0.0; BINS];
+    let axis = axis(&found.parameters[index], BINS as f64);
     for (values, weight) in &found.sample {
-        let place = share(&found.parameters[index], values[index]) * BINS as f64;
+        let place = axis.at(values[index]);
         heights[(place as usize).min(BINS - 1)] += weight * BINS as f64;
     }
     heights
 }
 
-fn panel(told: &Told, heights: &[f64; BINS]) -> String {
+fn panel(canvas: &mut Canvas, told: &Told, heights: &[f64; BINS]) {
     let [width, height] = PANEL;
     let highest = heights.iter().copied().fold(1.0, f64::max);
     let scale = height / highest;
-    let x = |value: f64| width * share(told, value);
+    let x = axis(told, width);
     let bin = width / BINS as f64;
-    let mut svg = format!(
-        "<text y=\"-8\" font-weight=\"bold\">{}</text>\n\
-         <rect y=\"{:.2}\" width=\"{width}\" height=\"{scale:.2}\" fill=\"#ddd\"/>\n",
-        told.parameter
-            .name()
-            .replace('&', "&amp;")
-            .replace('<', "&lt;"),
-        height - scale,
-    );
+    let bold = "font-weight=\"bold\"";
+    canvas.text([0.0, -8.0], Anchor::Start, bold, told.parameter.name());
+    canvas.rectangle([0.0, height - scale], [width, scale], "fill=\"#ddd\"");
     for (number, tall) in heights.iter().enumerate().filter(|(_, tall)| **tall > 0.0) {
-        svg += &format!(
-            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{bin:.2}\" height=\"{:.2}\" fill=\"#4a8f3c\" \
-             fill-opacity=\"0.8\"/>\n",
-            number as f64 * bin,
-            height - tall * scale,
-            tall * scale
+        canvas.rectangle(
+            [number as f64 * bin, height - tall * scale],
+            [bin, tall * scale],
+            "fill=\"#4a8f3c\" fill-opacity=\"0.8\"",
         );
     }
     let [_, _, [low, high]] = told.intervals;
-    let [from, to] = told.parameter.range();
-    svg += &format!(
-        "<path d=\"M0 {height}H{width}\" stroke=\"#333\"/>\n\
-         <path d=\"M{:.2} {below}H{:.2}\" stroke=\"#4a8f3c\" stroke-width=\"4\"/>\n\
-         <circle cx=\"{:.2}\" cy=\"{below}\" r=\"4\" fill=\"#333\"/>\n\
-         <text y=\"{text}\">{from}</text>\n\
-         <text x=\"{width}\" y=\"{text}\" text-anchor=\"end\">{to}</text>\n",
-        x(low),
-        x(high),
-        x(told.median),
-        below = height + 8.0,
-        text = height + 26.0,
+    let below = height + 8.0;
+    canvas.line([0.0, height], [width, height], "stroke=\"#333\"");
+    canvas.line(
+        [x.at(low), below],
+        [x.at(high), below],
+        "stroke=\"#4a8f3c\" stroke-width=\"4\"",
     );
-    svg
+    canvas.circle([x.at(told.median), below], 4.0, "fill=\"#333\"");
+    for tick in x.ticks(4) {
+        canvas.line(
+            [tick.at, height],
+            [tick.at, height + 4.0],
+            "stroke=\"#333\"",
+        );
+        canvas.text([tick.at, height + 26.0], Anchor::Middle, "", &tick.label);
+    }
 }

@@ -8,6 +8,8 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::Failure;
 use crate::cli::arguments::FitVeinsArguments;
+use crate::cli::columns::in_columns;
+use crate::plot;
 
 /// Effective sizes below this are told: ends of intervals are then off by half their width.
 const FEW: f64 = 50.0;
@@ -177,8 +179,8 @@ pub(super) fn table(found: &Fit) -> String {
             nearly_all,
         ]);
     }
-    let mut text = columns(&rows);
-    text.push('\n');
+    let mut text = in_columns(&rows);
+    text += "\n\n";
     let mut rows = vec![["", "observed", "foretold", "95 %", ""].map(str::to_owned)];
     for one in &found.predictions {
         let dash = || "–".to_owned();
@@ -197,8 +199,8 @@ pub(super) fn table(found: &Fit) -> String {
             mark.to_owned(),
         ]);
     }
-    text += &columns(&rows);
-    text.push('\n');
+    text += &in_columns(&rows);
+    text += "\n\n";
     for line in sentences(found) {
         text += &format!("{line}\n");
     }
@@ -217,44 +219,5 @@ fn interval(low: f64, high: f64) -> String {
 
 /// Four significant digits.
 fn short(number: f64) -> String {
-    let size = number.abs();
-    if size == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e5).contains(&size) {
-        let digits = 3 - size.log10().floor() as i32;
-        let shown = format!("{number:.*}", digits.max(0) as usize);
-        shown
-    } else {
-        format!("{number:.3e}")
-    }
-}
-
-/// Rows in columns, each as wide as its widest cell.
-fn columns<const N: usize>(rows: &[[String; N]]) -> String {
-    let wide: Vec<usize> = (0..N)
-        .map(|column| {
-            let cells = rows.iter().map(|row| row[column].chars().count());
-            cells.max().unwrap_or(0)
-        })
-        .collect();
-    let line = |row: &[String; N]| {
-        let cells = row.iter().zip(&wide);
-        let text: String = cells
-            .map(|(cell, wide)| format!("{cell:wide$}  "))
-            .collect();
-        format!("{}\n", text.trim_end())
-    };
-    rows.iter().map(line).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_four_digits() {
-        let all = [0.0, 1234.56, 0.012345, 6.12e-5, -2.5, 123456.7];
-        let wanted = ["0", "1235", "0.01235", "6.120e-5", "-2.500", "1.235e5"];
-        assert_eq!(all.map(short), wanted);
-    }
+    plot::short(number, 4)
 }

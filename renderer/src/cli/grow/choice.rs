@@ -18,6 +18,30 @@ pub(super) struct Chosen {
     pub(super) preset: Option<&'static str>,
 }
 
+/// A leaf as a command line names it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::cli) struct Wish<'a> {
+    /// A preset, or a file and the leaf in it.
+    pub(in crate::cli) leaf: &'a str,
+    /// Values of the file.
+    pub(in crate::cli) overrides: &'a [String],
+    /// Values of the leaf.
+    pub(in crate::cli) settings: &'a [String],
+    /// The seed, if it is not the leaf's own.
+    pub(in crate::cli) seed: Option<u64>,
+}
+
+impl<'a> From<&'a GrowArguments> for Wish<'a> {
+    fn from(arguments: &'a GrowArguments) -> Self {
+        Self {
+            leaf: arguments.leaf.as_deref().unwrap_or_default(),
+            overrides: &arguments.overrides,
+            settings: &arguments.set,
+            seed: arguments.seed,
+        }
+    }
+}
+
 /// Why there is no leaf to grow.
 pub(in crate::cli) enum NotChosen {
     /// Errors of the file or the settings, with their places.
@@ -27,15 +51,15 @@ pub(in crate::cli) enum NotChosen {
 }
 
 /// The leaf with all its settings.
-pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Chosen, NotChosen> {
-    let wanted = arguments.leaf.as_deref().unwrap_or_default();
+pub(super) fn choose(wish: Wish<'_>, veins_alone: bool) -> Result<Chosen, NotChosen> {
+    let wanted = wish.leaf;
     let read = |file| {
         load_one_leaf(
             file,
             Some(&DECODER),
             veins_alone,
-            &arguments.overrides,
-            &arguments.set,
+            wish.overrides,
+            wish.settings,
         )
     };
     let preset = species::find(wanted);
@@ -54,7 +78,7 @@ pub(super) fn choose(arguments: &GrowArguments, veins_alone: bool) -> Result<Cho
         read(LeafFile::File { path: &path, leaf })
     }?;
     let mut plan = chosen.value;
-    plan.seed = arguments.seed.unwrap_or(plan.seed);
+    plan.seed = wish.seed.unwrap_or(plan.seed);
     Ok(Chosen {
         name: chosen.name,
         plan,

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use leafmodel::import::{self, Draft, Fault, Format, ImportError, Imported, Wanted};
-use leafmodel::measure::Known;
+use leafmodel::import::{self, Draft, Fault, FaultKind, Format, ImportError, Imported, Wanted};
+use leafmodel::measure::{Blade, Known};
 use leafmodel::shape::outline::Outline;
 use leafmodel::tracing::{Finding, FindingKind};
 use leafmodel::venation::network::VenationNetwork;
 
-use super::forbid;
-use crate::cli::arguments::MeasureArguments;
+use crate::cli::arguments::{MeasureArguments, ReadingArguments};
 use crate::cli::{Failure, trace};
 
 /// Endings of pictures, which are no networks; the first [`READ`] of them can be traced.
@@ -20,12 +19,12 @@ const READ: usize = 5;
 
 /// A network that is ready to be measured.
 #[derive(Debug)]
-pub(super) struct Input {
-    pub(super) network: VenationNetwork,
-    pub(super) outlines: Vec<Outline>,
-    pub(super) known: Known,
-    pub(super) orders_found: bool,
-    pub(super) faults: Vec<Fault>,
+pub(in crate::cli) struct Input {
+    pub(in crate::cli) network: VenationNetwork,
+    pub(in crate::cli) outlines: Vec<Outline>,
+    pub(in crate::cli) known: Known,
+    pub(in crate::cli) orders_found: bool,
+    pub(in crate::cli) faults: Vec<Fault>,
 }
 
 /// How a file becomes a network.
@@ -61,17 +60,57 @@ impl Kind {
 }
 
 impl Input {
-    pub(super) fn read(arguments: &MeasureArguments) -> Result<Self, Failure> {
-        let path = &arguments.file;
+    /// Reads a network, or traces a picture; with `strict`, fails if anything is wrong with it.
+    pub(in crate::cli) fn read(path: &Path, arguments: &ReadingArguments) -> Result<Self, Failure> {
         match Kind::of(path)? {
-            Kind::Network(format) => Self::of_network(arguments, format),
-            Kind::Picture => Self::of_picture(arguments),
+            Kind::Network(format) => Self::of_network(path, arguments, format),
+            Kind::Picture => Self::of_picture(path, arguments),
         }
     }
 
+    /// What is known of the blade, where `area` may say how large it is.
+    pub(in crate::cli) fn blade(&self, area: Option<f64>) -> Blade<'_> {
+        Blade::of(&self.outlines, area)
+    }
+
+    /// What a person should know of it: faults, and what could not be understood.
+    pub(in crate::cli) fn remarks(&self, blade: Blade) -> Vec<String> {
+        let told = |fault: &Fault| {
+            let word = if fault.kind.is_note() {
+                "note"
+            } else {
+                "warning"
+            };
+            format!("{word}: {}", fault.line())
+        };
+        let mut remarks: Vec<String> = self.faults.iter().map(told).collect();
+        let mut note = |text: &str| remarks.push(format!("note: {text}"));
+        let is_told = |fault: &Fault| fault.kind == FaultKind::NoRadius;
+        if !self.known.radii && !self.faults.iter().any(is_told) {
+            note(
+                "edges have no radius or width: measures of widths, and of vein orders that are \
+                 not in the file, are missing",
+            );
+        }
+        if self.orders_found {
+            note("vein orders are not in the file; they are found from widths and branching");
+        }
+        match blade {
+            Blade::Margin(_) => {}
+            Blade::Area(_) => {
+                note("without a margin, measures of the shape and distances to veins are missing");
+            }
+            Blade::Unknown => note(
+                "without a margin (--outline FILE.svg) or an area (--area MM2), measures of the \
+                 shape, per area, and distances to veins are missing",
+            ),
+        }
+        remarks
+    }
+
     /// The network that a picture shows, traced with the usual settings.
-    fn of_picture(arguments: &MeasureArguments) -> Result<Self, Failure> {
-        let shown = arguments.file.display();
+    fn of_picture(path: &Path, arguments: &ReadingArguments) -> Result<Self, Failure> {
+        let shown = path.display();
         let Some(mm_per_pixel) = arguments.mm_per_unit else {
             return Err(Failure::bad(format!(
                 "{shown}: a picture is measured with --mm-per-pixel, which is 25.4 over the dots \
@@ -90,9 +129,9 @@ impl Input {
                 "{shown}: {flag} goes with a network; lamina trace has flags for pictures"
             )));
         }
-        let traced = trace::with_usual_settings(&arguments.file, mm_per_pixel)?;
+        let traced = trace::with_usual_settings(path, mm_per_pixel)?;
         let wrong = traced.findings.iter().filter(|finding| is_fault(finding));
-        forbid(arguments, wrong.map(ToString::to_string))?;
+        forbid(path, arguments, wrong.map(ToString::to_string))?;
         Ok(Self {
             network: traced.network,
             outlines: vec![traced.outline],
@@ -102,8 +141,11 @@ impl Input {
         })
     }
 
-    fn of_network(arguments: &MeasureArguments, format: Format) -> Result<Self, Failure> {
-        let path = &arguments.file;
+    fn of_network(
+        path: &Path,
+        arguments: &ReadingArguments,
+        format: Format,
+    ) -> Result<Self, Failure> {
         if arguments.nodes.is_some() && format != Format::Table {
             return Err(Failure::bad(format!(
                 "{}: --nodes goes with a table of edges, a csv or tsv",
@@ -137,6 +179,8 @@ impl Input {
             orders_found,
             faults,
         } = draft.network(&wanted(arguments)).map_err(told)?;
+        let wrong = faults.iter().filter(|fault| !fault.kind.is_note());
+        forbid(path, arguments, wrong.map(Fault::line))?;
         Ok(Self {
             network,
             outlines,
@@ -145,6 +189,22 @@ impl Input {
             faults,
         })
     }
+}
+
+/// With `--strict`, fails if there is any of these lines about faults.
+fn forbid(
+    path: &Path,
+    arguments: &ReadingArguments,
+    wrong: impl Iterator<Item = String>,
+) -> Result<(), Failure> {
+    let lines: String = wrong.map(|line| format!("\n  {line}")).collect();
+    if !arguments.strict || lines.is_empty() {
+        return Ok(());
+    }
+    let file = path.display();
+    Err(Failure::bad(format!(
+        "{file}: is not without fault, as --strict asks:{lines}"
+    )))
 }
 
 /// Whether what tracing found may make measures wrong.
@@ -160,7 +220,7 @@ fn is_fault(finding: &Finding) -> bool {
     }
 }
 
-fn wanted(arguments: &MeasureArguments) -> Wanted {
+fn wanted(arguments: &ReadingArguments) -> Wanted {
     Wanted {
         mm_per_unit: arguments.mm_per_unit,
         root: arguments.root.map(Into::into),
@@ -169,7 +229,7 @@ fn wanted(arguments: &MeasureArguments) -> Wanted {
 }
 
 /// The margin in a file of its own.
-fn margin(path: &Path, arguments: &MeasureArguments) -> Result<Outline, Failure> {
+fn margin(path: &Path, arguments: &ReadingArguments) -> Result<Outline, Failure> {
     let shown = path.display();
     let format = match Kind::of(path)? {
         Kind::Network(format @ (Format::Svg | Format::Json)) => format,

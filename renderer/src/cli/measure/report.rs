@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 use leafmodel::measure::{
-    Entry, Interval, Measures, Row, Sample, Structure, Subject, Supply, definition,
+    Entry, Interval, Known, Measures, OrderRow, Row, Sample, Structure, Subject, Supply, definition,
 };
 use serde_json::{Map, Value, json};
 
@@ -12,7 +12,47 @@ use super::input::Input;
 use super::write;
 use crate::checkpoint::PROGRAM;
 use crate::cli::Failure;
-use crate::cli::arguments::MeasureArguments;
+use crate::cli::arguments::{MeasureArguments, MeasuringArguments};
+
+/// All measures of a network; pair statistics and supply where they are asked for, or all are.
+pub(in crate::cli) fn measured(
+    subject: &Subject,
+    arguments: &MeasuringArguments,
+    [asks_structure, asks_supply]: [bool; 2],
+) -> (Measures, Option<Structure>, Option<Supply>) {
+    let structure = (!arguments.quick || asks_structure)
+        .then(|| subject.structure())
+        .flatten();
+    let supply = (!arguments.quick || asks_supply)
+        .then(|| subject.supply(arguments.cut as usize))
+        .flatten();
+    let measures = subject
+        .measures(arguments.murray_exponent)
+        .and(subject.more_measures(structure.as_ref(), supply.as_ref()));
+    (measures, structure, supply)
+}
+
+/// What the veins of each order cost, as rows of a table; radii count only where they are known.
+pub(in crate::cli) fn by_order(subject: &Subject, known: Known) -> Vec<Row> {
+    let rows = |row: OrderRow| {
+        let wide = |value: f64| Some(value).filter(|_| known.radii);
+        let part = Some(usize::from(row.order)).filter(|order| *order > 0);
+        let columns = [
+            ("order_vein_length", "mm", Some(row.length_mm)),
+            ("order_vein_width", "mm", wide(row.width_mm)),
+            ("order_vein_surface", "mm²", wide(row.surface_mm2)),
+            ("order_vein_volume", "mm³", wide(row.volume_mm3)),
+        ];
+        columns.map(|(key, unit, value)| Row {
+            key,
+            part,
+            value,
+            unit,
+            definition: definition(key),
+        })
+    };
+    subject.by_order().into_iter().flat_map(rows).collect()
+}
 
 /// What is told of a network.
 pub(super) struct Report<'a> {
@@ -31,21 +71,13 @@ impl<'a> Report<'a> {
         input: &'a Input,
         subject: &'a Subject<'a>,
     ) -> Self {
-        let wants = |table: &Option<_>| !arguments.quick || table.is_some();
-        let structure = wants(&arguments.structure_factor)
-            .then(|| subject.structure())
-            .flatten();
-        let cuts = arguments.cut as usize;
-        let supply = wants(&arguments.cuts)
-            .then(|| subject.supply(cuts))
-            .flatten();
+        let asked = [&arguments.structure_factor, &arguments.cuts].map(Option::is_some);
+        let (measures, structure, supply) = measured(subject, &arguments.measuring, asked);
         Self {
             file: arguments.file.display().to_string(),
             input,
             subject,
-            measures: subject
-                .measures(arguments.murray_exponent)
-                .and(subject.more_measures(structure.as_ref(), supply.as_ref())),
+            measures,
             structure,
             supply,
             intervals: subject.confidence(arguments.bootstrap, arguments.seed),
@@ -94,47 +126,8 @@ impl<'a> Report<'a> {
         for row in self.measures.rows() {
             add(&row, self.interval(row.key));
         }
-        for row in self.subject.by_order() {
-            let radii = self.input.known.radii;
-            let columns = [
-                (
-                    "order_vein_length",
-                    "mm",
-                    "length of the veins of an order",
-                    Some(row.length_mm),
-                ),
-                (
-                    "order_vein_width",
-                    "mm",
-                    "mean width along them",
-                    Some(row.width_mm).filter(|_| radii),
-                ),
-                (
-                    "order_vein_surface",
-                    "mm²",
-                    "their surface",
-                    Some(row.surface_mm2).filter(|_| radii),
-                ),
-                (
-                    "order_vein_volume",
-                    "mm³",
-                    "their volume",
-                    Some(row.volume_mm3).filter(|_| radii),
-                ),
-            ];
-            for (key, unit, definition, value) in columns {
-                let part = Some(usize::from(row.order)).filter(|order| *order > 0);
-                add(
-                    &Row {
-                        key,
-                        part,
-                        value,
-                        unit,
-                        definition,
-                    },
-                    None,
-                );
-            }
+        for row in by_order(self.subject, self.input.known) {
+            add(&row, None);
         }
         text
     }

@@ -130,10 +130,11 @@ fn identity(sweep: &Sweep, task: &Task<'_>) -> Result<u64, Why> {
                     "the leaf's name is no word of a command",
                 )));
             };
-            let (name, plan) = grow::named_plan(&arguments).map_err(|error| match error {
-                grow::NotChosen::Document(errors) => Why::Document(errors),
-                grow::NotChosen::Failure(failure) => Why::Failure(failure),
-            })?;
+            let (name, plan) =
+                grow::named_plan((&arguments).into()).map_err(|error| match error {
+                    grow::NotChosen::Document(errors) => Why::Document(errors),
+                    grow::NotChosen::Failure(failure) => Why::Failure(failure),
+                })?;
             format!("{PROGRAM} leaf {name} {plan:?}")
         }
     };
