@@ -3,8 +3,8 @@
 //! A [`Stack`] of [`Layer`]s, each with a refractive index, an optical depth, a single-scattering
 //! albedo and a phase function, lies in air; boundaries are smooth and reflect by Fresnel's
 //! formulae. Light in it is found in two ways that share nothing but those formulae:
-//! [`Ordinates`] solves it for a set of directions, [`follow`] follows photons. [`leaf`] builds the
-//! stack of a leaf from its contents.
+//! [`Ordinates`] solves it for a set of directions, [`follow`] follows photons. A
+//! [`LayeredLeaf`] is the stack of a leaf of given contents.
 //!
 //! - **In**: layers, the face that is lit, light from one direction or from all.
 //! - **Out**: shares reflected, transmitted and absorbed by each layer; radiance by direction.
@@ -28,8 +28,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod anatomy;
 mod boundary;
 mod directions;
+mod leaf;
 mod matrix;
 mod monte_carlo;
 mod ordinates;
@@ -37,6 +39,8 @@ mod phase;
 mod slab;
 mod stack;
 
+pub use anatomy::{Anatomy, AnatomyError, Tissue};
+pub use leaf::{Cells, Faces, LayeredLeaf, Scattering, Slice};
 pub use monte_carlo::{Bins, Estimate, Tallies, follow};
 pub use ordinates::{Fluxes, Leaving, Ordinates, Resolution};
 pub use phase::{Phase, mean_cosine_of_ball, wall};

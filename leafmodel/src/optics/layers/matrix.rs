@@ -107,7 +107,8 @@ impl Matrix {
         self
     }
 
-    /// `X` of `A X = B`, by elimination with exchange of rows.
+    /// `X` of `A X = B`, by elimination with exchange of rows. Where nothing fixes an unknown, it is
+    /// 0: light that clear layers would keep for ever has no way into them.
     pub(super) fn solved(mut self, mut right: Self) -> Self {
         let count = self.rows;
         for pivot in 0..count {
@@ -120,7 +121,7 @@ impl Matrix {
                 let (one, other) = right.two_rows(pivot, best);
                 one.swap_with_slice(other);
             }
-            let scale = 1.0 / self[[pivot, pivot]];
+            let scale = inverse_or_nothing(self[[pivot, pivot]]);
             for row in pivot + 1..count {
                 let factor = scale * self[[row, pivot]];
                 if factor != 0.0 {
@@ -136,7 +137,7 @@ impl Matrix {
             }
         }
         for pivot in (0..count).rev() {
-            let scale = 1.0 / self[[pivot, pivot]];
+            let scale = inverse_or_nothing(self[[pivot, pivot]]);
             for value in right.row_mut(pivot) {
                 *value *= scale;
             }
@@ -240,6 +241,10 @@ impl Matrix {
             }
         }
     }
+}
+
+fn inverse_or_nothing(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { 1.0 / value }
 }
 
 fn turn(one: &mut [f64], other: &mut [f64], c: f64, s: f64) {

@@ -198,6 +198,36 @@ fn a_thick_layer_without_absorption_diffuses() {
 }
 
 #[test]
+fn layers_that_differ_do_as_another_programs_layers_do() {
+    // PythonicDISORT, `reference/results/slabs.md`: R and T at normal and at Lambertian incidence.
+    let layer = |albedo, depth, g| Layer {
+        index: 1.0,
+        albedo,
+        depth,
+        phase: Phase::HenyeyGreenstein { g },
+    };
+    let layers = vec![
+        layer(0.8, 0.5, 0.5),
+        layer(0.99, 1.0, 0.7),
+        layer(0.9, 2.0, 0.0),
+    ];
+    let stack = Stack::new(layers).expect("layers in range");
+    let light = solved(&stack, &[1.0]);
+    for (face, known) in [
+        (Face::First, [0.3118409, 0.2496975, 0.3696118, 0.1786844]),
+        (Face::Last, [0.3835999, 0.2482193, 0.4554050, 0.1786844]),
+    ] {
+        let found = light.fluxes(face, &[Incidence::NORMAL, Incidence::Lambertian]);
+        let found = found
+            .iter()
+            .flat_map(|one| [one.reflected, one.transmitted]);
+        for (found, known) in found.zip(known) {
+            assert!((found - known).abs() < 1e-6, "{found} for {known}");
+        }
+    }
+}
+
+#[test]
 fn both_ways_find_the_same_in_layers_that_differ() {
     let stack = varied(false);
     let light = solved(&stack, &COSINES);
