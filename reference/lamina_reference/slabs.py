@@ -50,7 +50,7 @@ def by_disort(layers: Sequence[Layer]) -> list[float]:
     """R and T at normal, then at Lambertian incidence; layers have the index of air."""
     depths = np.cumsum([min(layer.depth, ENDLESS) for layer in layers])
     albedos = np.array([layer.albedo for layer in layers])
-    moments = np.array([[layer.g**l for l in range(4 * STREAMS)] for layer in layers])
+    moments = np.array([[layer.g**degree for degree in range(4 * STREAMS)] for layer in layers])
     peaks = moments[:, STREAMS]
     shares = []
     for beam, diffuse in ((1.0, 0.0), (0.0, 1.0 / math.pi)):

@@ -135,18 +135,39 @@ impl LayeredLeaf {
                 .expect("the normal is a direction");
             solved.fluxes(Face::First, &[Incidence::NORMAL])[0].reflected
         };
-        // Reflectance rises with scattering, from two clear faces to all. Halving the range of the
-        // logarithm 30 times leaves a relative error of 1e-8.
-        let (mut low, mut high) = (libm::log(1.0 / MOST_SCATTERING), libm::log(MOST_SCATTERING));
-        for _ in 0..30 {
-            let middle = f64::midpoint(low, high);
-            if reflected(libm::exp(middle)) < wanted {
-                low = middle;
-            } else {
-                high = middle;
-            }
+        let off = |logarithm: f64| reflected(libm::exp(logarithm)) - wanted;
+        // Reflectance rises with scattering, from that of clear faces towards 1.
+        let most = libm::log(MOST_SCATTERING);
+        let (mut low, mut high) = ((-most, off(-most)), (most, off(most)));
+        if low.1 >= 0.0 {
+            return 1.0 / MOST_SCATTERING;
         }
-        libm::exp(low)
+        if high.1 <= 0.0 {
+            return MOST_SCATTERING;
+        }
+        // The rule of false position: an end that stays twice counts half (Illinois).
+        let mut middle = 0.0;
+        let mut was_low = None;
+        for _ in 0..60 {
+            let value = off(middle);
+            if value.abs() < 1e-9 {
+                break;
+            }
+            let is_low = value < 0.0;
+            let again = was_low == Some(is_low);
+            let (moved, stays) = if is_low {
+                (&mut low, &mut high)
+            } else {
+                (&mut high, &mut low)
+            };
+            *moved = (middle, value);
+            if again {
+                stays.1 *= 0.5;
+            }
+            was_low = Some(is_low);
+            middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        }
+        libm::exp(middle)
     }
 
     /// Whether its cells are full.

@@ -28,9 +28,9 @@ fn what_a_leaf_holds_is_shared_out_whole() {
 #[test]
 fn every_preset_sends_back_lets_through_or_absorbs_all_light() {
     for preset in presets::ALL {
+        let leaf = LayeredLeaf::new(&preset.contents);
         for nm in WAVELENGTHS_NM {
-            let Faces { normal, diffuse } =
-                LayeredLeaf::new(&preset.contents).faces(&at(nm), Resolution::FAST);
+            let Faces { normal, diffuse } = leaf.faces(&at(nm), Resolution::FAST);
             let off = diffuse[0].transmitted - diffuse[1].transmitted;
             assert!(off.abs() < 1e-12, "{} at {nm}: {off:e}", preset.name);
             for fluxes in normal.iter().chain(&diffuse) {
