@@ -54,6 +54,7 @@ fn furthest(resolution: Resolution) -> [f64; 4] {
     for anchor in anchors() {
         let solved = Ordinates::new(&anchor.stack, resolution, &[1.0]).expect("a direction");
         let found = solved.fluxes(Face::First, &INCIDENCES);
+        let found = found.expect("the normal was solved for");
         let found = found
             .iter()
             .flat_map(|one| [one.reflected, one.transmitted]);
@@ -103,6 +104,7 @@ fn photons_find_all_slabs_and_half_spaces() {
                 PHOTONS,
                 seed,
             );
+            let found = found.expect("a direction in range");
             for (found, known) in [found.reflected, found.transmitted].into_iter().zip(values) {
                 let known = known.expect("R and T are known together");
                 let Estimate {

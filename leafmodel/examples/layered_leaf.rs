@@ -44,7 +44,7 @@ fn angles(leaf: &LayeredLeaf) -> Result<(), Box<dyn Error>> {
         let stack = leaf.stack(&ProspectD::coefficients(nm)?);
         let solved = Ordinates::new(&stack, Resolution::new(16), &cosines)?;
         for (lit, face) in [("adaxial", Face::First), ("abaxial", Face::Last)] {
-            let leaving = solved.leaving(face, Incidence::NORMAL);
+            let leaving = solved.leaving(face, Incidence::NORMAL)?;
             for (angle, leaving) in ANGLES_DEG.iter().zip(&leaving[1..]) {
                 let (back, through) = (leaving.reflected, leaving.transmitted);
                 writeln!(out, "{nm},{lit},{angle},{back:.5},{through:.5}")?;

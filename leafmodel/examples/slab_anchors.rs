@@ -53,8 +53,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             if row[columns[0]].is_empty() {
                 continue;
             }
-            let exact = solved.fluxes(Face::First, &[incidence]).swap_remove(0);
-            let found = follow(&stack, Face::First, incidence, Bins::NONE, photons, seed);
+            let exact = solved.fluxes(Face::First, &[incidence])?.swap_remove(0);
+            let found = follow(&stack, Face::First, incidence, Bins::NONE, photons, seed)?;
             let pairs = [
                 (exact.reflected, found.reflected),
                 (exact.transmitted, found.transmitted),

@@ -22,7 +22,7 @@
 //! let layer = Layer { index: 1.0, albedo: 0.9, depth: 2.0, phase };
 //! let stack = Stack::new(vec![layer])?;
 //! let light = Ordinates::new(&stack, Resolution::FINE, &[1.0])?;
-//! let fluxes = light.fluxes(Face::First, &[Incidence::NORMAL]);
+//! let fluxes = light.fluxes(Face::First, &[Incidence::NORMAL])?;
 //! assert!((fluxes[0].reflected - 0.097395).abs() < 1e-6);
 //! assert!((fluxes[0].transmitted - 0.660958).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -131,9 +131,8 @@ impl LayeredLeaf {
                 scattering,
                 ..*self
             };
-            let solved = Ordinates::new(&leaf.stack(&at), Resolution::FAST, &[1.0])
-                .expect("the normal is a direction");
-            solved.fluxes(Face::First, &[Incidence::NORMAL])[0].reflected
+            let [adaxial, _] = leaf.faces(&at, Resolution::FAST).normal;
+            adaxial.reflected
         };
         let off = |logarithm: f64| reflected(libm::exp(logarithm)) - wanted;
         // Reflectance rises with scattering, from that of clear faces towards 1.
@@ -249,7 +248,7 @@ impl LayeredLeaf {
             Incidence::Lambertian => vec![],
         };
         let solved = Ordinates::new(&stack, Resolution::FAST, &cosines)?;
-        let absorbed = solved.fluxes(face, &[incidence]).swap_remove(0).absorbed;
+        let absorbed = solved.fluxes(face, &[incidence])?.swap_remove(0).absorbed;
         let mut above_um = 0.0;
         let places = Tissue::ALL
             .into_iter()
@@ -272,14 +271,16 @@ impl LayeredLeaf {
 
     /// What both faces do at a wavelength.
     pub fn faces(&self, at: &Coefficients, resolution: Resolution) -> Faces {
-        let solved =
-            Ordinates::new(&self.stack(at), resolution, &[1.0]).expect("the normal is a direction");
-        let of = |incidence| {
-            [Face::First, Face::Last].map(|face| solved.fluxes(face, &[incidence]).swap_remove(0))
-        };
+        let incidences = [Incidence::NORMAL, Incidence::Lambertian];
+        let solved = Ordinates::new(&self.stack(at), resolution, &[1.0]).and_then(|solved| {
+            let of = |face| solved.fluxes(face, &incidences);
+            Ok([of(Face::First)?, of(Face::Last)?])
+        });
+        let mut faces = solved.expect("the normal is a direction, and solved for");
+        let diffuse = faces.each_mut().map(|of_face| of_face.swap_remove(1));
         Faces {
-            normal: of(Incidence::NORMAL),
-            diffuse: of(Incidence::Lambertian),
+            normal: faces.map(|mut of_face| of_face.swap_remove(0)),
+            diffuse,
         }
     }
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::boundary::reflectance;
-use super::stack::{Face, Incidence, Layer, Stack};
+use super::stack::{Face, Incidence, Layer, Stack, StackError};
 use crate::shape::chance::{bits, share};
 
 /// Separates these random numbers from those of other rooms; it must never change.
@@ -28,7 +28,7 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-/// How leaving light is sorted by direction.
+/// How leaving light is sorted by direction; 0 counts as 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bins {
     /// Steps of the squared cosine, so that a perfect diffuser sends the same into each.
@@ -65,7 +65,7 @@ pub struct Tallies {
 #[derive(Clone, Debug)]
 struct Sums(Vec<[f64; 2]>);
 
-/// Follows photons through a stack lit on one face.
+/// Follows photons, at least one, through a stack lit on one face.
 ///
 /// Absorption takes its share of a photon's weight at each event. When little is left, chance
 /// decides whether the photon goes on with ten times as much; the layer pays the difference, so
@@ -74,6 +74,10 @@ struct Sums(Vec<[f64; 2]>);
 /// # Source
 ///
 /// The method of \[wang1995\], but for the bookkeeping of its roulette.
+///
+/// # Errors
+///
+/// [`StackError::Direction`] if light falls in from a direction out of range.
 pub fn follow(
     stack: &Stack,
     face: Face,
@@ -81,7 +85,9 @@ pub fn follow(
     bins: Bins,
     photons: u64,
     seed: u64,
-) -> Tallies {
+) -> Result<Tallies, StackError> {
+    let incidence = incidence.checked()?;
+    let photons = photons.max(1);
     let mut layers = stack.layers().to_vec();
     if face == Face::Last {
         layers.reverse();
@@ -89,7 +95,10 @@ pub fn follow(
     let walk = Walk {
         layers: &layers,
         incidence,
-        bins,
+        bins: Bins {
+            polar: bins.polar.max(1),
+            azimuth: bins.azimuth.max(1),
+        },
     };
     let blocks: Vec<Sums> = (0..photons.div_ceil(BLOCK))
         .into_par_iter()
@@ -135,13 +144,13 @@ pub fn follow(
             .collect()
     };
     let first = 2 + layers.len();
-    Tallies {
+    Ok(Tallies {
         reflected: all[0],
         transmitted: all[1],
         absorbed,
         reflected_by_direction: by_direction(first),
         transmitted_by_direction: by_direction(first + walk.directions()),
-    }
+    })
 }
 
 impl Sums {

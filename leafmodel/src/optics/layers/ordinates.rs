@@ -120,9 +120,7 @@ impl Ordinates {
     /// [`StackError::Direction`] for a cosine out of range.
     pub fn new(stack: &Stack, resolution: Resolution, cosines: &[f64]) -> Result<Self, StackError> {
         for &cosine in cosines {
-            if !(cosine > 0.0 && cosine <= 1.0) {
-                return Err(StackError::Direction { cosine });
-            }
+            Incidence::Directional { cosine }.checked()?;
         }
         let indices = stack.layers().iter().map(|layer| layer.index);
         let directions = Directions::new(indices, resolution.0, cosines);
@@ -168,8 +166,12 @@ impl Ordinates {
     }
 
     /// Where light of each of these incidences ends, lit on one face.
-    pub fn fluxes(&self, face: Face, incidences: &[Incidence]) -> Vec<Fluxes> {
-        let entering = self.entering(incidences);
+    ///
+    /// # Errors
+    ///
+    /// [`StackError::NotSolvedFor`] for a direction that was not named when this was made.
+    pub fn fluxes(&self, face: Face, incidences: &[Incidence]) -> Result<Vec<Fluxes>, StackError> {
+        let entering = self.entering(incidences)?;
         let swept = Swept::new(&self.elements, face, &entering);
         let flux = |light: &Matrix, column: usize| {
             let roots = self.directions.within(f64::INFINITY).iter();
@@ -180,7 +182,7 @@ impl Ordinates {
                 .sum();
             2.0 * PI * sum
         };
-        (0..incidences.len())
+        Ok((0..incidences.len())
             .map(|column| {
                 let mut absorbed = vec![0.0; self.stack.layers().len()];
                 for (layer, net_in, net_out) in &swept.layers {
@@ -194,16 +196,21 @@ impl Ordinates {
                     absorbed,
                 }
             })
-            .collect()
+            .collect())
     }
 
     /// Radiance that leaves in the directions asked for when this was made, averaged over azimuth.
-    pub fn leaving(&self, face: Face, incidence: Incidence) -> Vec<Leaving> {
-        let swept = self.scattered(face, incidence, &self.elements);
+    ///
+    /// # Errors
+    ///
+    /// [`StackError::NotSolvedFor`] for a direction that was not named when this was made.
+    pub fn leaving(&self, face: Face, incidence: Incidence) -> Result<Vec<Leaving>, StackError> {
+        let swept = self.scattered(face, incidence, &self.elements)?;
         let shares = self
             .radiance(&swept.back)
             .zip(self.radiance(&swept.through));
-        self.cosines
+        Ok(self
+            .cosines
             .iter()
             .zip(shares)
             .map(|(cosine, (reflected, transmitted))| Leaving {
@@ -211,7 +218,7 @@ impl Ordinates {
                 reflected,
                 transmitted,
             })
-            .collect()
+            .collect())
     }
 
     /// Radiance of light that falls in from one direction, in the directions asked for, at each of
@@ -221,18 +228,22 @@ impl Ordinates {
     /// Every part of the light that goes as `cos mφ` is solved for, up to the last moment of the
     /// phase function. The forward peak that is cut off it counts as not scattered, so radiance
     /// near that of unscattered light is too low.
+    ///
+    /// # Errors
+    ///
+    /// [`StackError::NotSolvedFor`] for a direction that was not named when this was made.
     pub fn leaving_by_azimuth(
         &self,
         face: Face,
         cosine: f64,
         azimuths: &[f64],
-    ) -> Vec<Vec<Leaving>> {
+    ) -> Result<Vec<Vec<Leaving>>, StackError> {
         let incidence = Incidence::Directional { cosine };
-        let mut all = vec![self.leaving(face, incidence); azimuths.len()];
+        let mut all = vec![self.leaving(face, incidence)?; azimuths.len()];
         let moments = self.resolution.moments();
         for mode in 1..moments {
             let elements = self.elements_with(|layer, at| Slab::new(layer, at, mode, moments));
-            let swept = self.scattered(face, incidence, &elements);
+            let swept = self.scattered(face, incidence, &elements)?;
             for (leaving, azimuth) in all.iter_mut().zip(azimuths) {
                 let wave = 2.0 * libm::cos(mode as f64 * azimuth);
                 let shares = self
@@ -244,13 +255,18 @@ impl Ordinates {
                 }
             }
         }
-        all
+        Ok(all)
     }
 
     /// Light of one incidence in these elements, without what was never scattered if it falls in
     /// from one direction.
-    fn scattered(&self, face: Face, incidence: Incidence, elements: &[Element]) -> Swept {
-        let entering = self.entering(&[incidence]);
+    fn scattered(
+        &self,
+        face: Face,
+        incidence: Incidence,
+        elements: &[Element],
+    ) -> Result<Swept, StackError> {
+        let entering = self.entering(&[incidence])?;
         let mut swept = Swept::new(elements, face, &entering);
         match incidence {
             Incidence::Directional { .. } => {
@@ -263,7 +279,7 @@ impl Ordinates {
             }
             Incidence::Lambertian => {}
         }
-        swept
+        Ok(swept)
     }
 
     /// π times radiance, of unit flux, in the directions asked for.
@@ -276,14 +292,14 @@ impl Ordinates {
     }
 
     /// Light in air of unit flux, a column for each incidence.
-    fn entering(&self, incidences: &[Incidence]) -> Matrix {
+    fn entering(&self, incidences: &[Incidence]) -> Result<Matrix, StackError> {
         let air = self.directions.within(1.0);
         let mut entering = Matrix::zero(air.len(), incidences.len());
         for (column, incidence) in incidences.iter().enumerate() {
             match incidence {
                 Incidence::Directional { cosine } => {
                     let place = self.cosines.iter().position(|known| known == cosine);
-                    let place = place.expect("the direction was asked for when this was made");
+                    let place = place.ok_or(StackError::NotSolvedFor { cosine: *cosine })?;
                     let row = self.directions.probe(place);
                     entering[[row, column]] = 1.0 / (2.0 * PI * air[row].root);
                 }
@@ -296,7 +312,7 @@ impl Ordinates {
                 }
             }
         }
-        entering
+        Ok(entering)
     }
 }
 

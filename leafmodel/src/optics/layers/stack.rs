@@ -60,6 +60,12 @@ pub enum StackError {
         /// Which layer, from 1.
         layer: usize,
     },
+    /// Light was asked for along a direction that was not solved for.
+    #[error("the layers were not solved for a direction of cosine {cosine}")]
+    NotSolvedFor {
+        /// What was asked for.
+        cosine: f64,
+    },
     /// The cosine of a direction is out of range.
     #[error("the cosine of a direction is {cosine}, it must be above 0 and at most 1")]
     Direction {
@@ -149,4 +155,14 @@ pub enum Incidence {
 impl Incidence {
     /// Along the normal.
     pub const NORMAL: Self = Self::Directional { cosine: 1.0 };
+
+    /// The incidence itself if its direction is in range.
+    pub(super) fn checked(self) -> Result<Self, StackError> {
+        match self {
+            Self::Directional { cosine } if !(cosine > 0.0 && cosine <= 1.0) => {
+                Err(StackError::Direction { cosine })
+            }
+            Self::Directional { .. } | Self::Lambertian => Ok(self),
+        }
+    }
 }
