@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     let files = [
         arguments.out.as_deref(),
         arguments.colour.as_ref().and_then(|file| file.as_deref()),
-        arguments.layers.as_deref(),
+        arguments.layers.as_ref().and_then(|file| file.as_deref()),
     ];
     let given: Vec<&Path> = files.into_iter().flatten().collect();
     if let Some((_, file)) = given
@@ -46,8 +46,9 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     {
         return Err(Failure::written_twice(file));
     }
-    for (option, file) in [("--out", &arguments.out), ("--layers", &arguments.layers)] {
-        if let Some(file) = file.as_ref().filter(|file| !is_stdout(file)) {
+    let [out, _, layers_out] = files;
+    for (option, file) in [("--out", out), ("--layers", layers_out)] {
+        if let Some(file) = file.filter(|file| !is_stdout(file)) {
             check_ending(file, "csv", &format!("{option} writes a table"))?;
         }
     }
@@ -70,11 +71,10 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if let Some(file) = &arguments.out {
         hand_over(file, &table(&contents, &chosen.line()))?;
     }
-    if arguments.faces {
-        say(layers::faces(&contents));
-    }
-    if let Some(file) = &arguments.layers {
-        hand_over(file, &layers::table(&contents, &chosen.line()))?;
+    match &arguments.layers {
+        Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
+        Some(None) => say(layers::faces(&contents)),
+        None => {}
     }
     if let Some(file) = &arguments.colour {
         let colours = colour::Colours::of(&contents);

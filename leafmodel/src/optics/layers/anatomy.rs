@@ -5,6 +5,9 @@ use thiserror::Error;
 use crate::optics::constituent::Constituent;
 use crate::optics::pigments::{Basis, Figure};
 
+/// Density of cutin and wax.
+const CUTICLE_G_PER_CM3: f64 = 1.1;
+
 /// A layer of a leaf, from its adaxial face to its abaxial one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tissue {
@@ -173,10 +176,24 @@ impl Anatomy {
         1e-4 * self.all_cells_um()
     }
 
-    /// Dry matter of a leaf with this anatomy, g/cm²: to its water as the medians of ANGERS are.
-    pub fn dry_matter_g_per_cm2(&self) -> f64 {
+    /// Dry matter of a layer per area of the leaf, g/cm²: in cells to their water as the medians of
+    /// ANGERS are.
+    fn dry_matter_of(&self, tissue: Tissue) -> f64 {
         const PER_WATER: f64 = 0.0044 / 0.0103;
-        PER_WATER * self.water_cm()
+        1e-4 * match tissue {
+            Tissue::Cuticle => CUTICLE_G_PER_CM3 * self.thickness_um(tissue),
+            Tissue::UpperEpidermis | Tissue::Palisade | Tissue::Spongy | Tissue::LowerEpidermis => {
+                PER_WATER * self.cells_um(tissue)
+            }
+        }
+    }
+
+    /// Dry matter of a leaf with this anatomy, g/cm².
+    pub fn dry_matter_g_per_cm2(&self) -> f64 {
+        Tissue::ALL
+            .map(|tissue| self.dry_matter_of(tissue))
+            .iter()
+            .sum()
     }
 
     /// Share of a constituent that is in a layer; over all layers they add up to 1.
@@ -193,16 +210,7 @@ impl Anatomy {
             Constituent::Brown | Constituent::Water | Constituent::Structure => {
                 self.cells_um(tissue) / self.all_cells_um()
             }
-            Constituent::DryMatter => {
-                let walls = |tissue| match tissue {
-                    Tissue::Cuticle => self.thickness_um(tissue),
-                    Tissue::UpperEpidermis
-                    | Tissue::Palisade
-                    | Tissue::Spongy
-                    | Tissue::LowerEpidermis => self.wall_share * self.cells_um(tissue),
-                };
-                walls(tissue) / Tissue::ALL.map(walls).iter().sum::<f64>()
-            }
+            Constituent::DryMatter => self.dry_matter_of(tissue) / self.dry_matter_g_per_cm2(),
         }
     }
 
@@ -245,35 +253,86 @@ impl Anatomy {
         use Basis::{Assumed, Unverified};
         const SECTIONS: &str =
             "cross-sections of thin bifacial leaves in textbooks of plant anatomy, from memory";
-        const POROSITY: &str =
-            "porosity of palisade 0.1 to 0.3, of spongy mesophyll 0.4 to 0.6, from memory";
+        const POROSITY: &str = "0.1 to 0.3 of the palisade, 0.4 to 0.6 below it, from memory";
         const RAN: &str = "Ran et al. 2025 (MADLM), from notes on it";
+        const LEE: &str = "nine red-senescing species, Lee et al. 2003, abstract; betalains alike";
+        const OWN: &str = "this project";
         let it = Self::BIFACIAL;
-        let figure = |of: &str, value, unit, basis, source| Figure {
-            of: of.to_owned(),
+        let [palisade_length, palisade_width] = [it.palisade_length_um, it.palisade_width_um];
+        let numbers = [
+            ("air, palisade", it.palisade_air, "", Unverified, POROSITY),
+            ("air, spongy", it.spongy_air, "", Unverified, POROSITY),
+            (
+                "palisade cells, length",
+                palisade_length,
+                "µm",
+                Unverified,
+                SECTIONS,
+            ),
+            (
+                "palisade cells, width",
+                palisade_width,
+                "µm",
+                Unverified,
+                SECTIONS,
+            ),
+            (
+                "spongy cells, diameter",
+                it.spongy_diameter_um,
+                "µm",
+                Unverified,
+                SECTIONS,
+            ),
+            (
+                "epidermal cells, width",
+                it.epidermis_width_um,
+                "µm",
+                Unverified,
+                SECTIONS,
+            ),
+            (
+                "chlorophyll, carotenoids: palisade's share",
+                it.palisade_pigment,
+                "",
+                Unverified,
+                RAN,
+            ),
+            (
+                "anthocyanins, betalains: palisade's share",
+                1.0,
+                "",
+                Assumed,
+                LEE,
+            ),
+            (
+                "cutin and wax, density",
+                CUTICLE_G_PER_CM3,
+                "g/cm³",
+                Unverified,
+                "from memory",
+            ),
+            (
+                "walls in the volume of cells",
+                it.wall_share,
+                "",
+                Assumed,
+                OWN,
+            ),
+        ];
+        let thickness = Tissue::ALL.map(|tissue| {
+            let of = format!("thickness, {}", tissue.name());
+            (of, it.thickness_um(tissue), "µm", Unverified, SECTIONS)
+        });
+        let numbers = numbers
+            .map(|(of, value, unit, basis, source)| (of.to_owned(), value, unit, basis, source));
+        let all = thickness.into_iter().chain(numbers);
+        all.map(|(of, value, unit, basis, source)| Figure {
+            of,
             value,
             unit,
             basis,
             source,
-        };
-        let mut figures: Vec<Figure> = Tissue::ALL
-            .into_iter()
-            .map(|tissue| {
-                let of = format!("thickness, {}", tissue.name());
-                figure(&of, it.thickness_um(tissue), "µm", Unverified, SECTIONS)
-            })
-            .collect();
-        figures.extend([
-            figure("air, palisade", it.palisade_air, "", Unverified, POROSITY),
-            figure("air, spongy", it.spongy_air, "", Unverified, POROSITY),
-            figure("length of palisade cells", it.palisade_length_um, "µm", Unverified, SECTIONS),
-            figure("width of palisade cells", it.palisade_width_um, "µm", Unverified, SECTIONS),
-            figure("diameter of spongy cells", it.spongy_diameter_um, "µm", Unverified, SECTIONS),
-            figure("width of epidermal cells", it.epidermis_width_um, "µm", Unverified, SECTIONS),
-            figure("chlorophyll and carotenoids in the palisade", it.palisade_pigment, "", Unverified, RAN),
-            figure("anthocyanins and betalains in the palisade", 1.0, "", Assumed, "anthocyanins of nine red-senescing species: Lee et al. 2003, abstract; betalains: as these"),
-            figure("walls in the volume of cells", it.wall_share, "", Assumed, "this project"),
-        ]);
-        figures
+        })
+        .collect()
     }
 }

@@ -17,8 +17,9 @@ pub struct Resolution(usize);
 impl Resolution {
     /// For figures: all fluxes of the anchors within 1e-6 (a test measures it).
     pub const FINE: Self = Self(48);
-    /// For spectra: fluxes of the anchors within 4e-4 at normal and 1e-5 at Lambertian incidence.
-    pub const FAST: Self = Self(8);
+    /// For spectra: fluxes of leaves within 1e-4; of the anchors within 4e-4 at normal and 2e-5 at
+    /// Lambertian incidence.
+    pub const FAST: Self = Self(10);
 
     /// So many directions in each range between two indices, at least 2.
     pub fn new(directions: usize) -> Self {
