@@ -70,8 +70,8 @@ fn furthest(resolution: Resolution) -> [f64; 4] {
 
 #[test]
 fn ordinates_find_all_slabs_and_half_spaces_to_the_last_digit_of_the_table() {
-    // The table has six decimals: half of the last is 5e-7. Two hundredths of it are the table's
-    // own error, 1.2e-7, and ours.
+    // The table has six decimals: half of the last is 5e-7. The rest is for the table's own error,
+    // 1.2e-7, and ours.
     let off = furthest(Resolution::FINE);
     assert!(off.iter().all(|off| *off < 6e-7), "{off:?}");
 }
