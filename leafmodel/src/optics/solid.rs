@@ -18,7 +18,6 @@
 //! `docs/src/theory/solid-tissue.md` derives it.
 
 mod half_space;
-mod quadrature;
 mod table;
 
 pub use half_space::{HalfSpace, Reflected};

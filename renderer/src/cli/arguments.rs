@@ -63,7 +63,8 @@ Examples:
 const OPTICS_EXAMPLES: &str = "\
 Examples:
   lamina optics --cab 45 --car 10 --cw 0.011 --cm 0.006 --out leaf.csv
-  lamina optics --preset birch-yellow --colour";
+  lamina optics --preset birch-yellow --colour
+  lamina optics --preset sun-green --layers layers.csv";
 
 const FIT_EXAMPLES: &str = "\
 Examples:

@@ -1,7 +1,9 @@
-//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours.
+//! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours; both faces of the
+//! leaf as layers.
 
 mod colour;
 mod figures;
+mod layers;
 mod leaf;
 
 use std::fmt::Write as _;
@@ -34,14 +36,21 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     let files = [
         arguments.out.as_deref(),
         arguments.colour.as_ref().and_then(|file| file.as_deref()),
+        arguments.layers.as_ref().and_then(|file| file.as_deref()),
     ];
-    if let [Some(one), Some(other)] = files
-        && one == other
+    let given: Vec<&Path> = files.into_iter().flatten().collect();
+    if let Some((_, file)) = given
+        .iter()
+        .enumerate()
+        .find(|(place, file)| given[..*place].contains(file))
     {
-        return Err(Failure::written_twice(one));
+        return Err(Failure::written_twice(file));
     }
-    if let Some(file) = arguments.out.as_ref().filter(|file| !is_stdout(file)) {
-        check_ending(file, "csv", "--out writes a table")?;
+    let [out, _, layers_out] = files;
+    for (option, file) in [("--out", out), ("--layers", layers_out)] {
+        if let Some(file) = file.filter(|file| !is_stdout(file)) {
+            check_ending(file, "csv", &format!("{option} writes a table"))?;
+        }
     }
     if let Some(Some(file)) = &arguments.colour {
         check_ending(file, "json", "--colour writes JSON")?;
@@ -59,9 +68,12 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     if arguments.about {
         say(chosen.about());
     }
-    match &arguments.out {
-        Some(file) if is_stdout(file) => say(table(&contents, &chosen.line()).trim_end()),
-        Some(file) => write(file, table(&contents, &chosen.line()).as_bytes())?,
+    if let Some(file) = &arguments.out {
+        hand_over(file, &table(&contents, &chosen.line()))?;
+    }
+    match &arguments.layers {
+        Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
+        Some(None) => say(layers::faces(&contents)),
         None => {}
     }
     if let Some(file) = &arguments.colour {
@@ -83,6 +95,15 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         chosen.line()
     );
     Ok(())
+}
+
+/// Writes a table to a file or to the standard output.
+fn hand_over(file: &Path, table: &str) -> Result<(), Failure> {
+    if is_stdout(file) {
+        say(table.trim_end());
+        return Ok(());
+    }
+    write(file, table.as_bytes())
 }
 
 /// Whether a file's name stands for the standard output.

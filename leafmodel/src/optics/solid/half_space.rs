@@ -1,6 +1,6 @@
 //! The half-space behind a smooth boundary.
 
-use super::quadrature::gauss;
+use crate::optics::quadrature::gauss;
 
 /// Nodes of each half of the directions.
 const NODES: usize = 28;

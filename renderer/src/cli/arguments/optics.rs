@@ -7,7 +7,7 @@ use leafmodel::optics::{Constituent, PerConstituent};
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
-#[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "about"]).required(true).multiple(true))]
+#[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "about"]).required(true).multiple(true))]
 pub struct OpticsArguments {
     /// Start from the contents of a preset; numbers that are given take the place of its own
     #[arg(long, value_name = "NAME")]
@@ -15,7 +15,7 @@ pub struct OpticsArguments {
     /// Name the presets
     #[arg(long, exclusive = true)]
     pub list: bool,
-    /// Print every figure behind the finer pigments, how far it can be trusted, and its source
+    /// Print every figure behind the finer pigments and the leaf of layers, how far it can be trusted, and its source
     #[arg(long, exclusive = true)]
     pub figures: bool,
     /// Structure N, number of plates, at least 1 [default: 1.5]
@@ -51,6 +51,11 @@ pub struct OpticsArguments {
     /// Print the colours of R and T under D65 (XYZ by CIE 1931 2°, sRGB), or write them as JSON
     #[arg(long, value_name = "FILE.json", num_args = 0..=1)]
     pub colour: Option<Option<PathBuf>>,
+    /// Print both faces of the leaf as five layers at 450, 550, 680 and 800 nm, beside PROSPECT-D and
+    /// the rule by which scenes find the abaxial face, or write them, and what each layer absorbs, at
+    /// every nanometre; `-` is the standard output
+    #[arg(long, value_name = "FILE.csv", num_args = 0..=1)]
+    pub layers: Option<Option<PathBuf>>,
     /// Print every number with what it rests on
     #[arg(long)]
     pub about: bool,

@@ -1,13 +1,18 @@
-//! The sources of the finer pigments' figures.
+//! The sources of the figures behind the finer pigments and the leaf of layers.
 
 use leafmodel::optics::Pigments;
+use leafmodel::optics::layers::Anatomy;
 
 use crate::cli::columns::in_columns;
 
 /// Every figure with its unit, reliability and source.
 pub(super) fn table() -> String {
     let head = ["figure", "value", "unit", "trust", "source"].map(str::to_owned);
-    let figures = Pigments::figures().into_iter().map(|figure| {
+    let layers = Anatomy::figures().into_iter().map(|mut figure| {
+        figure.of.insert_str(0, "leaf of layers, ");
+        figure
+    });
+    let figures = Pigments::figures().into_iter().chain(layers).map(|figure| {
         [
             figure.of,
             figure.value.to_string(),

@@ -1,7 +1,7 @@
 //! Gauss–Legendre nodes, worked out once.
 
 /// Nodes and weights on [0, 1], by Newton's iteration on Legendre's polynomial.
-pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
+pub(in crate::optics) fn gauss(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     (0..count)
         .map(|i| {
