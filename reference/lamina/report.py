@@ -209,7 +209,9 @@ def of_sweep(folder: Path) -> tuple[str, str, list[Section]]:
             "head": ["task", *(shorts[key] for key in keys), "picture", "state", *outputs],
             "rows": rows,
             "reproduce": f"# Lamina {about['program']}\n"
-            + shlex.join(["lamina", "sweep", about["what"], *about.get("words", []), "--out", folder.name]),
+            + shlex.join(
+                ["lamina", "sweep", about["what"], *about.get("words", []), "--out", folder.name]
+            ),
         },
     ]
     return f"Sweep of {Path(about['what']).name}", f"{len(tasks)} tasks.", sections
