@@ -178,3 +178,6 @@ fn over_incidence(f: impl Fn(f64) -> f64) -> f64 {
         })
         .sum()
 }
+
+#[cfg(test)]
+mod tests;
