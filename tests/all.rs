@@ -5,6 +5,7 @@ mod architecture;
 mod determinism;
 mod format;
 mod golden;
+mod instruments;
 mod lights;
 mod optics;
 mod radiometry;

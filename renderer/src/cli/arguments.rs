@@ -2,6 +2,7 @@
 
 mod fit;
 mod fit_veins;
+mod instruments;
 mod measure;
 mod optics;
 mod samples;
@@ -16,6 +17,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
+pub use instruments::InstrumentsArguments;
 pub use measure::MeasureArguments;
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
@@ -111,6 +113,9 @@ pub enum Command {
     /// Find what leaves hold from their reflectance and transmittance
     #[command(after_help = FIT_EXAMPLES)]
     Fit(FitArguments),
+    /// Read out the instruments of a scene: what it reflects, transmits and absorbs
+    #[command(after_help = instruments::EXAMPLES)]
+    Instruments(InstrumentsArguments),
     /// Hand a scene to another renderer
     #[command(subcommand)]
     Export(ExportCommand),
