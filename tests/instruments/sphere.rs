@@ -121,11 +121,13 @@ fn without_a_coat_any_light_and_either_face_see_the_same_leaf_and_nothing_is_los
     }
 }
 
-/// A grown leaf that lies flat, without hairs, with a sphere over a part of its midrib.
+/// A grown leaf that lies flat and is smooth, with a sphere over a part of its midrib.
 fn veined(light_spread: f64) -> String {
     format!(
         "[leaves.birch]\npreset = \"birch\"\nmap_size = 512\nlight_spread = {light_spread}\n\
-         [leaves.birch.blade]\nfold_deg = 0\ncurl_deg = 0\nruffle = 0\nrelief = 0\n\
+         [leaves.birch.blade]\nfold_deg = 0\ncurl_deg = 0\nruffle = 0\nrelief = 0\npleat_deg = 0\n\
+         [leaves.birch.surface]\nimpressed = 0\nraised = 0\nbulge_mm = 0\ncell_share = 0\n\
+         stomata.abaxial_per_mm2 = 0\n\
          [objects.leaf]\nleaf = \"birch\"\n\
          [instruments.ball.sphere]\nobject = \"leaf\"\nincidence_deg = [0]\ndiffuse = false\n\
          faces = \"adaxial\"\nwavelengths_nm = [450, 550, 680, 710, 800, 1200, 1650]\n\
