@@ -5,6 +5,7 @@ mod architecture;
 mod determinism;
 mod format;
 mod golden;
+mod instruments;
 mod layers;
 mod lights;
 mod optics;

@@ -10,6 +10,7 @@ use tempfile::TempDir;
 mod accepted;
 mod book;
 mod cameras;
+mod instruments;
 mod leaves;
 mod refused;
 mod scatter;

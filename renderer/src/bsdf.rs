@@ -209,6 +209,15 @@ impl<'a, const N: usize> Bsdf<'a, N> {
         self.seen_from(wo)?.sample(lobe, u)
     }
 
+    /// Factor on the weight of a sample where flux is followed from `wo` to `wi` instead of radiance
+    /// from `wi` to `wo`; 1 but for light that enters or leaves a transparent medium.
+    pub fn flux_over_radiance(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self {
+            Self::Diffuse(_) | Self::Leaf(_) | Self::Relief(_) => 1.0,
+            Self::Dielectric(dielectric) => dielectric.flux_over_radiance(wo, wi),
+        }
+    }
+
     /// Whether the BSDF is specular only, so that light samples contribute nothing.
     pub fn is_specular(&self) -> bool {
         match self {

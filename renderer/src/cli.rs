@@ -36,6 +36,7 @@ mod export;
 mod fit;
 mod fit_veins;
 mod grow;
+mod instruments;
 mod measure;
 mod merge;
 mod needs;
@@ -127,6 +128,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Tonemap(tonemap) => tonemap::run(tonemap),
         Command::Optics(optics) => optics::run(optics),
         Command::Fit(fit) => fit::run(fit),
+        Command::Instruments(instruments) => instruments::run(instruments),
         Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
         Command::Compare(compare) => pictures::compare(compare),
         Command::Info(info) => pictures::info(info),

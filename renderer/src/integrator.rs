@@ -47,6 +47,7 @@ pub mod caption;
 pub mod cone;
 pub mod develop;
 pub mod effort;
+pub mod encounter;
 pub mod features;
 mod job;
 pub mod layers;

@@ -79,6 +79,7 @@ pub mod export;
 pub mod film;
 pub mod geometry;
 pub mod image;
+pub mod instruments;
 pub mod integrator;
 pub mod light;
 pub mod material;

@@ -176,6 +176,7 @@ fn names_become_indices_in_the_order_of_the_file() {
             leaf(4),
             mesh(0, 7),
             mesh(6, 8),
+            mesh(7, 2),
             // The walls of the rig's tent; behind them stand the axes of the plant.
             mesh(scene.meshes.len() - 4, 9),
             mesh(scene.meshes.len() - 3, 9),

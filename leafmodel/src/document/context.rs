@@ -46,8 +46,10 @@ pub struct Context {
     pub folder: PathBuf,
     /// Whether spectra go on with their end values outside their tables.
     pub extrapolate: Cell<bool>,
-    /// First and last wavelength of the film, nm, once it is known.
+    /// First and last wavelength that spectra must cover, nm, once it is known.
     pub range_nm: Cell<Option<[f64; 2]>>,
+    /// Who needs these wavelengths, as messages say it.
+    pub needed_by: Cell<&'static str>,
     /// The document, and all that it is made of.
     pub sources: RefCell<Sources>,
     /// The files that it names, as they are found.
@@ -72,6 +74,7 @@ impl Context {
             folder,
             extrapolate: Cell::new(false),
             range_nm: Cell::new(None),
+            needed_by: Cell::new("the film"),
             sources: RefCell::new(sources),
             inputs: RefCell::default(),
             survey: RefCell::default(),
@@ -132,6 +135,11 @@ impl Context {
     /// A value as it stands in the file, safe to print.
     pub fn quoted(&self, node: &Node) -> String {
         escaped(self.sources.borrow().slice(&node.at), QUOTED)
+    }
+
+    /// A place as `file:line:column`, for messages about what shows only after the file is read.
+    pub fn shown(&self, at: &Place) -> String {
+        self.sources.borrow().shown(at)
     }
 
     /// Hands out the texts, the errors and the warnings.

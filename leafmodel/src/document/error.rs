@@ -217,10 +217,8 @@ pub enum DocumentError {
         /// The number as written.
         found: String,
     },
-    /// A spectrum that does not reach over the film's wavelengths.
-    #[error(
-        "{what} covers {from_nm} to {to_nm} nm, the film needs {need_from_nm} to {need_to_nm} nm"
-    )]
+    /// A spectrum that does not reach over the wavelengths that are needed.
+    #[error("{what} covers {from_nm} to {to_nm} nm, {by} needs {need_from_nm} to {need_to_nm} nm")]
     Coverage {
         /// Whose data.
         what: String,
@@ -228,10 +226,12 @@ pub enum DocumentError {
         from_nm: f64,
         /// Last wavelength of the data.
         to_nm: f64,
-        /// First wavelength that the film needs.
+        /// First wavelength that is needed.
         need_from_nm: f64,
-        /// Last wavelength that the film needs.
+        /// Last wavelength that is needed.
         need_to_nm: f64,
+        /// Who needs them, such as "the film".
+        by: &'static str,
     },
     /// More light comes back than arrives.
     #[error("reflectance + transmittance is {sum:.4} at {wavelength_nm} nm, more than 1")]

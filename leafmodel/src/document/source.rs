@@ -56,6 +56,17 @@ impl Sources {
         self.0.get(source)
     }
 
+    /// A place as `file:line:column`, both counted from 1.
+    pub fn shown(&self, place: &Place) -> String {
+        let Some(source) = self.get(place.source) else {
+            return String::new();
+        };
+        let before = source.text.get(..place.span.start).unwrap_or("");
+        let line = before.matches('\n').count() + source.first_line;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        format!("{}:{line}:{column}", source.name)
+    }
+
     /// What stands at a place; nothing if it lies outside the text.
     pub fn slice(&self, place: &Place) -> &str {
         self.get(place.source)
@@ -109,6 +120,7 @@ mod tests {
         let source = sources.add("scene.toml", "a = 1\nb = 2\n");
         let place = Place { source, span: 6..7 };
         assert_eq!(sources.slice(&place), "b");
+        assert_eq!(sources.shown(&place), "scene.toml:2:1");
         let lines: Vec<usize> = [0, 5, 6, 12, 99]
             .map(|byte| line_of_byte(b"a = 1\nb = 2\n", byte))
             .into();

@@ -45,6 +45,17 @@ impl Dielectric {
         }
     }
 
+    /// Factor from the weight of radiance, which a denser medium compresses, to that of the flux
+    /// which goes from the side of `wo` to that of `wi`: η² across the boundary, else 1.
+    pub(super) fn flux_over_radiance(self, wo: Vec3, wi: Vec3) -> f32 {
+        if wo.z * wi.z < 0.0 {
+            let eta = self.relative_eta(wo);
+            eta * eta
+        } else {
+            1.0
+        }
+    }
+
     /// Index on the far side over that on the side of `wo`.
     fn relative_eta(self, wo: Vec3) -> f32 {
         if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
@@ -156,5 +167,30 @@ fn flip(wo: Vec3, wi: Vec3) -> (Vec3, Vec3) {
         (wo, wi)
     } else {
         (Vec3::new(wo.x, wo.y, -wo.z), Vec3::new(wi.x, wi.y, -wi.z))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flux_through_a_smooth_boundary_is_neither_compressed_nor_lost() {
+        let glass = Dielectric {
+            eta: 1.5,
+            alpha: 0.0,
+        };
+        for wo in [
+            Vec3::new(0.6, 0.0, 0.8),
+            Vec3::new(0.3, 0.1, -0.9).normalize(),
+        ] {
+            let sample = glass
+                .sample(wo, 0.99, Vec2::splat(0.5))
+                .expect("it is refracted");
+            assert!(wo.z * sample.wi.z < 0.0);
+            let flux = sample.weight * glass.flux_over_radiance(wo, sample.wi);
+            assert!((flux - 1.0).abs() < 1e-6, "{flux}");
+            assert_eq!(glass.flux_over_radiance(wo, wo), 1.0);
+        }
     }
 }

@@ -4,6 +4,7 @@ mod compare_networks;
 mod fit;
 mod fit_veins;
 mod grow;
+mod instruments;
 mod measure;
 mod optics;
 mod samples;
@@ -20,6 +21,7 @@ pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
 pub use grow::{CaptionedKinds, GrowArguments, VeinColour};
+pub use instruments::InstrumentsArguments;
 pub use measure::{MeasureArguments, MeasuringArguments, ReadingArguments};
 pub use optics::OpticsArguments;
 pub use samples::SampleRange;
@@ -110,6 +112,9 @@ pub enum Command {
     /// Find what leaves hold from their reflectance and transmittance
     #[command(after_help = FIT_EXAMPLES)]
     Fit(FitArguments),
+    /// Read out the instruments of a scene: what it reflects, transmits and absorbs
+    #[command(after_help = instruments::EXAMPLES)]
+    Instruments(InstrumentsArguments),
     /// Hand a scene to another renderer
     #[command(subcommand)]
     Export(ExportCommand),

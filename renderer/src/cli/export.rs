@@ -8,7 +8,7 @@ use crate::scene::world::World;
 
 pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?.description;
-    needs::check_geometry(&scene, arguments.memory)?;
+    needs::check_geometry(&scene, "export", arguments.memory)?;
     let patience = Patience::building(scene.leaves.len());
     let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
     drop(patience);

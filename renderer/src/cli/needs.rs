@@ -2,9 +2,9 @@
 
 use crate::cli::Failure;
 use crate::film::Film;
-use crate::geometry::scatter::Amount;
+use crate::geometry::scatter::{Amount, Volume};
 use crate::integrator::layers::Layout;
-use crate::scene::description::{Description, Drop, Lump, Mesh, ObjectShape, StrewnOn};
+use crate::scene::description::{Description, Drop, Lump, Mesh, Object, ObjectShape, StrewnOn};
 use crate::spectrum::WavelengthSampler;
 
 const MIB: f64 = 1024.0 * 1024.0;
@@ -40,9 +40,13 @@ pub(super) fn check(scene: &Description, allowed: Option<f64>) -> Result<(), Fai
     compare("render", &needs, allowed)
 }
 
-/// As [`check`], for what is built of a scene whose picture another program makes.
-pub(super) fn check_geometry(scene: &Description, allowed: Option<f64>) -> Result<(), Failure> {
-    compare("export", &of_geometry(scene)?, allowed)
+/// As [`check`], for work of this name that makes no picture.
+pub(super) fn check_geometry(
+    scene: &Description,
+    work: &str,
+    allowed: Option<f64>,
+) -> Result<(), Failure> {
+    compare(work, &of_geometry(scene)?, allowed)
 }
 
 /// Memory of what a scene builds and grows, bytes, with what it is for.
@@ -57,6 +61,7 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
             let [across, along] = terrain.squares();
             2.0 * across * along * OF_A_TRIANGLE
         }
+        Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
     });
@@ -67,6 +72,8 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
             Amount::Count(count) => f64::from(count),
             Amount::PerSquareMetre(density) => density * area(scene, strewn),
         });
+        let afloat = object.value.volume.as_ref();
+        let copies = afloat.map_or(copies, |volume| leaves_afloat(scene, &object.value, volume));
         own as f64 * copies * OF_A_PLACE
     });
     let mut leaves = Vec::new();
@@ -96,6 +103,27 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
     ])
 }
 
+/// About the number of leaves in a volume: of discs, since the areas of other shapes are known only
+/// once they are built.
+fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
+    let [least, most] = volume.within;
+    let ground = (most - least).truncate().element_product();
+    let Some(ObjectShape::Mesh { mesh, .. }) = object.shapes.first() else {
+        return 0.0;
+    };
+    match scene.meshes[*mesh].value {
+        Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
+        Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
+        Mesh::Sphere { .. }
+        | Mesh::Drop(_)
+        | Mesh::Lump(_)
+        | Mesh::Terrain(_)
+        | Mesh::File { .. }
+        | Mesh::Gltf { .. }
+        | Mesh::Axes(_) => 0.0,
+    }
+}
+
 /// About the area over which something is strewn, m²: that of its rectangle or of an even or uneven
 /// ground in one place; of other surfaces none, since it is known only once they are built.
 fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
@@ -110,6 +138,7 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         Mesh::Rectangle { width, height } => width * height,
         Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
         Mesh::Sphere { .. }
+        | Mesh::Disc { .. }
         | Mesh::Drop(_)
         | Mesh::Lump(_)
         | Mesh::File { .. }

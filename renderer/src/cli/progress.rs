@@ -65,6 +65,7 @@ impl Patience {
         BuildOptions {
             cache: None,
             grown: Some(&self.grown),
+            wavelengths: None,
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Instanced meshes, against which rays are traced.
 
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3, Vec3A};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -22,7 +24,8 @@ mod search;
 /// Instanced meshes with their trees. Immutable and shared by all threads.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    meshes: Vec<TracedMesh>,
+    /// Shared with geometries of the same meshes in other places.
+    meshes: Arc<[TracedMesh]>,
     placements: Vec<Placement>,
     tree: WideTree,
     /// The instance of each leaf of `tree`.
@@ -208,6 +211,31 @@ impl Geometry {
             }
         }
         let meshes: Vec<_> = meshes.into_par_iter().map(TracedMesh::build).collect();
+        Self::placed(meshes.into(), instances)
+    }
+
+    /// The same meshes with some of the instances, each moved by an offset, m; in the order given.
+    ///
+    /// # Errors
+    ///
+    /// [`GeometryError`] if there are too many, or an offset is not finite.
+    pub fn with_places(&self, places: &[(u32, Vec3)]) -> Result<Self, GeometryError> {
+        if places.len() > MOST_INSTANCES {
+            return Err(GeometryError::TooManyInstances {
+                given: places.len(),
+            });
+        }
+        let moved = places.iter().map(|&(number, by)| {
+            let mut instance = self.placements[number as usize].instance;
+            instance.to_world.translation += Vec3A::from(by);
+            instance
+        });
+        let geometry = Self::placed(Arc::clone(&self.meshes), moved.collect())?;
+        Ok(geometry.at_level(self.level))
+    }
+
+    /// Meshes with their trees, placed.
+    fn placed(meshes: Arc<[TracedMesh]>, instances: Vec<Instance>) -> Result<Self, GeometryError> {
         let placements = instances
             .into_iter()
             .enumerate()
@@ -291,6 +319,18 @@ impl Geometry {
         (bounds.min, bounds.max)
     }
 
+    /// Number of instances.
+    pub fn instances(&self) -> u32 {
+        self.placements.len() as u32
+    }
+
+    /// Smallest and largest coordinates of an instance's box, m.
+    pub fn bounds_of(&self, instance: u32) -> (Vec3, Vec3) {
+        let placement = &self.placements[instance as usize];
+        let bounds = placement.world_bounds(&self.meshes[placement.instance.mesh as usize]);
+        (bounds.min, bounds.max)
+    }
+
     /// Memory of meshes and trees, bytes.
     pub fn memory_bytes(&self) -> usize {
         let meshes: usize = self
@@ -314,8 +354,7 @@ impl Geometry {
     }
 
     /// An instance by number.
-    #[cfg(test)]
-    pub(crate) fn instance(&self, i: u32) -> &Instance {
+    pub fn instance(&self, i: u32) -> &Instance {
         &self.placements[i as usize].instance
     }
 }

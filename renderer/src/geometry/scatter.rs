@@ -18,6 +18,7 @@ mod points;
 mod rest;
 #[cfg(test)]
 mod tests;
+mod volume;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use thiserror::Error;
@@ -28,6 +29,7 @@ use super::scramble::scramble;
 
 pub use self::body::Body;
 pub use self::points::{Ground, triangles};
+pub use self::volume::{Inclination, Volume, VolumeError};
 
 /// How many things lie on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

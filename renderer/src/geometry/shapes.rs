@@ -1,5 +1,6 @@
 //! Meshes of shapes that are given by numbers.
 
+mod disc;
 mod drop;
 mod globe;
 mod lump;
@@ -9,6 +10,7 @@ mod tests;
 
 use super::scramble::scramble;
 
+pub use self::disc::disc;
 pub use self::drop::Drop;
 pub use self::globe::sphere;
 pub use self::lump::Lump;

@@ -2,6 +2,8 @@
 
 /// Opening of the cone of directions that a scattered ray stands for.
 const SCATTERED_ANGLE: f32 = 0.2;
+/// Width of a thin beam, m: below the texels of any map.
+const BEAM_WIDTH: f32 = 1e-7;
 /// Least cosine by which a ray's width grows on a surface that it meets at a slant.
 const LEAST_FACING: f32 = 0.1;
 
@@ -26,6 +28,23 @@ impl Cone {
         Self {
             width,
             angle: SCATTERED_ANGLE,
+        }
+    }
+
+    /// That of a beam so thin that every detail of a texture shows.
+    pub fn of_beam() -> Self {
+        Self {
+            width: BEAM_WIDTH,
+            angle: 0.0,
+        }
+    }
+
+    /// The same from a distance on, m.
+    #[must_use]
+    pub fn from(self, distance: f32) -> Self {
+        Self {
+            width: self.width_at(distance),
+            ..self
         }
     }
 

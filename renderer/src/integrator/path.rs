@@ -7,8 +7,9 @@ use crate::camera::FilmRay;
 use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
 use crate::geometry::surface::SurfacePoint;
-use crate::integrator::cone::{self, Cone};
+use crate::integrator::cone::Cone;
 use crate::integrator::effort::Effort;
+use crate::integrator::encounter::Encounter;
 use crate::integrator::mis;
 use crate::light::selection::Choice;
 use crate::light::{Light, Receiver};
@@ -148,25 +149,23 @@ impl<const N: usize> Paths<'_, N> {
                     *throughput * from_infinity(world, ray.direction, bounce, wavelengths);
                 return;
             };
-            let surface = world.geometry.surface(ray, &hit);
+            let material = world.material_of(hit.instance);
+            let encounter =
+                Encounter::new(&world.geometry, material, (ray, cone), &hit, wavelengths);
+            let Encounter {
+                surface,
+                frame,
+                bsdf,
+                wo,
+                width,
+                has_relief,
+            } = encounter;
             if let Some(number) = world.objects[surface.instance as usize].light {
                 let found = emission(world, number, ray, &surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
-            let material = world.material_of(surface.instance);
-            let mut bsdf = material.bsdf(surface.uv, wavelengths);
-            let width = cone.width_at(hit.t);
-            if let Some(relief) = material.relief() {
-                let scale = world.geometry.texture_scale(&hit);
-                let facing = ray.direction.dot(surface.shading_normal);
-                let footprint = cone::footprint(width, facing);
-                let faces = relief.at(surface.uv, scale, footprint);
-                bsdf = bsdf.with_relief(faces, relief.grains(wavelengths));
-            }
-            let frame = Frame::new(surface.shading_normal, surface.tangent);
-            let wo = frame.to_local(-ray.direction);
             if depth == 0 {
-                let facing = if material.relief().is_some() {
+                let facing = if has_relief {
                     frame.to_world(bsdf.normal(wo))
                 } else if wo.z < 0.0 {
                     -surface.shading_normal

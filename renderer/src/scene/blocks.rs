@@ -11,6 +11,7 @@ mod daylight;
 mod film;
 mod gltf;
 mod instances;
+mod instrument;
 mod integrator;
 mod leaf;
 mod light;
@@ -28,6 +29,7 @@ mod scatter;
 mod solid;
 mod spectrum;
 mod table_file;
+mod volume;
 
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -46,13 +48,14 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
 use super::description::{
-    Description, Leaf, Light, Material, Mesh, Object, Picture, Plant, Reflectance, Solid, Spectrum,
+    Description, Instrument, InstrumentKind, Leaf, Light, Material, Mesh, Object, Picture, Plant,
+    Reflectance, Solid, Spectrum, Sphere,
 };
 use super::plants::{boughs, individuals};
 use super::rigs;
 
 /// All keys at the top of a scene file.
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 15] = [
     "format",
     "name",
     "extrapolate",
@@ -60,6 +63,7 @@ const SECTIONS: [&str; 14] = [
     "picture",
     "camera",
     "integrator",
+    "instruments",
     "materials",
     "meshes",
     "leaves",
@@ -69,6 +73,15 @@ const SECTIONS: [&str; 14] = [
     "objects",
 ];
 
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// A picture: spectra must cover the wavelengths of the film.
+    Picture,
+    /// Its instruments: spectra of surfaces must cover their wavelengths. Lights do nothing.
+    Instruments,
+}
+
 /// Reads a whole file. Errors are left in the context; if there is none, the description is
 /// returned.
 pub(crate) fn read(
@@ -76,6 +89,7 @@ pub(crate) fn read(
     tree: &Table,
     default_name: &str,
     text: String,
+    purpose: Purpose,
 ) -> Option<Description> {
     let mut description = Description::empty(default_name, text);
     let root = root(cx, tree);
@@ -87,7 +101,7 @@ pub(crate) fn read(
             });
             cx.sections.borrow_mut().extend(names);
         }
-        scene(&mut description, keys);
+        scene(&mut description, keys, purpose);
     });
     (cx.error_count() == 0).then_some(description)
 }
@@ -117,7 +131,8 @@ pub(crate) fn read_only_picture(cx: &Context, tree: &Table) -> Option<Picture> {
 
 /// The schema of a scene file.
 pub(crate) fn schema() -> BlockSchema {
-    Keys::describe(|keys| scene(&mut Description::empty("", String::new()), keys))
+    let mut empty = Description::empty("", String::new());
+    Keys::describe(|keys| scene(&mut empty, keys, Purpose::Picture))
 }
 
 fn root<'a>(cx: &'a Context, tree: &'a Table) -> Block<'a> {
@@ -129,7 +144,7 @@ fn root<'a>(cx: &'a Context, tree: &'a Table) -> Block<'a> {
 }
 
 /// The keys of a scene.
-fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
+fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     plan_file::format(keys);
     let mut name = None;
     let about = "What the scene is called, and its pictures; left out, as the folder or file is.";
@@ -161,9 +176,22 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
     keys.block("integrator", about, |keys| {
         integrator::integrator(&mut scene.integrator, keys);
     });
-    sections(scene, keys);
+    let about = "Instruments, which `lamina instruments` reads out.";
+    let new = || Instrument::usual(InstrumentKind::Sphere(Sphere::usual()));
+    section(
+        keys,
+        "instruments",
+        &mut scene.instruments,
+        &new,
+        about,
+        instrument::instrument,
+    );
+    if purpose == Purpose::Instruments {
+        instrument::tell_range(scene, keys);
+    }
+    sections(scene, keys, purpose);
     if keys.reader().is_some() {
-        references::check(scene, keys);
+        references::check(scene, keys, purpose);
         if keys.is_sound() {
             rigs::set_up(scene);
             individuals::grow_apart(scene, keys);
@@ -173,7 +201,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>) {
 }
 
 /// The named blocks.
-fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
+fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     let about = "What surfaces are made of.";
     let new = || Material::Diffuse {
         reflectance: Reflectance::Even(Spectrum::Constant(0.0)),
@@ -214,6 +242,11 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>) {
         bark: None,
     };
     section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
+    if purpose == Purpose::Instruments
+        && let Some(root) = keys.reader()
+    {
+        root.cx.range_nm.set(None);
+    }
     let about = "Lights; there is one at least.";
     let new = || Light::Constant {
         radiance: Spectrum::Constant(0.0),

@@ -4,6 +4,7 @@
 //! same input.
 
 mod camera;
+mod instrument;
 mod object;
 mod reflectance;
 
@@ -19,6 +20,9 @@ use leafmodel::plant::PlantPlan;
 use leafmodel::solid::SolidPlan;
 
 pub use self::camera::{Camera, FocusObject};
+pub use self::instrument::{
+    Canopy, Incidence, Instrument, InstrumentKind, Sphere, Spot, SpotMiddle,
+};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
 pub use crate::geometry::shapes::{Drop, Lump, Terrain};
@@ -61,6 +65,8 @@ pub struct Description {
     pub lights: Vec<Named<Light>>,
     /// The objects.
     pub objects: Vec<Named<Object>>,
+    /// Instruments, in the file's order.
+    pub instruments: Vec<Named<Instrument>>,
 }
 
 impl Material {
@@ -118,6 +124,7 @@ impl Description {
             plants: Vec::new(),
             lights: Vec::new(),
             objects: Vec::new(),
+            instruments: Vec::new(),
         }
     }
 }
@@ -279,6 +286,14 @@ pub enum Mesh {
         /// Radius, m.
         radius: f64,
         /// Triangles around the equator and half as many from pole to pole.
+        segments: u32,
+    },
+    /// A disc in the xy plane around the origin, normal +z, uv from 0 to 1 over the square around
+    /// it.
+    Disc {
+        /// Radius of the disc that has its area, m.
+        radius: f64,
+        /// Corners.
         segments: u32,
     },
     /// A drop of water on z = 0.

@@ -15,7 +15,7 @@ use leafmodel::document::source::escaped;
 use leafmodel::plan_file;
 
 use super::assets::DECODER;
-use super::blocks;
+use super::blocks::{self, Purpose};
 use super::description::{Description, Leaf, Named, Picture, Solid};
 
 /// A scene that was accepted.
@@ -38,7 +38,19 @@ pub struct Loaded {
 ///
 /// [`DocumentErrors`] with all errors of the scene and its overrides.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, DocumentErrors> {
-    into_scene(Opened::file(path, overrides, schema)?, &default_name(path))
+    let opened = Opened::file(path, overrides, schema)?;
+    into_scene(opened, &default_name(path), Purpose::Picture)
+}
+
+/// As [`load`], for the instruments of the scene: spectra of surfaces must cover the wavelengths of
+/// the instruments, those of lights need not cover anything, and there need be no light.
+///
+/// # Errors
+///
+/// [`DocumentErrors`] with all errors of the scene and its overrides.
+pub fn load_for_instruments(path: &Path, overrides: &[String]) -> Result<Loaded, DocumentErrors> {
+    let opened = Opened::file(path, overrides, schema)?;
+    into_scene(opened, &default_name(path), Purpose::Instruments)
 }
 
 /// Reads a scene from its text.
@@ -54,12 +66,33 @@ pub fn parse(
     folder: &Path,
     overrides: &[String],
 ) -> Result<Loaded, DocumentErrors> {
+    parse_for(Purpose::Picture, text, (file_name, folder), overrides)
+}
+
+/// As [`load_for_instruments`] of a scene's text; `file_name` and `folder` as for [`parse`].
+///
+/// # Errors
+///
+/// [`DocumentErrors`] with all errors of the scene and its overrides.
+pub fn parse_for_instruments(
+    text: &str,
+    file_name: &str,
+    folder: &Path,
+    overrides: &[String],
+) -> Result<Loaded, DocumentErrors> {
+    parse_for(Purpose::Instruments, text, (file_name, folder), overrides)
+}
+
+fn parse_for(
+    purpose: Purpose,
+    text: &str,
+    (file_name, folder): (&str, &Path),
+    overrides: &[String],
+) -> Result<Loaded, DocumentErrors> {
     let name = default_name(&folder.join(file_name));
     let shown = escaped(file_name, 4 * QUOTED);
-    into_scene(
-        Opened::text(text, &shown, folder, overrides, schema)?,
-        &name,
-    )
+    let opened = Opened::text(text, &shown, folder, overrides, schema)?;
+    into_scene(opened, &name, purpose)
 }
 
 /// Reads only the leaves of the file at `path`, which may be a scene or hold nothing but leaves.
@@ -141,10 +174,14 @@ pub fn schema() -> BlockSchema {
     blocks::schema()
 }
 
-fn into_scene(mut opened: Opened, default_name: &str) -> Result<Loaded, DocumentErrors> {
+fn into_scene(
+    mut opened: Opened,
+    default_name: &str,
+    purpose: Purpose,
+) -> Result<Loaded, DocumentErrors> {
     opened.cx.assets = Some(&DECODER);
     let recorded = std::mem::take(&mut opened.recorded);
-    let description = blocks::read(&opened.cx, &opened.tree, default_name, recorded);
+    let description = blocks::read(&opened.cx, &opened.tree, default_name, recorded, purpose);
     let inputs = opened.cx.inputs.take();
     let (description, warnings) = opened.finish(description)?;
     Ok(Loaded {

@@ -31,7 +31,7 @@ use crate::camera::Camera;
 use crate::camera::filter::PixelFilter;
 use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
-use crate::geometry::scatter::ScatterError;
+use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
 use crate::light::Light;
 use crate::light::selection::LightSelection;
@@ -162,6 +162,14 @@ pub enum WorldError {
         /// Why.
         source: ScatterError,
     },
+    /// A box cannot be filled with leaves.
+    #[error("objects.{name}.volume: {source}")]
+    Volume {
+        /// Name of the object.
+        name: String,
+        /// Why.
+        source: VolumeError,
+    },
     /// The camera cannot be focused on its object.
     #[error("camera.perspective.focus_object: {0}")]
     Focus(LensError),
@@ -177,6 +185,8 @@ pub struct BuildOptions<'a> {
     pub cache: Option<&'a PlantCache>,
     /// Counts the leaves that have grown.
     pub grown: Option<&'a AtomicUsize>,
+    /// Wavelengths of paths that are not the film's.
+    pub wavelengths: Option<&'a WavelengthSampler>,
 }
 
 impl World {
@@ -223,7 +233,8 @@ impl World {
     ) -> Result<Self, WorldError> {
         let mut notes = Vec::new();
         let (mut meshes, colours) = build_meshes(scene, &mut notes)?;
-        let wavelengths = WavelengthSampler::new(&scene.film.kind);
+        let of_film = || WavelengthSampler::new(&scene.film.kind);
+        let wavelengths = options.wavelengths.cloned().unwrap_or_else(of_film);
         let range_nm = wavelengths.range_nm();
         let mut known = Known::on(wavelengths.grid());
         let mut materials = build_materials(scene, &colours, &mut known)?;

@@ -1,6 +1,6 @@
 //! The wavelengths of paths, and the sets of them from which a picture draws.
 
-/// Number of sets of wavelengths from which paths choose.
+/// Number of sets of wavelengths from which the paths of a picture choose.
 pub const ROWS: usize = 256;
 
 /// Marks wavelengths that are in no row of the picture's grid.
@@ -27,7 +27,7 @@ impl<const N: usize> Wavelengths<N> {
     }
 }
 
-/// The sets of wavelengths of a picture.
+/// The sets of wavelengths of a picture, or of instruments.
 #[derive(Clone, Debug)]
 pub struct WavelengthGrid {
     pub(super) lanes: usize,
@@ -42,6 +42,39 @@ impl WavelengthGrid {
             lanes,
             nm: places.map(|(row, lane)| nm(row, lane)).collect(),
         }
+    }
+
+    /// Sets of given wavelengths, nm, of `lanes` each; their number is a multiple of `lanes`.
+    pub(super) fn of_sets(lanes: usize, nm: Vec<f32>) -> Self {
+        debug_assert!(nm.len().is_multiple_of(lanes), "sets are whole");
+        Self {
+            lanes,
+            nm: nm.into(),
+        }
+    }
+
+    /// The set with this number.
+    ///
+    /// # Panics
+    ///
+    /// If `N` is not the number of lanes, or there is no such set.
+    #[inline]
+    pub fn set<const N: usize>(&self, row: usize) -> Wavelengths<N> {
+        assert_eq!(
+            N, self.lanes,
+            "paths carry as many wavelengths as the grid has lanes"
+        );
+        let mut nm = [0.0; N];
+        nm.copy_from_slice(&self.nm[row * N..][..N]);
+        Wavelengths {
+            nm,
+            row: row as u32,
+        }
+    }
+
+    /// Number of sets.
+    pub fn rows(&self) -> usize {
+        self.nm.len() / self.lanes
     }
 
     /// Number of wavelengths in a set.

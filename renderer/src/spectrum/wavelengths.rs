@@ -30,6 +30,8 @@ enum Kind {
     },
     /// Bands: one lane per band.
     Bands(Vec<Band>),
+    /// Sets of given wavelengths, which no film records.
+    Sets { range_nm: [f64; 2] },
 }
 
 /// The density proportional to sech²(a (λ − λ₀)) over a range of wavelengths, sampled by inversion.
@@ -152,6 +154,33 @@ impl WavelengthSampler {
         }
     }
 
+    /// The sets of wavelengths of instruments: each list, nm, in packets of `lanes`. The last
+    /// packet of a list is filled up with its last wavelength. Also the first packet of each list.
+    ///
+    /// # Panics
+    ///
+    /// If there is no list, or an empty one.
+    pub fn of_lists(lanes: usize, lists: &[&[f64]]) -> (Self, Vec<usize>) {
+        let (mut nm, mut first) = (Vec::new(), Vec::new());
+        let mut range_nm = [f64::INFINITY, 0.0];
+        for list in lists {
+            first.push(nm.len() / lanes);
+            let last = *list.last().expect("a list holds a wavelength");
+            let padded = list.len().next_multiple_of(lanes);
+            let filled = list.iter().copied().chain(std::iter::repeat(last));
+            for wavelength in filled.take(padded) {
+                nm.push(wavelength as f32);
+                range_nm = [range_nm[0].min(wavelength), range_nm[1].max(wavelength)];
+            }
+        }
+        assert!(!nm.is_empty(), "there is a list");
+        let sampler = Self {
+            grid: WavelengthGrid::of_sets(lanes, nm),
+            kind: Kind::Sets { range_nm },
+        };
+        (sampler, first)
+    }
+
     /// The sets of wavelengths that are drawn.
     pub fn grid(&self) -> &WavelengthGrid {
         &self.grid
@@ -167,6 +196,7 @@ impl WavelengthSampler {
         match &self.kind {
             Kind::Rgb { .. } => 3,
             Kind::Bands(bands) => bands.len(),
+            Kind::Sets { .. } => self.grid.lanes,
         }
     }
 
@@ -177,17 +207,8 @@ impl WavelengthSampler {
     /// If `N` is not the grid's number of lanes.
     #[inline]
     pub fn draw<const N: usize>(&self, u: f32) -> Wavelengths<N> {
-        assert_eq!(
-            N, self.grid.lanes,
-            "paths carry as many wavelengths as the grid has lanes"
-        );
-        let row = ((u * ROWS as f32) as usize).min(ROWS - 1);
-        let mut nm = [0.0; N];
-        nm.copy_from_slice(&self.grid.nm[row * N..][..N]);
-        Wavelengths {
-            nm,
-            row: row as u32,
-        }
+        let rows = self.grid.rows();
+        self.grid.set(((u * rows as f32) as usize).min(rows - 1))
     }
 
     /// The film values of radiance at drawn wavelengths: linear sRGB, or radiance per band.
@@ -209,7 +230,7 @@ impl WavelengthSampler {
                     *value = (weight * *radiance).sum();
                 }
             }
-            Kind::Bands(_) => {
+            Kind::Bands(_) | Kind::Sets { .. } => {
                 for (value, lane) in values.iter_mut().zip(radiance.0) {
                     *value = lane;
                 }
@@ -234,14 +255,14 @@ impl WavelengthSampler {
                     .map(|seen| (seen * *throughput).sum());
                 x.max(y).max(z)
             }
-            Kind::Bands(_) => throughput.max_lane(),
+            Kind::Bands(_) | Kind::Sets { .. } => throughput.max_lane(),
         }
     }
 
     /// First and last wavelength that can be drawn, nm.
     pub fn range_nm(&self) -> [f64; 2] {
         match &self.kind {
-            Kind::Rgb { range_nm, .. } => *range_nm,
+            Kind::Rgb { range_nm, .. } | Kind::Sets { range_nm } => *range_nm,
             Kind::Bands(bands) => bands.iter().fold([f64::INFINITY, 0.0], |range, band| {
                 [
                     range[0].min(band.center_nm - 0.5 * band.width_nm),
@@ -353,6 +374,25 @@ mod tests {
             assert_eq!(sampler.channels(), channels);
             assert_eq!(sampler.grid().lanes(), lanes, "{kind:?}");
         }
+    }
+
+    #[test]
+    fn lists_of_wavelengths_become_packets_one_behind_the_other() {
+        let long: Vec<f64> = (0..11).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+        let (sampler, first) = WavelengthSampler::of_lists(8, &[&long, &[900.0]]);
+        assert_eq!((first, sampler.grid().rows()), (vec![0, 2], 3));
+        assert_eq!(sampler.range_nm(), [400.0, 900.0]);
+        assert_eq!(sampler.grid().set::<8>(0).nm[7], 470.0);
+        let second = sampler.grid().set::<8>(1);
+        assert_eq!(second.nm[..4], [480.0, 490.0, 500.0, 500.0]);
+        assert_eq!(sampler.grid().set::<8>(2).nm, [900.0; 8]);
+        // A spectrum that is tabulated for them has its values there.
+        let mut spectrum = crate::spectrum::Spectrum::from(crate::spectrum::Curve::from_points(&[
+            (400.0, 0.0),
+            (500.0, 1.0),
+        ]));
+        spectrum.tabulate(sampler.grid());
+        assert!((spectrum.lanes(&second).0[1] - 0.9).abs() < 1e-6);
     }
 
     #[test]

@@ -95,11 +95,10 @@ impl DocumentError {
             Self::UnsupportedFormat { .. } => {
                 "write `format = 1`, or use a newer version of the program".to_owned()
             }
-            Self::Coverage { .. } => {
-                "narrow the film's range, bring data that reach further, or write \
+            Self::Coverage { by, .. } => format!(
+                "narrow {by}'s range, bring data that reach further, or write \
                  `extrapolate = true` at the top of the file to go on with the end values"
-                    .to_owned()
-            }
+            ),
             Self::EnergyNotConserved { sum, .. } => {
                 let most = (1e4 / sum).floor() / 1e4;
                 format!("scale both spectra by {most:.4} or less, or mend the data")

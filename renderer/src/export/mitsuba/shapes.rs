@@ -102,7 +102,7 @@ pub(super) fn write(
         let radiance = shining.get(&number);
         for (place, kind, to_world) in places(&object.value, world.strewn.get(&number)) {
             let mut id = format!("object-{}", object.name);
-            if object.value.instances.is_some() || object.value.strewn.is_some() {
+            if object.value.instances.is_some() || object.value.is_spread() {
                 id += &format!(".{}", place + 1);
             }
             if radiance.is_none() && counts[&kind] > 1 {

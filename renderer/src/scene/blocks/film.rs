@@ -14,7 +14,7 @@ use leafmodel::document::values::{
 use crate::scene::description::{Band, Film, FilmKind};
 
 /// Range of wavelengths of the renderer, nm.
-const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
+pub(super) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
 /// Most samples a pixel.
@@ -161,7 +161,7 @@ impl Kind for Pixels {
 
 /// Two wavelengths, the first below the second.
 #[derive(Clone, Copy, Debug)]
-struct Range;
+pub(super) struct Range;
 
 impl Kind for Range {
     type Of = [f64; 2];

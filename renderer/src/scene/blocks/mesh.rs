@@ -1,4 +1,4 @@
-//! `[meshes.NAME.…]`: rectangle, sphere, drop, lump, terrain, file, gltf.
+//! `[meshes.NAME.…]`: rectangle, sphere, disc, drop, lump, terrain, file, gltf.
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
@@ -17,7 +17,7 @@ pub(super) fn mesh(mesh: &mut Mesh, keys: &mut Keys<'_>) {
     keys.kind(mesh, &KINDS);
 }
 
-const KINDS: [Variant<Mesh>; 7] = [
+const KINDS: [Variant<Mesh>; 8] = [
     Variant {
         name: "rectangle",
         about: "A rectangle in the xy plane around the origin, its normal along +z.",
@@ -43,6 +43,26 @@ const KINDS: [Variant<Mesh>; 7] = [
                 keys.required("radius_m", radius, EXTENTS_M, "Its radius.");
                 let about = "Triangles around the equator, half as many from pole to pole.";
                 keys.key("segments", segments, SEGMENTS, about);
+            }
+        },
+    },
+    Variant {
+        name: "disc",
+        about: "A flat disc around the origin, its normal along +z.",
+        new: || Mesh::Disc {
+            radius: 0.01,
+            segments: 24,
+        },
+        is: |mesh| matches!(mesh, Mesh::Disc { .. }),
+        declare: |mesh, keys| {
+            if let Mesh::Disc { radius, segments } = mesh {
+                keys.required(
+                    "radius_m",
+                    radius,
+                    EXTENTS_M,
+                    "Radius of a disc of its area.",
+                );
+                keys.key("segments", segments, SEGMENTS, "Its corners.");
             }
         },
     },

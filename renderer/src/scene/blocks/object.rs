@@ -13,6 +13,7 @@ use super::name_list::NamesIn;
 use super::placement::{ANGLES_DEG, SCALES, turn};
 use super::report;
 use super::scatter::scatter;
+use super::volume::volume;
 use crate::scene::description::{Object, ObjectShape};
 
 impl Object {
@@ -24,6 +25,7 @@ impl Object {
             instances: None,
             plant: None,
             strewn: None,
+            volume: None,
         }
     }
 }
@@ -45,15 +47,16 @@ pub(super) fn object(object: &mut Object, keys: &mut Keys<'_>) {
         },
     );
     scatter(object, keys);
-    let in_one_place = object.instances.is_none() && object.strewn.is_none();
+    volume(object, keys);
+    let in_one_place = object.instances.is_none() && !object.is_spread();
     if in_one_place && names.len() > 1 && keys.is_sound() {
         let problem = format!(
             "names {} shapes ({}) and stands in one place",
             names.len(),
             listed(names.iter().map(String::as_str))
         );
-        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"` or \
-            `scatter`";
+        let help = "name one shape, or say where each stands: `instances.file = \"places.csv\"`, \
+            `scatter` or `volume`";
         let error = DocumentError::Impossible {
             key: keys
                 .reader()

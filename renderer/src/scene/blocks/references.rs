@@ -8,8 +8,9 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::sections::{Names, singular};
 use leafmodel::document::source::escaped;
 
+use super::Purpose;
 use crate::scene::description::{
-    Description, Light, Material, Mesh, Named, ObjectShape, Reflectance,
+    Description, InstrumentKind, Light, Material, Mesh, Named, Object, ObjectShape, Reflectance,
 };
 
 /// Sections to whose blocks others refer.
@@ -23,13 +24,13 @@ pub(super) const SECTIONS: [&str; 6] = [
 ];
 
 /// Checks the scene as a whole; `keys` are those at its top.
-pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
+pub(super) fn check(scene: &Description, keys: &Keys<'_>, purpose: Purpose) {
     let Some(root) = keys.reader() else {
         return;
     };
     let cx = root.cx;
     let lights = Names::of(root, "lights", &super::SECTIONS);
-    if lights.are_missing() {
+    if lights.are_missing() && purpose == Purpose::Picture {
         cx.error_of_the_file(DocumentError::NoLight);
     }
     if cx.names("objects").is_some_and(|names| names.are_missing()) {
@@ -39,6 +40,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>) {
     check_shining(scene, keys);
     check_strewn(scene, keys);
     check_colours(scene, keys);
+    check_samples(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -74,7 +76,7 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         let shape = named.value.shapes.first();
         let problem = if named.value.plant.is_some() {
             "is a plant, and plants do not shine"
-        } else if named.value.instances.is_some() || named.value.strewn.is_some() {
+        } else if named.value.instances.is_some() || named.value.is_spread() {
             "has instances, and those do not shine"
         } else if matches!(shape, Some(ObjectShape::Leaf { .. })) {
             "is a leaf, and leaves do not shine"
@@ -106,13 +108,35 @@ fn check_strewn(scene: &Description, keys: &Keys<'_>) {
             };
             let problem = if below == number {
                 "an object cannot lie on itself".to_owned()
-            } else if below > number && named.value.strewn.is_some() {
+            } else if below > number && named.value.is_spread() {
                 format!("`{}` is strewn later itself", named.name)
             } else {
                 continue;
             };
             let help = "name an object in its place, or one that is strewn further up in the file";
             keys.refuse(&["objects", &object.name, "scatter", key], problem, help);
+        }
+    }
+}
+
+/// The sample of a sphere stands in one place.
+fn check_samples(scene: &Description, keys: &Keys<'_>) {
+    for instrument in &scene.instruments {
+        let InstrumentKind::Sphere(sphere) = &instrument.value.kind else {
+            continue;
+        };
+        // An unknown name is reported where it is written.
+        let Some(object) = scene.objects.get(sphere.object) else {
+            continue;
+        };
+        let Object {
+            instances, plant, ..
+        } = &object.value;
+        if instances.is_some() || plant.is_some() || object.value.is_spread() {
+            let problem = format!("`{}` stands in more than one place", object.name);
+            let help = "name an object with one mesh, leaf or solid in one place";
+            let path = ["instruments", &instrument.name, "sphere", "object"];
+            keys.refuse(&path, problem, help);
         }
     }
 }

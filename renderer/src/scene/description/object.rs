@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
-use crate::geometry::scatter::Scatter;
+use crate::geometry::scatter::{Scatter, Volume};
 
 /// Meshes, leaves or bodies placed in the scene: one shape in one place, or any number of
 /// instances.
@@ -20,6 +20,15 @@ pub struct Object {
     /// Where it is strewn; its places follow when the world is built. The parts of a plant then
     /// have their places in the plant's frame.
     pub strewn: Option<Box<StrewnOn>>,
+    /// The box in which copies of it float; their places follow when the world is built.
+    pub volume: Option<Box<Volume>>,
+}
+
+impl Object {
+    /// Whether its places are found when the world is built.
+    pub fn is_spread(&self) -> bool {
+        self.strewn.is_some() || self.volume.is_some()
+    }
 }
 
 /// Where copies of an object are strewn.

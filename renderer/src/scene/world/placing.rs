@@ -77,6 +77,18 @@ impl WorldObjects {
         self.instances[instance as usize].place
     }
 
+    /// The objects of some of the instances, in the order given.
+    #[must_use]
+    pub fn pick(&self, instances: impl IntoIterator<Item = u32>) -> Self {
+        let instances = instances.into_iter();
+        Self {
+            parts: self.parts.clone(),
+            instances: instances
+                .map(|number| self.instances[number as usize])
+                .collect(),
+        }
+    }
+
     /// Makes an instance emit light. It must be the only instance of its part.
     pub(super) fn shine(&mut self, instance: usize, light: usize) {
         self.parts[self.instances[instance].part as usize].light = Some(light);

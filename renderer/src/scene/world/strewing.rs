@@ -1,4 +1,4 @@
-//! Places for objects that are strewn on others.
+//! Places for objects that are strewn on others, or float in a box.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,9 @@ use glam::{DAffine3, DMat4, DVec3};
 use super::WorldError;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
-use crate::geometry::scatter::{Body, Ground, MOST_THINGS, ScatterError, triangles};
+use crate::geometry::scatter::{
+    Body, Ground, MOST_THINGS, ScatterError, Volume, VolumeError, triangles,
+};
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
 /// The shape of each copy and its place in the scene's frame, by object.
@@ -49,12 +51,20 @@ impl<'a> Strewing<'a> {
         }
     }
 
-    /// The places of each object that is strewn, by its number.
+    /// The places of each object that is strewn or floats, by its number.
     pub(super) fn all(mut self) -> Result<Places, WorldError> {
         for (number, object) in self.objects.iter().enumerate() {
             if let Some(strewn) = &object.value.strewn {
                 let places = self.strew(&object.value, strewn);
                 let places = places.map_err(|source| WorldError::Scatter {
+                    name: object.name.clone(),
+                    source,
+                })?;
+                self.found.insert(number, places);
+            }
+            if let Some(volume) = &object.value.volume {
+                let places = self.fill(&object.value, volume);
+                let places = places.map_err(|source| WorldError::Volume {
                     name: object.name.clone(),
                     source,
                 })?;
@@ -93,6 +103,21 @@ impl<'a> Strewing<'a> {
             alone.into_iter().chain(parts)
         });
         Ok(found.collect())
+    }
+
+    fn fill(&self, object: &Object, volume: &Volume) -> Result<Vec<(u32, DMat4)>, VolumeError> {
+        let area = |shape: &ObjectShape| -> f64 {
+            triangles(self.parts(*shape, object.to_world))
+                .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length())
+                .sum()
+        };
+        let areas: Vec<f64> = object.shapes.iter().map(area).collect();
+        let places = volume.places(&areas)?.into_iter();
+        let places = places.map(|place| {
+            let to_world = DMat4::from(place.to_world) * object.to_world;
+            (place.body, to_world)
+        });
+        Ok(places.collect())
     }
 
     /// The meshes of a shape in their places.

@@ -1,0 +1,184 @@
+//! Instruments: what a scene scatters and absorbs, as figures with standard errors.
+//!
+//! - **In**: a [`World`] whose materials are tabulated at the instruments' wavelengths
+//!   ([`sets_of`]), the instruments of its description, a [`Budget`].
+//! - **Out**: [`Row`]s, one figure each.
+//! - **Always true**: same scene, budget and seed, same figures, bit for bit, on any number of
+//!   threads; of the light of a beam nothing is lost or counted twice.
+//! - **Left out**: polarisation, fluorescence.
+//!
+//! Flux is followed from the light on, by the BSDFs that pictures use: they are reciprocal, so the
+//! share of light that is scattered from `wo` to `wi` is that from `wi` to `wo`.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use renderer::instruments::{Budget, read_out, sets_of};
+//! use renderer::scene::load::parse_for_instruments;
+//! use renderer::scene::world::{BuildOptions, World};
+//!
+//! let scene = r#"
+//!     format = 1
+//!     [film.rgb]
+//!     size = [8, 8]
+//!     spp = 1
+//!     [camera.orthographic]
+//!     position_m = [0, 0, 1]
+//!     look_at_m = [0, 0, 0]
+//!     up = [0, 1, 0]
+//!     height_m = 1
+//!     [meshes.sheet.rectangle]
+//!     width_m = 0.1
+//!     height_m = 0.1
+//!     [materials.paper.diffuse]
+//!     reflectance = 0.7
+//!     [objects.paper]
+//!     mesh = "sheet"
+//!     material = "paper"
+//!     [instruments.ball.sphere]
+//!     object = "paper"
+//!     wavelengths_nm = [550]
+//!     spot = { at_mm = [0, 0], diameter_mm = 10 }
+//! "#;
+//! let scene = parse_for_instruments(scene, "paper.toml", Path::new("."), &[])?.description;
+//! let (sampler, first) = sets_of(&scene).expect("there is an instrument");
+//! let options = BuildOptions { wavelengths: Some(&sampler), ..BuildOptions::default() };
+//! let world = World::build_with(&scene, &options)?;
+//! let budget = Budget { rays: 1 << 12, error: None, seed: 1 };
+//! let rows = read_out(&world, &scene, 0, first[0], &budget)?;
+//! let reflectance = rows.iter().find(|row| row.quantity == "reflectance").expect("it is measured");
+//! assert!((reflectance.value - 0.7).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod batches;
+mod canopy;
+mod period;
+mod row;
+mod sphere;
+mod spot;
+mod stage;
+mod walk;
+
+use thiserror::Error;
+
+pub use self::batches::{Budget, FEWEST_RAYS};
+pub use self::row::{Direction, Row};
+use crate::geometry::GeometryError;
+use crate::scene::description::{Description, InstrumentKind};
+use crate::scene::world::World;
+use crate::spectrum::WavelengthSampler;
+
+/// Number of wavelengths that a path carries.
+const LANES: usize = 8;
+
+/// Why an instrument cannot measure; each begins with where its block stands.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum InstrumentError {
+    /// The middle of a spot is not on its object.
+    #[error("{at}: the spot is off the object `{object}`: {place} is no point of its surface")]
+    OffTheObject {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+        /// The key with its value.
+        place: String,
+    },
+    /// A part of a spot is beside its object.
+    #[error(
+        "{at}: {share:.1} % of the spot is not covered by the object `{object}`: use a smaller \
+         `diameter_mm` or another place"
+    )]
+    NotCovered {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+        /// Share of the spot where there is nothing, percent.
+        share: f64,
+    },
+    /// No ray met the object.
+    #[error("{at}: no light meets the object `{object}`: is it seen from this side?")]
+    NothingLit {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+    },
+    /// A canopy without anything but soil.
+    #[error(
+        "{at}: nothing stands in `within_m` besides the soil: move the box, or add leaves to the \
+         scene"
+    )]
+    NoLeaves {
+        /// Where the block stands.
+        at: String,
+    },
+    /// Soil that does not fill the box.
+    #[error(
+        "{at}: the soil `{object}` does not reach over the whole of `within_m`: widen it or \
+         narrow the box"
+    )]
+    SoilTooSmall {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+    },
+    /// A part of a canopy that overlaps itself many times over.
+    #[error(
+        "{at}: the object `{object}` reaches over more than {most} boxes `within_m`, but not beyond \
+         both sides of one: widen the box, or move the object"
+    )]
+    TooWide {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+        /// Boxes over which it may reach.
+        most: u32,
+    },
+    /// Copies of a canopy's parts cannot be placed.
+    #[error("{at}: {source}")]
+    Geometry {
+        /// Where the block stands.
+        at: String,
+        /// Why.
+        source: GeometryError,
+    },
+}
+
+/// The wavelengths of all instruments of a scene, and the first set of each; `None` if there are no
+/// instruments.
+pub fn sets_of(scene: &Description) -> Option<(WavelengthSampler, Vec<usize>)> {
+    let lists = scene.instruments.iter();
+    let lists: Vec<&[f64]> = lists
+        .map(|instrument| instrument.value.wavelengths_nm.as_slice())
+        .collect();
+    (!lists.is_empty()).then(|| WavelengthSampler::of_lists(LANES, &lists))
+}
+
+/// Reads out the instrument with this number, whose wavelengths begin at the set `first_set` of
+/// those of the world.
+///
+/// # Errors
+///
+/// [`InstrumentError`] if it cannot measure.
+pub fn read_out(
+    world: &World,
+    scene: &Description,
+    number: usize,
+    first_set: usize,
+    budget: &Budget,
+) -> Result<Vec<Row>, InstrumentError> {
+    let instrument = &scene.instruments[number];
+    match &instrument.value.kind {
+        InstrumentKind::Sphere(sphere) => {
+            sphere::read_out(world, scene, (instrument, sphere), first_set, budget)
+        }
+        InstrumentKind::Canopy(canopy) => {
+            canopy::read_out(world, scene, (instrument, canopy), first_set, budget)
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! The part of a scene that an instrument sees.
+
+use glam::Vec3;
+
+use crate::geometry::{Geometry, GeometryError};
+use crate::material::Material;
+use crate::scene::world::{World, WorldObjects};
+
+/// Some instances of a world, each perhaps in several places.
+pub(super) struct Stage<'w> {
+    pub(super) world: &'w World,
+    pub(super) geometry: Geometry,
+    pub(super) objects: WorldObjects,
+}
+
+impl<'w> Stage<'w> {
+    /// These instances of a world, each moved by an offset, m.
+    pub(super) fn new(world: &'w World, places: &[(u32, Vec3)]) -> Result<Self, GeometryError> {
+        Ok(Self {
+            world,
+            geometry: world.geometry.with_places(places)?,
+            objects: world.objects.pick(places.iter().map(|(number, _)| *number)),
+        })
+    }
+
+    /// All parts of one object.
+    pub(super) fn of_object(world: &'w World, object: usize) -> Result<Self, GeometryError> {
+        let numbers = 0..world.objects.len() as u32;
+        let own = numbers.filter(|&number| world.objects[number as usize].object == object);
+        Self::new(
+            world,
+            &own.map(|number| (number, Vec3::ZERO)).collect::<Vec<_>>(),
+        )
+    }
+
+    /// The material of an instance.
+    pub(super) fn material_of(&self, instance: u32) -> &'w Material {
+        &self.world.materials[self.objects[instance as usize].material]
+    }
+}

@@ -1,0 +1,62 @@
+//! The point where a ray meets a surface, and how light is scattered there.
+
+use glam::Vec3;
+
+use crate::bsdf::Bsdf;
+use crate::geometry::frame::Frame;
+use crate::geometry::ray::Ray;
+use crate::geometry::surface::SurfacePoint;
+use crate::geometry::{Geometry, Hit};
+use crate::integrator::cone::{self, Cone};
+use crate::material::Material;
+use crate::spectrum::Wavelengths;
+
+/// The point where a ray meets a surface.
+#[derive(Clone, Debug)]
+pub struct Encounter<'m, const N: usize> {
+    /// The point.
+    pub surface: SurfacePoint,
+    /// The frame of the BSDF: +z the shading normal, +y where v grows.
+    pub frame: Frame,
+    /// Scattering there, the relief of the faces included.
+    pub bsdf: Bsdf<'m, N>,
+    /// Direction from which the ray came, away from the surface, local.
+    pub wo: Vec3,
+    /// Width of the ray there, m.
+    pub width: f32,
+    /// Whether the material has a relief.
+    pub has_relief: bool,
+}
+
+impl<'m, const N: usize> Encounter<'m, N> {
+    /// The encounter of a ray, with its cone, at a hit of a surface of this material.
+    #[inline]
+    pub fn new(
+        geometry: &Geometry,
+        material: &'m Material,
+        (ray, cone): (&Ray, &Cone),
+        hit: &Hit,
+        wavelengths: &Wavelengths<N>,
+    ) -> Self {
+        let surface = geometry.surface(ray, hit);
+        let mut bsdf = material.bsdf(surface.uv, wavelengths);
+        let width = cone.width_at(hit.t);
+        let relief = material.relief();
+        if let Some(relief) = relief {
+            let scale = geometry.texture_scale(hit);
+            let facing = ray.direction.dot(surface.shading_normal);
+            let footprint = cone::footprint(width, facing);
+            let faces = relief.at(surface.uv, scale, footprint);
+            bsdf = bsdf.with_relief(faces, relief.grains(wavelengths));
+        }
+        let frame = Frame::new(surface.shading_normal, surface.tangent);
+        Self {
+            wo: frame.to_local(-ray.direction),
+            has_relief: relief.is_some(),
+            surface,
+            frame,
+            bsdf,
+            width,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Instruments against closed forms, PROSPECT and figures computed independently.
+
+mod anchors;
+mod canopy;
+mod sphere;
+
+use std::path::Path;
+
+use renderer::instruments::{Budget, Direction, InstrumentError, Row, read_out, sets_of};
+use renderer::scene::description::Description;
+use renderer::scene::load::parse_for_instruments;
+use renderer::scene::world::{BuildOptions, World};
+
+/// What every scene has and no instrument looks at.
+const HEAD: &str = "format = 1\n\
+    film.spectral = { size = [8, 8], spp = 1, bands_nm = [550] }\n\
+    camera.orthographic = { position_m = [0, 0, 1], look_at_m = [0, 0, 0], up = [0, 1, 0], height_m = 1 }\n";
+
+/// A scene from its text without the head, and what is built of it.
+fn built(text: &str) -> (Description, World, Vec<usize>) {
+    let text = format!("{HEAD}{text}");
+    let loaded = parse_for_instruments(&text, "bench.toml", Path::new("."), &[]);
+    let scene = loaded
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .description;
+    let (sampler, first) = sets_of(&scene).expect("there are instruments");
+    let options = BuildOptions {
+        wavelengths: Some(&sampler),
+        ..BuildOptions::default()
+    };
+    let world = World::build_with(&scene, &options).expect("it can be built");
+    (scene, world, first)
+}
+
+/// The figures of all instruments of a scene.
+fn figures(text: &str, budget: &Budget) -> Result<Vec<Row>, InstrumentError> {
+    let (scene, world, first) = built(text);
+    let numbers = 0..scene.instruments.len();
+    let rows = numbers.map(|number| read_out(&world, &scene, number, first[number], budget));
+    rows.collect::<Result<Vec<_>, _>>()
+        .map(|rows| rows.concat())
+}
+
+/// A number of rays.
+fn rays(rays: u64) -> Budget {
+    Budget {
+        rays,
+        error: None,
+        seed: 1,
+    }
+}
+
+/// The figures with a word, of a light and a wavelength.
+fn of<'r>(
+    rows: &'r [Row],
+    quantity: &'r str,
+    incidence: Direction,
+    nm: f64,
+) -> impl Iterator<Item = &'r Row> {
+    rows.iter().filter(move |row| {
+        row.quantity == quantity && row.incidence == incidence && row.wavelength_nm == nm
+    })
+}
+
+/// Light along the normal.
+const NORMAL: Direction = Direction::Beam(0.0);
+
+#[test]
+fn a_number_of_threads_changes_no_bit() {
+    let text = format!(
+        "{}\n[instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nwavelengths_nm = [550, 800]\n\
+         diffuse = true\nsoil = \"ground\"\n",
+        canopy::discs(0.05, 2.0, [0.0, 1.0])
+    );
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let budget = Budget {
+            error: Some(5e-3),
+            ..rays(1 << 16)
+        };
+        let found = pool
+            .expect("there are threads")
+            .install(|| figures(&text, &budget));
+        found.expect("it can be measured")
+    };
+    let one = run(1);
+    assert_eq!(one, run(3));
+    assert!(one.iter().all(|row| row.error <= 5e-3));
+}

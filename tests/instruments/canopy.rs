@@ -1,0 +1,172 @@
+//! Fluxes of canopies that repeat themselves.
+
+use renderer::instruments::{Direction, InstrumentError};
+
+use super::{NORMAL, figures, of, rays};
+
+/// Discs afloat over ground.
+pub(super) fn discs(radius: f64, lai: f64, [low, high]: [f64; 2]) -> String {
+    format!(
+        "[meshes.disc.disc]\nradius_m = {radius}\n\
+         [meshes.ground.rectangle]\nwidth_m = 3\nheight_m = 3\n\
+         [materials.leaf.leaf]\nabaxial_ratio = 1\nadaxial = {{ eta = 1, alpha = 1 }}\n\
+         abaxial = {{ eta = 1, alpha = 1 }}\n\
+         [materials.leaf.leaf.measured]\nreflectance = 0.4\ntransmittance = 0.3\n\
+         [materials.soil.diffuse]\nreflectance = 0.2\n\
+         [objects.ground]\nmesh = \"ground\"\nmaterial = \"soil\"\nposition_m = [0, 0, -{radius}]\n\
+         [objects.leaves]\nmesh = \"disc\"\nmaterial = \"leaf\"\n\
+         volume = {{ within_m = [0, 0, {low}, 1, 1, {high}], lai = {lai}, seed = 4 }}\n"
+    )
+}
+
+/// A sheet of a two-sided Lambertian leaf over ground, one metre up, and a canopy of both.
+fn sheet(width: f64, keys: &str) -> String {
+    format!(
+        "[meshes.sheet.rectangle]\nwidth_m = {width}\nheight_m = {width}\n\
+         [materials.leaf.leaf]\nabaxial_ratio = 1\nadaxial = {{ eta = 1, alpha = 1 }}\n\
+         abaxial = {{ eta = 1, alpha = 1 }}\n\
+         [materials.leaf.leaf.measured]\nreflectance = 0.4\ntransmittance = 0.3\n\
+         [materials.soil.diffuse]\nreflectance = 0.2\n\
+         [meshes.ground.rectangle]\nwidth_m = 4\nheight_m = 4\n\
+         [objects.ground]\nmesh = \"ground\"\nmaterial = \"soil\"\n\
+         [objects.leaf]\nmesh = \"sheet\"\nmaterial = \"leaf\"\nposition_m = [0, 0, 1]\n{keys}"
+    )
+}
+
+#[test]
+fn a_level_leaf_over_soil_has_the_fluxes_of_two_plates() {
+    let text = sheet(
+        4.0,
+        "[instruments.field.canopy]\nwithin_m = [-1, -1, 1, 1]\nwavelengths_nm = [550]\n\
+         soil = \"ground\"\nincidence_deg = [0, 70]\ndiffuse = true\nlayers_m = [0.5]\n",
+    );
+    let rows = figures(&text, &rays(1 << 17)).expect("it can be measured");
+    let (r, t, soil) = (0.4, 0.3, 0.2);
+    let arriving = t / (1.0 - r * soil);
+    let reflected = r + arriving * soil * t;
+    for incidence in [
+        NORMAL,
+        Direction::Beam(70_f64.to_radians()),
+        Direction::Diffuse,
+    ] {
+        for (quantity, expected) in [
+            ("reflected", reflected),
+            ("arriving_at_soil", arriving),
+            ("absorbed_by_soil", arriving * (1.0 - soil)),
+            ("absorbed", 1.0 - reflected - arriving * (1.0 - soil)),
+            ("uncollided", 0.0),
+            ("transmitted", 0.0),
+        ] {
+            let row = of(&rows, quantity, incidence, 550.0)
+                .next()
+                .expect("it is measured");
+            let off = (row.value - expected).abs();
+            assert!(off < 4.0 * row.error + 1e-6, "{row:?} for {expected}");
+            assert!(row.error < 2e-3, "{row:?}");
+        }
+        let of_all = ["reflected", "transmitted", "absorbed_by_soil", "absorbed"];
+        let sum: f64 = of_all
+            .into_iter()
+            .flat_map(|quantity| of(&rows, quantity, incidence, 550.0))
+            .map(|row| row.value)
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+        let layers: Vec<_> = of(&rows, "absorbed_in_layer", incidence, 550.0).collect();
+        assert_eq!(layers[0].part.as_deref(), Some("below 0.5 m"));
+        assert_eq!((layers.len(), layers[0].value), (2, 0.0));
+    }
+}
+
+#[test]
+fn what_crosses_the_border_of_the_box_is_whole_and_shades_as_much_as_anywhere() {
+    // A leaf of 0.6 by 0.6 m in a box of 2 by 2 m, whose middle is a corner, a side or the middle of
+    // the box.
+    let sun = Direction::Beam(40_f64.to_radians());
+    for corner in [[-1.0, -1.0], [0.0, 0.0], [-0.2, 0.0], [0.1, -1.7]] {
+        let [x, y] = corner;
+        let text = sheet(
+            0.6,
+            &format!(
+                "[instruments.field.canopy]\nwithin_m = [{x}, {y}, {}, {}]\nwavelengths_nm = [550]\n\
+                 soil = \"ground\"\nincidence_deg = [0, 40]\nazimuth_deg = 25\n",
+                x + 2.0,
+                y + 2.0
+            ),
+        );
+        let rows = figures(&text, &rays(1 << 16)).expect("it can be measured");
+        for incidence in [NORMAL, sun] {
+            let row = of(&rows, "uncollided", incidence, 550.0)
+                .next()
+                .expect("it is measured");
+            let off = (row.value - (1.0 - 0.09)).abs();
+            assert!(off < 4.0 * row.error, "{corner:?}: {row:?}");
+            assert!(row.error < 1e-3, "{corner:?}: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn a_gap_is_seen_as_often_as_leaves_at_random_leave_it() {
+    // exp(−G LAI / cos θ) of many small discs; the deviation of one set of discs is that of about
+    // 1 / (π r²) independent places.
+    let text = format!(
+        "{}[instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nwavelengths_nm = [550]\n\
+         soil = \"ground\"\nincidence_deg = [0, 60]\n",
+        discs(0.005, 1.0, [0.0, 1.0])
+    );
+    let rows = figures(&text, &rays(1 << 15)).expect("it can be measured");
+    for (angle, cosine) in [(0.0_f64, 1.0), (60.0, 0.5)] {
+        let incidence = Direction::Beam(angle.to_radians());
+        let row = of(&rows, "uncollided", incidence, 550.0)
+            .next()
+            .expect("it is measured");
+        let expected = libm::exp(-0.5 / cosine);
+        let of_places = (0.14 * std::f64::consts::PI).sqrt() * 0.005;
+        let error = row.error.hypot(of_places);
+        assert!(
+            (row.value - expected).abs() < 4.0 * error,
+            "{row:?} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn what_overlaps_itself_without_end_is_refused() {
+    let long = sheet(
+        4.0,
+        "[instruments.field.canopy]\nwithin_m = [1.9, 0, 1.91, 0.01]\nsoil = \"ground\"\n",
+    );
+    assert!(
+        figures(&long, &rays(1024)).is_ok(),
+        "it reaches beyond both sides"
+    );
+    let cut = long
+        .replace("within_m = [1.9,", "within_m = [1.995,")
+        .replace("1.91,", "2.005,");
+    let error = figures(&cut, &rays(1024)).expect_err("it ends within the box");
+    assert!(matches!(error, InstrumentError::TooWide { .. }), "{error}");
+}
+
+#[test]
+fn a_canopy_without_leaves_and_soil_that_is_too_small_are_refused() {
+    let bare = sheet(
+        0.1,
+        "[instruments.field.canopy]\nwithin_m = [0.5, 0.5, 1, 1]\nsoil = \"leaf\"\n",
+    );
+    // Light meets the ground, which is not the soil, where the leaf is not.
+    let found = figures(&bare, &rays(1024));
+    assert!(
+        matches!(found, Err(InstrumentError::SoilTooSmall { .. })),
+        "{found:?}"
+    );
+    let only_soil = "[meshes.ground.rectangle]\nwidth_m = 4\nheight_m = 4\n\
+        [materials.soil.diffuse]\nreflectance = 0.2\n\
+        [objects.ground]\nmesh = \"ground\"\nmaterial = \"soil\"\n\
+        [instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nsoil = \"ground\"\n";
+    let error = figures(only_soil, &rays(1024)).expect_err("there are no leaves");
+    assert_eq!(
+        error.to_string(),
+        "bench.toml:12:14: nothing stands in `within_m` besides the soil: move the box, or add \
+         leaves to the scene"
+    );
+}

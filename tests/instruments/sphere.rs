@@ -1,0 +1,280 @@
+//! The integrating sphere.
+
+use std::fmt::Write as _;
+
+use glam::{Vec2, Vec3};
+use renderer::geometry::Ray;
+use renderer::instruments::{Direction, InstrumentError};
+use renderer::spectrum::Wavelengths;
+
+use super::{NORMAL, built, figures, of, rays};
+
+const REFERENCE: &str = include_str!("../data/prospect_d_reference.csv");
+
+/// The contents of the 33 leaves of the reference, each with its rows of wavelength, R and T.
+fn leaves() -> Vec<([f64; 7], Vec<[f64; 3]>)> {
+    let mut leaves: Vec<([f64; 7], Vec<[f64; 3]>)> = Vec::new();
+    let lines = REFERENCE.lines();
+    for line in lines.filter(|line| !line.starts_with('#') && !line.starts_with("case,")) {
+        let numbers: Vec<f64> = line
+            .split(',')
+            .skip(1)
+            .map(|figure| figure.parse().expect("a figure is a number"))
+            .collect();
+        let contents: [f64; 7] = numbers[..7].try_into().expect("seven contents");
+        let row = [numbers[7], numbers[8], numbers[9]];
+        match leaves.last_mut() {
+            Some((last, rows)) if *last == contents => rows.push(row),
+            Some(_) | None => leaves.push((contents, vec![row])),
+        }
+    }
+    leaves
+}
+
+/// A sheet of a leaf with these contents and faces, askew, and a sphere over a part of it, to which
+/// keys may be added.
+fn sheet(name: &str, [n, cab, car, ant, brown, cw, cm]: [f64; 7], faces: &str) -> String {
+    format!(
+        "[materials.{name}.leaf]\n{faces}\n\
+         [materials.{name}.leaf.contents]\nstructure = {n}\nchlorophyll_ug_per_cm2 = {cab}\n\
+         carotenoids_ug_per_cm2 = {car}\nanthocyanins_ug_per_cm2 = {ant}\nbrown = {brown}\n\
+         water_cm = {cw}\ndry_matter_g_per_cm2 = {cm}\n\
+         [objects.{name}]\nmesh = \"sheet\"\nmaterial = \"{name}\"\nposition_m = [0.3, 0.2, 0.1]\n\
+         rotate_deg = [30, 20, 10]\n\
+         [instruments.{name}.sphere]\nobject = \"{name}\"\n\
+         spot = {{ at_mm = [3, -20], diameter_mm = 20 }}\n"
+    )
+}
+
+const SHEET: &str = "[meshes.sheet.rectangle]\nwidth_m = 0.1\nheight_m = 0.1\n";
+
+#[test]
+fn a_sphere_over_a_uniform_leaf_reads_what_prospect_says() {
+    let leaves = leaves();
+    assert_eq!(leaves.len(), 33);
+    let mut text = SHEET.to_owned();
+    for (number, (contents, _)) in leaves.iter().enumerate() {
+        // A coat that alone reflects less than any of these leaves.
+        let coat = "adaxial = { eta = 1.3, alpha = 0.4 }";
+        text += &sheet(&format!("leaf{number}"), *contents, coat);
+        text += "incidence_deg = [0]\ndiffuse = false\nfaces = \"adaxial\"\n";
+    }
+    let rows = figures(&text, &rays(8192)).expect("it can be measured");
+    let mut greatest = 0.0_f64;
+    for (number, (_, reference)) in leaves.iter().enumerate() {
+        let name = format!("leaf{number}");
+        let own: Vec<_> = rows
+            .iter()
+            .filter(|row| row.instrument == name)
+            .cloned()
+            .collect();
+        for [nm, r, t] in reference {
+            let expected = [
+                ("reflectance", *r),
+                ("transmittance", *t),
+                ("absorptance", 1.0 - r - t),
+            ];
+            for (quantity, expected) in expected {
+                let row = of(&own, quantity, NORMAL, *nm)
+                    .next()
+                    .expect("it is measured");
+                let off = (row.value - expected).abs();
+                greatest = greatest.max(off);
+                assert!(off < 1e-3, "{name}: {row:?} for {expected}");
+            }
+        }
+    }
+    eprintln!("greatest deviation {greatest:.1e}");
+}
+
+#[test]
+fn without_a_coat_any_light_and_either_face_see_the_same_leaf_and_nothing_is_lost() {
+    let contents = [1.5, 40.0, 8.0, 1.0, 0.1, 0.01, 0.009];
+    let bare =
+        "abaxial_ratio = 1\nadaxial = { eta = 1, alpha = 1 }\nabaxial = { eta = 1, alpha = 1 }";
+    let text = format!(
+        "{SHEET}{}incidence_deg = [0, 30, 75]\nwavelengths_nm = [550, 800, 1650]\n",
+        sheet("leaf", contents, bare)
+    );
+    let rows = figures(&text, &rays(1 << 16)).expect("it can be measured");
+    assert_eq!(rows.len(), 3 * 2 * 4 * 3);
+    for pair in rows.chunks(3) {
+        let sum: f64 = pair.iter().map(|row| row.value).sum();
+        assert!((sum - 1.0).abs() < 1e-9, "{pair:?}");
+    }
+    for quantity in ["reflectance", "transmittance"] {
+        for nm in [550.0, 800.0, 1650.0] {
+            let same = || {
+                let all = rows.iter();
+                all.filter(|row| row.quantity == quantity && row.wavelength_nm == nm)
+            };
+            let first = same().next().expect("it is measured");
+            assert_eq!(same().count(), 8);
+            for row in same() {
+                let error = row.error.hypot(first.error).max(1e-7);
+                assert!(
+                    (row.value - first.value).abs() < 5.0 * error,
+                    "{row:?} {first:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A grown leaf that lies flat and is smooth, with a sphere over a part of its midrib.
+fn veined(light_spread: f64) -> String {
+    format!(
+        "[leaves.birch]\npreset = \"birch\"\nmap_size = 512\nlight_spread = {light_spread}\n\
+         [leaves.birch.blade]\nfold_deg = 0\ncurl_deg = 0\nruffle = 0\nrelief = 0\npleat_deg = 0\n\
+         [leaves.birch.surface]\nimpressed = 0\nraised = 0\nbulge_mm = 0\ncell_share = 0\n\
+         stomata.abaxial_per_mm2 = 0\n\
+         [objects.leaf]\nleaf = \"birch\"\n\
+         [instruments.ball.sphere]\nobject = \"leaf\"\nincidence_deg = [0]\ndiffuse = false\n\
+         faces = \"adaxial\"\nwavelengths_nm = [450, 550, 680, 710, 800, 1200, 1650]\n\
+         spot = {{ at_mm = [0, 25], diameter_mm = 8 }}\n"
+    )
+}
+
+#[test]
+#[ignore = "slow: 10 s"]
+fn a_veined_leaf_reads_the_mean_of_its_tissues_but_for_light_that_spreads_under_veins() {
+    let text = veined(0.0);
+    let rows = figures(&text, &rays(1 << 17)).expect("it can be measured");
+    let (scene, world, _) = built(&text);
+    let nm = &scene.instruments[0].value.wavelengths_nm;
+    // PROSPECT of the contents at points of the spot, which are as far apart as texels.
+    let (mut sums, mut count) = (vec![[0.0; 2]; nm.len()], 0.0);
+    let side = 200;
+    for i in 0..side * side {
+        let place = Vec2::new((i % side) as f32, (i / side) as f32) + 0.5;
+        let place = (place / side as f32 - 0.5) * 0.008;
+        if place.length() > 0.004 {
+            continue;
+        }
+        let above = Vec3::new(place.x, 0.025 + place.y, 0.1);
+        let ray = Ray::new(above, Vec3::NEG_Z);
+        let hit = world
+            .geometry
+            .intersect(&ray)
+            .expect("the spot is on the leaf");
+        let surface = world.geometry.surface(&ray, &hit);
+        let tissue = world.material_of(hit.instance).tissue();
+        let tissue = tissue.expect("a leaf is tissue");
+        let texel = tissue.held.expect("it has contents").at(surface.uv);
+        count += 1.0;
+        for (sums, &nm) in sums.iter_mut().zip(nm) {
+            let pile = tissue.palette.lanes(&Wavelengths::new([nm as f32]));
+            let (r, t) = pile.reflectance_transmittance(&texel);
+            sums[0] += f64::from(r[0]);
+            sums[1] += f64::from(t[0]);
+        }
+    }
+    let mut report = String::new();
+    let mut greatest = 0.0_f64;
+    for (sums, &nm) in sums.iter().zip(nm) {
+        for (quantity, sum) in ["reflectance", "transmittance"].into_iter().zip(sums) {
+            let row = of(&rows, quantity, NORMAL, nm)
+                .next()
+                .expect("it is measured");
+            let off = row.value - sum / count;
+            greatest = greatest.max(off.abs());
+            let _ = writeln!(report, "{nm} nm {quantity}: {:.4}, {off:+.4}", row.value);
+        }
+    }
+    // 1e-3 beyond the noise of the sphere and of the grid of points.
+    assert!(greatest < 2e-3, "{report}");
+    // Light that spreads sideways leaves R as it is and changes T where neighbours differ.
+    let spread = figures(&veined(1.0), &rays(1 << 17)).expect("it can be measured");
+    for &nm in nm {
+        let both = |quantity: &'static str| {
+            let [a, b] = [&rows, &spread].map(|rows| {
+                of(rows, quantity, NORMAL, nm)
+                    .next()
+                    .expect("it is measured")
+                    .clone()
+            });
+            (a.value, b.value, a.error.hypot(b.error))
+        };
+        let (alone, spread, error) = both("reflectance");
+        assert!(
+            (alone - spread).abs() < 5.0 * error + 1e-4,
+            "{nm} nm: {alone} {spread}"
+        );
+        // A gain: where little comes through, more comes in from beside than goes out.
+        let (alone, spread, error) = both("transmittance");
+        assert!(spread > alone - 5.0 * error, "{nm} nm: {alone} {spread}");
+        if nm == 450.0 {
+            assert!(spread > 1.1 * alone, "{nm} nm: {alone} {spread}");
+        }
+    }
+}
+
+#[test]
+fn a_whole_body_that_absorbs_nothing_gives_all_its_light_back() {
+    let text = "[meshes.ball.sphere]\nradius_m = 0.1\n[materials.white.diffuse]\nreflectance = 1\n\
+        [objects.ball]\nmesh = \"ball\"\nmaterial = \"white\"\n\
+        [instruments.ball.sphere]\nobject = \"ball\"\nwavelengths_nm = [550]\n";
+    let rows = figures(text, &rays(1 << 14)).expect("it can be measured");
+    for three in rows.chunks(3) {
+        assert!(three[2].value.abs() < 1e-6, "{three:?}");
+        // A Lambert sphere sends 5/6 of parallel light back into the half space from which it
+        // comes; the rest of the deviation is that of 64 segments.
+        if three[0].incidence == NORMAL {
+            let off = (three[0].value - 5.0 / 6.0).abs();
+            assert!(off < 4.0 * three[0].error + 2e-3, "{three:?}");
+        } else {
+            assert!(three[0].value > 0.6, "{three:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_of_glass_lets_all_light_go() {
+    let text = "[meshes.ball.sphere]\nradius_m = 0.1\n[materials.glass.dielectric]\neta = 1.5\n\
+        [objects.ball]\nmesh = \"ball\"\nmaterial = \"glass\"\n\
+        [instruments.ball.sphere]\nobject = \"ball\"\nwavelengths_nm = [550]\n";
+    let rows = figures(text, &rays(1 << 14)).expect("it can be measured");
+    for row in rows.iter().filter(|row| row.quantity == "absorptance") {
+        // What is left at last by roulette, which is right on average.
+        assert!(row.value.abs() < 1e-3, "{row:?}");
+    }
+}
+
+#[test]
+fn spots_off_the_leaf_are_refused_with_their_place() {
+    let text = |spot: &str| {
+        format!(
+            "{SHEET}[materials.paper.diffuse]\nreflectance = 0.5\n\
+             [objects.paper]\nmesh = \"sheet\"\nmaterial = \"paper\"\n\
+             [instruments.ball.sphere]\nobject = \"paper\"\nwavelengths_nm = [550]\nspot = {spot}\n"
+        )
+    };
+    let refused = |spot: &str| {
+        figures(&text(spot), &rays(1024))
+            .expect_err("it is off")
+            .to_string()
+    };
+    let off = refused("{ at_mm = [60, 0], diameter_mm = 1 }");
+    assert_eq!(
+        off,
+        "bench.toml:15:1: the spot is off the object `paper`: `at_mm = [60, 0]` is no point of its \
+         surface"
+    );
+    assert!(refused("{ at_uv = [0.5, 1.1], diameter_mm = 1 }").contains("`at_uv = [0.5, 1.1]`"));
+    let partly = figures(&text("{ at_mm = [50, 0], diameter_mm = 4 }"), &rays(1024));
+    let Err(InstrumentError::NotCovered { share, .. }) = partly else {
+        panic!("half of it is off");
+    };
+    assert!((share - 50.0).abs() < 5.0, "{share} %");
+    let same = |spot: &str| figures(&text(spot), &rays(1024)).expect("it is on the sheet");
+    let by_place = same("{ at_mm = [-20, 30], diameter_mm = 4 }");
+    assert_eq!(
+        by_place.len(),
+        same("{ at_uv = [0.3, 0.8], diameter_mm = 4 }").len()
+    );
+    assert!(
+        by_place
+            .iter()
+            .any(|row| row.incidence == Direction::Diffuse)
+    );
+}
