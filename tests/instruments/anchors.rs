@@ -50,7 +50,7 @@ fn wavelength_of(rho: f64) -> f64 {
 
 /// Radius of the discs over the height of the layer. Discs hide from light that comes back what they
 /// have hidden from light that comes in. That adds to R1 in proportion to the radius: at 0.02, R1 of
-/// 0.0355 was found 6e-4 too high, at 0.005 2e-4, at 0.0025 5e-5.
+/// 0.0355 was found 6e-4 too high, at 0.005 2e-4, at 0.0025 7e-5.
 const RADIUS: f64 = 0.0025;
 /// Side of the box over the height of the layer: light that comes by the same place again does so at
 /// another height, among other discs.
