@@ -149,7 +149,7 @@ fn decades([low, high]: [f64; 2], wanted: usize) -> Vec<(f64, String)> {
         return steps([low, high], wanted);
     }
     let [from, to] = [libm::floor(first), libm::ceil(last)].map(|power| power as i32);
-    let factors: &[f64] = if (last - first) * 3.0 <= 1.5 * wanted as f64 {
+    let factors: &[f64] = if (last - first) * 3.0 <= 1.4 * wanted as f64 {
         &[1.0, 2.0, 5.0]
     } else {
         &[1.0]
@@ -245,6 +245,9 @@ mod tests {
         assert_eq!(of(0.01, 0.3), ["0.01", "0.02", "0.05", "0.1", "0.2"]);
         assert_eq!(of(0.01, 100.0), ["0.01", "0.1", "1", "10", "100"]);
         assert_eq!(of(1.0, 1.5).len(), 6);
+        // Two decades with room for four: parts of them would touch.
+        let few = Axis::logarithmic([1e-4, 1e-2], [0.0, 100.0]);
+        assert_eq!(labels(few, 4), ["1·10⁻⁴", "0.001", "0.01"]);
         assert!(of(1e-9, 1e9).len() <= 7, "{:?}", of(1e-9, 1e9));
     }
 

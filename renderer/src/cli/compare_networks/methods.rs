@@ -31,9 +31,10 @@ pub(super) fn section(findings: &Findings, arguments: &CompareNetworksArguments)
         );
         lines.push(format!(
             "Means are compared by Welch's t-test, which does not take spreads as equal but means \
-             of leaves as normal ({means} tests; where a group is one leaf, whether that leaf belongs \
-             to the others, by the test of Crawford and Howell); ranks by the test of Mann and Whitney, which needs \
-             no form of the distribution and counts all orders up to 50 leaves ({orders} tests). \
+             of leaves as normal ({means} tests; where a group is one leaf, whether that leaf \
+             belongs to the others, by the test of Crawford and Howell); ranks by the test of Mann \
+             and Whitney, which needs no form of the distribution and counts all orders up to 50 \
+             leaves ({orders} tests). \
              Look at one of them, chosen beforehand: Welch's for measures that spread evenly, the \
              other where single leaves stand far out."
         ));

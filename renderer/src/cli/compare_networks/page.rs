@@ -42,7 +42,8 @@ min-width:0}\
 border-radius:2px;margin-right:.35em;vertical-align:-.05em}\
 nav{columns:3 15rem;font-size:.87rem}nav a{display:block;overflow-wrap:anywhere}\
 @media(max-width:560px){.cards{grid-template-columns:1fr}}\
-@media print{.key{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:10pt;max-width:none;margin:0}nav{display:none}.wide{overflow:visible}\
+@media print{.key{print-color-adjust:exact;-webkit-print-color-adjust:exact}\
+body{font-size:10pt;max-width:none;margin:0}nav{display:none}.wide{overflow:visible}\
 table{font-size:7pt}th,td{padding:.1rem .3rem}.cards{grid-template-columns:1fr 1fr}\
 h2,h3{break-after:avoid}figure,tr{break-inside:avoid}a{color:inherit;text-decoration:none}}";
 

@@ -33,12 +33,15 @@ fn panel(canvas: &mut Canvas, Fitted { leaf, found }: &Fitted<'_>) {
     );
     let y = Axis::linear([0.0, 1.0], [floor, MARGIN]);
     let title = format!(
-        "{}: R (green), 1 − T (blue); points measured, lines fitted; below, fitted less measured, \
-         {LARGER} times larger; rms {:.1e}",
-        leaf.shown(),
+        "{}: R (green), 1 − T (blue); points measured, lines fitted",
+        leaf.shown()
+    );
+    let below = format!(
+        "below, fitted less measured, {LARGER} times larger; rms {:.1e}",
         found.rms()
     );
-    canvas.text([MARGIN, MARGIN - 14.0], Anchor::Start, "", &title);
+    canvas.text([MARGIN, MARGIN - 26.0], Anchor::Start, "", &title);
+    canvas.text([MARGIN, MARGIN - 12.0], Anchor::Start, "", &below);
     let rule = |canvas: &mut Canvas, y: f64, colour: &str| {
         let style = format!("stroke=\"{colour}\"");
         canvas.line([MARGIN, y], [SIZE[0] - MARGIN, y], &style);
@@ -52,7 +55,7 @@ fn panel(canvas: &mut Canvas, Fitted { leaf, found }: &Fitted<'_>) {
         canvas.text([tick.at, SIZE[1] - 14.0], Anchor::Middle, "", &tick.label);
     }
     canvas.text(
-        [SIZE[0] - MARGIN + 8.0, SIZE[1] - 14.0],
+        [SIZE[0] - MARGIN + 20.0, SIZE[1] - 14.0],
         Anchor::Start,
         "",
         "nm",

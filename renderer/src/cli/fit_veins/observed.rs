@@ -222,7 +222,7 @@ mod tests {
         assert!(refusal(&["solidity"], &[]).contains("`solidity` is not in the file"));
         // Measured of a file, but never of a leaf that grows: no range of --free would help.
         for key in ["conductance_mm3_per_s_mpa", "elliptic_fourier"] {
-            let told = refusal(&[], &[key]);
+            let told = refusal(&[key], &[]);
             assert!(
                 told.contains("no number that is measured of leaves that grow"),
                 "{told}"
