@@ -87,10 +87,15 @@ fn the_resolution_for_spectra_finds_them_as_its_page_says() {
 }
 
 #[test]
-#[ignore = "slow: 2 min"]
+#[ignore = "slow: half a minute of a processor; with LAMINA_ANCHORS=all two"]
 fn photons_find_all_slabs_and_half_spaces() {
     // The standard error of a share is at most 0.5/√n: 1,100,000 photons keep it below 4.8e-4.
-    const PHOTONS: u64 = 1_100_000;
+    let is_whole = std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all");
+    let (photons, most) = if is_whole {
+        (1_100_000, 5e-4)
+    } else {
+        (200_000, 1.2e-3)
+    };
     for (seed, anchor) in (1..).zip(anchors()) {
         for (incidence, values) in INCIDENCES.into_iter().zip(anchor.values.chunks(2)) {
             if values.iter().all(Option::is_none) {
@@ -101,7 +106,7 @@ fn photons_find_all_slabs_and_half_spaces() {
                 Face::First,
                 incidence,
                 Bins::NONE,
-                PHOTONS,
+                photons,
                 seed,
             );
             let found = found.expect("a direction in range");
@@ -111,7 +116,7 @@ fn photons_find_all_slabs_and_half_spaces() {
                     value,
                     standard_error,
                 } = found;
-                assert!(standard_error <= 5e-4, "{}: {standard_error}", anchor.name);
+                assert!(standard_error <= most, "{}: {standard_error}", anchor.name);
                 let z = (value - known) / standard_error.max(1e-12);
                 assert!(
                     z.abs() < 4.0,

@@ -76,15 +76,23 @@ fn scene(lai: f64, seed: u64) -> String {
 }
 
 #[test]
-#[ignore = "slow: 6 min of a processor"]
+#[ignore = "slow: a minute of a processor; with LAMINA_ANCHORS=all six"]
 fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
     let anchors = anchors();
     assert_eq!(anchors.len(), 11);
     let mut report = String::new();
     let mut worst = 0.0_f64;
     let mut greatest_error = 0.0_f64;
-    // As many sets of discs as bring their own deviation to 5e-4; each has rays of its own.
-    for (lai, sets, rays) in [(1.0, 32, 1 << 16), (3.0, 20, 1 << 17)] {
+    // All: as many sets of discs as bring their own deviation to 5e-4; each has rays of its own.
+    // Else the same discs in fewer sets, whose own deviation is less well known: of 5 and 4 degrees
+    // of freedom, 10 standard errors are as rare as 4 of many, for 33 figures.
+    let is_whole = std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all");
+    let (sets, limit, most) = if is_whole {
+        ([32, 20], 4.0, 5e-4)
+    } else {
+        ([6, 5], 10.0, 2e-3)
+    };
+    for (lai, sets, rays) in [(1.0, sets[0], 1 << 16), (3.0, sets[1], 1 << 17)] {
         let found: Vec<_> = (1..=sets)
             .map(|seed| {
                 let budget = Budget {
@@ -119,6 +127,6 @@ fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
         }
     }
     eprintln!("{report}");
-    assert!(greatest_error <= 5e-4, "{report}");
-    assert!(worst < 4.0, "{report}");
+    assert!(greatest_error <= most, "{report}");
+    assert!(worst < limit, "{report}");
 }
