@@ -253,6 +253,16 @@ pub enum TraceError {
     /// All of the blade has one grey value.
     #[error("no veins stand out from the tissue between them: the blade has one grey value")]
     NoContrast,
+    /// What was taken for the blade is not where the veins are.
+    #[error(
+        "{:.0} % of the veins lie outside of what was taken for the blade: the background is uneven, or \
+         the frame cuts the leaf. Cut the picture to the leaf and a rim of background, or give the blade \
+         as a picture of its own", 100.0 * .share
+    )]
+    VeinsOutside {
+        /// Share of the ends and junctions of veins that lie outside.
+        share: f64,
+    },
     /// No line is left.
     #[error("no vein is long enough to be a line: {what}")]
     NoVeins {

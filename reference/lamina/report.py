@@ -251,13 +251,13 @@ def contact_sheet(
     folder: Path, tasks: Sequence[dict[str, str]], shorts: dict[str, str]
 ) -> list[dict[str, Any]]:
     """The small pictures of the leaves of a sweep, with their settings."""
-    leaves = [task for task in tasks if task["file"].endswith(".svg")]
+    leaves = [task for task in tasks if task["file"].endswith(".svg")][:MOST_PICTURES]
     files = [(folder / task["file"]).with_suffix(".png") for task in leaves]
     return [
         embedded(file, ", ".join(f"{short} {task[key]}" for key, short in shorts.items()))
         for task, file in zip(leaves, files, strict=True)
         if file.is_file()
-    ][:MOST_PICTURES]
+    ]
 
 
 def chosen(outputs: Sequence[str]) -> list[str]:

@@ -31,6 +31,9 @@ const VISCOSITY_MPA_S: f64 = 1.0016e-9;
 /// is a difference of numbers too near to each other: the network is solved anew without the pipe.
 const LEAST_AROUND: f64 = 1e-8;
 
+/// Losses below this are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// What is lost when one vein is cut in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
@@ -236,10 +239,14 @@ fn without_orders(stretches: &Stretches, whole: &System, factored: &Factored) ->
         let before = whole.power_of(&left, factored);
         OrderLoss {
             order,
-            cut_off: (1.0 - left.total / others).max(0.0),
+            cut_off: Some(1.0 - left.total / others)
+                .filter(|lost| *lost >= ROUNDING)
+                .unwrap_or(0.0),
             lost: after
                 .map(|after| 1.0 - before / after)
-                .filter(|lost| lost.is_finite()),
+                .filter(|lost| lost.is_finite())
+                // What is no more than rounding is nothing.
+                .map(|lost| if lost < ROUNDING { 0.0 } else { lost }),
         }
     };
     let orders: Vec<u8> = (1..=u8::MAX)

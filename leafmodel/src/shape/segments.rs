@@ -28,12 +28,12 @@ pub(crate) struct Place {
     pub(crate) at: DVec2,
 }
 
-/// The place on a closed line, which has points, that is nearest to `p`; the first of several.
+/// The place on a closed line that is nearest to `p`; the first of several.
 pub(crate) fn nearest_on_closed(points: &[DVec2], p: DVec2) -> Place {
     let mut best = Place {
         edge: 0,
         along: 0.0,
-        at: points[0],
+        at: points.first().copied().unwrap_or(p),
     };
     for (edge, &start) in points.iter().enumerate() {
         let way = points[(edge + 1) % points.len()] - start;

@@ -17,6 +17,9 @@ const AT_MARGIN: f64 = 1.5;
 /// A vein ends at the margin if its middle line, prolonged by so many of its radii, reaches it.
 const AT_END: f64 = 3.0;
 
+/// Greatest share of the nodes of veins that may lie outside the margin.
+const MOST_OUTSIDE: f64 = 0.5;
+
 /// So many points at the end of a vein tell its radius there.
 const END_POINTS: usize = 8;
 
@@ -112,6 +115,12 @@ pub(super) fn in_millimetres(
         apex,
         matches!(settings.blade, Blade::Frame),
     )?;
+    let outside = lines.veins.nodes.iter();
+    let outside = outside.filter(|node| !outline.contains(frame.to_mm(**node)));
+    let share = outside.count() as f64 / lines.veins.nodes.len().max(1) as f64;
+    if share > MOST_OUTSIDE {
+        return Err(TraceError::VeinsOutside { share });
+    }
     let mut veins = lines.veins.clone();
     let mut roots = roots(&veins, &frame, &mut findings);
     join_base(&mut veins, &mut roots[0], base, lines.segment_px);
@@ -212,6 +221,17 @@ fn widest_at_margin(veins: &Veins, margin: &[DVec2]) -> DVec2 {
         .unwrap_or(way[i])
 }
 
+/// The mean radius over some points at an end of a vein, 0 for the first: the very end is rounded.
+fn radius_at_end(vein: &Vein, side: usize) -> f64 {
+    let few = vein.radii.len().min(END_POINTS);
+    let radii = if side == 0 {
+        &vein.radii[..few]
+    } else {
+        &vein.radii[vein.radii.len() - few..]
+    };
+    radii.iter().sum::<f64>() / few as f64
+}
+
 /// Where the widest of the veins that end at the margin meets it.
 fn widest_end_at_margin(veins: &Veins, margin: &[DVec2]) -> Option<DVec2> {
     let mut degrees = vec![0_u32; veins.nodes.len()];
@@ -231,9 +251,7 @@ fn widest_end_at_margin(veins: &Veins, margin: &[DVec2]) -> Option<DVec2> {
                     vein.points.len() - 1 - i
                 }
             };
-            // The very end is rounded: its radius is that of the first few points behind it.
-            let few = vein.points.len().min(END_POINTS);
-            let radius = (0..few).map(|i| vein.radii[inwards(i)]).sum::<f64>() / few as f64;
+            let radius = radius_at_end(vein, side);
             if best.is_some_and(|(widest, _)| widest >= radius) {
                 continue;
             }
@@ -305,8 +323,8 @@ fn roots(veins: &Veins, frame: &Frame, findings: &mut Vec<Finding>) -> Vec<u32> 
     let (part, lengths) = parts(veins);
     let mut radii = vec![0.0_f64; veins.nodes.len()];
     for vein in &veins.list {
-        let last = vein.radii.len() - 1;
-        for (end, radius) in vein.ends.into_iter().zip([vein.radii[0], vein.radii[last]]) {
+        for (side, end) in vein.ends.into_iter().enumerate() {
+            let radius = radius_at_end(vein, side);
             let widest = &mut radii[end as usize];
             *widest = widest.max(radius);
         }

@@ -1,6 +1,8 @@
 //! `lamina check`: reports every error of a scene or of a file of leaves at once and, on request,
 //! the size of the scene once built.
 
+use leafmodel::document::error::{DocumentError, LocatedError};
+
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, load_scene, needs, say};
@@ -20,6 +22,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let (leaves, warnings) = match leaves {
             Ok(read) => read,
             Err(errors) => {
+                // Whatever else is wrong with a leaf is told, here as everywhere.
+                let lacks_contents = |error: &LocatedError| matches!(&error.error, DocumentError::MissingKey { key, .. } if key == "contents");
+                if !errors.errors().iter().all(lacks_contents) {
+                    return Err(errors.into());
+                }
                 let count = load::count_veins(&scene.scene, &scene.overrides);
                 let count = count.ok_or(errors)?;
                 let leaves = counted(count, "leaf", "leaves");

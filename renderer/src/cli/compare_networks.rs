@@ -139,6 +139,17 @@ fn found(
 ) -> Result<Findings, Failure> {
     let drawn: Vec<usize> = overlays.iter().flatten().copied().collect();
     let leaves = measure_all(arguments, sources, &drawn)?;
+    // A leaf that stands twice in a group would count as two.
+    let twice = same(&leaves)
+        .into_iter()
+        .find(|[one, other]| leaves[*one].group == leaves[*other].group);
+    if let Some([one, other]) = twice {
+        return Err(Failure::bad(format!(
+            "{} and {} of group {} are the same network: each leaf of a group counts as one of its own, \
+             so name it once, or grow it by a plan that heeds its seed",
+            leaves[one].name, leaves[other].name, sources.groups[leaves[one].group]
+        )));
+    }
     let groups = sources.groups.clone();
     let compared = Compared::new(
         &leaves,

@@ -117,7 +117,7 @@ pub struct GrowArguments {
     #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
     pub caption: CaptionedKinds,
     /// Frames a second of a film
-    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = between::<0, 50>)]
+    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = frames_a_second)]
     pub fps: f64,
     /// Seconds for which a film shows its last frame
     #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = between::<0, 60>)]
@@ -125,6 +125,17 @@ pub struct GrowArguments {
     /// Pixels along the longer side of a png, or of a frame without its caption
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=16_384))]
     pub size: u32,
+}
+
+/// Frames a second that films can hold and programs show.
+fn frames_a_second(text: &str) -> Result<f64, String> {
+    let value: f64 = text
+        .parse()
+        .map_err(|_| format!("`{text}` is not a number"))?;
+    if (0.1..=50.0).contains(&value) {
+        return Ok(value);
+    }
+    Err("it must be 0.1 to 50".to_owned())
 }
 
 impl GrowArguments {

@@ -256,9 +256,10 @@ impl Measure {
             ..Contrast::default()
         };
         let all = || first.iter().chain(&second);
+        let greatest = all().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         if first.len() + second.len() < 3 {
             contrast.untested = Some("one leaf each");
-        } else if all().all(|value| (value - first[0]).abs() <= ROUNDING * first[0].abs()) {
+        } else if all().all(|value| (value - first[0]).abs() <= ROUNDING * greatest) {
             contrast.untested = Some("the same in all leaves");
         } else if sizes[pair[0]] == 1 {
             contrast.among = one_among(first[0], &second);

@@ -11,6 +11,9 @@ use crate::cli::arguments::FitVeinsArguments;
 use crate::cli::columns::in_columns;
 use crate::plot;
 
+/// A fitted measure with less than this share of what is foretold on one side of it is missed.
+const BESIDE: f64 = 0.1;
+
 /// Effective sizes below this are told: ends of intervals are then off by half their width.
 const FEW: f64 = 50.0;
 
@@ -144,6 +147,34 @@ pub(super) fn sentences(found: &Fit) -> Vec<String> {
         };
         lines.push(format!(
             "{key} is the same in all leaves{beside}: it was left out"
+        ));
+    }
+    // A sample that has come near has what it was fitted to in its middle.
+    let is_beside = |one: &&Prediction| {
+        let ends = [BESIDE, 1.0 - BESIDE];
+        one.role == Role::Fitted
+            && one
+                .below
+                .is_some_and(|below| below < ends[0] || below > ends[1])
+    };
+    let beside: Vec<String> = found
+        .predictions
+        .iter()
+        .filter(is_beside)
+        .filter_map(|one| {
+            Some(format!(
+                "{} {} for {}",
+                one.key,
+                short(one.median?),
+                short(one.observed)
+            ))
+        })
+        .collect();
+    if !beside.is_empty() {
+        lines.push(format!(
+            "the sample has not come near to what it was fitted to (foretold {}): narrow the ranges of \
+             --free about the medians, or take more --simulations",
+            beside.join(", ")
         ));
     }
     let outside = |one: &&Prediction| one.is_within() == Some(false);

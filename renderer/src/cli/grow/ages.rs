@@ -108,6 +108,8 @@ pub(super) fn write(
         plan.paint_with(lamina, pattern.as_ref()).map_err(failed)
     };
     let last = last_day(plan)?;
+    // So wide that all frames have captions of one size.
+    let digits = format!("{last:.1}").len();
     for (number, day) in days(last, written.count).enumerate() {
         if !outputs.staged.is_empty() {
             let map = painted(day, written.pixels.clamp(16, 8192))?;
@@ -122,7 +124,7 @@ pub(super) fn write(
                 Note::ScaleBar {
                     pixels_per_mm: f64::from(map.width) / across,
                 },
-                Note::Text(format!("day {day:>5.1} of {last:.1}")),
+                Note::Text(format!("day {day:>digits$.1} of {last:.1}")),
             ];
             let of_kind = |kind| {
                 if has_caption(written.captions, kind) {

@@ -3,7 +3,7 @@
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::NamedTempFile;
 
@@ -121,7 +121,7 @@ impl Films {
             let Some(writer) = film.writer else { continue };
             let bytes = match writer {
                 Writer::Own(film) => film.finish().map_err(Failure::bad)?,
-                Writer::Other(encoding) => encoding.finish(self.timing)?,
+                Writer::Other(encoding) => encoding.finish(self.timing, stop)?,
             };
             super::finish(&film.path, &bytes, stop)?;
         }
@@ -169,12 +169,17 @@ impl Encoding {
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
+        // A name by which a later run finds it if this one is killed.
         let file = tempfile::Builder::new()
-            .prefix(".lamina-")
-            .suffix(".mp4")
+            .prefix(&format!(".lamina-{}-", std::process::id()))
+            .suffix(".part")
             .tempfile_in(folder.unwrap_or(Path::new(".")))
             .map_err(Failure::system)?;
-        let child = Command::new(ENCODER)
+        let mut command = Command::new(ENCODER);
+        // Ctrl-C is for this program, which ends that one.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let child = command
             .args(["-nostdin", "-loglevel", "error", "-y"])
             .args(["-f", "rawvideo", "-pixel_format", "rgb24"])
             .args(["-video_size", &format!("{width}x{height}")])
@@ -182,7 +187,14 @@ impl Encoding {
             .args(["-i", "-"])
             // Players want even sides, and two colour values for four pixels.
             .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"])
-            .args(["-pix_fmt", "yuv420p", "-movflags", "+faststart"])
+            .args([
+                "-pix_fmt",
+                "yuv420p",
+                "-movflags",
+                "+faststart",
+                "-f",
+                "mp4",
+            ])
             .arg(file.path())
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
@@ -197,6 +209,9 @@ impl Encoding {
     }
 
     fn push(&mut self, rgb: &[u8]) -> Result<(), Failure> {
+        if !self.last.is_empty() && self.last.len() != rgb.len() {
+            return Err(Failure::bad("a frame of another size than its film"));
+        }
         self.send(rgb)?;
         rgb.clone_into(&mut self.last);
         Ok(())
@@ -211,10 +226,13 @@ impl Encoding {
         }
     }
 
-    fn finish(mut self, timing: Timing) -> Result<Vec<u8>, Failure> {
+    fn finish(mut self, timing: Timing, stop: &AtomicBool) -> Result<Vec<u8>, Failure> {
         let again = (timing.last_frame_seconds * timing.frames_per_second).round() - 1.0;
         let last = std::mem::take(&mut self.last);
         for _ in 0..again.max(0.0) as u32 {
+            if stop.load(Ordering::Relaxed) {
+                return Err(Failure::Interrupted);
+            }
             self.send(&last)?;
         }
         drop(self.child.stdin.take());

@@ -18,8 +18,9 @@ use crate::export::drawing::{Drawing, Subject};
 const MOST_NODES: usize = 10_000_000;
 /// Greatest number of stages in memory at once; their files are made in parallel.
 const MOST_STAGES: usize = 64;
-/// Greatest number of frames of a film in memory at once.
+/// Greatest number of frames of a film in memory at once, and of their bytes together.
 const MOST_DRAWINGS: usize = 16;
+const MOST_DRAWN_BYTES: u64 = 512 << 20;
 
 /// Refuses plans of leaves that have no stages.
 pub(super) fn check(plan: &LeafPlan) -> Result<(), Failure> {
@@ -142,7 +143,7 @@ pub(super) fn write(
                 look.drawn(Kind::Gif, subject(stage), Some(step))
             };
             let numbered: Vec<(&LeafStage, &u32)> = stages.iter().zip(group_steps).collect();
-            for few in numbered.chunks(MOST_DRAWINGS) {
+            for few in numbered.chunks(drawings_at_once(look.pixels)) {
                 let frames: Result<Vec<Drawing>, Failure> =
                     few.par_iter().map(|&stage| draw(stage)).collect();
                 if stop.load(Ordering::Relaxed) {
@@ -153,6 +154,13 @@ pub(super) fn write(
         }
     }
     films.finish(stop)
+}
+
+/// How many frames of so many pixels along the longer side are drawn at once: each is drawn with
+/// four bytes a pixel and kept with three.
+fn drawings_at_once(pixels: u32) -> usize {
+    let each = 7 * u64::from(pixels).pow(2);
+    ((MOST_DRAWN_BYTES / each) as usize).clamp(1, MOST_DRAWINGS)
 }
 
 fn subject(stage: &LeafStage) -> Subject<'_> {
