@@ -7,8 +7,9 @@
 //!   threads; of the light of a beam nothing is lost or counted twice.
 //! - **Left out**: polarisation, fluorescence.
 //!
-//! Flux is followed from the light on, by the BSDFs that pictures use: they are reciprocal, so the
-//! share of light that is scattered from `wo` to `wi` is that from `wi` to `wo`.
+//! Flux is followed from the light on, by the BSDFs that pictures use. Those of smooth surfaces are
+//! reciprocal: the share of light that is scattered from `wo` to `wi` is that from `wi` to `wo`. With
+//! relief they are so only nearly, and light that relief loses counts as absorbed.
 //!
 //! ```
 //! use std::path::Path;
@@ -126,18 +127,16 @@ pub enum InstrumentError {
         /// The object.
         object: String,
     },
-    /// A part of a canopy that overlaps itself many times over.
+    /// A port that looks at its own object, as one within a closed body does.
     #[error(
-        "{at}: the object `{object}` reaches over more than {most} boxes `within_m`, but not beyond \
-         both sides of one: widen the box, or move the object"
+        "{at}: the abaxial face of the object `{object}` cannot be lit through a port: the port \
+         faces another part of the object, as within a closed body: write `faces = \"adaxial\"`"
     )]
-    TooWide {
+    PortInside {
         /// Where the block stands.
         at: String,
         /// The object.
         object: String,
-        /// Boxes over which it may reach.
-        most: u32,
     },
     /// Copies of a canopy's parts cannot be placed.
     #[error("{at}: {source}")]
@@ -157,6 +156,14 @@ pub fn sets_of(scene: &Description) -> Option<(WavelengthSampler, Vec<usize>)> {
         .map(|instrument| instrument.value.wavelengths_nm.as_slice())
         .collect();
     (!lists.is_empty()).then(|| WavelengthSampler::of_lists(LANES, &lists))
+}
+
+/// What the instrument with this number leaves out of a scene, in sentences for users.
+pub fn notes(world: &World, scene: &Description, number: usize) -> Vec<String> {
+    match &scene.instruments[number].value.kind {
+        InstrumentKind::Sphere(_) => Vec::new(),
+        InstrumentKind::Canopy(canopy) => canopy::notes(world, scene, canopy),
+    }
 }
 
 /// Reads out the instrument with this number, whose wavelengths begin at the set `first_set` of

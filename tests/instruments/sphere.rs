@@ -266,15 +266,56 @@ fn spots_off_the_leaf_are_refused_with_their_place() {
         panic!("half of it is off");
     };
     assert!((share - 50.0).abs() < 5.0, "{share} %");
-    let same = |spot: &str| figures(&text(spot), &rays(1024)).expect("it is on the sheet");
-    let by_place = same("{ at_mm = [-20, 30], diameter_mm = 4 }");
-    assert_eq!(
-        by_place.len(),
-        same("{ at_uv = [0.3, 0.8], diameter_mm = 4 }").len()
-    );
-    assert!(
-        by_place
-            .iter()
-            .any(|row| row.incidence == Direction::Diffuse)
-    );
+}
+
+#[test]
+fn a_spot_by_texture_coordinates_is_the_one_at_their_place() {
+    // At a corner of a strip, so that the share that is off depends on both coordinates.
+    let share = |spot: &str| {
+        let text = format!(
+            "[meshes.strip.rectangle]\nwidth_m = 0.1\nheight_m = 0.05\n\
+             [materials.paper.diffuse]\nreflectance = 0.5\n\
+             [objects.paper]\nmesh = \"strip\"\nmaterial = \"paper\"\n\
+             [instruments.ball.sphere]\nobject = \"paper\"\nwavelengths_nm = [550]\nspot = {spot}\n"
+        );
+        match figures(&text, &rays(1024)) {
+            Err(InstrumentError::NotCovered { share, .. }) => share,
+            found => panic!("a part of it is off: {found:?}"),
+        }
+    };
+    let by_place = share("{ at_mm = [49, 23], diameter_mm = 8 }");
+    let by_uv = share("{ at_uv = [0.99, 0.96], diameter_mm = 8 }");
+    assert!((by_place - by_uv).abs() < 0.3, "{by_place} {by_uv}");
+    let swapped = share("{ at_uv = [0.96, 0.99], diameter_mm = 8 }");
+    assert!((by_place - swapped).abs() > 2.0, "{by_place} {swapped}");
+}
+
+/// A white ball of 0.1 m with a spot on its pole.
+fn spot_on_a_ball(faces: &str) -> String {
+    format!(
+        "[meshes.ball.sphere]\nradius_m = 0.1\n[materials.white.diffuse]\nreflectance = 1\n\
+         [objects.ball]\nmesh = \"ball\"\nmaterial = \"white\"\n\
+         [instruments.ball.sphere]\nobject = \"ball\"\nwavelengths_nm = [550]\ndiffuse = false\n\
+         faces = \"{faces}\"\nspot = {{ at_mm = [0, 0], diameter_mm = 100 }}\n"
+    )
+}
+
+#[test]
+fn a_spot_on_a_ball_is_lit_from_outside_alone() {
+    let rows = figures(&spot_on_a_ball("adaxial"), &rays(1 << 13)).expect("it can be measured");
+    // A white surface at an angle θ sends (1 + cos θ) / 2 back into the half space of the port;
+    // its mean over the disc, where sin² θ is even in [0, s].
+    let s: f64 = 0.25;
+    let cosine = (1.0 - (1.0 - s) * (1.0 - s).sqrt()) / (1.5 * s);
+    let off = (rows[0].value - 0.5 * (1.0 + cosine)).abs();
+    assert!(off < 4.0 * rows[0].error + 2e-3, "{rows:?}");
+    // A ray that starts within the ball never leaves it.
+    assert!(rows[2].value.abs() < 1e-5, "{rows:?}");
+    for faces in ["both", "abaxial"] {
+        let error = figures(&spot_on_a_ball(faces), &rays(1024)).expect_err("it is inside");
+        assert!(
+            matches!(error, InstrumentError::PortInside { .. }),
+            "{error}"
+        );
+    }
 }

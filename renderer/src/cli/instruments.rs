@@ -10,7 +10,7 @@ use crate::cli::arguments::InstrumentsArguments;
 use crate::cli::progress::Patience;
 use crate::cli::{Failure, colour, needs, places, say};
 use crate::image::atomic;
-use crate::instruments::{Budget, Row, read_out, sets_of};
+use crate::instruments::{Budget, Row, notes, read_out, sets_of};
 use crate::scene::description::Description;
 use crate::scene::load;
 use crate::scene::plant_cache::PlantCache;
@@ -103,14 +103,24 @@ fn measure(
     let mut rows = Vec::new();
     for &number in chosen {
         let started = Instant::now();
+        let name = &scene.instruments[number].name;
+        for note in notes(&world, scene, number) {
+            eprintln!("note: {name}: {note}");
+        }
         let found = read_out(&world, scene, number, first[number], budget).map_err(Failure::bad)?;
         let greatest = found.iter().map(|row| row.error).fold(0.0, f64::max);
         eprintln!(
-            "{}: {} figures in {:.1} s, standard errors up to {greatest:.1e}",
-            scene.instruments[number].name,
+            "{name}: {} figures in {:.1} s, standard errors up to {greatest:.1e}",
             found.len(),
             started.elapsed().as_secs_f64()
         );
+        if let Some(target) = budget.error.filter(|&target| greatest > target) {
+            eprintln!(
+                "warning: {name}: {} rays are not enough for --error {target}: the greatest \
+                 standard error is {greatest:.1e}",
+                budget.rays
+            );
+        }
         rows.extend(found);
     }
     Ok(rows)

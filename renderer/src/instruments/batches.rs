@@ -15,6 +15,17 @@ const BATCHES: u32 = 32;
 /// Fewest rays of a figure: some points for each batch.
 pub const FEWEST_RAYS: u64 = 16 * BATCHES as u64;
 
+/// Points of each batch from which on an error is believed to be below a target: fewer may all have
+/// missed what is rare.
+const POINTS_TO_TRUST: u32 = 256;
+
+/// Rays after which an experiment ends if none of them counted.
+const RAYS_FOR_NOTHING: u64 = 1 << 20;
+
+/// What is met in none of n rays is met in less than 3 / n of them, with a confidence of 95 percent:
+/// (1 - 3 / n)^n is e^-3.
+const RULE_OF_THREE: f64 = 3.0;
+
 /// How much light is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
@@ -67,13 +78,17 @@ pub(super) fn estimates<E: Experiment>(experiments: &[E], budget: &Budget) -> Ve
         })
         .collect();
     loop {
-        let is_open = |batches: &Batches| batches.points < most && !batches.is_good(budget.error);
+        let is_open = |batches: &Batches| {
+            batches.points < most && !batches.is_in_vain() && !batches.is_good(budget.error)
+        };
         let open: Vec<usize> = (0..all.len()).filter(|&i| is_open(&all[i])).collect();
         if open.is_empty() {
             break;
         }
         let goal = |points: u32| match budget.error {
             Some(_) => points.saturating_mul(2).clamp(16, most.max(16)).min(most),
+            // The same sums in the same order, with one look whether they are in vain.
+            None if points == 0 => most.min((RAYS_FOR_NOTHING / u64::from(BATCHES)) as u32),
             None => most,
         };
         let work: Vec<(usize, u32)> = open
@@ -109,29 +124,51 @@ impl Batches {
         let Some(error) = error else {
             return false;
         };
-        self.points > 0
+        self.points >= POINTS_TO_TRUST
+            && self.total(0) >= FEWEST_RAYS as f64
             && self
                 .estimates()
                 .iter()
                 .all(|estimate| estimate.error <= error)
     }
 
+    /// Whether many rays were followed and none counted.
+    fn is_in_vain(&self) -> bool {
+        u64::from(self.points) * u64::from(BATCHES) >= RAYS_FOR_NOTHING && self.total(0) == 0.0
+    }
+
+    /// A sum over all batches.
+    fn total(&self, number: usize) -> f64 {
+        self.sums.iter().map(|sums| sums[number]).sum()
+    }
+
     /// Ratios of sums with their standard errors, from the batches' deviations.
+    ///
+    /// Deviations say nothing of a share that no ray or every ray had, and little of few rays: the
+    /// error is then at least the bound of what may have been missed.
     fn estimates(&self) -> Vec<Estimate> {
-        let total = |number: usize| self.sums.iter().map(|sums| sums[number]).sum::<f64>();
-        let all = total(0);
+        let all = self.total(0);
+        let missed = (RULE_OF_THREE / all).min(1.0);
         let count = self.sums.len() as f64;
         let figures = 1..self.sums[0].len();
         let estimate = |number: usize| {
-            let value = total(number) / all;
+            let total = self.total(number);
+            let value = total / all;
             let squares: f64 = self
                 .sums
                 .iter()
                 .map(|sums| (sums[number] - value * sums[0]).powi(2))
                 .sum();
+            let deviation = (squares * count / (count - 1.0)).sqrt() / all;
+            let is_unknown = total == 0.0 || total == all || all < FEWEST_RAYS as f64;
             Estimate {
                 value,
-                error: (squares * count / (count - 1.0)).sqrt() / all,
+                // Of nothing, both are NaN.
+                error: if is_unknown && all > 0.0 {
+                    deviation.max(missed)
+                } else {
+                    deviation
+                },
             }
         };
         figures.map(estimate).collect()
@@ -140,6 +177,8 @@ impl Batches {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
     use super::*;
 
     /// A disc in a square: the share of points in it, and half of that.
@@ -182,6 +221,78 @@ mod tests {
         let variance = squares / seeds as f64;
         // The deviation of a variance over 400 seeds is √(2 / 400) = 0.07.
         assert!((variance - 31.0 / 29.0).abs() < 0.3, "{variance}");
+    }
+
+    /// Rays of which a small share counts; of these, half give their light to the first figure and
+    /// none to the second.
+    struct Needle {
+        share: f64,
+        rays: AtomicU64,
+    }
+
+    impl Needle {
+        fn new(share: f64) -> Self {
+            let rays = AtomicU64::new(0);
+            Self { share, rays }
+        }
+    }
+
+    impl Experiment for Needle {
+        fn sums(&self) -> usize {
+            3
+        }
+
+        fn stream(&self) -> u32 {
+            3
+        }
+
+        fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
+            self.rays.fetch_add(1, Ordering::Relaxed);
+            let [x, y, ..] = stream.next4();
+            if f64::from(x) < self.share {
+                sums[0] += 1.0;
+                sums[1] += f64::from(u8::from(y < 0.5));
+            }
+        }
+    }
+
+    #[test]
+    fn few_hits_are_not_told_as_certain() {
+        let target = 0.02;
+        for seed in 0..4 {
+            let mut budget = Budget {
+                rays: FEWEST_RAYS,
+                error: Some(target),
+                seed,
+            };
+            for doublings in 0..6 {
+                budget.rays = 2048 << doublings;
+                for figure in &estimates(&[Needle::new(1.0 / 3000.0)], &budget)[0] {
+                    // Some 20 hits of 65536 rays; of no hits both are NaN.
+                    assert!(figure.value.is_nan() || figure.error > 0.05, "{figure:?}");
+                }
+            }
+            budget.rays = 1 << 30;
+            let found = &estimates(&[Needle::new(1.0 / 3000.0)], &budget)[0];
+            assert!(found[0].error <= target, "{found:?}");
+            assert!((found[0].value - 0.5).abs() < 5.0 * target, "{found:?}");
+            assert!(found[1].value == 0.0 && found[1].error > 1e-4, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn rays_of_which_none_counts_end_early() {
+        for error in [None, Some(1e-3)] {
+            let nothing = [Needle::new(0.0)];
+            let budget = Budget {
+                rays: 1 << 40,
+                error,
+                seed: 1,
+            };
+            let found = &estimates(&nothing, &budget)[0];
+            assert!(found[0].value.is_nan(), "{found:?}");
+            assert_eq!(nothing[0].rays.load(Ordering::Relaxed), RAYS_FOR_NOTHING);
+        }
     }
 
     #[test]

@@ -198,6 +198,27 @@ impl Witness for Tally<'_> {
     }
 }
 
+/// The box in the frame of a world.
+fn within(world: &World, canopy: &Canopy) -> [Vec2; 2] {
+    let origin = DVec3::new(world.origin.x, world.origin.y, 0.0).truncate();
+    canopy.within.map(|corner| (corner - origin).as_vec2())
+}
+
+/// What of a scene stands outside the box and is left out, a sentence for each object.
+pub(super) fn notes(world: &World, scene: &Description, canopy: &Canopy) -> Vec<String> {
+    let left_out = Period::left_out(within(world, canopy), world);
+    let note = |(object, count): (usize, usize)| {
+        let numbers = 0..world.objects.len();
+        let own = numbers.filter(|&number| world.objects[number].object == object);
+        let all = own.count();
+        format!(
+            "{count} of {all} parts of the object `{}` stand outside `within_m` and are left out",
+            scene.objects[object].name
+        )
+    };
+    left_out.into_iter().map(note).collect()
+}
+
 /// Measures.
 pub(super) fn read_out(
     world: &World,
@@ -207,9 +228,7 @@ pub(super) fn read_out(
     budget: &Budget,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
-    let origin = DVec3::new(world.origin.x, world.origin.y, 0.0).truncate();
-    let within = canopy.within.map(|corner| (corner - origin).as_vec2());
-    let (stage, period) = Period::stage(within, world, scene, at)?;
+    let (stage, period) = Period::stage(within(world, canopy), world, at)?;
     let ledger = Ledger::new(scene, &stage, canopy);
     if ledger.objects.1.is_empty() {
         return Err(InstrumentError::NoLeaves { at: at.clone() });

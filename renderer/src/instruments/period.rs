@@ -1,5 +1,6 @@
 //! A box that repeats itself without end along x and y.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use glam::{Vec2, Vec3};
@@ -8,17 +9,14 @@ use super::InstrumentError;
 use super::stage::Stage;
 use super::walk::Course;
 use crate::geometry::{GeometryError, Hit, Ray};
-use crate::scene::description::Description;
 use crate::scene::world::World;
 
 /// Most times that a ray enters the box anew without a hit; then it counts as having left. A ray
 /// needs a slope below 1e-5 for a box as high as wide.
 const MOST_TURNS: u32 = 100_000;
 
-/// Most copies of an instance along an axis that reach into the box.
-const MOST_COPIES: u32 = 100;
-
-/// Share of the box's size by which instances are taken to reach into it at the least.
+/// Share of the box's size, or of its distance from the origin, within which a place counts as being
+/// on a side.
 const TOUCH: f32 = 1e-6;
 
 /// A box, open at the top and below, whose sides are joined: what leaves at one comes in at the
@@ -27,6 +25,8 @@ const TOUCH: f32 = 1e-6;
 pub(super) struct Period {
     pub(super) least: Vec2,
     pub(super) most: Vec2,
+    /// Distances from the sides within which a place counts as being on them, m.
+    touch: Vec2,
     /// Heights below and above everything that stands in it, m.
     pub(super) heights: [f32; 2],
 }
@@ -35,8 +35,8 @@ impl Course for Period {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
         let mut gone = 0.0;
         for _ in 0..MOST_TURNS {
-            let (t_side, axis) = self.side(ray);
-            ray.t_max = t_side;
+            let (t_side, t_beyond, axis) = self.side(ray);
+            ray.t_max = t_beyond;
             if let Some(hit) = stage.geometry.intersect(ray) {
                 return (Some(hit), gone);
             }
@@ -46,20 +46,18 @@ impl Course for Period {
             }
             gone += t_side;
             ray.origin += ray.direction * t_side;
-            ray.origin[axis] = if ray.direction[axis] > 0.0 {
-                self.least[axis]
-            } else {
-                self.most[axis]
-            };
+            // By the size, not to the side: what starts beyond a surface on the side stays beyond it.
+            let size = self.most[axis] - self.least[axis];
+            ray.origin[axis] -= size.copysign(ray.direction[axis]);
         }
         (None, gone)
     }
 }
 
 impl Period {
-    /// How far it is to the side by which a ray leaves, in lengths of its direction, and the axis
-    /// across that side.
-    fn side(&self, ray: &Ray) -> (f32, usize) {
+    /// How far it is to the side by which a ray leaves, and to where it is beyond any surface on a
+    /// side, in lengths of its direction; and the axis across that side.
+    fn side(&self, ray: &Ray) -> (f32, f32, usize) {
         let to_side = |axis: usize| {
             let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
             let side = if direction > 0.0 {
@@ -75,50 +73,96 @@ impl Period {
             }
         };
         let [x, y] = [to_side(0), to_side(1)];
-        if x <= y { (x, 0) } else { (y, 1) }
+        let beyond = |axis: usize, t: f32| t + self.touch[axis] / ray.direction[axis].abs();
+        let t_beyond = beyond(0, x).min(beyond(1, y));
+        if x <= y {
+            (x, t_beyond, 0)
+        } else {
+            (y, t_beyond, 1)
+        }
     }
 
-    /// The instances of a world that reach into the box, those of its copies included, without lamps.
+    /// Where an instance stands along an axis: in how many boxes' lengths from its own place its
+    /// copies reach into the box; `None` if it is left out.
+    fn copies(&self, axis: usize, [from, to]: [f32; 2]) -> Option<RangeInclusive<i32>> {
+        let (least, most, touch) = (self.least[axis], self.most[axis], self.touch[axis]);
+        if from <= least + touch && to >= most - touch {
+            return Some(0..=0);
+        }
+        let middle = 0.5 * (from + to);
+        if middle < least - touch || middle >= most - touch {
+            return None;
+        }
+        let size = most - least;
+        let first = ((least - touch - to) / size).ceil();
+        let last = ((most + touch - from) / size).floor();
+        Some(first as i32..=last as i32)
+    }
+
+    /// A box without heights.
+    fn new([least, most]: [Vec2; 2]) -> Self {
+        let far = least.abs().max(most.abs()).max(most - least);
+        Self {
+            least,
+            most,
+            touch: TOUCH * far,
+            heights: [0.0; 2],
+        }
+    }
+
+    /// Where each instance of a world but lamps stands; nowhere if it is left out.
+    fn places(&self, world: &World) -> Vec<(u32, Vec<Vec3>)> {
+        let numbers = 0..world.objects.len() as u32;
+        let own = numbers.filter(|&number| world.objects[number as usize].light.is_none());
+        own.map(|number| {
+            let (from, to) = world.geometry.bounds_of(number);
+            let along = |axis: usize| self.copies(axis, [from[axis], to[axis]]);
+            let mut places = Vec::new();
+            if let (Some(x), Some(y)) = (along(0), along(1)) {
+                for i in x {
+                    for j in y.clone() {
+                        let by = Vec2::new(i as f32, j as f32) * (self.most - self.least);
+                        places.push(by.extend(0.0));
+                    }
+                }
+            }
+            (number, places)
+        })
+        .collect()
+    }
+
+    /// The objects of which parts are left out of a box, by number, each with how many.
+    pub(super) fn left_out(within: [Vec2; 2], world: &World) -> BTreeMap<usize, usize> {
+        let mut left_out = BTreeMap::new();
+        for (number, places) in Self::new(within).places(world) {
+            if places.is_empty() {
+                *left_out
+                    .entry(world.objects[number as usize].object)
+                    .or_insert(0) += 1;
+            }
+        }
+        left_out
+    }
+
+    /// The instances of a world that stand in the box, those of their copies included that reach
+    /// into it from beyond its sides, without lamps.
     ///
-    /// What reaches beyond two opposite sides, as ground does, is not repeated across them.
+    /// An instance stands in the box if the middle of its bounds does: of what goes on beyond the
+    /// box, the same is not counted twice. What reaches beyond two opposite sides, as ground does,
+    /// stands in it and is not repeated across them.
     pub(super) fn stage<'w>(
-        [least, most]: [Vec2; 2],
+        within: [Vec2; 2],
         world: &'w World,
-        scene: &Description,
         at: &str,
     ) -> Result<(Stage<'w>, Self), InstrumentError> {
-        let size = most - least;
-        let mut places = Vec::new();
-        for number in 0..world.objects.len() as u32 {
-            if world.objects[number as usize].light.is_some() {
-                continue;
-            }
-            let (from, to) = world.geometry.bounds_of(number);
-            let [x, y] = [0, 1].map(|axis| {
-                let touch = TOUCH * size[axis];
-                if from[axis] <= least[axis] + touch && to[axis] >= most[axis] - touch {
-                    return 0..=0;
-                }
-                let first = ((least[axis] - touch - to[axis]) / size[axis]).ceil();
-                let last = ((most[axis] + touch - from[axis]) / size[axis]).floor();
-                first as i32..=last as i32
-            });
-            let copies = |range: &RangeInclusive<i32>| range.end().abs_diff(*range.start());
-            if copies(&x).max(copies(&y)) > MOST_COPIES && !x.is_empty() && !y.is_empty() {
-                return Err(InstrumentError::TooWide {
-                    at: at.to_owned(),
-                    object: scene.objects[world.objects[number as usize].object]
-                        .name
-                        .clone(),
-                    most: MOST_COPIES,
-                });
-            }
-            for i in x {
-                for j in y.clone() {
-                    let by = Vec2::new(i as f32, j as f32) * size;
-                    places.push((number, by.extend(0.0)));
-                }
-            }
+        let period = Self::new(within);
+        let places: Vec<(u32, Vec3)> = period
+            .places(world)
+            .into_iter()
+            .flat_map(|(number, places)| places.into_iter().map(move |by| (number, by)))
+            .collect();
+        if places.is_empty() {
+            return Err(InstrumentError::NoLeaves { at: at.to_owned() });
         }
         let refuse = |source: GeometryError| InstrumentError::Geometry {
             at: at.to_owned(),
@@ -126,14 +170,11 @@ impl Period {
         };
         let stage = Stage::new(world, &places).map_err(refuse)?;
         let (low, high) = stage.geometry.bounds();
+        let size = period.most - period.least;
         let margin =
             1e-4 * (high.z - low.z).max(size.min_element()) + 1e-6 * high.abs().max_element();
-        let period = Self {
-            least,
-            most,
-            heights: [low.z - margin, high.z + margin],
-        };
-        Ok((stage, period))
+        let heights = [low.z - margin, high.z + margin];
+        Ok((stage, Self { heights, ..period }))
     }
 
     /// A point of the plane above everything, from a point of the unit square.

@@ -168,7 +168,14 @@ pub(super) fn read_out(
         })?;
     let [x, _, z] = axes_of(&object.value);
     let openings = if let Some(spot) = &sphere.spot {
-        ports(&stage, (&object.name, &object.value), spot)?.map(Opening::Port)
+        let ports = ports(&stage, (&object.name, &object.value), spot)?;
+        if sphere.faces[1] && ports[1].faces_a_surface(&stage.geometry) {
+            return Err(InstrumentError::PortInside {
+                at: spot.at.clone(),
+                object: object.name.clone(),
+            });
+        }
+        ports.map(Opening::Port)
     } else {
         let (least, most) = stage.geometry.bounds();
         let radius = 0.5 * (most - least).length() * 1.0001;

@@ -14,6 +14,11 @@ const ON_A_RING: usize = 48;
 /// Distance of the port from the highest point of the surface behind it, in diameters.
 const CLEARANCE: f32 = 1e-4;
 
+/// Most that a surface rises over the highest probe, as a share of the heights that probes span: the
+/// probes nearest to any point are at most 0.09 radii from it, and a ridge as steep as the slope from
+/// the highest to the lowest rises by that share.
+const SAG: f32 = 0.1;
+
 /// The axes of an object in the world: x, y and the normal of its adaxial side, unit.
 pub(super) fn axes_of(object: &Object) -> [Vec3; 3] {
     let linear = DMat4::from_cols(
@@ -37,6 +42,13 @@ pub(super) struct Port {
     pub(super) radius: f32,
     /// The direction out of the surface, unit.
     pub(super) normal: Vec3,
+}
+
+impl Port {
+    /// Whether something stands in front of it.
+    pub(super) fn faces_a_surface(&self, geometry: &Geometry) -> bool {
+        geometry.occluded(&Ray::new(self.middle, self.normal))
+    }
 }
 
 /// The port on either face over a spot.
@@ -74,7 +86,9 @@ pub(super) fn ports(
         return Err(refuse(missing));
     }
     let port = |probe: &Probe, normal: Vec3| Port {
-        middle: middle + normal * (probe.highest + 2.0 * radius * CLEARANCE),
+        middle: middle
+            + normal
+                * (probe.highest + SAG * (probe.highest - probe.lowest) + 2.0 * radius * CLEARANCE),
         radius,
         normal,
     };
@@ -85,8 +99,9 @@ pub(super) fn ports(
 struct Probe {
     /// Share of the port behind which there is nothing.
     missing: f64,
-    /// Height of the highest point over the middle, m.
+    /// Heights of the highest and the lowest point over the middle, m.
     highest: f32,
+    lowest: f32,
     /// Sum of the normals on the side of the port.
     mean_normal: Vec3,
 }
@@ -96,7 +111,9 @@ impl Probe {
         let (across, along) = normal.any_orthonormal_pair();
         let mut probe = Self {
             missing: 0.0,
-            highest: f32::NEG_INFINITY,
+            // Those of the middle itself.
+            highest: 0.0,
+            lowest: 0.0,
             mean_normal: Vec3::ZERO,
         };
         let diameter = 2.0 * radius;
@@ -116,7 +133,9 @@ impl Probe {
                     continue;
                 };
                 let surface = geometry.surface(&ray, &hit);
-                probe.highest = probe.highest.max((surface.position - middle).dot(normal));
+                let height = (surface.position - middle).dot(normal);
+                probe.highest = probe.highest.max(height);
+                probe.lowest = probe.lowest.min(height);
                 let outwards = surface.geometric_normal;
                 let side = outwards.dot(normal).signum();
                 probe.mean_normal += outwards * side;

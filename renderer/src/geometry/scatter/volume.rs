@@ -101,15 +101,15 @@ enum Use {
     X,
     Y,
     Z,
-    Shape,
-    Inclination,
+    // Numbers that are kept keep the places of leaves.
+    Inclination = 4,
     Azimuth,
     Turn,
 }
 
 impl Volume {
-    /// Places for leaves with these areas, m², of which each is drawn equally often: the one leaf
-    /// area index that whole leaves can give that is nearest to the one asked for.
+    /// Places for leaves with these areas, m², which take turns, so that their numbers differ by 1
+    /// at most: as many leaves as bring their mean area nearest to the leaf area index.
     ///
     /// # Errors
     ///
@@ -146,7 +146,7 @@ impl Volume {
                 DVec3::Z,
             );
             Strewn {
-                body: (random(Use::Shape) * areas.len() as f64) as u32,
+                body: (number % areas.len() as u64) as u32,
                 to_world: DAffine3::from_mat3_translation(from_z(normal) * turned, at),
             }
         };
@@ -222,6 +222,23 @@ mod tests {
             (middle - DVec3::new(1.0, 2.5, 0.25)).length() < 0.02,
             "{middle}"
         );
+    }
+
+    #[test]
+    fn shapes_of_a_list_take_turns_and_give_the_leaf_area_index() {
+        let areas = [1e-3, 5e-3, 3e-2];
+        let volume = Volume {
+            within: [DVec3::ZERO, DVec3::ONE],
+            lai: 1.2,
+            inclination: Inclination::Uniform,
+            seed: 8,
+        };
+        let places = volume.places(&areas).expect("there is room");
+        assert_eq!(places.len(), 100);
+        let lai: f64 = places.iter().map(|place| areas[place.body as usize]).sum();
+        assert!((lai - 1.2).abs() <= 3e-2, "{lai}");
+        let of = |body: u32| places.iter().filter(|place| place.body == body).count();
+        assert_eq!([of(0), of(1), of(2)], [34, 33, 33]);
     }
 
     #[test]
