@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::{Vec2, Vec3};
 use renderer::geometry::Ray;
-use renderer::instruments::{Direction, InstrumentError};
+use renderer::instruments::InstrumentError;
 use renderer::spectrum::Wavelengths;
 
 use super::{NORMAL, built, figures, of, rays};
