@@ -1,13 +1,14 @@
 //! Eight `f32` numbers at a time, on whatever vector unit the machine has.
 //!
 //! Kernels are written once over `Eight` and compiled for each instruction set; which one runs is
-//! chosen when the program starts ([`Level::best`]). Only operations that IEEE 754 rounds
-//! correctly are offered, and no fused multiply-add, so that every level gives the same bits.
+//! chosen when the program starts ([`Level::best`]). Operations are those that IEEE 754 rounds
+//! correctly, so that every level gives the same bits; [`Eight::mul_add_roughly`] is the exception,
+//! for bounds that leave room for either rounding.
 //!
 //! - **In**: rows of eight numbers.
 //! - **Out**: rows of eight numbers, or a bit for each lane.
 //! - **Always true**: lane `i` of a result depends on lane `i` of the operands alone, and has the
-//!   same bits at every level.
+//!   same bits at every level, but for the exception.
 //! - **Left out**: wider units. AVX-512 gave no speed-up for trees of eight children.
 //!
 //! ```
@@ -61,6 +62,9 @@ pub(crate) trait Eight: Copy {
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a · b`.
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a · b + c`, rounded once where the level has such an instruction, else twice. What becomes
+    /// a result must not depend on it.
+    fn mul_add_roughly(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `a / b`.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a` where it is less, else `b`; so `b` where either is NaN.
@@ -111,7 +115,7 @@ impl Level {
         #[cfg(target_arch = "x86_64")]
         {
             levels.push(Self(Kind::Sse2));
-            if std::arch::is_x86_feature_detected!("avx2") {
+            if x86::has_avx2() {
                 levels.push(Self(Kind::Avx2));
             }
         }
@@ -145,8 +149,8 @@ impl Level {
             Kind::Scalar => task.run(Scalar),
             #[cfg(target_arch = "x86_64")]
             Kind::Sse2 => task.run(x86::Sse2),
-            // SAFETY: `Level` has no public constructor; `all` makes this one where AVX2 is
-            // detected.
+            // SAFETY: `Level` has no public constructor; `all` makes this one where `has_avx2` is
+            // true.
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2 => unsafe { x86::with_avx2(task) },
             #[cfg(target_arch = "aarch64")]
@@ -178,6 +182,46 @@ mod tests {
             ];
             let bits = [eight.at_most(a, b), eight.below(a, b)];
             (rows.map(|row| eight.store(row)), bits)
+        }
+    }
+
+    /// `a · b + c` of three rows.
+    struct Rough(Row, Row, Row);
+
+    impl Task for Rough {
+        type Output = Row;
+
+        #[inline(always)]
+        fn run<E: Eight>(self, eight: E) -> Row {
+            let [a, b, c] = [&self.0, &self.1, &self.2].map(|row| eight.load(row));
+            eight.store(eight.mul_add_roughly(a, b, c))
+        }
+    }
+
+    #[test]
+    fn a_rough_sum_is_off_by_one_rounding_of_product_and_sum_at_most() {
+        let row = |seed: f32| {
+            Row(std::array::from_fn(|i| {
+                libm::sinf(seed * (1 + i) as f32) * 3.0
+            }))
+        };
+        for step in 1..200 {
+            let seed = step as f32 * 0.37;
+            let (a, b, c) = (row(seed), row(seed + 1.1), row(seed + 2.3));
+            for level in Level::all() {
+                let found = level.run(Rough(a, b, c));
+                for lane in 0..LANES {
+                    let [x, y, z] = [a, b, c].map(|row| f64::from(row.0[lane]));
+                    let exact = x * y + z;
+                    let allowed = (x * y).abs().max(exact.abs()) * 2.0 * 2.0_f64.powi(-24);
+                    let off = (f64::from(found.0[lane]) - exact).abs();
+                    assert!(
+                        off <= allowed,
+                        "{}: off by {off:e} of {exact}",
+                        level.name()
+                    );
+                }
+            }
         }
     }
 

@@ -30,6 +30,8 @@ pub struct Geometry {
     tree: WideTree,
     /// The instance of each leaf of `tree`.
     carriers: Vec<Carrier>,
+    /// Its box in the world.
+    boxes: Vec<Bounds>,
     level: Level,
 }
 
@@ -256,16 +258,19 @@ impl Geometry {
             }
         }
         let (tree, leaves) = WideTree::build(&boxes, 1);
-        let carriers = leaves
-            .iter()
-            .flat_map(LeafItems::as_slice)
-            .map(|&instance| placements[instance as usize].carrier)
-            .collect();
+        let order = || leaves.iter().flat_map(LeafItems::as_slice);
+        let carrier = |&instance: &u32| placements[instance as usize].carrier;
+        let bounds = |&instance: &u32| boxes[instance as usize];
+        let (carriers, boxes) = (
+            order().map(carrier).collect(),
+            order().map(bounds).collect(),
+        );
         Ok(Self {
             meshes,
             placements,
             tree,
             carriers,
+            boxes,
             level: Level::best(),
         })
     }
@@ -346,6 +351,7 @@ impl Geometry {
             + self.tree.memory_bytes()
             + self.placements.capacity() * size_of::<Placement>()
             + self.carriers.capacity() * size_of::<Carrier>()
+            + self.boxes.capacity() * size_of::<Bounds>()
     }
 
     /// A mesh by number.

@@ -2,6 +2,7 @@
 
 use glam::{Vec3, Vec3A};
 
+use super::bounds::Bounds;
 use super::slab::{SlabRay, longest};
 use crate::simd::{Eight, LANES, Row};
 
@@ -220,7 +221,10 @@ impl TriangleBlock {
         }
         let low = |i: usize| a[i].min(b[i]).min(c[i]);
         let high = |i: usize| a[i].max(b[i]).max(c[i]);
-        let enter = slab.one([low(0), low(1), low(2)], [high(0), high(1), high(2)])?;
+        let enter = slab.one(&Bounds {
+            min: Vec3::new(low(0), low(1), low(2)),
+            max: Vec3::new(high(0), high(1), high(2)),
+        })?;
         Some(TriangleHit {
             t: t.max(enter),
             b1: v / determinant,

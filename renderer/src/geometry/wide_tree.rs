@@ -67,9 +67,24 @@ pub(super) trait Visitor {
     /// Prefetches the memory of a leaf that is likely to be visited soon.
     fn fetch(&self, leaf: u32);
 
-    /// Visits a leaf whose box the ray enters at `enter`; returns the new limit, −∞ to end the
-    /// traversal.
-    fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32;
+    /// Visits a leaf; returns the new limit, −∞ to end the traversal.
+    fn visit(&mut self, leaf: u32, limit: f32) -> f32;
+}
+
+/// A child on its way to be visited: the distance at which the ray enters its box, then its code.
+/// Distances are at least +0, so they are ordered as their bits are.
+fn waiting(enter: f32, child: u32) -> u64 {
+    u64::from(enter.to_bits()) << 32 | u64::from(child)
+}
+
+/// The distance of a child that waits.
+fn enter_of(waiting: u64) -> f32 {
+    f32::from_bits((waiting >> 32) as u32)
+}
+
+/// The code of a child that waits.
+fn child_of(waiting: u64) -> u32 {
+    waiting as u32
 }
 
 /// A tree over boxes, up to `leaf_size` of them in a leaf.
@@ -126,13 +141,12 @@ impl WideTree {
         self.nodes.capacity() * size_of::<WideNode>()
     }
 
-    /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`.
+    /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`, in the order
+    /// of their boxes where that is known.
     ///
-    /// With `NEAREST_FIRST` leaves come in the order of their boxes where that is known. Leaves
-    /// beyond the final limit may be visited or not, depending on that order, so results must not
-    /// depend on them.
+    /// Leaves beyond the final limit may be visited or not, so results must not depend on them.
     #[inline(always)]
-    pub(super) fn walk<const NEAREST_FIRST: bool, E: Eight>(
+    pub(super) fn walk_nearest<E: Eight>(
         &self,
         e: E,
         ray: &SlabRay,
@@ -142,49 +156,90 @@ impl WideTree {
         if self.nodes.is_empty() {
             return;
         }
-        let mut stack = Stack::<(f32, u32), STACK>::new();
-        let (mut enter, mut child) = (0.0_f32, 0_u32);
+        let mut stack = Stack::<u64, STACK>::new();
+        let mut child = 0_u32;
         loop {
             if child & LEAF == 0 {
                 let node = &self.nodes[child as usize];
                 let (enters, mut met) = ray.eight(e, &node.planes, limit);
                 if met != 0 {
                     let enters = e.store(enters);
-                    let base = stack.height();
                     let lane = take_lane(&mut met);
-                    (enter, child) = (enters.0[lane], node.children[lane]);
+                    let mut first = waiting(enters.0[lane], node.children[lane]);
                     if met != 0 {
-                        self.ask_for(e, child, visitor);
-                    }
-                    // One child is visited at once, the others wait on the stack.
-                    while met != 0 {
+                        self.ask_for(e, child_of(first), visitor);
                         let lane = take_lane(&mut met);
-                        let mut other = (enters.0[lane], node.children[lane]);
-                        self.ask_for(e, other.1, visitor);
-                        if NEAREST_FIRST {
-                            if other.0 < enter {
-                                (other, (enter, child)) = ((enter, child), other);
-                            }
-                            stack.push_in_order(base, other);
-                        } else {
-                            stack.push(other);
+                        let other = waiting(enters.0[lane], node.children[lane]);
+                        self.ask_for(e, child_of(other), visitor);
+                        let second = first.max(other);
+                        first = first.min(other);
+                        // Two children are the usual case and need no search for a place.
+                        let base = stack.height();
+                        while met != 0 {
+                            let lane = take_lane(&mut met);
+                            let other = waiting(enters.0[lane], node.children[lane]);
+                            self.ask_for(e, child_of(other), visitor);
+                            stack.push_in_order(base, first.max(other));
+                            first = first.min(other);
                         }
+                        stack.push_in_order(base, second);
                     }
+                    // The nearest is visited at once, the others wait on the stack.
+                    child = child_of(first);
                     continue;
                 }
             } else {
-                limit = visitor.visit(child & !LEAF, enter, limit);
+                limit = visitor.visit(child & !LEAF, limit);
                 if limit == f32::NEG_INFINITY {
                     return;
                 }
             }
             loop {
                 let Some(next) = stack.pop() else { return };
-                (enter, child) = next;
-                if enter <= limit {
+                if enter_of(next) <= limit {
+                    child = child_of(next);
                     break;
                 }
             }
+        }
+    }
+
+    /// Lets `visitor` visit the leaves whose boxes the ray enters no later than `limit`, in any
+    /// order, until it returns −∞.
+    #[inline(always)]
+    pub(super) fn walk_any<E: Eight>(
+        &self,
+        e: E,
+        ray: &SlabRay,
+        limit: f32,
+        visitor: &mut impl Visitor,
+    ) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut stack = Stack::<u32, STACK>::new();
+        let mut child = 0_u32;
+        loop {
+            if child & LEAF == 0 {
+                let node = &self.nodes[child as usize];
+                let (_, mut met) = ray.eight(e, &node.planes, limit);
+                if met != 0 {
+                    child = node.children[take_lane(&mut met)];
+                    if met != 0 {
+                        self.ask_for(e, child, visitor);
+                    }
+                    while met != 0 {
+                        let other = node.children[take_lane(&mut met)];
+                        self.ask_for(e, other, visitor);
+                        stack.push(other);
+                    }
+                    continue;
+                }
+            } else if visitor.visit(child & !LEAF, limit) == f32::NEG_INFINITY {
+                return;
+            }
+            let Some(next) = stack.pop() else { return };
+            child = next;
         }
     }
 

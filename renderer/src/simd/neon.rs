@@ -69,6 +69,11 @@ impl Eight for Neon {
     }
 
     #[inline(always)]
+    fn mul_add_roughly(self, a: Halves, b: Halves, c: Halves) -> Halves {
+        self.add(self.mul(a, b), c)
+    }
+
+    #[inline(always)]
     fn div(self, a: Halves, b: Halves) -> Halves {
         halves(a, b, |a, b| unsafe { vdivq_f32(a, b) })
     }

@@ -49,6 +49,11 @@ impl Eight for Scalar {
     }
 
     #[inline(always)]
+    fn mul_add_roughly(self, a: Row, b: Row, c: Row) -> Row {
+        lanes(|i| a.0[i] * b.0[i] + c.0[i])
+    }
+
+    #[inline(always)]
     fn div(self, a: Row, b: Row) -> Row {
         lanes(|i| a.0[i] / b.0[i])
     }

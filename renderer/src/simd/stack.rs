@@ -46,21 +46,20 @@ impl<T: Copy, const N: usize> Stack<T, N> {
     }
 }
 
-impl<T: Copy, const N: usize> Stack<(f32, T), N> {
-    /// Inserts a value below all topmost values with a smaller number, but not below the first
-    /// `base` values.
+impl<T: Copy + Ord, const N: usize> Stack<T, N> {
+    /// Inserts a value below all topmost values that are less, but not below the first `base` values.
     ///
     /// # Panics
     ///
     /// If the stack is full.
     #[inline(always)]
-    pub(crate) fn push_in_order(&mut self, base: usize, value: (f32, T)) {
+    pub(crate) fn push_in_order(&mut self, base: usize, value: T) {
         let mut place = self.height;
         self.push(value);
         while place > base {
             // SAFETY: `place ≤ height` before the push, so the value below it is initialised.
             let below = unsafe { self.values[place - 1].assume_init() };
-            if below.0 >= value.0 {
+            if below >= value {
                 break;
             }
             self.values[place].write(below);
@@ -76,17 +75,17 @@ mod tests {
 
     #[test]
     fn the_least_comes_off_first_and_the_base_stays_below() {
-        let mut stack = Stack::<(f32, char), 8>::new();
-        stack.push((100.0, 'a'));
-        stack.push((-5.0, 'b'));
+        let mut stack = Stack::<(u32, char), 8>::new();
+        stack.push((100, 'a'));
+        stack.push((0, 'b'));
         let base = stack.height();
-        for value in [(4.0, 'c'), (1.0, 'd'), (9.0, 'e'), (1.0, 'f'), (7.0, 'g')] {
+        for value in [(4, 'c'), (1, 'd'), (9, 'e'), (1, 'f'), (7, 'g')] {
             stack.push_in_order(base, value);
         }
         let off: String = std::iter::from_fn(|| stack.pop())
             .map(|(_, letter)| letter)
             .collect();
-        assert_eq!(off, "fdcgeba");
+        assert_eq!(off, "dfcgeba");
         assert_eq!(stack.pop(), None);
     }
 }

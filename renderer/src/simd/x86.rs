@@ -1,11 +1,11 @@
-//! x86-64: SSE2, which every such processor has, and AVX2.
+//! x86-64: SSE2, which every such processor has, and AVX2 with what came with it (FMA, BMI).
 
 use std::arch::x86_64::{
     __m128, __m256, _CMP_LE_OQ, _CMP_LT_OQ, _MM_HINT_T0, _mm_add_ps, _mm_cmple_ps, _mm_cmplt_ps,
     _mm_div_ps, _mm_load_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_prefetch,
     _mm_set1_ps, _mm_store_ps, _mm_sub_ps, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps,
-    _mm256_load_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
-    _mm256_set1_ps, _mm256_store_ps, _mm256_sub_ps,
+    _mm256_fmadd_ps, _mm256_load_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps,
+    _mm256_mul_ps, _mm256_set1_ps, _mm256_store_ps, _mm256_sub_ps,
 };
 
 use super::{Eight, LANES, Row, Task};
@@ -13,21 +13,29 @@ use super::{Eight, LANES, Row, Task};
 /// Size of a cache line, bytes.
 const CACHE_LINE: usize = 64;
 
-/// The instructions of AVX2; made by [`with_avx2`] alone.
+/// The instructions of AVX2, FMA and BMI; made by [`with_avx2`] alone.
 #[derive(Clone, Copy)]
 pub(super) struct Avx2(());
 
 #[derive(Clone, Copy)]
 pub(super) struct Sse2;
 
-/// Runs a task compiled for AVX2.
+/// Runs a task compiled for AVX2, FMA and BMI.
 ///
 /// # Safety
 ///
-/// The processor has AVX2.
-#[target_feature(enable = "avx2")]
+/// [`has_avx2`] is true.
+#[target_feature(enable = "avx2,fma,bmi1,bmi2")]
 pub(super) unsafe fn with_avx2<T: Task>(task: T) -> T::Output {
     task.run(Avx2(()))
+}
+
+/// Whether the processor has all that [`with_avx2`] is compiled for.
+pub(super) fn has_avx2() -> bool {
+    std::arch::is_x86_feature_detected!("avx2")
+        && std::arch::is_x86_feature_detected!("fma")
+        && std::arch::is_x86_feature_detected!("bmi1")
+        && std::arch::is_x86_feature_detected!("bmi2")
 }
 
 #[inline(always)]
@@ -76,6 +84,11 @@ impl Eight for Avx2 {
     #[inline(always)]
     fn mul(self, a: __m256, b: __m256) -> __m256 {
         unsafe { _mm256_mul_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn mul_add_roughly(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+        unsafe { _mm256_fmadd_ps(a, b, c) }
     }
 
     #[inline(always)]
@@ -163,6 +176,11 @@ impl Eight for Sse2 {
     #[inline(always)]
     fn mul(self, a: Self::F, b: Self::F) -> Self::F {
         halves(a, b, |a, b| unsafe { _mm_mul_ps(a, b) })
+    }
+
+    #[inline(always)]
+    fn mul_add_roughly(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        self.add(self.mul(a, b), c)
     }
 
     #[inline(always)]

@@ -10,9 +10,9 @@ use glam::Vec3A;
 
 use super::super::ray::Ray;
 use super::super::slab::SlabRay;
-use super::super::triangle::ShearRay;
+use super::super::triangle::{ShearRay, TriangleBlock};
 use super::super::wide_tree::Visitor;
-use super::{Carrier, Geometry, Hit, TracedMesh};
+use super::{Geometry, Hit, TracedMesh};
 use crate::simd::{Eight, LANES, Task};
 
 /// What a search is for.
@@ -107,19 +107,30 @@ impl<F: Found> Task for Search<'_, F> {
     fn run<E: Eight>(self, e: E) -> F::Output {
         let Self { geometry, ray, .. } = self;
         let mut found = F::default();
-        if ray.is_proper() {
+        if geometry.carriers.len() == 1 {
+            // No tree over one instance. What is not finite in the world is not so in the mesh's
+            // frame either.
+            let task = in_mesh::<F>(geometry, ray, 0, ray.t_max);
+            if let Some(hit) = task
+                .filter(|_| ray.t_min <= ray.t_max)
+                .and_then(|task| task.run(e))
+            {
+                found.hit(hit, ray.t_max);
+            }
+        } else if ray.is_proper() {
             let bounds = geometry.tree.bounds();
             let slab = SlabRay::new(ray.origin.into(), ray.direction.into(), ray.t_min, bounds);
             let mut instances = Instances {
                 e,
                 geometry,
                 ray,
+                slab: &slab,
                 found: &mut found,
             };
             if F::NEAREST_FIRST {
-                (geometry.tree).walk::<true, E>(e, &slab, ray.t_max, &mut instances);
+                (geometry.tree).walk_nearest(e, &slab, ray.t_max, &mut instances);
             } else {
-                (geometry.tree).walk::<false, E>(e, &slab, ray.t_max, &mut instances);
+                (geometry.tree).walk_any(e, &slab, ray.t_max, &mut instances);
             }
         }
         found.output()
@@ -131,6 +142,7 @@ struct Instances<'a, E, F> {
     e: E,
     geometry: &'a Geometry,
     ray: &'a Ray,
+    slab: &'a SlabRay,
     found: &'a mut F,
 }
 
@@ -141,111 +153,137 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
     }
 
     #[inline(always)]
-    fn visit(&mut self, leaf: u32, enter: f32, limit: f32) -> f32 {
-        let carrier = &self.geometry.carriers[leaf as usize];
-        let (origin, direction) = carrier.carry(self.ray);
-        // The local frame may scale a direction to 0 or to infinity.
-        if !origin.is_finite() || !direction.is_finite() || direction == Vec3A::ZERO {
+    fn visit(&mut self, leaf: u32, limit: f32) -> f32 {
+        let hit = in_mesh::<F>(self.geometry, self.ray, leaf, limit);
+        let Some(mut hit) = hit.and_then(|task| self.geometry.level.run(task)) else {
             return limit;
-        }
-        self.geometry.level.run(InMesh {
-            mesh: &self.geometry.meshes[carrier.mesh as usize],
-            carrier,
-            origin,
-            direction,
-            t_min: self.ray.t_min,
-            enter,
-            found: &mut *self.found,
-            limit,
-        })
+        };
+        // Rounding may put a hit before the instance's own box, or beside it. The box decides, so
+        // that culling by it stays exact.
+        let Some(enter) = self.slab.one(&self.geometry.boxes[leaf as usize]) else {
+            return limit;
+        };
+        hit.t = hit.t.max(enter);
+        self.found.hit(hit, limit)
     }
+}
+
+/// The search in the mesh of an instance; `None` if its frame scales the direction to 0 or to
+/// infinity, or the ray is not finite.
+#[inline(always)]
+fn in_mesh<'a, F: Found>(
+    geometry: &'a Geometry,
+    ray: &Ray,
+    leaf: u32,
+    limit: f32,
+) -> Option<InMesh<'a, F>> {
+    let carrier = &geometry.carriers[leaf as usize];
+    let (origin, direction) = carrier.carry(ray);
+    if !origin.is_finite() || !direction.is_finite() || direction == Vec3A::ZERO {
+        return None;
+    }
+    Some(InMesh {
+        mesh: &geometry.meshes[carrier.mesh as usize],
+        instance: carrier.instance,
+        origin,
+        direction,
+        t_min: ray.t_min,
+        limit,
+        found: PhantomData,
+    })
 }
 
 /// The search in one mesh, a separate function so that more of the traversal stays in registers.
 struct InMesh<'a, F> {
     mesh: &'a TracedMesh,
-    carrier: &'a Carrier,
+    instance: u32,
     /// The ray in the mesh's frame.
     origin: Vec3A,
     direction: Vec3A,
     t_min: f32,
-    /// Where the ray enters the instance's box.
-    enter: f32,
-    found: &'a mut F,
     limit: f32,
+    found: PhantomData<F>,
 }
 
 impl<F: Found> Task for InMesh<'_, F> {
-    /// The new limit.
-    type Output = f32;
+    /// A hit no farther than the limit: the nearest, and of equal distances the smaller triangle, or
+    /// any.
+    type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<E: Eight>(self, e: E) -> f32 {
+    fn run<E: Eight>(self, e: E) -> Option<Hit> {
         let (origin, direction, t_min) = (self.origin, self.direction, self.t_min);
         let tree = &self.mesh.tree;
         let slab = SlabRay::new(origin, direction, t_min, tree.bounds());
         let shear = ShearRay::new(origin, direction, t_min);
-        let mut triangles = Triangles {
+        let mut triangles = Triangles::<E, F> {
             e,
-            mesh: self.mesh,
-            carrier: self.carrier,
-            enter: self.enter,
+            blocks: &self.mesh.blocks,
+            instance: self.instance,
             slab: &slab,
             shear: &shear,
-            found: self.found,
-            limit: self.limit,
+            hit: None,
+            found: PhantomData,
         };
         if F::NEAREST_FIRST {
-            tree.walk::<true, E>(e, &slab, self.limit, &mut triangles);
+            tree.walk_nearest(e, &slab, self.limit, &mut triangles);
         } else {
-            tree.walk::<false, E>(e, &slab, self.limit, &mut triangles);
+            tree.walk_any(e, &slab, self.limit, &mut triangles);
         }
-        triangles.limit
+        triangles.hit
     }
 }
 
 /// Visitor of the leaves of a mesh's tree: tests the ray against eight triangles.
 struct Triangles<'a, E, F> {
     e: E,
-    mesh: &'a TracedMesh,
-    carrier: &'a Carrier,
-    /// Where the ray enters the instance's box.
-    enter: f32,
+    blocks: &'a [TriangleBlock],
+    instance: u32,
     slab: &'a SlabRay,
     shear: &'a ShearRay,
-    found: &'a mut F,
-    /// The limit after the last visit.
-    limit: f32,
+    /// What was found so far.
+    hit: Option<Hit>,
+    found: PhantomData<F>,
 }
 
 impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
     #[inline(always)]
     fn fetch(&self, leaf: u32) {
-        self.e.prefetch(&self.mesh.blocks, leaf as usize);
+        self.e.prefetch(self.blocks, leaf as usize);
     }
 
     #[inline(always)]
-    fn visit(&mut self, leaf: u32, _: f32, mut limit: f32) -> f32 {
-        let block = &self.mesh.blocks[leaf as usize];
+    fn visit(&mut self, leaf: u32, mut limit: f32) -> f32 {
+        let block = &self.blocks[leaf as usize];
         let mut candidates = block.candidates(self.e, self.shear, limit);
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
-            if let Some(hit) = block.hit(lane, self.shear, self.slab) {
-                let hit = Hit {
-                    // Rounding may put a hit before the instance's own box. The distance of the box
-                    // is used, so that culling by it stays exact.
-                    t: hit.t.max(self.enter),
-                    instance: self.carrier.instance,
-                    triangle: block.id(lane),
-                    b1: hit.b1,
-                    b2: hit.b2,
-                    place: leaf * LANES as u32 + lane as u32,
-                };
-                limit = self.found.hit(hit, limit);
+            let Some(found) = block.hit(lane, self.shear, self.slab) else {
+                continue;
+            };
+            let triangle = block.id(lane);
+            // At the limit there may be a hit of another instance, which the caller compares, or
+            // one of this mesh.
+            let first = self
+                .hit
+                .is_none_or(|best| found.t < best.t || triangle < best.triangle);
+            if found.t > limit || !first {
+                continue;
             }
+            self.hit = Some(Hit {
+                t: found.t,
+                instance: self.instance,
+                triangle,
+                b1: found.b1,
+                b2: found.b2,
+                place: leaf * LANES as u32 + lane as u32,
+            });
+            if !F::NEAREST_FIRST {
+                return f32::NEG_INFINITY;
+            }
+            limit = found.t;
         }
-        self.limit = limit;
         limit
     }
 }

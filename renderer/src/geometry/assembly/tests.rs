@@ -22,31 +22,39 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     );
     for (instance, placement) in (0_u32..).zip(&geometry.placements) {
         let mesh = &geometry.meshes[placement.instance.mesh as usize];
-        let bounds = placement.world_bounds(mesh);
-        let Some(enter) = world.one(bounds.min.to_array(), bounds.max.to_array()) else {
-            continue;
+        let enter = if geometry.placements.len() == 1 {
+            Some(0.0)
+        } else {
+            world.one(&placement.world_bounds(mesh))
         };
         let (origin, direction) = placement.carrier.carry(ray);
         let slab = SlabRay::new(origin, direction, ray.t_min, mesh.tree.bounds());
         let shear = ShearRay::new(origin, direction, ray.t_min);
+        let mut in_mesh = Vec::new();
         for (number, block) in (0..).zip(&mesh.blocks) {
             for lane in 0..8 {
                 if let Some(hit) = block.hit(lane, &shear, &slab) {
-                    let (t, triangle) = (hit.t.max(enter), block.id(lane));
-                    if t <= ray.t_max {
-                        hits.push(Hit {
-                            t,
-                            instance,
-                            triangle,
-                            b1: hit.b1,
-                            b2: hit.b2,
-                            place: number * 8 + lane as u32,
-                        });
-                    }
+                    in_mesh.push(Hit {
+                        t: hit.t,
+                        instance,
+                        triangle: block.id(lane),
+                        b1: hit.b1,
+                        b2: hit.b2,
+                        place: number * 8 + lane as u32,
+                    });
                 }
             }
         }
+        if let (Some(mut hit), Some(enter)) = (nearest(in_mesh), enter) {
+            hit.t = hit.t.max(enter);
+            hits.extend((hit.t <= ray.t_max).then_some(hit));
+        }
     }
+    nearest(hits)
+}
+
+/// The nearest of some hits; of equal distances the smaller (instance, triangle).
+fn nearest(hits: Vec<Hit>) -> Option<Hit> {
     hits.into_iter().min_by(|a, b| {
         let key = |hit: &Hit| (hit.instance, hit.triangle);
         a.t.total_cmp(&b.t).then(key(a).cmp(&key(b)))
