@@ -3,6 +3,8 @@
 mod anchors;
 mod brf;
 mod canopy;
+mod gonio;
+mod spectral;
 mod sphere;
 
 use std::path::Path;

@@ -79,7 +79,7 @@ fn two_lambertian_plates_have_the_same_factor_in_every_direction_by_either_estim
 /// A layer of small discs of faint leaves over black ground, of which what is scattered more than
 /// once can be taken off: at 600 nm they scatter half of what they scatter at 700 nm.
 fn faint(seed: u64) -> String {
-    discs(0.005, 1.0, [0.0, 1.0])
+    discs(0.0025, 1.0, [0.0, 1.0])
         .replace(
             "reflectance = 0.4\ntransmittance = 0.3",
             "reflectance = { table = [[600, 0.02], [700, 0.04]] }\n\
@@ -125,7 +125,7 @@ fn direction(zenith_deg: f64, azimuth_deg: f64) -> [f64; 3] {
 #[test]
 #[ignore = "slow: 20 s"]
 fn small_discs_scatter_once_as_the_turbid_layer_does_and_twice_as_much_into_the_hot_spot() {
-    // Away from the sun, where a disc of a hundredth hides nothing of what it has shaded, and in it.
+    // Away from the sun, where a disc of half a hundredth hides nothing of what it has shaded, and in it.
     let views = [
         [-60.0, 0.0],
         [-30.0, 0.0],
@@ -175,8 +175,9 @@ fn small_discs_scatter_once_as_the_turbid_layer_does_and_twice_as_much_into_the_
         );
         let z = (mean - expected) / error;
         report += &format!("{view:?}: {mean:.6} for {expected:.6}, error {error:.1e}, z {z:+.2}\n");
-        // Discs of a finite size correlate a little in any direction, in proportion to their radius.
-        let off = ((mean - expected).abs() - 0.005 * expected).max(0.0) / error;
+        // Discs of a finite size hide a little of what they have shaded in any direction, in
+        // proportion to their radius over the distance of the two ways: up to 0.6 % here.
+        let off = ((mean - expected).abs() - 0.006 * expected).max(0.0) / error;
         worst = worst.max(off);
         assert!(error < 0.01 * expected, "{report}");
     }
@@ -277,7 +278,7 @@ fn counting_light_and_next_events_agree_on_coats_glass_and_the_hot_spot() {
         let error = event.error.hypot(count.error);
         worst = worst.max((event.value - count.value).abs() / error);
         gain += count.error / event.error / 10.0;
-        assert!(error < 0.03 * count.value, "{event:?} {count:?}");
+        assert!(error < 0.05 * count.value, "{event:?} {count:?}");
     }
     assert!(worst < 4.0, "{worst}");
     eprintln!("next events: errors {gain:.1} times less");

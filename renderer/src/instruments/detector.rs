@@ -52,14 +52,13 @@ pub(super) fn angles(detector: &Detector) -> Vec<ViewAngles> {
 
 impl Detectors {
     /// A detector over a surface whose frame and normal these are, and the azimuth of the light, in
-    /// the frame; `turn` is the sense of azimuths, -1 in a mirrored frame, and `side` -1 for
-    /// detectors behind the surface.
+    /// the frame. The senses are those of azimuths, -1 in a mirrored frame, and of the normal, -1
+    /// behind the surface.
     pub(super) fn new(
         detector: &Detector,
         frame: &Frame,
         azimuth: f64,
-        turn: f64,
-        side: f64,
+        [turn, side]: [f64; 2],
     ) -> Self {
         let alpha = detector.half_angle;
         // ∫ cos θ dω over a cone about θ is π sin² α cos θ; its solid angle is 2π (1 − cos α).

@@ -47,22 +47,46 @@ impl fmt::Display for Direction {
 pub struct Row {
     /// Name of the instrument.
     pub instrument: String,
-    /// The light.
-    pub incidence: Direction,
-    /// The face that is lit, of a sphere.
-    pub face: Option<&'static str>,
-    /// The object or layer that the figure is about, of a canopy.
-    pub part: Option<String>,
-    /// Where it is seen from; `None` if the figure is about all directions.
-    pub view: Option<ViewAngles>,
-    /// Wavelength, nm; `None` for what is no figure of one.
-    pub wavelength_nm: Option<f64>,
     /// What it is.
     pub quantity: &'static str,
+    /// The object, layer or constituent that the figure is about; of an index, the quantity.
+    pub part: Option<String>,
+    /// The face that is lit, of a sample.
+    pub face: Option<&'static str>,
+    /// The light.
+    pub incidence: Direction,
+    /// Where it is seen from; `None` if the figure is about all directions.
+    pub view: Option<ViewAngles>,
+    /// Distance from the adaxial face, µm, of a figure within a leaf.
+    pub depth_um: Option<f64>,
+    /// The band over which the figure is a mean or a sum.
+    pub band: Option<String>,
+    /// Wavelength, nm, of a band its middle; `None` for what has none.
+    pub wavelength_nm: Option<f64>,
     /// Its value.
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
-    /// Unit of both; 1 is a share of the incident flux.
+    /// Unit of both; 1 is a share of the incident flux, or a factor.
     pub unit: &'static str,
+}
+
+impl Row {
+    /// A figure without a unit, of all of a measurement in a light, and as yet without a value.
+    pub(super) fn new(instrument: &str, quantity: &'static str, incidence: Direction) -> Self {
+        Self {
+            instrument: instrument.to_owned(),
+            quantity,
+            part: None,
+            face: None,
+            incidence,
+            view: None,
+            depth_um: None,
+            band: None,
+            wavelength_nm: None,
+            value: f64::NAN,
+            error: f64::NAN,
+            unit: "1",
+        }
+    }
 }

@@ -26,8 +26,11 @@ const ASIDE: u32 = 1 << 24;
 pub(super) struct Event {
     /// Number of the object in the scene.
     pub(super) object: usize,
-    /// Where it is, m.
+    /// Number of the instance on the stage.
+    pub(super) instance: u32,
+    /// Where it is, m, and its texture coordinates.
     pub(super) position: Vec3,
+    pub(super) uv: Vec2,
     /// Weight of the light that arrives.
     pub(super) before: Lanes<LANES>,
     /// Weight of the light that goes on. It may be more than arrives: only the mean over directions
@@ -204,7 +207,9 @@ impl<C: Course> Walk<'_, C> {
         }
         witness.event(&Event {
             object: *object,
+            instance: encounter.surface.instance,
             position: encounter.surface.position,
+            uv: encounter.surface.uv,
             before: weight,
             after,
             is_first: event == 0,

@@ -12,14 +12,14 @@ use crate::scene::description::Description;
 pub(super) fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
         "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,\
-         wavelength_nm,value,standard_error,unit\n",
+         depth_um,band,wavelength_nm,value,standard_error,unit\n",
     );
     for row in rows {
         let [zenith, azimuth] = view_of(row);
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{:.9},{:.3e},{}",
+            "{},{},{},{},{},{},{},{},{},{},{:.9},{:.3e},{}",
             row.instrument,
             row.quantity,
             row.part.as_deref().unwrap_or(""),
@@ -27,6 +27,8 @@ pub(super) fn csv(rows: &[Row]) -> String {
             row.incidence,
             shown(zenith),
             shown(azimuth),
+            shown(row.depth_um),
+            row.band.as_deref().unwrap_or(""),
             shown(row.wavelength_nm),
             row.value,
             row.error,
@@ -63,6 +65,8 @@ pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String
             "incidence_deg": incidence,
             "view_zenith_deg": zenith,
             "view_azimuth_deg": azimuth,
+            "depth_um": row.depth_um,
+            "band": row.band,
             "wavelength_nm": row.wavelength_nm,
             "value": row.value,
             "standard_error": row.error,

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
-use leafmodel::document::value_kind::Numbers;
+use leafmodel::document::value_kind::{Flag, Numbers};
 
 use super::detector::detector;
 use super::{Rising, incidence, rectangle};
@@ -24,6 +24,8 @@ impl Canopy {
             },
             soil: None,
             layers: Vec::new(),
+            constituents: false,
+            instances: false,
             detector: None,
         }
     }
@@ -51,6 +53,10 @@ pub(super) fn canopy(canopy: &mut Canopy, keys: &mut Keys<'_>) {
     };
     let about = "Heights between layers whose absorption is told one by one.";
     keys.key("layers_m", &mut canopy.layers, kind, about);
+    let about = super::BY_CONSTITUENT;
+    keys.key("constituents", &mut canopy.constituents, Flag, about);
+    let about = "Whether absorption is told of each instance of an object: leaf by leaf.";
+    keys.key("instances", &mut canopy.instances, Flag, about);
     let about = "Directions from which the canopy is seen, for its BRF.";
     keys.optional_block(
         "detector",
