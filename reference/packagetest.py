@@ -135,6 +135,106 @@ def test_a_leaf_is_what_the_program_writes() -> None:
     assert 0.9 * leaf.measures["length_mm"] < 1000 * np.ptp(leaf.vertices[:, 1]) < 250
 
 
+BENCH = """format = 1
+film.rgb = { size = [8, 8], spp = 1 }
+camera.orthographic = { position_m = [0, 0, 1], look_at_m = [0, 0, 0], up = [0, 1, 0], height_m = 1 }
+meshes.sheet.rectangle = { width_m = 1, height_m = 1 }
+materials.green.leaf = { preset = "sun-green" }
+materials.soil.diffuse = { reflectance = 0.2 }
+objects.leaf = { mesh = "sheet", material = "green", position_m = [0, 0, 0.5] }
+objects.ground = { mesh = "sheet", material = "soil" }
+
+[instruments.ball.sphere]
+object = "leaf"
+wavelengths_nm = [550, 680, 800]
+constituents = true
+sensor = "landsat-8-oli"
+indices = ["ndvi"]
+incident = { par_umol_m2_s = 1000 }
+spot = { at_mm = [0, 0], diameter_mm = 10 }
+
+[instruments.field.canopy]
+within_m = [-0.5, -0.5, 0.5, 0.5]
+wavelengths_nm = [550, 800]
+soil = "ground"
+layers_m = [0.2]
+detector = { zenith_deg = [-30, 0, 30], relative_azimuth_deg = [0, 90] }
+
+[instruments.inside.depth]
+object = "leaf"
+wavelengths_nm = [450, 680]
+slices = 2
+"""
+
+
+def test_figures_of_instruments_are_arrays_and_netcdf_and_say_their_units() -> None:
+    import xarray as xr
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        scene, told = folder / "bench.toml", folder / "figures.json"
+        scene.write_text(BENCH)
+        table = folder / "figures.csv"
+        printed("instruments", str(scene), "--rays", "1024", "--out", str(told), str(table))
+        figures = json.loads(told.read_text())["figures"]
+        found = lamina.instruments(scene, rays=1024)
+        assert list(found) == ["ball", "field", "inside"]
+        ball, field, inside = found.values()
+        row = next(
+            row
+            for row in figures
+            if (row["instrument"], row["quantity"], row["face"], row["incidence_deg"])
+            == ("ball", "reflectance", "abaxial", "diffuse")
+            and row["band"] is None
+            and row["wavelength_nm"] == 800
+        )
+        ours = ball.reflectance_diffuse.sel(face="abaxial", wavelength=800)
+        assert float(ours) == row["value"] and ours.attrs["units"] == "1"
+        error = ball.reflectance_diffuse_standard_error.sel(face="abaxial", wavelength=800)
+        assert float(error) == row["standard_error"]
+        assert set(ball.absorbed_by_constituent.dims) == {
+            "constituent",
+            "face",
+            "incidence",
+            "wavelength",
+        }
+        assert ball.absorbed_photon_flux.attrs["units"] == "umol m-2 s-1"
+        nir, red = (ball.reflectance_in_band.sel(band=band) for band in ("B5", "B4"))
+        ndvi = (nir - red) / (nir + red)
+        assert np.allclose(ndvi, ball.ndvi_of_reflectance, atol=1e-6)
+        assert float(ball.band_centre.sel(band="B5")) == 865 and ball.attrs["seed"] == 1
+        assert dict(field.brf.sizes) == {
+            "incidence": 1,
+            "view_azimuth": 2,
+            "view_zenith": 3,
+            "wavelength": 2,
+        }
+        assert field.absorbed_in_layer.sizes["layer"] == 2
+        assert inside.fluence.attrs["units"] == "1" and inside.depth.attrs["units"] == "um"
+        # The cuticle is the outermost of the five layers.
+        assert inside.tissue.values[0] == "cuticle" and inside.depth.size == 10
+        # The table has the same to its nine digits.
+        by_csv = lamina.read_figures(table)["field"]
+        assert np.allclose(by_csv.brf, field.brf, atol=1e-9)
+        files = lamina.to_netcdf(told, folder / "all.nc")
+        assert [file.name for file in files] == ["all-ball.nc", "all-field.nc", "all-inside.nc"]
+        kept = xr.load_dataset(files[1])
+        assert kept.brf.equals(field.brf) and kept.brf.attrs == field.brf.attrs
+        assert kept.wavelength.attrs["units"] == "nm"
+        command = [sys.executable, "-c", "import lamina.measured as m; m.main()", str(told)]
+        command += ["--out", str(folder / "one.nc"), "--only"]
+        environment = os.environ | {"PYTHONPATH": str(HERE)}
+        done = subprocess.run(
+            [*command, "inside"], capture_output=True, text=True, env=environment, check=True
+        )
+        assert done.stdout.strip() == str(folder / "one.nc")
+        assert xr.load_dataset(folder / "one.nc").fluence.equals(inside.fluence)
+        wrong = subprocess.run(
+            [*command, "outside"], capture_output=True, text=True, env=environment, check=False
+        )
+        assert wrong.returncode != 0 and "no instrument outside, but ball" in wrong.stderr
+
+
 def test_optics_are_the_programs_table() -> None:
     told = lamina.optics("birch-yellow", water=0.012)
     table = printed("optics", "--preset", "birch-yellow", "--cw", "0.012", "--out", "-")

@@ -1,7 +1,10 @@
 //! Instruments against closed forms, PROSPECT and figures computed independently.
 
 mod anchors;
+mod brf;
 mod canopy;
+mod gonio;
+mod spectral;
 mod sphere;
 
 use std::path::Path;
@@ -58,7 +61,7 @@ fn of<'r>(
     nm: f64,
 ) -> impl Iterator<Item = &'r Row> {
     rows.iter().filter(move |row| {
-        row.quantity == quantity && row.incidence == incidence && row.wavelength_nm == nm
+        row.quantity == quantity && row.incidence == incidence && row.wavelength_nm == Some(nm)
     })
 }
 

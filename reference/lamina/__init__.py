@@ -8,6 +8,7 @@ with units and coordinates.
     picture = lamina.render("scene.toml", {"film.spectral.spp": 256})
     leaf = lamina.grow("birch", {"seed": 3})
     spectra = lamina.optics(chlorophyll=45, water=0.011)
+    figures = lamina.instruments("bench.toml", error=1e-3)["ball"]
     problems = lamina.check("scene.toml")
     pictures = lamina.sweep("sweep.toml", store="pictures.zarr")
 
@@ -17,6 +18,7 @@ cargo's release build of the repository that holds this package.
 
 from lamina.checking import Problem, check
 from lamina.grown import Grown, frames, grow
+from lamina.measured import instruments, read_figures, to_netcdf
 from lamina.parts import render_in_parts
 from lamina.program import LaminaError, program, run, version
 from lamina.rendered import read, render
@@ -30,12 +32,15 @@ __all__ = [
     "check",
     "frames",
     "grow",
+    "instruments",
     "optics",
     "program",
     "read",
+    "read_figures",
     "render",
     "render_in_parts",
     "run",
     "sweep",
+    "to_netcdf",
     "version",
 ]

@@ -54,8 +54,15 @@
 
 mod batches;
 mod canopy;
+mod constituents;
+mod depth;
+mod detector;
+mod gonio;
+mod lamp;
+mod ledger;
 mod period;
 mod row;
+mod spectral;
 mod sphere;
 mod spot;
 mod stage;
@@ -64,7 +71,7 @@ mod walk;
 use thiserror::Error;
 
 pub use self::batches::{Budget, FEWEST_RAYS};
-pub use self::row::{Direction, Row};
+pub use self::row::{Direction, Row, ViewAngles};
 use crate::geometry::GeometryError;
 use crate::scene::description::{Description, InstrumentKind};
 use crate::scene::world::World;
@@ -138,6 +145,29 @@ pub enum InstrumentError {
         /// The object.
         object: String,
     },
+    /// An object without known contents.
+    #[error("{at}: the object `{object}` {problem}")]
+    NoContents {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// More figures than there is memory for.
+    #[error(
+        "{at}: `instances` asks for {figures} figures of sets of eight wavelengths, more than \
+         {most}: use fewer wavelengths, lights or leaves"
+    )]
+    TooManyInstances {
+        /// Where the block stands.
+        at: String,
+        /// How many there would be.
+        figures: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// Copies of a canopy's parts cannot be placed.
     #[error("{at}: {source}")]
     Geometry {
@@ -152,16 +182,19 @@ pub enum InstrumentError {
 /// instruments.
 pub fn sets_of(scene: &Description) -> Option<(WavelengthSampler, Vec<usize>)> {
     let lists = scene.instruments.iter();
-    let lists: Vec<&[f64]> = lists
-        .map(|instrument| instrument.value.wavelengths_nm.as_slice())
+    let lists: Vec<Vec<f64>> = lists
+        .map(|instrument| instrument.value.measured_nm())
         .collect();
+    let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
     (!lists.is_empty()).then(|| WavelengthSampler::of_lists(LANES, &lists))
 }
 
 /// What the instrument with this number leaves out of a scene, in sentences for users.
 pub fn notes(world: &World, scene: &Description, number: usize) -> Vec<String> {
     match &scene.instruments[number].value.kind {
-        InstrumentKind::Sphere(_) => Vec::new(),
+        InstrumentKind::Sphere(_) | InstrumentKind::Gonio(_) | InstrumentKind::Depth(_) => {
+            Vec::new()
+        }
         InstrumentKind::Canopy(canopy) => canopy::notes(world, scene, canopy),
     }
 }
@@ -181,11 +214,15 @@ pub fn read_out(
 ) -> Result<Vec<Row>, InstrumentError> {
     let instrument = &scene.instruments[number];
     match &instrument.value.kind {
-        InstrumentKind::Sphere(sphere) => {
-            sphere::read_out(world, scene, (instrument, sphere), first_set, budget)
+        InstrumentKind::Sphere(sample) => {
+            sphere::read_out(world, scene, (instrument, sample), first_set, budget)
+        }
+        InstrumentKind::Gonio(gonio) => {
+            gonio::read_out(world, scene, (instrument, gonio), first_set, budget)
         }
         InstrumentKind::Canopy(canopy) => {
             canopy::read_out(world, scene, (instrument, canopy), first_set, budget)
         }
+        InstrumentKind::Depth(depth) => depth::read_out(world, scene, (instrument, depth)),
     }
 }

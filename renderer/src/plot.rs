@@ -8,6 +8,8 @@
 
 mod axis;
 mod canvas;
+mod chart;
 
 pub(crate) use self::axis::{Axis, short};
 pub(crate) use self::canvas::{Anchor, Canvas, escaped};
+pub(crate) use self::chart::{CHART_SIZE, Chart, ChartLine};

@@ -1,5 +1,6 @@
 //! `lamina instruments`: figures of a scene's instruments as tables.
 
+mod plot;
 mod table;
 
 use std::io::Write as _;
@@ -56,6 +57,18 @@ pub(super) fn run(arguments: &InstrumentsArguments) -> Result<(), Failure> {
             table::csv(&rows)
         };
         atomic::replace(path, |file| file.write_all(text.as_bytes())).map_err(Failure::system)?;
+        say(path.display());
+    }
+    if let Some(path) = &arguments.plot {
+        let drawing = plot::svg(&rows).ok_or_else(|| {
+            Failure::bad(format!(
+                "{}: there is nothing to draw: a line needs figures at two wavelengths, view angles \
+                 or depths",
+                path.display()
+            ))
+        })?;
+        atomic::replace(path, |file| file.write_all(drawing.as_bytes()))
+            .map_err(Failure::system)?;
         say(path.display());
     }
     Ok(())
@@ -155,9 +168,20 @@ fn check_outputs(
             )));
         }
     }
+    if let Some(path) = arguments
+        .plot
+        .as_ref()
+        .filter(|path| !has_ending(path, "svg"))
+    {
+        return Err(Failure::bad(format!(
+            "{}: --plot draws: let its name end in .svg",
+            path.display()
+        )));
+    }
     let outputs: Vec<&Path> = arguments
         .out
         .iter()
+        .chain(&arguments.plot)
         .map(std::path::PathBuf::as_path)
         .collect();
     places::check_outputs(&outputs, inputs, "the command")

@@ -324,6 +324,20 @@ impl Geometry {
         (bounds.min, bounds.max)
     }
 
+    /// Area of one side of all triangles of an instance, m².
+    pub fn area_of(&self, instance: u32) -> f64 {
+        let placed = self.instance(instance);
+        let mesh = self.mesh(placed.mesh);
+        let area = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|vertex| {
+                let point = mesh.positions()[vertex as usize];
+                placed.to_world.transform_point3(point).as_dvec3()
+            });
+            0.5 * (b - a).cross(c - a).length()
+        };
+        mesh.triangles().iter().map(area).sum()
+    }
+
     /// Number of instances.
     pub fn instances(&self) -> u32 {
         self.placements.len() as u32

@@ -55,6 +55,57 @@ pub(super) trait Experiment: Sync {
 pub(super) struct Estimate {
     pub(super) value: f64,
     pub(super) error: f64,
+    /// By how much each batch moves the value from where it is; the sum is 0.
+    deviations: [f64; BATCHES as usize],
+    /// The error is not less: what may have been missed by all rays.
+    least_error: f64,
+}
+
+impl Estimate {
+    /// What figures of the same batches make together: its value, and its derivative by each of
+    /// them. Batches that move several figures alike count so in its error.
+    pub(super) fn derived<'e>(value: f64, parts: impl Iterator<Item = (&'e Self, f64)>) -> Self {
+        let mut deviations = [0.0; BATCHES as usize];
+        let mut least_error = 0.0;
+        for (part, derivative) in parts {
+            for (sum, deviation) in deviations.iter_mut().zip(part.deviations) {
+                *sum += derivative * deviation;
+            }
+            least_error += derivative.abs() * part.least_error;
+        }
+        Self::new(value, deviations, least_error)
+    }
+
+    /// A weighted sum of figures of the same batches.
+    pub(super) fn weighted<'e>(parts: impl Iterator<Item = (&'e Self, f64)> + Clone) -> Self {
+        let value = parts.clone().map(|(part, weight)| weight * part.value);
+        Self::derived(value.sum(), parts)
+    }
+
+    /// A figure that is not estimated.
+    pub(super) fn exact(value: f64) -> Self {
+        Self::new(value, [0.0; BATCHES as usize], 0.0)
+    }
+
+    fn new(value: f64, deviations: [f64; BATCHES as usize], least_error: f64) -> Self {
+        let count = f64::from(BATCHES);
+        let squares: f64 = deviations
+            .iter()
+            .map(|deviation| deviation * deviation)
+            .sum();
+        let error = (squares * count / (count - 1.0)).sqrt();
+        Self {
+            value,
+            // Of nothing, both are NaN.
+            error: if least_error > 0.0 {
+                error.max(least_error)
+            } else {
+                error
+            },
+            deviations,
+            least_error,
+        }
+    }
 }
 
 /// The batches of one experiment.
@@ -149,27 +200,21 @@ impl Batches {
     fn estimates(&self) -> Vec<Estimate> {
         let all = self.total(0);
         let missed = (RULE_OF_THREE / all).min(1.0);
-        let count = self.sums.len() as f64;
         let figures = 1..self.sums[0].len();
         let estimate = |number: usize| {
             let total = self.total(number);
             let value = total / all;
-            let squares: f64 = self
-                .sums
-                .iter()
-                .map(|sums| (sums[number] - value * sums[0]).powi(2))
-                .sum();
-            let deviation = (squares * count / (count - 1.0)).sqrt() / all;
-            let is_unknown = total == 0.0 || total == all || all < FEWEST_RAYS as f64;
-            Estimate {
-                value,
-                // Of nothing, both are NaN.
-                error: if is_unknown && all > 0.0 {
-                    deviation.max(missed)
-                } else {
-                    deviation
-                },
+            let mut deviations = [0.0; BATCHES as usize];
+            for (deviation, sums) in deviations.iter_mut().zip(&self.sums) {
+                *deviation = (sums[number] - value * sums[0]) / all;
             }
+            let is_unknown = total == 0.0 || total == all || all < FEWEST_RAYS as f64;
+            let is_any = all > 0.0;
+            Estimate::new(
+                value,
+                deviations,
+                if is_unknown && is_any { missed } else { 0.0 },
+            )
         };
         figures.map(estimate).collect()
     }
@@ -183,6 +228,33 @@ mod tests {
 
     /// A disc in a square: the share of points in it, and half of that.
     struct Disc;
+
+    #[test]
+    fn what_is_derived_has_the_error_that_batches_say() {
+        let budget = Budget {
+            rays: 1 << 12,
+            error: None,
+            seed: 3,
+        };
+        let found = &estimates(&[Disc], &budget)[0];
+        let [whole, half] = [found[0], found[1]];
+        // The second figure is half of the first in every batch.
+        let nothing = Estimate::weighted([(&whole, 0.5), (&half, -1.0)].into_iter());
+        assert!(
+            nothing.value.abs() < 1e-12 && nothing.error < 1e-12,
+            "{nothing:?}"
+        );
+        let both = Estimate::weighted([(&whole, 1.0), (&half, 2.0)].into_iter());
+        assert!((both.error - 2.0 * whole.error).abs() < 1e-12, "{both:?}");
+        let sum = whole.value + half.value;
+        let ratio = (whole.value - half.value) / sum;
+        let by = [2.0 * half.value, -2.0 * whole.value].map(|by| by / (sum * sum));
+        let ratio = Estimate::derived(ratio, [(&whole, by[0]), (&half, by[1])].into_iter());
+        assert!(
+            (ratio.value - 1.0 / 3.0).abs() < 1e-12 && ratio.error < 1e-12,
+            "{ratio:?}"
+        );
+    }
 
     impl Experiment for Disc {
         fn sums(&self) -> usize {

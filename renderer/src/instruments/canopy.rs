@@ -4,18 +4,20 @@
 //! top is reflected, the rest is absorbed by soil or by another object, or goes on below where
 //! there is no soil. All figures are shares of the light that enters.
 
-use std::collections::BTreeSet;
-
 use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
+use super::detector::{Detectors, angles};
+use super::lamp::{directions, towards};
+use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
 use super::row::{Direction, Row};
-use super::sphere::{directions, towards};
+use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Walk, Witness};
+use super::walk::{Escaped, Event, Scattering, Walk, Witness};
 use super::{InstrumentError, LANES};
 use crate::geometry::Ray;
+use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{Canopy, Description, Instrument, Named};
@@ -25,98 +27,9 @@ use crate::spectrum::Wavelengths;
 /// Rays along each side of the box by which soil is looked for.
 const SOIL_PROBES: u32 = 48;
 
-/// What is told of each wavelength.
-#[derive(Clone, Debug, PartialEq)]
-struct Quantity {
-    word: &'static str,
-    part: Option<String>,
-}
-
-/// The places of the sums of an object, by lanes, behind the denominator.
-#[derive(Debug)]
-struct Ledger {
-    quantities: Vec<Quantity>,
-    /// Number of the first quantity of objects, and which object each is.
-    objects: (usize, Vec<usize>),
-    /// Number of the first quantity of layers, and the heights between them.
-    layers: (usize, Vec<f32>),
-    soil: Option<usize>,
-}
-
-const REFLECTED: usize = 0;
-const TRANSMITTED: usize = 1;
-const UNCOLLIDED: usize = 2;
-const ARRIVING: usize = 3;
-const BY_SOIL: usize = 4;
-
-impl Ledger {
-    fn new(scene: &Description, stage: &Stage<'_>, canopy: &Canopy) -> Self {
-        let own = |word| Quantity { word, part: None };
-        let mut quantities = vec![own("reflected"), own("transmitted"), own("uncollided")];
-        if canopy.soil.is_some() {
-            quantities.push(own("arriving_at_soil"));
-            quantities.push(own("absorbed_by_soil"));
-        }
-        let numbers: BTreeSet<usize> = (0..stage.objects.len())
-            .map(|instance| stage.objects[instance].object)
-            .filter(|object| Some(*object) != canopy.soil)
-            .collect();
-        let objects = (quantities.len(), numbers.into_iter().collect::<Vec<_>>());
-        quantities.extend(objects.1.iter().map(|&object| Quantity {
-            word: "absorbed",
-            part: Some(scene.objects[object].name.clone()),
-        }));
-        let first_layer = quantities.len();
-        let borders = &canopy.layers;
-        if let [lowest, .., highest] | [lowest @ highest] = borders.as_slice() {
-            let between = borders.windows(2);
-            let between = between.map(|pair| format!("{} to {} m", pair[0], pair[1]));
-            let below = std::iter::once(format!("below {lowest} m"));
-            let names = below.chain(between).chain([format!("above {highest} m")]);
-            quantities.extend(names.map(|name| Quantity {
-                word: "absorbed_in_layer",
-                part: Some(name),
-            }));
-        }
-        let origin = stage.world.origin.z;
-        Self {
-            quantities,
-            objects,
-            layers: (
-                first_layer,
-                borders.iter().map(|z| (z - origin) as f32).collect(),
-            ),
-            soil: canopy.soil,
-        }
-    }
-
-    /// Adds what is left at an event.
-    fn add(&self, event: &Event, sums: &mut [f64]) {
-        let absorbed =
-            |lane: usize| f64::from(event.before.0[lane]) - f64::from(event.after.0[lane]);
-        if Some(event.object) == self.soil {
-            add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
-            add(sums, BY_SOIL, absorbed);
-            return;
-        }
-        let (first, objects) = &self.objects;
-        let place = objects.partition_point(|object| *object < event.object);
-        add(sums, first + place, absorbed);
-        let (first, borders) = &self.layers;
-        if !borders.is_empty() {
-            let layer = borders.partition_point(|border| *border < event.position.z);
-            add(sums, first + layer, absorbed);
-        }
-    }
-}
-
-/// Adds to the lanes of a quantity.
-fn add(sums: &mut [f64], quantity: usize, value: impl Fn(usize) -> f64) {
-    let lanes = sums[1 + quantity * LANES..].iter_mut().take(LANES);
-    for (lane, sum) in lanes.enumerate() {
-        *sum += value(lane);
-    }
-}
+/// Most quantities, times lights and sets of wavelengths, where instances are told one by one: each
+/// takes some 4 KiB.
+const MOST_FIGURES: usize = 1 << 18;
 
 /// One light, at one set of wavelengths.
 struct Lit<'a> {
@@ -125,13 +38,15 @@ struct Lit<'a> {
     ledger: &'a Ledger,
     direction: Direction,
     azimuth: f64,
+    detectors: Option<Detectors>,
     wavelengths: Wavelengths<LANES>,
     stream: u32,
 }
 
 impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
-        1 + self.ledger.quantities.len() * LANES
+        let seen = self.detectors.as_ref().map_or(0, Detectors::len);
+        1 + (self.ledger.quantities.len() + seen) * LANES
     }
 
     fn stream(&self) -> u32 {
@@ -152,40 +67,58 @@ impl Experiment for Lit<'_> {
             wavelengths: &self.wavelengths,
             ways: 1,
         };
-        let ledger = self.ledger;
-        let is_untouched = true;
-        walk.follow(
-            ray,
-            stream,
-            &mut Tally {
-                ledger,
-                sums,
-                is_untouched,
-            },
-        );
+        let mut tally = Tally {
+            lit: self,
+            sums,
+            is_untouched: true,
+        };
+        walk.follow(ray, stream, &mut tally);
     }
 }
 
 /// The sums to which one ray adds.
 struct Tally<'a> {
-    ledger: &'a Ledger,
+    lit: &'a Lit<'a>,
     sums: &'a mut [f64],
     /// Whether the ray has met nothing so far.
     is_untouched: bool,
 }
 
 impl Witness for Tally<'_> {
+    fn scattering(&mut self, at: &Scattering<'_>) {
+        let Lit {
+            stage,
+            period,
+            ledger,
+            detectors,
+            ..
+        } = self.lit;
+        if let Some(detectors) = detectors {
+            let first = ledger.quantities.len();
+            detectors.see((stage, period), at, |number, seen| {
+                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+            });
+        }
+    }
+
     fn event(&mut self, event: &Event) {
         self.is_untouched = false;
-        if event.is_first && Some(event.object) == self.ledger.soil {
+        let ledger = self.lit.ledger;
+        if event.is_first && Some(event.object) == ledger.soil {
             add(self.sums, UNCOLLIDED, |lane| {
                 f64::from(event.before.0[lane])
             });
         }
-        self.ledger.add(event, self.sums);
+        ledger.add(self.lit.stage, event, &self.lit.wavelengths, self.sums);
     }
 
     fn escape(&mut self, escaped: &Escaped) {
+        if let Some(detectors) = &self.lit.detectors {
+            let first = self.lit.ledger.quantities.len();
+            detectors.gather(escaped, |number, seen| {
+                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+            });
+        }
         let weight = |lane: usize| f64::from(escaped.weight.0[lane]);
         if escaped.direction.z > 0.0 {
             add(self.sums, REFLECTED, weight);
@@ -229,7 +162,8 @@ pub(super) fn read_out(
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let (stage, period) = Period::stage(within(world, canopy), world, at)?;
-    let ledger = Ledger::new(scene, &stage, canopy);
+    let ground = (canopy.within[1] - canopy.within[0]).element_product();
+    let ledger = Ledger::new(scene, &stage, canopy, ground);
     if ledger.objects.1.is_empty() {
         return Err(InstrumentError::NoLeaves { at: at.clone() });
     }
@@ -241,9 +175,13 @@ pub(super) fn read_out(
             object: scene.objects[soil].name.clone(),
         });
     }
-    let nm = &instrument.value.wavelengths_nm;
-    let sets = nm.len().div_ceil(LANES);
+    let count = instrument.value.measured_nm().len();
+    let sets = count.div_ceil(LANES);
     let directions = directions(&canopy.incidence);
+    check_size(at, canopy, &ledger, sets * directions.len())?;
+    let azimuth = canopy.incidence.azimuth;
+    // +x along x, the normal upwards.
+    let upwards = Frame::new(Vec3::Z, Vec3::Y);
     let mut lit = Vec::new();
     for (number, &direction) in directions.iter().enumerate() {
         for set in 0..sets {
@@ -252,33 +190,69 @@ pub(super) fn read_out(
                 period,
                 ledger: &ledger,
                 direction,
-                azimuth: canopy.incidence.azimuth,
+                azimuth,
+                detectors: canopy
+                    .detector
+                    .as_ref()
+                    .map(|detector| Detectors::new(detector, &upwards, azimuth, [1.0; 2])),
                 wavelengths: world.wavelengths.grid().set(first_set + set),
                 stream: number as u32,
             });
         }
     }
     let found = estimates(&lit, budget);
-    let mut rows = Vec::new();
+    let seen = canopy.detector.as_ref().map(angles).unwrap_or_default();
+    let mut all = Vec::new();
     for (figures, &direction) in found.chunks(sets).zip(&directions) {
-        for (i, &wavelength_nm) in nm.iter().enumerate() {
-            for (number, quantity) in ledger.quantities.iter().enumerate() {
-                let figure = figures[i / LANES][number * LANES + i % LANES];
-                rows.push(Row {
-                    instrument: instrument.name.clone(),
-                    incidence: direction,
-                    face: None,
-                    part: quantity.part.clone(),
-                    wavelength_nm,
-                    quantity: quantity.word,
-                    value: figure.value,
-                    error: figure.error,
-                    unit: "1",
-                });
-            }
+        let mut series = Vec::new();
+        for (number, quantity) in ledger.quantities.iter().enumerate() {
+            let mut row = plain(&instrument.name, quantity.word, direction).row;
+            row.part.clone_from(&quantity.part);
+            series.push(Series {
+                row,
+                photons: quantity.photons,
+                figures: by_wavelength(figures, number, count),
+            });
         }
+        for (number, &view) in seen.iter().enumerate() {
+            let mut row = plain(&instrument.name, factor_of(direction), direction).row;
+            row.view = Some(view);
+            let number = ledger.quantities.len() + number;
+            series.push(Series {
+                row,
+                photons: None,
+                figures: by_wavelength(figures, number, count),
+            });
+        }
+        all.extend(rows(&instrument.value, &series));
     }
-    Ok(rows)
+    Ok(all)
+}
+
+/// Fails if there are more sums of instances than there is memory for.
+fn check_size(
+    at: &str,
+    canopy: &Canopy,
+    ledger: &Ledger,
+    experiments: usize,
+) -> Result<(), InstrumentError> {
+    let figures = ledger.quantities.len() * experiments;
+    if canopy.instances && figures > MOST_FIGURES {
+        return Err(InstrumentError::TooManyInstances {
+            at: at.to_owned(),
+            figures,
+            most: MOST_FIGURES,
+        });
+    }
+    Ok(())
+}
+
+/// The word for a reflectance factor in a light.
+fn factor_of(light: Direction) -> &'static str {
+    match light {
+        Direction::Beam(_) => "brf",
+        Direction::Diffuse => "hdrf",
+    }
 }
 
 /// Whether an object is met everywhere below the top of the box, by a grid of rays.

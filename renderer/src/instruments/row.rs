@@ -11,12 +11,32 @@ pub enum Direction {
     Diffuse,
 }
 
+/// The direction of a detector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewAngles {
+    /// Angle from the normal, rad; a negative one lies on the other side of the normal.
+    pub zenith: f64,
+    /// Azimuth from that of the light, rad.
+    pub azimuth: f64,
+}
+
+impl ViewAngles {
+    /// Zenith and azimuth, degrees as they were written.
+    pub fn degrees(&self) -> [f64; 2] {
+        [self.zenith, self.azimuth].map(written_degrees)
+    }
+}
+
+/// Degrees as they were written: a conversion leaves errors of some 1e-14.
+fn written_degrees(angle: f64) -> f64 {
+    (angle.to_degrees() * 1e9).round() / 1e9
+}
+
 impl fmt::Display for Direction {
     /// Degrees, or the word `diffuse`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // Degrees as they were written: a conversion leaves errors of some 1e-14.
-            Self::Beam(angle) => write!(f, "{}", (angle.to_degrees() * 1e9).round() / 1e9),
+            Self::Beam(angle) => write!(f, "{}", written_degrees(*angle)),
             Self::Diffuse => write!(f, "diffuse"),
         }
     }
@@ -27,20 +47,46 @@ impl fmt::Display for Direction {
 pub struct Row {
     /// Name of the instrument.
     pub instrument: String,
-    /// The light.
-    pub incidence: Direction,
-    /// The face that is lit, of a sphere.
-    pub face: Option<&'static str>,
-    /// The object or layer that the figure is about, of a canopy.
-    pub part: Option<String>,
-    /// Wavelength, nm.
-    pub wavelength_nm: f64,
     /// What it is.
     pub quantity: &'static str,
+    /// The object, layer or constituent that the figure is about; of an index, the quantity.
+    pub part: Option<String>,
+    /// The face that is lit, of a sample.
+    pub face: Option<&'static str>,
+    /// The light.
+    pub incidence: Direction,
+    /// Where it is seen from; `None` if the figure is about all directions.
+    pub view: Option<ViewAngles>,
+    /// Distance from the adaxial face, µm, of a figure within a leaf.
+    pub depth_um: Option<f64>,
+    /// The band over which the figure is a mean or a sum.
+    pub band: Option<String>,
+    /// Wavelength, nm, of a band its middle; `None` for what has none.
+    pub wavelength_nm: Option<f64>,
     /// Its value.
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
-    /// Unit of both; 1 is a share of the incident flux.
+    /// Unit of both; 1 is a share of the incident flux, or a factor.
     pub unit: &'static str,
+}
+
+impl Row {
+    /// A figure without a unit, of all of a measurement in a light, and as yet without a value.
+    pub(super) fn new(instrument: &str, quantity: &'static str, incidence: Direction) -> Self {
+        Self {
+            instrument: instrument.to_owned(),
+            quantity,
+            part: None,
+            face: None,
+            incidence,
+            view: None,
+            depth_um: None,
+            band: None,
+            wavelength_nm: None,
+            value: f64::NAN,
+            error: f64::NAN,
+            unit: "1",
+        }
+    }
 }

@@ -5,77 +5,60 @@
 //! the other is transmitted. The rest is absorbed. Light that leaves does not come back: the sphere
 //! is an ideal one, without the error of substitution.
 
-use glam::{Vec2, Vec3};
-
 use super::batches::{Budget, Experiment, estimates};
-use super::row::{Direction, Row};
-use super::spot::{Port, axes_of, ports};
+use super::constituents::{self, PARTS};
+use super::lamp::{Bench, FACES, Lamp};
+use super::row::Row;
+use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Straight, Walk, Witness};
 use super::{InstrumentError, LANES};
-use crate::geometry::Ray;
-use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
-use crate::sampling::warp;
-use crate::scene::description::{Description, Incidence, Instrument, Named, Sphere};
+use crate::scene::description::{Description, Instrument, Named, Sample};
 use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
 
 /// Ways in which light goes on from where it first meets the sample. Whether it is reflected or
 /// transmitted is most of what differs between rays, and costs less than another ray.
 const WAYS: u32 = 8;
-/// Names of the faces.
-const FACES: [&str; 2] = ["adaxial", "abaxial"];
-/// Figures of a wavelength.
-const QUANTITIES: [&str; 3] = ["reflectance", "transmittance", "absorptance"];
-
-/// Where rays start.
-enum Opening {
-    /// A port that the surface touches.
-    Port(Port),
-    /// A ball around the whole object: its middle and radius, m. Rays that miss it do not count.
-    Around([Vec3; 2], f32),
-}
+/// Figures of a wavelength, each with the word for its photon flux.
+const QUANTITIES: [(&str, &str); 3] = [
+    ("reflectance", "reflected_photon_flux"),
+    ("transmittance", "transmitted_photon_flux"),
+    ("absorptance", "absorbed_photon_flux"),
+];
+/// What is told of each constituent.
+const BY_CONSTITUENT: (&str, &str) = (
+    "absorbed_by_constituent",
+    "photon_flux_absorbed_by_constituent",
+);
 
 /// One light on one face, at one set of wavelengths.
 struct Lit<'a> {
     stage: &'a Stage<'a>,
-    opening: &'a Opening,
-    /// The frame of the port: x as the object's, +z out of the face.
-    frame: Frame,
-    direction: Direction,
-    azimuth: f64,
+    lamp: &'a Lamp<'a>,
+    /// Whether absorption is told by constituents.
+    constituents: bool,
     wavelengths: Wavelengths<LANES>,
-    stream: u32,
-}
-
-/// The directions of an instrument's light, in the order of its rows.
-pub(super) fn directions(incidence: &Incidence) -> Vec<Direction> {
-    let beams = incidence.angles.iter().map(|angle| Direction::Beam(*angle));
-    let diffuse = incidence.diffuse.then_some(Direction::Diffuse);
-    beams.chain(diffuse).collect()
-}
-
-/// Towards a beam at an angle from +z and an azimuth, rad.
-pub(super) fn towards(angle: f64, azimuth: f64) -> Vec3 {
-    let (sin, cos) = libm::sincos(angle);
-    let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth);
-    glam::DVec3::new(sin * cos_azimuth, sin * sin_azimuth, cos).as_vec3()
 }
 
 impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
-        1 + QUANTITIES.len() * LANES
+        let parts = if self.constituents { PARTS } else { 0 };
+        1 + (QUANTITIES.len() + parts) * LANES
     }
 
     fn stream(&self) -> u32 {
-        self.stream
+        self.lamp.stream
     }
 
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
-        let ray = self.ray(stream);
+        let ray = self.lamp.ray(stream);
+        let (counted, parts) = sums.split_at_mut(1 + QUANTITIES.len() * LANES);
         let mut gathered = Gathered {
-            normal: self.frame.to_world(Vec3::Z),
+            lit: self,
+            parts,
+            normal: self.lamp.frame.normal,
             is_lit: false,
             flux: [[0.0; LANES]; 2],
         };
@@ -89,29 +72,39 @@ impl Experiment for Lit<'_> {
         if !gathered.is_lit {
             return;
         }
-        sums[0] += 1.0;
+        counted[0] += 1.0;
         for lane in 0..LANES {
             let [r, t] = gathered.flux.map(|of| of[lane]);
-            sums[1 + lane] += r;
-            sums[1 + LANES + lane] += t;
-            sums[1 + 2 * LANES + lane] += 1.0 - r - t;
+            counted[1 + lane] += r;
+            counted[1 + LANES + lane] += t;
+            counted[1 + 2 * LANES + lane] += 1.0 - r - t;
         }
     }
 }
 
 /// What the sphere gathers of one ray.
-struct Gathered {
+struct Gathered<'a> {
+    lit: &'a Lit<'a>,
+    /// Sums of constituents.
+    parts: &'a mut [f64],
     /// Out of the face that is lit.
-    normal: Vec3,
+    normal: glam::Vec3,
     /// Whether the ray has met the sample.
     is_lit: bool,
     /// Reflected and transmitted flux.
     flux: [[f64; LANES]; 2],
 }
 
-impl Witness for Gathered {
-    fn event(&mut self, _event: &Event) {
+impl Witness for Gathered<'_> {
+    fn event(&mut self, event: &Event) {
         self.is_lit = true;
+        if self.lit.constituents {
+            let absorbed = constituents::absorbed(self.lit.stage, event, &self.lit.wavelengths);
+            let absorbed = absorbed.iter().flat_map(|lanes| lanes.0);
+            for (sum, absorbed) in self.parts.iter_mut().zip(absorbed) {
+                *sum += f64::from(absorbed);
+            }
+        }
     }
 
     fn escape(&mut self, escaped: &Escaped) {
@@ -122,129 +115,60 @@ impl Witness for Gathered {
     }
 }
 
-impl Lit<'_> {
-    /// A ray of the light.
-    fn ray(&self, stream: &mut Stream) -> Ray {
-        let [x, y, u, v] = stream.next4();
-        let disc = warp::disc(Vec2::new(x, y));
-        match self.opening {
-            Opening::Port(port) => {
-                let local = match self.direction {
-                    Direction::Beam(angle) => towards(angle, self.azimuth),
-                    Direction::Diffuse => warp::cosine_hemisphere(Vec2::new(u, v)),
-                };
-                let place = self.frame.to_world(disc.extend(0.0)) * port.radius;
-                Ray::new(port.middle + place, -self.frame.to_world(local))
-            }
-            Opening::Around([middle, _], radius) => {
-                let local = match self.direction {
-                    Direction::Beam(angle) => towards(angle, self.azimuth),
-                    // The same radiance from everywhere: each direction lights what it sees.
-                    Direction::Diffuse => warp::cone(Vec2::new(u, v), 1.0),
-                };
-                let towards = self.frame.to_world(local);
-                let (across, along) = towards.any_orthonormal_pair();
-                let place = (across * disc.x + along * disc.y + towards * 2.0) * *radius;
-                Ray::new(*middle + place, -towards)
-            }
-        }
-    }
-}
-
 /// Measures.
 pub(super) fn read_out(
     world: &World,
     scene: &Description,
-    (instrument, sphere): (&Named<Instrument>, &Sphere),
+    (instrument, sample): (&Named<Instrument>, &Sample),
     first_set: usize,
     budget: &Budget,
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
-    let object = &scene.objects[sphere.object];
-    let stage =
-        Stage::of_object(world, sphere.object).map_err(|source| InstrumentError::Geometry {
-            at: at.clone(),
-            source,
-        })?;
-    let [x, _, z] = axes_of(&object.value);
-    let openings = if let Some(spot) = &sphere.spot {
-        let ports = ports(&stage, (&object.name, &object.value), spot)?;
-        if sphere.faces[1] && ports[1].faces_a_surface(&stage.geometry) {
-            return Err(InstrumentError::PortInside {
-                at: spot.at.clone(),
-                object: object.name.clone(),
-            });
-        }
-        ports.map(Opening::Port)
-    } else {
-        let (least, most) = stage.geometry.bounds();
-        let radius = 0.5 * (most - least).length() * 1.0001;
-        [z, -z].map(|normal| Opening::Around([0.5 * (least + most), normal], radius))
-    };
-    let directions = directions(&sphere.incidence);
-    let nm = &instrument.value.wavelengths_nm;
-    let sets = nm.len().div_ceil(LANES);
-    let azimuth = sphere.incidence.azimuth;
-    let mut lit = Vec::new();
-    for (face, opening) in openings
+    let bench = Bench::new(world, scene, sample, at)?;
+    let lamps = bench.lamps(sample);
+    let count = instrument.value.measured_nm().len();
+    let sets = count.div_ceil(LANES);
+    let grid = world.wavelengths.grid();
+    let lit: Vec<Lit<'_>> = lamps
         .iter()
-        .enumerate()
-        .filter(|(face, _)| sphere.faces[*face])
-    {
-        let normal = match opening {
-            Opening::Port(port) => port.normal,
-            Opening::Around([_, normal], _) => *normal,
-        };
-        for (number, &direction) in directions.iter().enumerate() {
-            for set in 0..sets {
-                lit.push(Lit {
-                    stage: &stage,
-                    opening,
-                    frame: frame(normal, x),
-                    direction,
-                    // The frame of the other face is mirrored.
-                    azimuth: if face == 0 { azimuth } else { -azimuth },
-                    wavelengths: world.wavelengths.grid().set(first_set + set),
-                    stream: (face * directions.len() + number) as u32,
-                });
-            }
-        }
-    }
+        .flat_map(|lamp| (0..sets).map(move |set| (lamp, grid.set(first_set + set))))
+        .map(|(lamp, wavelengths)| Lit {
+            stage: &bench.stage,
+            lamp,
+            constituents: sample.constituents,
+            wavelengths,
+        })
+        .collect();
     let found = estimates(&lit, budget);
     if found.iter().any(|figures| figures[0].value.is_nan()) {
         return Err(InstrumentError::NothingLit {
             at: at.clone(),
-            object: object.name.clone(),
+            object: scene.objects[sample.object].name.clone(),
         });
     }
-    let mut rows = Vec::new();
-    for (figures, lit) in found.chunks(sets).zip(lit.chunks(sets)) {
-        let face = lit[0].stream as usize / directions.len();
-        for (i, &wavelength_nm) in nm.iter().enumerate() {
-            for (number, quantity) in QUANTITIES.into_iter().enumerate() {
-                let figure = figures[i / LANES][number * LANES + i % LANES];
-                rows.push(Row {
-                    instrument: instrument.name.clone(),
-                    incidence: lit[0].direction,
-                    face: Some(FACES[face]),
-                    part: None,
-                    wavelength_nm,
-                    quantity,
-                    value: figure.value,
-                    error: figure.error,
-                    unit: "1",
-                });
-            }
-        }
+    let mut all = Vec::new();
+    for (figures, lamp) in found.chunks(sets).zip(&lamps) {
+        let parts = constituents::names().map(|name| (BY_CONSTITUENT, Some(name)));
+        let told = QUANTITIES.into_iter().map(|quantity| (quantity, None));
+        let told: Vec<_> = if sample.constituents {
+            told.chain(parts).collect()
+        } else {
+            told.collect()
+        };
+        let series = told.into_iter().enumerate();
+        let series: Vec<Series> = series
+            .map(|(number, ((quantity, photons), part))| {
+                let mut row = plain(&instrument.name, quantity, lamp.direction).row;
+                row.face = Some(FACES[lamp.face]);
+                row.part = part.map(str::to_owned);
+                Series {
+                    row,
+                    photons: Some((photons, 1.0)),
+                    figures: by_wavelength(figures, number, count),
+                }
+            })
+            .collect();
+        all.extend(rows(&instrument.value, &series));
     }
-    Ok(rows)
-}
-
-/// The frame with +z along a normal whose x axis is as near to `x` as can be.
-fn frame(normal: Vec3, x: Vec3) -> Frame {
-    let flat = x - normal * normal.dot(x);
-    let x = flat
-        .try_normalize()
-        .unwrap_or(normal.any_orthonormal_vector());
-    Frame::new(normal, normal.cross(x))
+    Ok(all)
 }

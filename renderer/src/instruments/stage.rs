@@ -11,6 +11,8 @@ pub(super) struct Stage<'w> {
     pub(super) world: &'w World,
     pub(super) geometry: Geometry,
     pub(super) objects: WorldObjects,
+    /// Number of each of its instances in the world.
+    pub(super) numbers: Vec<u32>,
 }
 
 impl<'w> Stage<'w> {
@@ -19,6 +21,7 @@ impl<'w> Stage<'w> {
         Ok(Self {
             world,
             geometry: world.geometry.with_places(places)?,
+            numbers: places.iter().map(|(number, _)| *number).collect(),
             objects: world.objects.pick(places.iter().map(|(number, _)| *number)),
         })
     }

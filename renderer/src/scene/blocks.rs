@@ -49,7 +49,7 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 pub(crate) use self::solid::solid;
 use super::description::{
     Description, Instrument, InstrumentKind, Leaf, Light, Material, Mesh, Object, Picture, Plant,
-    Reflectance, Solid, Spectrum, Sphere,
+    Reflectance, Sample, Solid, Spectrum,
 };
 use super::plants::{boughs, individuals};
 use super::rigs;
@@ -177,7 +177,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         integrator::integrator(&mut scene.integrator, keys);
     });
     let about = "Instruments, which `lamina instruments` reads out.";
-    let new = || Instrument::usual(InstrumentKind::Sphere(Sphere::usual()));
+    let new = || Instrument::usual(InstrumentKind::Sphere(Sample::usual()));
     section(
         keys,
         "instruments",
@@ -193,6 +193,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     if keys.reader().is_some() {
         references::check(scene, keys, purpose);
         if keys.is_sound() {
+            instrument::incident::take_spectra(scene);
             rigs::set_up(scene);
             individuals::grow_apart(scene, keys);
             boughs::place(scene, keys);

@@ -21,7 +21,8 @@ use leafmodel::solid::SolidPlan;
 
 pub use self::camera::{Camera, FocusObject};
 pub use self::instrument::{
-    Canopy, Incidence, Instrument, InstrumentKind, Sphere, Spot, SpotMiddle,
+    Amount, Canopy, DepthProfile, Detector, Estimator, Gonio, Incidence, Incident, Index,
+    Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;

@@ -9,7 +9,7 @@ use super::{MOST_GIB, SceneArguments, between};
 pub(super) const EXAMPLES: &str = "\
 Examples:
   lamina instruments bench.toml --out bench.csv
-  lamina instruments bench.toml --error 1e-3 --only ball --out ball.json
+  lamina instruments bench.toml --error 1e-3 --only ball --out ball.json --plot ball.svg
   lamina instruments bench.toml --rays 1000000 -D objects.leaves.volume.seed=2 --out canopy.csv";
 
 /// Greatest number of rays: 2³⁶.
@@ -24,6 +24,9 @@ pub struct InstrumentsArguments {
     /// Files to write with all figures, their kind by their ending: csv, json
     #[arg(long, value_name = "FILE", num_args = 1.., required = true)]
     pub out: Vec<PathBuf>,
+    /// Draw the figures too: spectra, planes of view angles, depth
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
     /// Read out this instrument only; may be given several times
     #[arg(long, value_name = "NAME")]
     pub only: Vec<String>,

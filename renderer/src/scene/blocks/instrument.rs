@@ -1,7 +1,11 @@
-//! `[instruments.NAME.…]`: sphere, canopy.
+//! `[instruments.NAME.…]`: sphere, goniometer, canopy, depth.
 
+mod bands;
 mod canopy;
-mod sphere;
+mod depth;
+mod detector;
+pub(super) mod incident;
+mod sample;
 
 use glam::DVec2;
 use leafmodel::document::context::Context;
@@ -15,9 +19,13 @@ use leafmodel::document::values::{list, number, number_at, wrong_length, wrong_t
 
 use super::film::{Range, WAVELENGTHS_NM};
 use crate::scene::description::{
-    Canopy, Description, Incidence, Instrument, InstrumentKind, Named, Sphere,
+    Canopy, DepthProfile, Description, Detector, Gonio, Incidence, Instrument, InstrumentKind,
+    Named, Sample,
 };
 
+/// What `constituents` of an instrument means.
+const BY_CONSTITUENT: &str = "Whether absorption is told by constituents of tissue: pigments, water \
+    and dry matter.";
 /// Most wavelengths of an instrument: more than one for each nanometre from 400 to 2500.
 const MOST_WAVELENGTHS: usize = 4096;
 /// Most directions of parallel light of an instrument.
@@ -31,6 +39,9 @@ impl Instrument {
         Self {
             at: String::new(),
             wavelengths_nm: every(USUAL_RANGE_NM, USUAL_STEP_NM),
+            bands: Vec::new(),
+            indices: Vec::new(),
+            incident: None,
             kind,
         }
     }
@@ -49,16 +60,38 @@ impl Default for Incidence {
 const USUAL_RANGE_NM: [f64; 2] = [400.0, 2500.0];
 const USUAL_STEP_NM: f64 = 10.0;
 
-const KINDS: [Variant<Instrument>; 2] = [
+const KINDS: [Variant<Instrument>; 4] = [
     Variant {
         name: "sphere",
         about: "An integrating sphere: reflectance, transmittance and absorptance of an object.",
-        new: || Instrument::usual(InstrumentKind::Sphere(Sphere::usual())),
+        new: || Instrument::usual(InstrumentKind::Sphere(Sample::usual())),
         is: |instrument| matches!(instrument.kind, InstrumentKind::Sphere(_)),
         declare: |instrument, keys| {
             wavelengths(instrument, keys);
             if let InstrumentKind::Sphere(own) = &mut instrument.kind {
-                sphere::sphere(own, keys);
+                sample::sample(own, keys);
+                keys.key("constituents", &mut own.constituents, Flag, BY_CONSTITUENT);
+            }
+            incident::incident(instrument, keys);
+        },
+    },
+    Variant {
+        name: "gonio",
+        about: "A goniometer: BRDF, BTDF and reflectance factors of an object by direction.",
+        new: || {
+            Instrument::usual(InstrumentKind::Gonio(Gonio {
+                sample: Sample::beams_alone(),
+                detector: Detector::usual(),
+            }))
+        },
+        is: |instrument| matches!(instrument.kind, InstrumentKind::Gonio(_)),
+        declare: |instrument, keys| {
+            wavelengths(instrument, keys);
+            if let InstrumentKind::Gonio(own) = &mut instrument.kind {
+                sample::sample(&mut own.sample, keys);
+                let about = "Directions from which it is seen, before and behind.";
+                let own = &mut own.detector;
+                keys.block("detector", about, |keys| detector::detector(own, keys));
             }
         },
     },
@@ -71,6 +104,19 @@ const KINDS: [Variant<Instrument>; 2] = [
             wavelengths(instrument, keys);
             if let InstrumentKind::Canopy(own) = &mut instrument.kind {
                 canopy::canopy(own, keys);
+            }
+            incident::incident(instrument, keys);
+        },
+    },
+    Variant {
+        name: "depth",
+        about: "Light by depth within a leaf of layers.",
+        new: || Instrument::usual(InstrumentKind::Depth(DepthProfile::usual())),
+        is: |instrument| matches!(instrument.kind, InstrumentKind::Depth(_)),
+        declare: |instrument, keys| {
+            wavelengths(instrument, keys);
+            if let InstrumentKind::Depth(own) = &mut instrument.kind {
+                depth::depth(own, keys);
             }
         },
     },
@@ -127,7 +173,19 @@ fn wavelengths(instrument: &mut Instrument, keys: &mut Keys<'_>) {
         );
         return;
     }
-    instrument.wavelengths_nm = listed.unwrap_or_else(|| every(range, step));
+    bands::bands(instrument, keys);
+    // Whoever asks for bands alone gets bands alone.
+    let is_asked = keys.reader().is_none_or(|block| {
+        let ranged = ["range_nm", "step_nm"];
+        ranged.iter().any(|key| block.table.get(key).is_some())
+    });
+    instrument.wavelengths_nm = listed.unwrap_or_else(|| {
+        if is_asked || instrument.bands.is_empty() {
+            every(range, step)
+        } else {
+            Vec::new()
+        }
+    });
 }
 
 /// Wavelengths from the first to the last at equal steps, nm.

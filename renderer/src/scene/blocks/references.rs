@@ -41,6 +41,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>, purpose: Purpose) {
     check_strewn(scene, keys);
     check_colours(scene, keys);
     check_samples(scene, keys);
+    super::instrument::incident::check_lights(scene, keys);
     if cx.error_count() == 0 {
         warn_of_the_unused(scene, keys);
     }
@@ -119,14 +120,16 @@ fn check_strewn(scene: &Description, keys: &Keys<'_>) {
     }
 }
 
-/// The sample of a sphere stands in one place.
+/// The sample of a sphere or a goniometer stands in one place.
 fn check_samples(scene: &Description, keys: &Keys<'_>) {
     for instrument in &scene.instruments {
-        let InstrumentKind::Sphere(sphere) = &instrument.value.kind else {
-            continue;
+        let sample = match &instrument.value.kind {
+            InstrumentKind::Sphere(sample) => sample,
+            InstrumentKind::Gonio(gonio) => &gonio.sample,
+            InstrumentKind::Canopy(_) | InstrumentKind::Depth(_) => continue,
         };
         // An unknown name is reported where it is written.
-        let Some(object) = scene.objects.get(sphere.object) else {
+        let Some(object) = scene.objects.get(sample.object) else {
             continue;
         };
         let Object {
@@ -135,7 +138,12 @@ fn check_samples(scene: &Description, keys: &Keys<'_>) {
         if instances.is_some() || plant.is_some() || object.value.is_spread() {
             let problem = format!("`{}` stands in more than one place", object.name);
             let help = "name an object with one mesh, leaf or solid in one place";
-            let path = ["instruments", &instrument.name, "sphere", "object"];
+            let path = [
+                "instruments",
+                &instrument.name,
+                instrument.value.kind.word(),
+                "object",
+            ];
             keys.refuse(&path, problem, help);
         }
     }

@@ -3,11 +3,12 @@
 use glam::DVec2;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
-use leafmodel::document::value_kind::Numbers;
+use leafmodel::document::value_kind::{Flag, Numbers};
 
+use super::detector::detector;
 use super::{Rising, incidence, rectangle};
 use crate::scene::blocks::camera::COORDINATES_M;
-use crate::scene::description::{Canopy, Incidence};
+use crate::scene::description::{Canopy, Detector, Incidence};
 
 /// Most heights between layers.
 const MOST_BORDERS: usize = 1000;
@@ -23,6 +24,9 @@ impl Canopy {
             },
             soil: None,
             layers: Vec::new(),
+            constituents: false,
+            instances: false,
+            detector: None,
         }
     }
 }
@@ -49,4 +53,16 @@ pub(super) fn canopy(canopy: &mut Canopy, keys: &mut Keys<'_>) {
     };
     let about = "Heights between layers whose absorption is told one by one.";
     keys.key("layers_m", &mut canopy.layers, kind, about);
+    let about = super::BY_CONSTITUENT;
+    keys.key("constituents", &mut canopy.constituents, Flag, about);
+    let about = "Whether absorption is told of each instance of an object: leaf by leaf.";
+    keys.key("instances", &mut canopy.instances, Flag, about);
+    let about = "Directions from which the canopy is seen, for its BRF.";
+    keys.optional_block(
+        "detector",
+        &mut canopy.detector,
+        Detector::usual,
+        about,
+        detector,
+    );
 }

@@ -1,4 +1,4 @@
-//! `[instruments.NAME.sphere]`.
+//! What is measured by `[instruments.NAME.sphere]` and `[instruments.NAME.gonio]`.
 
 use glam::DVec2;
 use leafmodel::document::keys::Keys;
@@ -7,16 +7,16 @@ use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{Number, Numbers, Word};
 
 use super::incidence;
-use crate::scene::description::{Incidence, Sphere, Spot, SpotMiddle};
+use crate::scene::description::{Incidence, Sample, Spot, SpotMiddle};
 
 /// Words for the faces that are lit.
-const FACES: [(&str, [bool; 2]); 3] = [
+pub(super) const FACES: [(&str, [bool; 2]); 3] = [
     ("both", [true, true]),
     ("adaxial", [true, false]),
     ("abaxial", [false, true]),
 ];
 
-impl Sphere {
+impl Sample {
     /// One with all defaults.
     pub(in crate::scene) fn usual() -> Self {
         Self {
@@ -29,6 +29,19 @@ impl Sphere {
             },
             faces: [true, true],
             spot: None,
+            constituents: false,
+        }
+    }
+
+    /// The same, lit by parallel light alone unless asked for more.
+    pub(super) fn beams_alone() -> Self {
+        let usual = Self::usual();
+        Self {
+            incidence: Incidence {
+                diffuse: false,
+                ..usual.incidence
+            },
+            ..usual
         }
     }
 }
@@ -44,19 +57,19 @@ impl Spot {
 }
 
 /// The keys of the block.
-pub(super) fn sphere(sphere: &mut Sphere, keys: &mut Keys<'_>) {
+pub(super) fn sample(sample: &mut Sample, keys: &mut Keys<'_>) {
     let kind = NameIn("objects", "the name of an object");
     let about = "The sample: an object in one place. The rest of the scene is not there.";
-    keys.required("object", &mut sphere.object, kind, about);
+    keys.required("object", &mut sample.object, kind, about);
     let about = [
-        "Angles of parallel light from the normal of the port.",
+        "Angles of parallel light from the normal of the spot.",
         "Azimuth of that light, from the object's +x towards its +y.",
     ];
-    incidence(&mut sphere.incidence, keys, about);
+    incidence(&mut sample.incidence, keys, about);
     let about = "The faces that are lit, one after the other.";
-    keys.key("faces", &mut sphere.faces, Word(&FACES), about);
+    keys.key("faces", &mut sample.faces, Word(&FACES), about);
     let about = "A round spot that is lit, instead of the whole object.";
-    keys.optional_block("spot", &mut sphere.spot, Spot::usual, about, spot);
+    keys.optional_block("spot", &mut sample.spot, Spot::usual, about, spot);
 }
 
 fn spot(spot: &mut Spot, keys: &mut Keys<'_>) {

@@ -1,0 +1,157 @@
+//! Light by depth within a leaf, solved by layers.
+//!
+//! The leaf has the contents of an object's tissue in the layers of
+//! [`LayeredLeaf`](leafmodel::optics::layers::LayeredLeaf). Nothing is followed at random here, so
+//! figures have no statistical error.
+
+use leafmodel::optics::Contents;
+use leafmodel::optics::layers::{Face, Incidence, LayeredLeaf};
+use rayon::prelude::*;
+
+use super::InstrumentError;
+use super::batches::Estimate;
+use super::lamp::{FACES, directions};
+use super::row::{Direction, Row};
+use super::spectral::{Series, plain, rows};
+use crate::material::Tissue;
+use crate::scene::description::{DepthProfile, Description, Instrument, Named};
+use crate::scene::world::World;
+
+/// Optical depth of absorption of a slice from which on its fluence can be told from what it absorbs.
+const LEAST_DEPTH: f64 = 1e-9;
+
+/// One wavelength: the slices with what each absorbs per µm, and the fluence rate in it.
+struct Profile {
+    slices: Vec<(&'static str, f64)>,
+    absorbed_per_um: Vec<f64>,
+    fluence: Vec<f64>,
+}
+
+/// The tissue of an object, if it has some of known contents.
+fn tissue_of(world: &World, object: usize) -> Option<Tissue<'_>> {
+    (0..world.objects.len())
+        .filter(|&instance| world.objects[instance].object == object)
+        .find_map(|instance| {
+            let tissue = world.material_of(instance as u32).tissue()?;
+            tissue.held.is_some().then_some(tissue)
+        })
+}
+
+/// Measures.
+pub(super) fn read_out(
+    world: &World,
+    scene: &Description,
+    (instrument, depth): (&Named<Instrument>, &DepthProfile),
+) -> Result<Vec<Row>, InstrumentError> {
+    let refuse = |problem: String| InstrumentError::NoContents {
+        at: instrument.value.at.clone(),
+        object: scene.objects[depth.object].name.clone(),
+        problem,
+    };
+    let tissue = tissue_of(world, depth.object);
+    let Some((tissue, held)) = tissue.and_then(|tissue| Some((tissue, tissue.held?))) else {
+        return Err(refuse("is not tissue of known contents".to_owned()));
+    };
+    let contents = match depth.uv {
+        Some(uv) => Contents::from_texel(held.at(uv.as_vec2())),
+        None => held.mean(),
+    };
+    let contents = contents
+        .checked()
+        .map_err(|error| refuse(format!("has contents out of range: {error}")))?;
+    let leaf = LayeredLeaf::new(&contents);
+    let nm = instrument.value.measured_nm();
+    let mut all = Vec::new();
+    for (face, lit) in [Face::First, Face::Last].into_iter().enumerate() {
+        if !depth.faces[face] {
+            continue;
+        }
+        for light in directions(&depth.incidence) {
+            let incidence = match light {
+                Direction::Beam(angle) => Incidence::Directional {
+                    cosine: libm::cos(angle),
+                },
+                Direction::Diffuse => Incidence::Lambertian,
+            };
+            let profiles: Vec<Profile> = nm
+                .par_iter()
+                .map(|&nm| profile(&leaf, tissue, nm, (lit, incidence), depth.slices))
+                .collect::<Result<_, _>>()
+                .map_err(&refuse)?;
+            let series = series(&instrument.name, &profiles, light, FACES[face]);
+            all.extend(rows(&instrument.value, &series));
+        }
+    }
+    Ok(all)
+}
+
+fn profile(
+    leaf: &LayeredLeaf,
+    tissue: Tissue<'_>,
+    nm: f64,
+    (face, incidence): (Face, Incidence),
+    count: usize,
+) -> Result<Profile, String> {
+    let at = tissue.palette.coefficients(nm);
+    let slices = leaf
+        .profile(&at, face, incidence, count)
+        .map_err(|error| error.to_string())?;
+    let stack = leaf.stack(&at);
+    let absorbing = stack.layers().iter().flat_map(|layer| {
+        let depth = layer.depth * (1.0 - layer.albedo) / count as f64;
+        std::iter::repeat_n(depth, count)
+    });
+    Ok(Profile {
+        slices: slices
+            .iter()
+            .map(|slice| (slice.tissue.name(), slice.depth_um))
+            .collect(),
+        absorbed_per_um: slices
+            .iter()
+            .map(|slice| slice.absorbed / slice.thickness_um)
+            .collect(),
+        // What is absorbed is the coefficient of absorption times the fluence rate.
+        fluence: slices
+            .iter()
+            .zip(absorbing)
+            .map(|(slice, depth)| {
+                if depth > LEAST_DEPTH {
+                    slice.absorbed / depth
+                } else {
+                    f64::NAN
+                }
+            })
+            .collect(),
+    })
+}
+
+/// The figures of one light, by slices from the adaxial face on.
+fn series(name: &str, profiles: &[Profile], light: Direction, face: &'static str) -> Vec<Series> {
+    let Some(first) = profiles.first() else {
+        return Vec::new();
+    };
+    let of = |slice: usize, quantity, unit, value: &dyn Fn(&Profile) -> f64| {
+        let (layer, depth_um) = first.slices[slice];
+        let mut series = plain(name, quantity, light);
+        series.row.part = Some(layer.to_owned());
+        series.row.face = Some(face);
+        series.row.depth_um = Some(depth_um);
+        series.row.unit = unit;
+        series.figures = profiles
+            .iter()
+            .map(|one| Estimate::exact(value(one)))
+            .collect();
+        series
+    };
+    let mut all = Vec::new();
+    for slice in 0..first.slices.len() {
+        let absorbed = |one: &Profile| one.absorbed_per_um[slice];
+        all.push(of(slice, "absorbed_per_depth", "um-1", &absorbed));
+        let fluence = |one: &Profile| one.fluence[slice];
+        // A layer that absorbs nothing at some wavelength tells no fluence there.
+        if profiles.iter().all(|one| one.fluence[slice].is_finite()) {
+            all.push(of(slice, "fluence", "1", &fluence));
+        }
+    }
+    all
+}

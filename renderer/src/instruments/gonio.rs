@@ -1,0 +1,181 @@
+//! The goniometer.
+//!
+//! The sample is lit from one side and seen from many directions, before and behind. What it sends
+//! into a direction, over what it takes in of the beam, is its BRDF or BTDF; times π, the factor by
+//! which it is brighter than a perfect diffuser.
+
+use std::f64::consts::FRAC_1_PI;
+
+use super::batches::{Budget, Estimate, Experiment, estimates};
+use super::detector::{Detectors, angles};
+use super::lamp::{Bench, FACES, Lamp};
+use super::row::{Direction, Row};
+use super::spectral::{Series, by_wavelength, plain, rows};
+use super::stage::Stage;
+use super::walk::{Escaped, Event, Scattering, Straight, Walk, Witness};
+use super::{InstrumentError, LANES};
+use crate::sampling::stream::Stream;
+use crate::scene::description::{Description, Gonio, Instrument, Named};
+use crate::scene::world::World;
+use crate::spectrum::{Lanes, Wavelengths};
+
+/// One light on one face, at one set of wavelengths.
+struct Lit<'a> {
+    stage: &'a Stage<'a>,
+    lamp: &'a Lamp<'a>,
+    /// Before the sample and behind it.
+    detectors: &'a [Detectors; 2],
+    wavelengths: Wavelengths<LANES>,
+}
+
+impl Experiment for Lit<'_> {
+    fn sums(&self) -> usize {
+        1 + 2 * self.detectors[0].len() * LANES
+    }
+
+    fn stream(&self) -> u32 {
+        self.lamp.stream
+    }
+
+    fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
+        let ray = self.lamp.ray(stream);
+        let walk = Walk {
+            stage: self.stage,
+            course: &Straight,
+            wavelengths: &self.wavelengths,
+            ways: 1,
+        };
+        let mut tally = Tally {
+            lit: self,
+            sums,
+            is_lit: false,
+        };
+        walk.follow(ray, stream, &mut tally);
+        if tally.is_lit {
+            sums[0] += 1.0;
+        }
+    }
+}
+
+/// The sums to which one ray adds.
+struct Tally<'a> {
+    lit: &'a Lit<'a>,
+    sums: &'a mut [f64],
+    /// Whether the ray has met the sample.
+    is_lit: bool,
+}
+
+impl Tally<'_> {
+    fn add(&mut self, side: usize, number: usize, seen: Lanes<LANES>) {
+        let first = 1 + (side * self.lit.detectors[0].len() + number) * LANES;
+        for (sum, seen) in self.sums[first..].iter_mut().zip(seen.0) {
+            *sum += f64::from(seen);
+        }
+    }
+}
+
+impl Witness for Tally<'_> {
+    fn scattering(&mut self, at: &Scattering<'_>) {
+        let lit = self.lit;
+        for (side, detectors) in lit.detectors.iter().enumerate() {
+            detectors.see((lit.stage, &Straight), at, |number, seen| {
+                self.add(side, number, seen);
+            });
+        }
+    }
+
+    fn event(&mut self, _event: &Event) {
+        self.is_lit = true;
+    }
+
+    fn escape(&mut self, escaped: &Escaped) {
+        // What passes beside the sample is no part of the measurement.
+        if !self.is_lit {
+            return;
+        }
+        for (side, detectors) in self.lit.detectors.iter().enumerate() {
+            detectors.gather(escaped, |number, seen| self.add(side, number, seen));
+        }
+    }
+}
+
+/// Quantities of a light, before the sample and behind it, each with what a factor is multiplied by
+/// and the unit.
+fn quantities(light: Direction) -> [&'static [(&'static str, f64, &'static str)]; 2] {
+    match light {
+        Direction::Beam(_) => [
+            &[("brf", 1.0, "1"), ("brdf", FRAC_1_PI, "sr-1")],
+            &[("btf", 1.0, "1"), ("btdf", FRAC_1_PI, "sr-1")],
+        ],
+        Direction::Diffuse => [&[("hdrf", 1.0, "1")], &[("hdtf", 1.0, "1")]],
+    }
+}
+
+/// Measures.
+pub(super) fn read_out(
+    world: &World,
+    scene: &Description,
+    (instrument, gonio): (&Named<Instrument>, &Gonio),
+    first_set: usize,
+    budget: &Budget,
+) -> Result<Vec<Row>, InstrumentError> {
+    let at = &instrument.value.at;
+    let bench = Bench::new(world, scene, &gonio.sample, at)?;
+    let lamps = bench.lamps(&gonio.sample);
+    let detectors: Vec<[Detectors; 2]> = lamps
+        .iter()
+        .map(|lamp| {
+            [1.0, -1.0].map(|side| {
+                let senses = [lamp.turn, side];
+                Detectors::new(&gonio.detector, &lamp.frame, lamp.azimuth, senses)
+            })
+        })
+        .collect();
+    let count = instrument.value.measured_nm().len();
+    let sets = count.div_ceil(LANES);
+    let grid = world.wavelengths.grid();
+    let pairs = lamps.iter().zip(&detectors);
+    let lit: Vec<Lit<'_>> = pairs
+        .flat_map(|pair| (0..sets).map(move |set| (pair, grid.set(first_set + set))))
+        .map(|((lamp, detectors), wavelengths)| Lit {
+            stage: &bench.stage,
+            lamp,
+            detectors,
+            wavelengths,
+        })
+        .collect();
+    let found = estimates(&lit, budget);
+    if found.iter().any(|figures| figures[0].value.is_nan()) {
+        return Err(InstrumentError::NothingLit {
+            at: at.clone(),
+            object: scene.objects[gonio.sample.object].name.clone(),
+        });
+    }
+    let views = angles(&gonio.detector);
+    let mut all = Vec::new();
+    for (figures, lamp) in found.chunks(sets).zip(&lamps) {
+        let mut series = Vec::new();
+        for (side, quantities) in quantities(lamp.direction).into_iter().enumerate() {
+            for (number, &view) in views.iter().enumerate() {
+                let number = side * views.len() + number;
+                let factors = by_wavelength(figures, number, count);
+                for &(quantity, times, unit) in quantities {
+                    let mut row = plain(&instrument.name, quantity, lamp.direction).row;
+                    row.face = Some(FACES[lamp.face]);
+                    row.view = Some(view);
+                    row.unit = unit;
+                    let figures = factors.iter();
+                    series.push(Series {
+                        row,
+                        photons: None,
+                        figures: figures
+                            .map(|factor| Estimate::weighted([(factor, times)].into_iter()))
+                            .collect(),
+                    });
+                }
+            }
+        }
+        all.extend(rows(&instrument.value, &series));
+    }
+    Ok(all)
+}

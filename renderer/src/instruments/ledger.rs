@@ -1,0 +1,196 @@
+//! What is told of a canopy's fluxes, and the sums that it is made of.
+
+use std::collections::BTreeSet;
+
+use super::LANES;
+use super::constituents;
+use super::stage::Stage;
+use super::walk::Event;
+use crate::scene::description::{Canopy, Description};
+use crate::spectrum::Wavelengths;
+
+/// What is told of each wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Quantity {
+    pub(super) word: &'static str,
+    pub(super) part: Option<String>,
+    /// The word for its photon flux, and what that is multiplied with.
+    pub(super) photons: Option<(&'static str, f64)>,
+}
+
+/// The places of the sums of quantities, by lanes, behind the denominator.
+#[derive(Debug)]
+pub(super) struct Ledger {
+    pub(super) quantities: Vec<Quantity>,
+    /// Number of the first quantity of objects, and which object each is.
+    pub(super) objects: (usize, Vec<usize>),
+    /// Number of the first quantity of layers, and the heights between them.
+    layers: (usize, Vec<f32>),
+    /// Number of the first quantity of constituents.
+    constituents: Option<usize>,
+    /// Number of the first quantity of instances, and the number of each of the world's instances
+    /// among them.
+    instances: Option<(usize, Vec<u32>)>,
+    pub(super) soil: Option<usize>,
+}
+
+pub(super) const REFLECTED: usize = 0;
+pub(super) const TRANSMITTED: usize = 1;
+pub(super) const UNCOLLIDED: usize = 2;
+const ARRIVING: usize = 3;
+const BY_SOIL: usize = 4;
+
+impl Ledger {
+    /// The ledger of a canopy whose ground has this area, m².
+    pub(super) fn new(
+        scene: &Description,
+        stage: &Stage<'_>,
+        canopy: &Canopy,
+        ground: f64,
+    ) -> Self {
+        let own = |word, photons| Quantity {
+            word,
+            part: None,
+            photons,
+        };
+        let mut quantities = vec![
+            own("reflected", Some(("reflected_photon_flux", 1.0))),
+            own("transmitted", Some(("transmitted_photon_flux", 1.0))),
+            own("uncollided", None),
+        ];
+        if canopy.soil.is_some() {
+            let arriving = Some(("photon_flux_arriving_at_soil", 1.0));
+            quantities.push(own("arriving_at_soil", arriving));
+            let by_soil = Some(("photon_flux_absorbed_by_soil", 1.0));
+            quantities.push(own("absorbed_by_soil", by_soil));
+        }
+        let numbers: BTreeSet<usize> = (0..stage.objects.len())
+            .map(|instance| stage.objects[instance].object)
+            .filter(|object| Some(*object) != canopy.soil)
+            .collect();
+        let objects = (quantities.len(), numbers.into_iter().collect::<Vec<_>>());
+        quantities.extend(objects.1.iter().map(|&object| Quantity {
+            word: "absorbed",
+            part: Some(scene.objects[object].name.clone()),
+            photons: Some(("absorbed_photon_flux", 1.0)),
+        }));
+        let first_layer = quantities.len();
+        let borders = &canopy.layers;
+        if let [lowest, .., highest] | [lowest @ highest] = borders.as_slice() {
+            let between = borders.windows(2);
+            let between = between.map(|pair| format!("{} to {} m", pair[0], pair[1]));
+            let below = std::iter::once(format!("below {lowest} m"));
+            let names = below.chain(between).chain([format!("above {highest} m")]);
+            quantities.extend(names.map(|name| Quantity {
+                word: "absorbed_in_layer",
+                part: Some(name),
+                photons: Some(("photon_flux_absorbed_in_layer", 1.0)),
+            }));
+        }
+        let constituents = canopy.constituents.then(|| {
+            let first = quantities.len();
+            quantities.extend(constituents::names().map(|name| Quantity {
+                word: "absorbed_by_constituent",
+                part: Some(name.to_owned()),
+                photons: Some(("photon_flux_absorbed_by_constituent", 1.0)),
+            }));
+            first
+        });
+        let instances = canopy.instances.then(|| {
+            let first = quantities.len();
+            let (named, numbers) = by_instance(scene, stage, canopy, ground);
+            quantities.extend(named);
+            (first, numbers)
+        });
+        let origin = stage.world.origin.z;
+        Self {
+            quantities,
+            objects,
+            layers: (
+                first_layer,
+                borders.iter().map(|z| (z - origin) as f32).collect(),
+            ),
+            constituents,
+            instances,
+            soil: canopy.soil,
+        }
+    }
+
+    /// Adds what is left at an event.
+    pub(super) fn add(
+        &self,
+        stage: &Stage<'_>,
+        event: &Event,
+        wavelengths: &Wavelengths<LANES>,
+        sums: &mut [f64],
+    ) {
+        let absorbed =
+            |lane: usize| f64::from(event.before.0[lane]) - f64::from(event.after.0[lane]);
+        if Some(event.object) == self.soil {
+            add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+            add(sums, BY_SOIL, absorbed);
+            return;
+        }
+        let (first, objects) = &self.objects;
+        let place = objects.partition_point(|object| *object < event.object);
+        add(sums, first + place, absorbed);
+        let (first, borders) = &self.layers;
+        if !borders.is_empty() {
+            let layer = borders.partition_point(|border| *border < event.position.z);
+            add(sums, first + layer, absorbed);
+        }
+        if let Some(first) = self.constituents {
+            let parts = constituents::absorbed(stage, event, wavelengths);
+            for (part, absorbed) in parts.iter().enumerate() {
+                add(sums, first + part, |lane| f64::from(absorbed.0[lane]));
+            }
+        }
+        if let Some((first, numbers)) = &self.instances {
+            let number = numbers[stage.numbers[event.instance as usize] as usize];
+            add(sums, first + number as usize, absorbed);
+        }
+    }
+}
+
+/// Adds to the lanes of a quantity.
+pub(super) fn add(sums: &mut [f64], quantity: usize, value: impl Fn(usize) -> f64) {
+    let lanes = sums[1 + quantity * LANES..].iter_mut().take(LANES);
+    for (lane, sum) in lanes.enumerate() {
+        *sum += value(lane);
+    }
+}
+
+/// The instances of a stage without soil: a quantity for each, and the number of each of the world's
+/// instances among them.
+///
+/// They are named after their object and their number in it. Their photon fluxes are by the area of
+/// one side of their triangles.
+fn by_instance(
+    scene: &Description,
+    stage: &Stage<'_>,
+    canopy: &Canopy,
+    ground: f64,
+) -> (Vec<Quantity>, Vec<u32>) {
+    let world = stage.world;
+    let shown: BTreeSet<u32> = stage.numbers.iter().copied().collect();
+    let mut numbers = vec![u32::MAX; world.objects.len()];
+    let mut in_object = vec![0_u32; scene.objects.len()];
+    let mut quantities = Vec::new();
+    for (number, place) in numbers.iter_mut().enumerate() {
+        let object = world.objects[number].object;
+        let own = in_object[object];
+        in_object[object] += 1;
+        if Some(object) == canopy.soil || !shown.contains(&(number as u32)) {
+            continue;
+        }
+        *place = quantities.len() as u32;
+        let area = stage.world.geometry.area_of(number as u32);
+        let photons = "photon_flux_absorbed_by_instance";
+        quantities.push(Quantity {
+            word: "absorbed_by_instance",
+            part: Some(format!("{} {own}", scene.objects[object].name)),
+            photons: (area > 0.0).then_some((photons, ground / area)),
+        });
+    }
+    (quantities, numbers)
+}

@@ -1,0 +1,135 @@
+//! `incident`: how much light there is, so that absorbed photons can be told.
+
+use leafmodel::document::keys::Keys;
+use leafmodel::document::limits::Limits;
+use leafmodel::document::names::NameIn;
+use leafmodel::document::value_kind::Number;
+
+use crate::scene::blocks::spectrum::SpectrumOf;
+use crate::scene::description::{Amount, Description, Incident, Instrument, Light, Spectrum};
+use crate::spectrum::Curve;
+
+impl Incident {
+    fn usual() -> Self {
+        Self {
+            spectrum: Spectrum::D65 { scale: 1.0 },
+            light: None,
+            amount: Amount::Irradiance(500.0),
+        }
+    }
+}
+
+/// The block of an instrument.
+pub(super) fn incident(instrument: &mut Instrument, keys: &mut Keys<'_>) {
+    let about = "How much light there is on a level plane, for absorbed photons.";
+    let declare = |incident: &mut Incident, keys: &mut Keys<'_>| declare(incident, keys);
+    keys.optional_block(
+        "incident",
+        &mut instrument.incident,
+        Incident::usual,
+        about,
+        declare,
+    );
+}
+
+fn declare(incident: &mut Incident, keys: &mut Keys<'_>) {
+    let about = "Its spectrum, of which only the form counts.";
+    keys.key(
+        "spectrum",
+        &mut incident.spectrum,
+        SpectrumOf::Emission,
+        about,
+    );
+    let about = "The light of the scene whose spectrum it has, instead of `spectrum`.";
+    let kind = NameIn("lights", "the name of a light");
+    keys.optional("light", &mut incident.light, kind, about);
+    keys.exclude("light", "spectrum");
+    let current = match incident.amount {
+        Amount::Irradiance(_) => "irradiance_w_m2",
+        Amount::Photons(_) => "par_umol_m2_s",
+    };
+    for chosen in keys.one_of(&["irradiance_w_m2", "par_umol_m2_s"], Some(current)) {
+        let limits = Number(Limits::above(0.0, 1e6));
+        let mut amount = 500.0;
+        if chosen == "irradiance_w_m2" {
+            let about = "Irradiance from 400 to 700 nm.";
+            keys.needed("irradiance_w_m2", &mut amount, limits, about);
+            incident.amount = Amount::Irradiance(amount);
+        } else {
+            let about = "Photon flux from 400 to 700 nm (PAR).";
+            keys.needed("par_umol_m2_s", &mut amount, limits, about);
+            incident.amount = Amount::Photons(amount);
+        }
+    }
+    let [first, last] = Incident::PAR_NM;
+    if let Spectrum::Table {
+        points,
+        extrapolate: false,
+    } = &incident.spectrum
+        && !(points.first().is_some_and(|point| point.0 <= first)
+            && points.last().is_some_and(|point| point.0 >= last))
+    {
+        let problem = "the table does not cover 400 to 700 nm".to_owned();
+        keys.refuse(&["spectrum"], problem, "add wavelengths");
+    }
+    let curve = Curve::from_description(&incident.spectrum);
+    let is_dark = Incident::nodes_nm().all(|nm| curve.at(nm as f32) <= 0.0);
+    if is_dark {
+        let problem = "there is no light from 400 to 700 nm".to_owned();
+        keys.refuse(&["spectrum"], problem, "use a spectrum with visible light");
+    }
+}
+
+/// A light whose spectrum an instrument takes has one spectrum.
+pub(in crate::scene::blocks) fn check_lights(scene: &Description, keys: &Keys<'_>) {
+    for instrument in &scene.instruments {
+        let incident = instrument.value.incident.as_ref();
+        let light = incident.and_then(|incident| scene.lights.get(incident.light?));
+        if let Some(light) = light.filter(|light| spectrum_of(&light.value).is_none()) {
+            let problem = format!("`{}` is a rig of several lights", light.name);
+            let kind = instrument.value.kind.word();
+            let path = ["instruments", &instrument.name, kind, "incident", "light"];
+            keys.refuse(&path, problem, "write a `spectrum` instead");
+        }
+    }
+}
+
+/// Takes the spectra of the lights that instruments name, before rigs change the numbers of lights.
+pub(in crate::scene::blocks) fn take_spectra(scene: &mut Description) {
+    let lights = &scene.lights;
+    for instrument in &mut scene.instruments {
+        let Some(incident) = &mut instrument.value.incident else {
+            continue;
+        };
+        let light = incident.light.and_then(|number| lights.get(number));
+        if let Some(spectrum) = light.and_then(|light| spectrum_of(&light.value)) {
+            incident.spectrum = spectrum;
+        }
+    }
+}
+
+/// The spectrum of a light, relative: of daylight, of sun and sky on a level plane. `None` of a rig.
+fn spectrum_of(light: &Light) -> Option<Spectrum> {
+    match light {
+        Light::Distant { irradiance, .. } | Light::Overcast { irradiance, .. } => {
+            Some(irradiance.clone())
+        }
+        Light::Constant { radiance } | Light::Area { radiance, .. } => Some(radiance.clone()),
+        Light::Environment { white, .. } => Some(white.clone()),
+        Light::Spot { intensity, .. } => Some(intensity.clone()),
+        Light::Daylight(day) => {
+            let (sun, sky) = day.lights();
+            let up = libm::sin(day.elevation);
+            let points = sun.irradiance().points().into_iter();
+            let points = points.map(|(nm, direct)| {
+                let diffuse = f64::from(sky.diffuse().at(nm as f32));
+                (nm, direct * up + diffuse)
+            });
+            Some(Spectrum::Table {
+                points: points.collect(),
+                extrapolate: true,
+            })
+        }
+        Light::Rig(_) => None,
+    }
+}
