@@ -1,6 +1,7 @@
 //! Instruments against closed forms, PROSPECT and figures computed independently.
 
 mod anchors;
+mod brf;
 mod canopy;
 mod sphere;
 
@@ -58,7 +59,7 @@ fn of<'r>(
     nm: f64,
 ) -> impl Iterator<Item = &'r Row> {
     rows.iter().filter(move |row| {
-        row.quantity == quantity && row.incidence == incidence && row.wavelength_nm == nm
+        row.quantity == quantity && row.incidence == incidence && row.wavelength_nm == Some(nm)
     })
 }
 

@@ -54,6 +54,7 @@
 
 mod batches;
 mod canopy;
+mod detector;
 mod period;
 mod row;
 mod sphere;
@@ -64,7 +65,7 @@ mod walk;
 use thiserror::Error;
 
 pub use self::batches::{Budget, FEWEST_RAYS};
-pub use self::row::{Direction, Row};
+pub use self::row::{Direction, Row, ViewAngles};
 use crate::geometry::GeometryError;
 use crate::scene::description::{Description, InstrumentKind};
 use crate::scene::world::World;

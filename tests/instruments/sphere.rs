@@ -106,7 +106,7 @@ fn without_a_coat_any_light_and_either_face_see_the_same_leaf_and_nothing_is_los
         for nm in [550.0, 800.0, 1650.0] {
             let same = || {
                 let all = rows.iter();
-                all.filter(|row| row.quantity == quantity && row.wavelength_nm == nm)
+                all.filter(|row| row.quantity == quantity && row.wavelength_nm == Some(nm))
             };
             let first = same().next().expect("it is measured");
             assert_eq!(same().count(), 8);

@@ -9,13 +9,15 @@ use std::collections::BTreeSet;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
+use super::detector::{Detectors, angles};
 use super::period::Period;
 use super::row::{Direction, Row};
 use super::sphere::{directions, towards};
 use super::stage::Stage;
-use super::walk::{Escaped, Event, Walk, Witness};
+use super::walk::{Escaped, Event, Scattering, Walk, Witness};
 use super::{InstrumentError, LANES};
 use crate::geometry::Ray;
+use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
 use crate::scene::description::{Canopy, Description, Instrument, Named};
@@ -125,13 +127,15 @@ struct Lit<'a> {
     ledger: &'a Ledger,
     direction: Direction,
     azimuth: f64,
+    detectors: Option<Detectors>,
     wavelengths: Wavelengths<LANES>,
     stream: u32,
 }
 
 impl Experiment for Lit<'_> {
     fn sums(&self) -> usize {
-        1 + self.ledger.quantities.len() * LANES
+        let seen = self.detectors.as_ref().map_or(0, Detectors::len);
+        1 + (self.ledger.quantities.len() + seen) * LANES
     }
 
     fn stream(&self) -> u32 {
@@ -152,40 +156,58 @@ impl Experiment for Lit<'_> {
             wavelengths: &self.wavelengths,
             ways: 1,
         };
-        let ledger = self.ledger;
-        let is_untouched = true;
-        walk.follow(
-            ray,
-            stream,
-            &mut Tally {
-                ledger,
-                sums,
-                is_untouched,
-            },
-        );
+        let mut tally = Tally {
+            lit: self,
+            sums,
+            is_untouched: true,
+        };
+        walk.follow(ray, stream, &mut tally);
     }
 }
 
 /// The sums to which one ray adds.
 struct Tally<'a> {
-    ledger: &'a Ledger,
+    lit: &'a Lit<'a>,
     sums: &'a mut [f64],
     /// Whether the ray has met nothing so far.
     is_untouched: bool,
 }
 
 impl Witness for Tally<'_> {
+    fn scattering(&mut self, at: &Scattering<'_>) {
+        let Lit {
+            stage,
+            period,
+            ledger,
+            detectors,
+            ..
+        } = self.lit;
+        if let Some(detectors) = detectors {
+            let first = ledger.quantities.len();
+            detectors.see((stage, period), at, |number, seen| {
+                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+            });
+        }
+    }
+
     fn event(&mut self, event: &Event) {
         self.is_untouched = false;
-        if event.is_first && Some(event.object) == self.ledger.soil {
+        let ledger = self.lit.ledger;
+        if event.is_first && Some(event.object) == ledger.soil {
             add(self.sums, UNCOLLIDED, |lane| {
                 f64::from(event.before.0[lane])
             });
         }
-        self.ledger.add(event, self.sums);
+        ledger.add(event, self.sums);
     }
 
     fn escape(&mut self, escaped: &Escaped) {
+        if let Some(detectors) = &self.lit.detectors {
+            let first = self.lit.ledger.quantities.len();
+            detectors.gather(escaped, |number, seen| {
+                add(self.sums, first + number, |lane| f64::from(seen.0[lane]));
+            });
+        }
         let weight = |lane: usize| f64::from(escaped.weight.0[lane]);
         if escaped.direction.z > 0.0 {
             add(self.sums, REFLECTED, weight);
@@ -244,6 +266,9 @@ pub(super) fn read_out(
     let nm = &instrument.value.wavelengths_nm;
     let sets = nm.len().div_ceil(LANES);
     let directions = directions(&canopy.incidence);
+    let azimuth = canopy.incidence.azimuth;
+    // +x along x, the normal upwards.
+    let upwards = Frame::new(Vec3::Z, Vec3::Y);
     let mut lit = Vec::new();
     for (number, &direction) in directions.iter().enumerate() {
         for set in 0..sets {
@@ -252,13 +277,18 @@ pub(super) fn read_out(
                 period,
                 ledger: &ledger,
                 direction,
-                azimuth: canopy.incidence.azimuth,
+                azimuth,
+                detectors: canopy
+                    .detector
+                    .as_ref()
+                    .map(|detector| Detectors::new(detector, &upwards, azimuth, 1.0, 1.0)),
                 wavelengths: world.wavelengths.grid().set(first_set + set),
                 stream: number as u32,
             });
         }
     }
     let found = estimates(&lit, budget);
+    let seen = canopy.detector.as_ref().map(angles).unwrap_or_default();
     let mut rows = Vec::new();
     for (figures, &direction) in found.chunks(sets).zip(&directions) {
         for (i, &wavelength_nm) in nm.iter().enumerate() {
@@ -269,8 +299,25 @@ pub(super) fn read_out(
                     incidence: direction,
                     face: None,
                     part: quantity.part.clone(),
-                    wavelength_nm,
+                    view: None,
+                    wavelength_nm: Some(wavelength_nm),
                     quantity: quantity.word,
+                    value: figure.value,
+                    error: figure.error,
+                    unit: "1",
+                });
+            }
+            let first = ledger.quantities.len();
+            for (number, &view) in seen.iter().enumerate() {
+                let figure = figures[i / LANES][(first + number) * LANES + i % LANES];
+                rows.push(Row {
+                    instrument: instrument.name.clone(),
+                    incidence: direction,
+                    face: None,
+                    part: None,
+                    view: Some(view),
+                    wavelength_nm: Some(wavelength_nm),
+                    quantity: factor_of(direction),
                     value: figure.value,
                     error: figure.error,
                     unit: "1",
@@ -279,6 +326,14 @@ pub(super) fn read_out(
         }
     }
     Ok(rows)
+}
+
+/// The word for a reflectance factor in a light.
+fn factor_of(light: Direction) -> &'static str {
+    match light {
+        Direction::Beam(_) => "brf",
+        Direction::Diffuse => "hdrf",
+    }
 }
 
 /// Whether an object is met everywhere below the top of the box, by a grid of rays.

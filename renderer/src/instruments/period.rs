@@ -40,21 +40,44 @@ impl Course for Period {
             if let Some(hit) = stage.geometry.intersect(ray) {
                 return (Some(hit), gone);
             }
-            let height = ray.origin.z + ray.direction.z * t_side;
-            if !t_side.is_finite() || !(self.heights[0]..=self.heights[1]).contains(&height) {
+            if !self.enter(ray, t_side, axis) {
                 return (None, gone);
             }
             gone += t_side;
-            ray.origin += ray.direction * t_side;
-            // By the size, not to the side: what starts beyond a surface on the side stays beyond it.
-            let size = self.most[axis] - self.least[axis];
-            ray.origin[axis] -= size.copysign(ray.direction[axis]);
         }
         (None, gone)
+    }
+
+    fn is_clear(&self, stage: &Stage<'_>, mut ray: Ray) -> bool {
+        for _ in 0..MOST_TURNS {
+            let (t_side, t_beyond, axis) = self.side(&ray);
+            ray.t_max = t_beyond;
+            if stage.geometry.occluded(&ray) {
+                return false;
+            }
+            if !self.enter(&mut ray, t_side, axis) {
+                return true;
+            }
+        }
+        true
     }
 }
 
 impl Period {
+    /// Lets a ray that leaves by a side come in at the opposite one; `false` if it leaves above or
+    /// below everything.
+    fn enter(&self, ray: &mut Ray, t_side: f32, axis: usize) -> bool {
+        let height = ray.origin.z + ray.direction.z * t_side;
+        if !t_side.is_finite() || !(self.heights[0]..=self.heights[1]).contains(&height) {
+            return false;
+        }
+        ray.origin += ray.direction * t_side;
+        // By the size, not to the side: what starts beyond a surface on the side stays beyond it.
+        let size = self.most[axis] - self.least[axis];
+        ray.origin[axis] -= size.copysign(ray.direction[axis]);
+        true
+    }
+
     /// How far it is to the side by which a ray leaves, and to where it is beyond any surface on a
     /// side, in lengths of its direction; and the axis across that side.
     fn side(&self, ray: &Ray) -> (f32, f32, usize) {

@@ -11,12 +11,32 @@ pub enum Direction {
     Diffuse,
 }
 
+/// The direction of a detector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewAngles {
+    /// Angle from the normal, rad; a negative one lies on the other side of the normal.
+    pub zenith: f64,
+    /// Azimuth from that of the light, rad.
+    pub azimuth: f64,
+}
+
+impl ViewAngles {
+    /// Zenith and azimuth, degrees as they were written.
+    pub fn degrees(&self) -> [f64; 2] {
+        [self.zenith, self.azimuth].map(written_degrees)
+    }
+}
+
+/// Degrees as they were written: a conversion leaves errors of some 1e-14.
+fn written_degrees(angle: f64) -> f64 {
+    (angle.to_degrees() * 1e9).round() / 1e9
+}
+
 impl fmt::Display for Direction {
     /// Degrees, or the word `diffuse`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // Degrees as they were written: a conversion leaves errors of some 1e-14.
-            Self::Beam(angle) => write!(f, "{}", (angle.to_degrees() * 1e9).round() / 1e9),
+            Self::Beam(angle) => write!(f, "{}", written_degrees(*angle)),
             Self::Diffuse => write!(f, "diffuse"),
         }
     }
@@ -33,8 +53,10 @@ pub struct Row {
     pub face: Option<&'static str>,
     /// The object or layer that the figure is about, of a canopy.
     pub part: Option<String>,
-    /// Wavelength, nm.
-    pub wavelength_nm: f64,
+    /// Where it is seen from; `None` if the figure is about all directions.
+    pub view: Option<ViewAngles>,
+    /// Wavelength, nm; `None` for what is no figure of one.
+    pub wavelength_nm: Option<f64>,
     /// What it is.
     pub quantity: &'static str,
     /// Its value.

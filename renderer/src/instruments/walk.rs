@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::LANES;
 use super::stage::Stage;
+use crate::bsdf::View;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
@@ -17,6 +18,9 @@ const ROULETTE_BELOW: f32 = 0.02;
 /// between surfaces that absorb nothing; what such a path still carries counts as absorbed where
 /// it is.
 const MOST_EVENTS: u32 = 100_000;
+
+/// First set of random numbers that the way of the light does not use.
+const ASIDE: u32 = 1 << 24;
 
 /// One scattering event.
 pub(super) struct Event {
@@ -33,18 +37,35 @@ pub(super) struct Event {
     pub(super) is_first: bool,
 }
 
+/// Light at a surface that it meets, before it goes on.
+pub(super) struct Scattering<'e> {
+    /// The surface, its frame and its BSDF.
+    pub(super) encounter: &'e Encounter<'e, LANES>,
+    /// The BSDF seen from where the light comes.
+    pub(super) view: &'e View<'e, LANES>,
+    /// Weight of the light that arrives.
+    pub(super) weight: Lanes<LANES>,
+    /// Random numbers that the way of the light does not use.
+    pub(super) numbers: [f32; 4],
+}
+
 /// Light that leaves.
 pub(super) struct Escaped {
     /// Direction, unit.
     pub(super) direction: Vec3,
     /// Its weight.
     pub(super) weight: Lanes<LANES>,
+    /// Whether its direction is one of finitely many: that of a beam, or of a mirror.
+    pub(super) is_specular: bool,
 }
 
 /// The first hit of a ray, which may be moved on its way to it, and the distance that it went
 /// before it was moved last; `None` if the ray leaves.
 pub(super) trait Course {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32);
+
+    /// Whether a ray leaves without a hit.
+    fn is_clear(&self, stage: &Stage<'_>, ray: Ray) -> bool;
 }
 
 /// Rays that go straight on.
@@ -53,6 +74,10 @@ pub(super) struct Straight;
 impl Course for Straight {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
         (stage.geometry.intersect(ray), 0.0)
+    }
+
+    fn is_clear(&self, stage: &Stage<'_>, ray: Ray) -> bool {
+        !stage.geometry.occluded(&ray)
     }
 }
 
@@ -72,10 +97,13 @@ struct Leg {
     ray: Ray,
     cone: Cone,
     weight: Lanes<LANES>,
+    is_specular: bool,
 }
 
 /// What is told of light on its way, in the order of what befalls it.
 pub(super) trait Witness {
+    /// It meets a surface that sends it on; told before the event.
+    fn scattering(&mut self, _at: &Scattering<'_>) {}
     /// It is scattered.
     fn event(&mut self, event: &Event);
     /// It leaves.
@@ -86,8 +114,12 @@ impl<C: Course> Walk<'_, C> {
     /// Follows light of weight 1 until all of it is absorbed or leaves. The first set of the stream
     /// is the caller's.
     pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness) {
-        let (cone, weight) = (Cone::of_beam(), Lanes::ONE);
-        let mut leg = Leg { ray, cone, weight };
+        let mut leg = Leg {
+            ray,
+            cone: Cone::of_beam(),
+            weight: Lanes::ONE,
+            is_specular: true,
+        };
         let Some(met) = self.meet(&mut leg, witness) else {
             return;
         };
@@ -113,6 +145,7 @@ impl<C: Course> Walk<'_, C> {
             witness.escape(&Escaped {
                 direction: leg.ray.direction,
                 weight: leg.weight,
+                is_specular: leg.is_specular,
             });
             return None;
         };
@@ -140,6 +173,19 @@ impl<C: Course> Walk<'_, C> {
         stream.seek(1 + event);
         let [lobe, x, y, roulette] = stream.next4();
         let view = bsdf.seen_from(*wo);
+        if let Some(view) = &view {
+            let numbers = {
+                let mut aside = stream.clone();
+                aside.seek(ASIDE + event);
+                aside.next4()
+            };
+            witness.scattering(&Scattering {
+                encounter,
+                view,
+                weight,
+                numbers,
+            });
+        }
         let sample = view.and_then(|view| view.sample(lobe, Vec2::new(x, y)));
         let mut after = sample.map_or(Lanes::ZERO, |sample| {
             weight * sample.weight * bsdf.flux_over_radiance(*wo, sample.wi)
@@ -169,6 +215,7 @@ impl<C: Course> Walk<'_, C> {
             ray: encounter.surface.spawn(towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
+            is_specular: sample.specular,
         })
     }
 }

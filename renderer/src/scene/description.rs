@@ -21,7 +21,7 @@ use leafmodel::solid::SolidPlan;
 
 pub use self::camera::{Camera, FocusObject};
 pub use self::instrument::{
-    Canopy, Incidence, Instrument, InstrumentKind, Sphere, Spot, SpotMiddle,
+    Canopy, Detector, Estimator, Incidence, Instrument, InstrumentKind, Sphere, Spot, SpotMiddle,
 };
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;

@@ -5,31 +5,46 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use crate::checkpoint::PROGRAM;
-use crate::instruments::{Budget, Direction, Row};
+use crate::instruments::{Budget, Direction, Row, ViewAngles};
 use crate::scene::description::Description;
 
 /// A row for each figure.
 pub(super) fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
-        "instrument,quantity,part,face,incidence_deg,wavelength_nm,value,standard_error,unit\n",
+        "instrument,quantity,part,face,incidence_deg,view_zenith_deg,view_azimuth_deg,\
+         wavelength_nm,value,standard_error,unit\n",
     );
     for row in rows {
+        let [zenith, azimuth] = view_of(row);
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{:.9},{:.3e},{}",
+            "{},{},{},{},{},{},{},{},{:.9},{:.3e},{}",
             row.instrument,
             row.quantity,
             row.part.as_deref().unwrap_or(""),
             row.face.unwrap_or(""),
             row.incidence,
-            row.wavelength_nm,
+            shown(zenith),
+            shown(azimuth),
+            shown(row.wavelength_nm),
             row.value,
             row.error,
             row.unit,
         );
     }
     text
+}
+
+/// Zenith angle and azimuth of the detector, degrees.
+fn view_of(row: &Row) -> [Option<f64>; 2] {
+    let degrees = row.view.as_ref().map(ViewAngles::degrees);
+    [0, 1].map(|axis| degrees.map(|degrees| degrees[axis]))
+}
+
+/// A number, or nothing.
+fn shown(number: Option<f64>) -> String {
+    number.map(|number| number.to_string()).unwrap_or_default()
 }
 
 /// The figures, and what they were measured with.
@@ -39,12 +54,15 @@ pub(super) fn json(scene: &Description, budget: &Budget, rows: &[Row]) -> String
             Direction::Beam(_) => row.incidence.to_string().parse::<f64>().ok().into(),
             Direction::Diffuse => Value::from("diffuse"),
         };
+        let [zenith, azimuth] = view_of(row);
         json!({
             "instrument": row.instrument,
             "quantity": row.quantity,
             "part": row.part,
             "face": row.face,
             "incidence_deg": incidence,
+            "view_zenith_deg": zenith,
+            "view_azimuth_deg": azimuth,
             "wavelength_nm": row.wavelength_nm,
             "value": row.value,
             "standard_error": row.error,

@@ -1,6 +1,7 @@
 //! `[instruments.NAME.…]`: sphere, canopy.
 
 mod canopy;
+mod detector;
 mod sphere;
 
 use glam::DVec2;

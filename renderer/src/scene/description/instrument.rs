@@ -86,4 +86,30 @@ pub struct Canopy {
     pub soil: Option<usize>,
     /// Heights between layers, m, rising.
     pub layers: Vec<f64>,
+    /// Directions from which it is seen; `None` measures fluxes alone.
+    pub detector: Option<Detector>,
+}
+
+/// A detector far away, in several directions one after the other: all zeniths at all azimuths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detector {
+    /// Angles from the normal, rad, rising, each within (-π/2, π/2); a negative one lies on the other
+    /// side of the normal.
+    pub zeniths: Vec<f64>,
+    /// Azimuths from that of the light, rad; at 0 a positive zenith is on the side of the light.
+    pub azimuths: Vec<f64>,
+    /// Half-angle of the cone about each direction over which figures are means, rad; 0 is the
+    /// direction itself. The cone lies above the surface's plane.
+    pub half_angle: f64,
+    /// How figures are estimated.
+    pub estimator: Estimator,
+}
+
+/// How a detector's figures are estimated; both are unbiased.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Estimator {
+    /// By what each scattering event sends towards the detector.
+    NextEvent,
+    /// By counting light that leaves within the detector's cone.
+    Count,
 }

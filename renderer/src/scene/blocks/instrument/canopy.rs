@@ -5,9 +5,10 @@ use leafmodel::document::keys::Keys;
 use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::Numbers;
 
+use super::detector::detector;
 use super::{Rising, incidence, rectangle};
 use crate::scene::blocks::camera::COORDINATES_M;
-use crate::scene::description::{Canopy, Incidence};
+use crate::scene::description::{Canopy, Detector, Incidence};
 
 /// Most heights between layers.
 const MOST_BORDERS: usize = 1000;
@@ -23,6 +24,7 @@ impl Canopy {
             },
             soil: None,
             layers: Vec::new(),
+            detector: None,
         }
     }
 }
@@ -49,4 +51,12 @@ pub(super) fn canopy(canopy: &mut Canopy, keys: &mut Keys<'_>) {
     };
     let about = "Heights between layers whose absorption is told one by one.";
     keys.key("layers_m", &mut canopy.layers, kind, about);
+    let about = "Directions from which the canopy is seen, for its BRF.";
+    keys.optional_block(
+        "detector",
+        &mut canopy.detector,
+        Detector::usual,
+        about,
+        detector,
+    );
 }
