@@ -1,9 +1,11 @@
 //! Instruments against closed forms, PROSPECT and figures computed independently.
 
 mod anchors;
+mod arrangement;
 mod brf;
 mod canopy;
 mod sphere;
+mod veined;
 
 use std::path::Path;
 
