@@ -9,6 +9,7 @@ mod instruments;
 mod layers;
 mod lights;
 mod optics;
+mod presets;
 mod radiometry;
 mod random_plans;
 mod scattering;

@@ -12,6 +12,7 @@ mod book;
 mod cameras;
 mod instruments;
 mod leaves;
+mod measured;
 mod refused;
 mod scatter;
 mod schema;
@@ -115,8 +116,56 @@ fn folder() -> TempDir {
     for (name, text) in models() {
         write(name, &text);
     }
+    for (name, text) in measured() {
+        write(name, &text);
+    }
     write("comma.csv", "# decimal commas\nnm;R\n400;0,5\n800;0,6\n");
     folder
+}
+
+/// Spectra of leaves: as spectrometers write them, and some that are refused.
+fn measured() -> [(&'static str, String); 9] {
+    let every = |skipped: std::ops::Range<u32>, row: &dyn Fn(u32) -> String| {
+        let nm = (380..=800).step_by(10).filter(|nm| !skipped.contains(nm));
+        nm.map(row).collect::<String>()
+    };
+    let all = 0..0;
+    let leaves = every(all.clone(), &|nm| {
+        format!("{},5,9,1,30\n", f64::from(nm) / 1000.0)
+    });
+    let asd = every(all.clone(), &|nm| format!("{nm}\t0.4\r\n"));
+    let svc = every(all, &|nm| format!("{nm}.0 100.00 30.00 30.00\r\n"));
+    let holes = every(500..600, &|nm| format!("{nm},0.1,0.1\n"));
+    let head = "wavelength_nm,R,T\n";
+    [
+        (
+            "leaves.csv",
+            format!("um,oak_R,oak_R_abaxial,oak_T,elm_R\n{leaves}"),
+        ),
+        ("oak.txt", format!("Wavelength\toak.asd\r\n{asd}")),
+        (
+            "oak.sig",
+            format!("/*** Spectra Vista SIG Data ***/\r\nname= oak.sig\r\ndata= \r\n{svc}"),
+        ),
+        ("holes.csv", format!("{head}{holes}")),
+        (
+            "bright.csv",
+            format!("{head}380,0.5,0.4\n500,0.7,0.4\n800,0.5,0.4\n"),
+        ),
+        (
+            "dark.csv",
+            format!("{head}380,0.5,0.4\n500,-0.1,0.4\n800,0.5,0.4\n"),
+        ),
+        (
+            "falls.csv",
+            format!("{head}380,0.5,0.4\n370,0.5,0.4\n800,0.5,0.4\n"),
+        ),
+        ("short.csv", format!("{head}380,0.5,0.4\n600,0.5,0.4\n")),
+        (
+            "words.csv",
+            format!("{head}380,0.5,0.4\n500,,0.4\n800,0.5,0.4\n"),
+        ),
+    ]
 }
 
 /// Files of glTF: one triangle, the same with files beside it, and some that are refused.

@@ -1,11 +1,13 @@
 //! Instruments against closed forms, PROSPECT and figures computed independently.
 
 mod anchors;
+mod arrangement;
 mod brf;
 mod canopy;
 mod gonio;
 mod spectral;
 mod sphere;
+mod veined;
 
 use std::path::Path;
 

@@ -30,6 +30,7 @@ macro_rules! eprintln {
 
 pub mod arguments;
 mod check;
+mod check_bsdf;
 mod columns;
 mod compare_networks;
 mod export;
@@ -128,6 +129,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Tonemap(tonemap) => tonemap::run(tonemap),
         Command::Optics(optics) => optics::run(optics),
         Command::Fit(fit) => fit::run(fit),
+        Command::CheckBsdf(table) => check_bsdf::run(table),
         Command::Instruments(instruments) => instruments::run(instruments),
         Command::Export(ExportCommand::Mitsuba(mitsuba)) => export::run(mitsuba),
         Command::Compare(compare) => pictures::compare(compare),

@@ -16,6 +16,7 @@
 //! assert!(direction.z >= 0.0 && (direction.length() - 1.0).abs() < 1e-6);
 //! ```
 
+pub mod beta;
 pub mod distribution;
 pub mod stream;
 pub mod warp;

@@ -1,13 +1,8 @@
 //! The integrating sphere.
 
-use std::fmt::Write as _;
-
-use glam::{Vec2, Vec3};
-use renderer::geometry::Ray;
 use renderer::instruments::InstrumentError;
-use renderer::spectrum::Wavelengths;
 
-use super::{NORMAL, built, figures, of, rays};
+use super::{NORMAL, figures, of, rays};
 
 const REFERENCE: &str = include_str!("../data/prospect_d_reference.csv");
 
@@ -117,94 +112,6 @@ fn without_a_coat_any_light_and_either_face_see_the_same_leaf_and_nothing_is_los
                     "{row:?} {first:?}"
                 );
             }
-        }
-    }
-}
-
-/// A grown leaf that lies flat and is smooth, with a sphere over a part of its midrib.
-fn veined(light_spread: f64) -> String {
-    format!(
-        "[leaves.birch]\npreset = \"birch\"\nmap_size = 512\nlight_spread = {light_spread}\n\
-         [leaves.birch.blade]\nfold_deg = 0\ncurl_deg = 0\nruffle = 0\nrelief = 0\npleat_deg = 0\n\
-         [leaves.birch.surface]\nimpressed = 0\nraised = 0\nbulge_mm = 0\ncell_share = 0\n\
-         stomata.abaxial_per_mm2 = 0\n\
-         [objects.leaf]\nleaf = \"birch\"\n\
-         [instruments.ball.sphere]\nobject = \"leaf\"\nincidence_deg = [0]\ndiffuse = false\n\
-         faces = \"adaxial\"\nwavelengths_nm = [450, 550, 680, 710, 800, 1200, 1650]\n\
-         spot = {{ at_mm = [0, 25], diameter_mm = 8 }}\n"
-    )
-}
-
-#[test]
-#[ignore = "slow: 10 s"]
-fn a_veined_leaf_reads_the_mean_of_its_tissues_but_for_light_that_spreads_under_veins() {
-    let text = veined(0.0);
-    let rows = figures(&text, &rays(1 << 17)).expect("it can be measured");
-    let (scene, world, _) = built(&text);
-    let nm = &scene.instruments[0].value.wavelengths_nm;
-    // PROSPECT of the contents at points of the spot, which are as far apart as texels.
-    let (mut sums, mut count) = (vec![[0.0; 2]; nm.len()], 0.0);
-    let side = 200;
-    for i in 0..side * side {
-        let place = Vec2::new((i % side) as f32, (i / side) as f32) + 0.5;
-        let place = (place / side as f32 - 0.5) * 0.008;
-        if place.length() > 0.004 {
-            continue;
-        }
-        let above = Vec3::new(place.x, 0.025 + place.y, 0.1);
-        let ray = Ray::new(above, Vec3::NEG_Z);
-        let hit = world
-            .geometry
-            .intersect(&ray)
-            .expect("the spot is on the leaf");
-        let surface = world.geometry.surface(&ray, &hit);
-        let tissue = world.material_of(hit.instance).tissue();
-        let tissue = tissue.expect("a leaf is tissue");
-        let texel = tissue.held.expect("it has contents").at(surface.uv);
-        count += 1.0;
-        for (sums, &nm) in sums.iter_mut().zip(nm) {
-            let pile = tissue.palette.lanes(&Wavelengths::new([nm as f32]));
-            let (r, t) = pile.reflectance_transmittance(&texel);
-            sums[0] += f64::from(r[0]);
-            sums[1] += f64::from(t[0]);
-        }
-    }
-    let mut report = String::new();
-    let mut greatest = 0.0_f64;
-    for (sums, &nm) in sums.iter().zip(nm) {
-        for (quantity, sum) in ["reflectance", "transmittance"].into_iter().zip(sums) {
-            let row = of(&rows, quantity, NORMAL, nm)
-                .next()
-                .expect("it is measured");
-            let off = row.value - sum / count;
-            greatest = greatest.max(off.abs());
-            let _ = writeln!(report, "{nm} nm {quantity}: {:.4}, {off:+.4}", row.value);
-        }
-    }
-    // 1e-3 beyond the noise of the sphere and of the grid of points.
-    assert!(greatest < 2e-3, "{report}");
-    // Light that spreads sideways leaves R as it is and changes T where neighbours differ.
-    let spread = figures(&veined(1.0), &rays(1 << 17)).expect("it can be measured");
-    for &nm in nm {
-        let both = |quantity: &'static str| {
-            let [a, b] = [&rows, &spread].map(|rows| {
-                of(rows, quantity, NORMAL, nm)
-                    .next()
-                    .expect("it is measured")
-                    .clone()
-            });
-            (a.value, b.value, a.error.hypot(b.error))
-        };
-        let (alone, spread, error) = both("reflectance");
-        assert!(
-            (alone - spread).abs() < 5.0 * error + 1e-4,
-            "{nm} nm: {alone} {spread}"
-        );
-        // A gain: where little comes through, more comes in from beside than goes out.
-        let (alone, spread, error) = both("transmittance");
-        assert!(spread > alone - 5.0 * error, "{nm} nm: {alone} {spread}");
-        if nm == 450.0 {
-            assert!(spread > 1.1 * alone, "{nm} nm: {alone} {spread}");
         }
     }
 }

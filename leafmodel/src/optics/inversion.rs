@@ -1,10 +1,15 @@
 //! What a leaf holds, from what it reflects and transmits: PROSPECT-D inverted.
 //!
-//! - **In**: R, T or both at wavelengths within PROSPECT's table, and which contents are free.
+//! - **In**: R of one face or of both, T, or any of them, at wavelengths within PROSPECT's table, and
+//!   which contents are free.
 //! - **Out**: the contents of the least sum of squares, their standard errors, and what is left.
 //! - **Always true**: contents are in range; the same spectra give the same bits.
 //! - **Left out**: errors of the model itself. Standard errors take what is left as independent
 //!   from one wavelength to the next, which noise is and the model's own error is not.
+//!
+//! PROSPECT has one face. Where the abaxial one was measured too, its reflectance is that of the
+//! adaxial face times [`abaxial_ratio`], whose contrast is one more unknown: a rule, not a model of
+//! the tissue.
 //!
 //! [`least_squares`] finds a local minimum; it starts from leaves of several kinds on few
 //! wavelengths, and the best goes on with all of them.
@@ -20,13 +25,14 @@
 //!     reflectance.push(ProspectD::coefficients(nm)?.reflectance_transmittance(&leaf).reflectance);
 //! }
 //! let inversion = Inversion::new(&nm, &Inversion::PROSPECT_D, Contents::NOTHING)?;
-//! let found = inversion.of(Spectra { reflectance: Some(&reflectance), transmittance: None });
+//! let found = inversion.of(Spectra { reflectance: Some(&reflectance), ..Spectra::default() });
 //! assert!((found.contents[Constituent::Chlorophyll] - 42.0).abs() < 0.01);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod least_squares;
 
+use super::faces::{CONTRASTS, USUAL_CONTRAST, abaxial_ratio};
 use super::prospect_d::OutsideTable;
 use super::{Coefficients, Constituent, Contents, PerConstituent, ProspectD};
 use least_squares::{Parameter, minimise};
@@ -47,10 +53,12 @@ const STARTS: [[f64; 7]; 4] = [
 ];
 
 /// Spectra at the wavelengths of an [`Inversion`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Spectra<'a> {
-    /// Reflectance.
+    /// Reflectance of the adaxial face, or of the only one that was measured.
     pub reflectance: Option<&'a [f64]>,
+    /// Reflectance of the abaxial face.
+    pub abaxial: Option<&'a [f64]>,
     /// Transmittance.
     pub transmittance: Option<&'a [f64]>,
 }
@@ -71,25 +79,40 @@ pub struct Found {
     /// Standard errors; `None` for a content that was not free, is at the end of its range, or is
     /// not told by the spectra.
     pub errors: PerConstituent<Option<f64>>,
+    /// How much brighter the abaxial face is, if it was measured.
+    pub contrast: Option<Contrast>,
     /// Found less measured, at each wavelength: reflectance; empty if there is none.
     pub reflectance_left: Vec<f64>,
+    /// Of the abaxial reflectance; empty if there is none.
+    pub abaxial_left: Vec<f64>,
     /// Of transmittance; empty if there is none.
     pub transmittance_left: Vec<f64>,
 }
 
+/// The contrast of the faces, see [`abaxial_ratio`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contrast {
+    /// The contrast.
+    pub value: f64,
+    /// Its standard error; `None` at the end of its range, or if the spectra do not tell it.
+    pub error: Option<f64>,
+}
+
 impl Found {
+    fn all_left(&self) -> impl Iterator<Item = &f64> {
+        let reflected = self.reflectance_left.iter().chain(&self.abaxial_left);
+        reflected.chain(&self.transmittance_left)
+    }
+
     /// Root of the mean square of what is left.
     pub fn rms(&self) -> f64 {
-        let all = self.reflectance_left.iter().chain(&self.transmittance_left);
-        let (sum, count) = all.fold((0.0, 0), |(sum, count), left| {
-            (sum + left * left, count + 1)
-        });
-        (sum / f64::from(count.max(1))).sqrt()
+        let sum: f64 = self.all_left().map(|left| left * left).sum();
+        (sum / self.values().max(1) as f64).sqrt()
     }
 
     /// Number of values that were fitted.
     pub fn values(&self) -> usize {
-        self.reflectance_left.len() + self.transmittance_left.len()
+        self.all_left().count()
     }
 }
 
@@ -126,30 +149,38 @@ impl Inversion {
 
     /// The contents of a leaf with these spectra.
     pub fn of(&self, spectra: Spectra<'_>) -> Found {
-        let known: Vec<Parameter> = self.free.iter().map(|&of| parameter(of)).collect();
+        let mut known: Vec<Parameter> = self.free.iter().map(|&of| parameter(of)).collect();
+        let contrast = spectra.abaxial.map(|_| USUAL_CONTRAST);
+        known.extend(contrast.map(|_| CONTRAST));
         let step = self.coefficients.len().div_ceil(FEW).max(1);
         let tried = STARTS.iter().map(|start| {
             let start = Contents::prospect_d(*start);
-            let start: Vec<f64> = self.free.iter().map(|&of| start[of]).collect();
+            let start = self.free.iter().map(|&of| start[of]);
+            let start: Vec<f64> = start.chain(contrast).collect();
             minimise(&known, &start, |at| self.left(at, spectra, step))
         });
         let best = tried.min_by(|a, b| a.sum.total_cmp(&b.sum));
         let start = best.map_or_else(Vec::new, |best| best.parameters);
         let found = minimise(&known, &start, |at| self.left(at, spectra, 1));
         let mut errors = PerConstituent::splat(None);
-        for (&of, error) in self.free.iter().zip(found.errors) {
-            errors[of] = error;
+        for (&of, error) in self.free.iter().zip(&found.errors) {
+            errors[of] = *error;
         }
-        let mut left = self.left(&found.parameters, spectra, 1);
-        let transmittance_left = match spectra.reflectance {
-            Some(_) => left.split_off(self.coefficients.len()),
-            None => std::mem::take(&mut left),
+        let mut left = self.left(&found.parameters, spectra, 1).into_iter();
+        let mut taken = |is_there: bool| -> Vec<f64> {
+            let count = if is_there { self.coefficients.len() } else { 0 };
+            left.by_ref().take(count).collect()
         };
         Found {
             contents: self.with(&found.parameters),
             errors,
-            reflectance_left: left,
-            transmittance_left,
+            contrast: spectra.abaxial.map(|_| Contrast {
+                value: found.parameters[self.free.len()],
+                error: found.errors[self.free.len()],
+            }),
+            reflectance_left: taken(spectra.reflectance.is_some()),
+            abaxial_left: taken(spectra.abaxial.is_some()),
+            transmittance_left: taken(spectra.transmittance.is_some()),
         }
     }
 
@@ -161,24 +192,39 @@ impl Inversion {
         contents
     }
 
-    /// Model less measurement at every `step`th wavelength: of R, then of T.
+    /// Model less measurement at every `step`th wavelength: of R, of the abaxial R, then of T. The
+    /// contrast of the faces stands behind the contents.
     fn left(&self, values: &[f64], spectra: Spectra<'_>, step: usize) -> Vec<f64> {
         let contents = self.with(values);
+        let contrast = values.get(self.free.len()).copied();
+        let contrast = contrast.unwrap_or(USUAL_CONTRAST);
         let every = self.coefficients.iter().enumerate().step_by(step);
-        let (mut of_r, mut of_t) = (Vec::new(), Vec::new());
+        let (mut of_r, mut of_abaxial, mut of_t) = (Vec::new(), Vec::new(), Vec::new());
         for (i, coefficients) in every {
             let leaf = coefficients.reflectance_transmittance(&contents);
             if let Some(measured) = spectra.reflectance {
                 of_r.push(leaf.reflectance - measured[i]);
             }
+            if let Some(measured) = spectra.abaxial {
+                let absorbed = 1.0 - leaf.reflectance - leaf.transmittance;
+                let ratio = abaxial_ratio(absorbed, contrast);
+                of_abaxial.push(ratio * leaf.reflectance - measured[i]);
+            }
             if let Some(measured) = spectra.transmittance {
                 of_t.push(leaf.transmittance - measured[i]);
             }
         }
+        of_r.append(&mut of_abaxial);
         of_r.append(&mut of_t);
         of_r
     }
 }
+
+/// The contrast of the faces as an unknown.
+const CONTRAST: Parameter = Parameter {
+    bounds: CONTRASTS,
+    scale: 0.2,
+};
 
 fn parameter(of: Constituent) -> Parameter {
     let [low, high] = of.range();

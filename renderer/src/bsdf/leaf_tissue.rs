@@ -1,5 +1,7 @@
 //! What the tissue of a leaf scatters, whole or cut along its middle.
 
+use leafmodel::optics::faces::USUAL_CONTRAST;
+
 use crate::bsdf::coat::Coat;
 use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
@@ -12,11 +14,9 @@ pub struct Tissue<const N: usize> {
     pub(super) transmittance: [Lanes<N>; 2],
 }
 
-/// By how much the abaxial reflectance of tissue that absorbs all light exceeds the adaxial one.
-const EXCESS: f32 = 0.7;
-
 /// Abaxial over adaxial reflectance of a leaf of reflectance `R` and transmittance `T` of which
-/// nothing else is known: `1 + 0.7 A² (3 − 2 A)` of its absorptance `A = 1 − R − T`.
+/// nothing else is known: `1 + 0.7 A² (3 − 2 A)` of its absorptance `A = 1 − R − T`, as
+/// [`leafmodel::optics::faces::abaxial_ratio`] has it.
 ///
 /// 1 for tissue that absorbs nothing, as 0.97 is measured at 800 nm; for green leaves within 5 % of
 /// the means that Noda et al. measured at 450, 550, 680 and 800 nm. The abaxial face absorbs at
@@ -29,7 +29,7 @@ pub fn usual_abaxial_ratio<const N: usize>(
     let mut ratio = Lanes::ONE;
     for lane in 0..N {
         let a = (1.0 - reflectance.0[lane] - transmittance.0[lane]).clamp(0.0, 1.0);
-        ratio.0[lane] += EXCESS * a * a * (3.0 - 2.0 * a);
+        ratio.0[lane] += USUAL_CONTRAST as f32 * a * a * (3.0 - 2.0 * a);
     }
     ratio
 }

@@ -1,5 +1,6 @@
 //! The command line as written: what can be asked for, and nothing of how it is done.
 
+mod check_bsdf;
 mod compare_networks;
 mod fit;
 mod fit_veins;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit::FitArguments;
 pub use fit_veins::FitVeinsArguments;
@@ -72,7 +74,8 @@ const FIT_EXAMPLES: &str = "\
 Examples:
   lamina optics --cab 30 --out leaf.csv && lamina fit leaf.csv
   lamina fit leaves.csv --out contents.csv --spectra-out fitted.csv --plot fitted.svg
-  lamina fit visible.csv --range 400..800 --fix water=0.012 --fix dry_matter=0.006";
+  lamina fit visible.csv --range 400..800 --fix water=0.012 --fix dry_matter=0.006
+  lamina fit --adaxial upper.sig --abaxial lower.sig --transmittance through.sig";
 
 const SCHEMA_EXAMPLES: &str = "\
 Examples:
@@ -112,6 +115,9 @@ pub enum Command {
     /// Find what leaves hold from their reflectance and transmittance
     #[command(after_help = FIT_EXAMPLES)]
     Fit(FitArguments),
+    /// Check a measured BRDF or BTDF: reciprocity, its error, its energy
+    #[command(after_help = check_bsdf::EXAMPLES)]
+    CheckBsdf(CheckBsdfArguments),
     /// Read out the instruments of a scene: what it reflects, transmits and absorbs
     #[command(after_help = instruments::EXAMPLES)]
     Instruments(InstrumentsArguments),

@@ -1,25 +1,26 @@
 //! `lamina fit`: what leaves hold, from their reflectance and transmittance.
 
+mod input;
 mod plot;
-mod table;
 
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use leafmodel::optics::faces::CONTRASTS;
 use leafmodel::optics::inversion::{self, Found, Inversion};
 use leafmodel::optics::prospect_d::{FIRST_NM, LAST_NM};
 use leafmodel::optics::{Constituent, Contents};
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json, json};
 
-use self::table::Leaf;
 use crate::checkpoint::PROGRAM;
 use crate::cli::arguments::FitArguments;
 use crate::cli::columns::in_columns;
 use crate::cli::places::check_outputs;
 use crate::cli::{Failure, say};
 use crate::image::atomic;
+use crate::measured::spectra::Leaf;
 
 /// Least number of wavelengths from which contents can be told.
 const LEAST_WAVELENGTHS: usize = 8;
@@ -61,30 +62,23 @@ pub(super) fn run(arguments: &FitArguments) -> Result<(), Failure> {
     let others = [&arguments.spectra_out, &arguments.plot];
     let outputs = others.into_iter().filter_map(|file| file.as_deref());
     let outputs: Vec<&Path> = out.into_iter().chain(outputs).collect();
-    let input = [arguments.spectra.clone()];
-    check_outputs(&outputs, &input, "the command")?;
+    check_outputs(&outputs, &input::files(arguments), "the command")?;
     let (free, fixed) = wanted(arguments)?;
     let range = arguments
         .range
         .as_deref()
         .map_or(Ok([FIRST_NM, LAST_NM]), parse_range)?;
-    let text = std::fs::read_to_string(&arguments.spectra)
-        .map_err(|error| Failure::bad(format!("{}: {error}", arguments.spectra.display())))?;
-    let spectra = table::read(&arguments.spectra, &text).map_err(Failure::bad)?;
-    for note in &spectra.notes {
-        eprintln!("note: {note}");
-    }
-    let mut leaves = spectra.leaves;
+    let mut leaves = input::leaves(arguments)?;
     let before: usize = leaves.iter().map(|leaf| leaf.nm.len()).sum();
     for leaf in &mut leaves {
-        leaf.keep(range);
+        keep(leaf, range);
         if leaf.nm.len() < LEAST_WAVELENGTHS {
             let [low, high] = range;
-            let (count, name) = (leaf.nm.len(), leaf.shown());
+            let (count, name) = (leaf.nm.len(), shown(leaf));
             return Err(Failure::bad(format!(
                 "{}: {name} has {count} wavelengths from {low} to {high} nm, at least \
                  {LEAST_WAVELENGTHS} are needed",
-                arguments.spectra.display()
+                input::files(arguments)[0].display()
             )));
         }
     }
@@ -192,29 +186,40 @@ fn parse_range(written: &str) -> Result<[f64; 2], Failure> {
     }
 }
 
-impl Leaf {
-    fn keep(&mut self, [low, high]: [f64; 2]) {
-        let kept: Vec<bool> = self.nm.iter().map(|nm| (low..=high).contains(nm)).collect();
-        for values in [&mut self.nm, &mut self.reflectance, &mut self.transmittance] {
-            let mut kept = kept.iter();
-            values.retain(|_| kept.next().copied().unwrap_or(true));
-        }
+/// Keeps the wavelengths of a range.
+fn keep(leaf: &mut Leaf, [low, high]: [f64; 2]) {
+    let kept: Vec<bool> = leaf.nm.iter().map(|nm| (low..=high).contains(nm)).collect();
+    let Leaf {
+        name: _,
+        nm,
+        reflectance,
+        abaxial,
+        transmittance,
+        lines,
+    } = leaf;
+    for values in [nm, reflectance, abaxial, transmittance] {
+        let mut kept = kept.iter();
+        values.retain(|_| kept.next().copied().unwrap_or(true));
     }
+    let mut kept = kept.iter();
+    lines.retain(|_| kept.next().copied().unwrap_or(true));
+}
 
-    /// Its name in messages and tables.
-    fn shown(&self) -> &str {
-        if self.name.is_empty() {
-            "the leaf"
-        } else {
-            &self.name
-        }
+/// A leaf's name in messages and tables.
+fn shown(leaf: &Leaf) -> &str {
+    if leaf.name.is_empty() {
+        "the leaf"
+    } else {
+        &leaf.name
     }
+}
 
-    fn spectra(&self) -> inversion::Spectra<'_> {
-        inversion::Spectra {
-            reflectance: (!self.reflectance.is_empty()).then_some(&self.reflectance),
-            transmittance: (!self.transmittance.is_empty()).then_some(&self.transmittance),
-        }
+fn spectra(leaf: &Leaf) -> inversion::Spectra<'_> {
+    let there = |values: &'_ Vec<f64>| !values.is_empty();
+    inversion::Spectra {
+        reflectance: there(&leaf.reflectance).then_some(&leaf.reflectance),
+        abaxial: there(&leaf.abaxial).then_some(&leaf.abaxial),
+        transmittance: there(&leaf.transmittance).then_some(&leaf.transmittance),
     }
 }
 
@@ -222,7 +227,7 @@ fn fit<'a>(leaf: &'a Leaf, free: &[Constituent], fixed: Contents) -> Result<Fitt
     let inversion = Inversion::new(&leaf.nm, free, fixed).map_err(Failure::bad)?;
     Ok(Fitted {
         leaf,
-        found: inversion.of(leaf.spectra()),
+        found: inversion.of(spectra(leaf)),
     })
 }
 
@@ -232,14 +237,29 @@ fn contents(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
     for of in free {
         let _ = write!(text, ",{0},{0}_standard_error", of.key());
     }
+    // Tables of one face keep their columns.
+    let has_faces = fitted.iter().any(|fitted| fitted.found.contrast.is_some());
+    if has_faces {
+        text += ",face_contrast,face_contrast_standard_error";
+    }
     text += ",rms,values\n";
     for Fitted { leaf, found } in fitted {
-        text += &quoted(leaf.shown());
+        text += &quoted(shown(leaf));
         for &of in free {
             let _ = write!(text, ",{}", found.contents[of]);
             match found.errors[of] {
                 Some(error) => _ = write!(text, ",{error}"),
                 None => text.push(','),
+            }
+        }
+        if has_faces {
+            let contrast = found.contrast;
+            let error = contrast.and_then(|contrast| contrast.error);
+            for figure in [contrast.map(|contrast| contrast.value), error] {
+                match figure {
+                    Some(figure) => _ = write!(text, ",{figure}"),
+                    None => text.push(','),
+                }
             }
         }
         let _ = writeln!(text, ",{},{}", found.rms(), found.values());
@@ -260,27 +280,19 @@ fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
     let leaves = fitted.iter().map(|Fitted { leaf, found }| {
         let mut contents = Map::new();
         for &of in free {
-            let value = found.contents[of];
-            let interval = found.errors[of].map(|error| {
-                let [low, high] = Inversion::bounds(of);
-                [value - INTERVAL * error, value + INTERVAL * error].map(|end| end.clamp(low, high))
-            });
-            contents.insert(
-                of.key().to_owned(),
-                json!({
-                    "value": value,
-                    "standard_error": found.errors[of],
-                    "interval_95": interval,
-                }),
-            );
+            let figure = figure(found.contents[of], found.errors[of], Inversion::bounds(of));
+            contents.insert(of.key().to_owned(), figure);
         }
+        let contrast = found.contrast;
         json!({
-            "leaf": leaf.shown(),
+            "leaf": shown(leaf),
             "contents": contents,
+            "face_contrast": contrast.map(|found| figure(found.value, found.error, CONTRASTS)),
             "rms": found.rms(),
             "values": found.values(),
             "wavelength_nm": leaf.nm,
             "reflectance_left": found.reflectance_left,
+            "abaxial_reflectance_left": found.abaxial_left,
             "transmittance_left": found.transmittance_left,
         })
     });
@@ -288,16 +300,34 @@ fn report(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
     format!("{:#}\n", json!({ "program": PROGRAM, "leaves": leaves }))
 }
 
+/// A value with its errors.
+fn figure(value: f64, error: Option<f64>, [low, high]: [f64; 2]) -> Json {
+    let interval = error.map(|error| {
+        [value - INTERVAL * error, value + INTERVAL * error].map(|end| end.clamp(low, high))
+    });
+    json!({ "value": value, "standard_error": error, "interval_95": interval })
+}
+
 /// Measured and fitted values, a line for each wavelength of each leaf.
 fn fitted_spectra(fitted: &[Fitted<'_>]) -> String {
-    let mut text = "leaf,wavelength_nm,R,R_fitted,T,T_fitted\n".to_owned();
+    let has_faces = fitted.iter().any(|fitted| fitted.found.contrast.is_some());
+    let abaxial = if has_faces {
+        ",R_abaxial,R_abaxial_fitted"
+    } else {
+        ""
+    };
+    let mut text = format!("leaf,wavelength_nm,R,R_fitted{abaxial},T,T_fitted\n");
     for Fitted { leaf, found } in fitted {
         for (i, nm) in leaf.nm.iter().enumerate() {
-            let _ = write!(text, "{},{nm}", quoted(leaf.shown()));
-            for (measured, left) in [
-                (&leaf.reflectance, &found.reflectance_left),
-                (&leaf.transmittance, &found.transmittance_left),
+            let _ = write!(text, "{},{nm}", quoted(shown(leaf)));
+            for (measured, left, is_written) in [
+                (&leaf.reflectance, &found.reflectance_left, true),
+                (&leaf.abaxial, &found.abaxial_left, has_faces),
+                (&leaf.transmittance, &found.transmittance_left, true),
             ] {
+                if !is_written {
+                    continue;
+                }
                 match measured.get(i) {
                     Some(value) => _ = write!(text, ",{value},{}", value + left[i]),
                     None => text += ",,",
@@ -316,34 +346,35 @@ fn human(fitted: &[Fitted<'_>], free: &[Constituent]) -> String {
         let rms = found.rms();
         lines.push(format!(
             "{}: {} values, rms {rms:.2e}",
-            leaf.shown(),
+            shown(leaf),
             found.values()
         ));
-        let rows: Vec<[String; 3]> = free
-            .iter()
-            .map(|&of| {
-                let value = found.contents[of];
-                let error = match found.errors[of] {
-                    Some(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
-                    None if Inversion::bounds(of).contains(&value) => {
-                        "at the end of its range".to_owned()
-                    }
-                    None => "not told by these spectra".to_owned(),
-                };
-                let unit = of.unit();
-                [
-                    of.words().to_owned(),
-                    format!("{:.4} {unit}", Rounded(value)),
-                    error,
-                ]
-            })
-            .collect();
+        let contents = free.iter().map(|&of| {
+            let (value, error) = (found.contents[of], found.errors[of]);
+            let error = told_error(value, error, Inversion::bounds(of));
+            let value = format!("{:.4} {}", Rounded(value), of.unit());
+            [of.words().to_owned(), value, error]
+        });
+        let contrast = found.contrast.map(|contrast| {
+            let error = told_error(contrast.value, contrast.error, CONTRASTS);
+            let value = format!("{:.4}", Rounded(contrast.value));
+            ["contrast of the faces".to_owned(), value, error]
+        });
+        let rows: Vec<[String; 3]> = contents.chain(contrast).collect();
         lines.push(in_columns(&rows));
     }
     lines.push(
         "± is half of the interval of 95 %, if the noise of each value is its own".to_owned(),
     );
     lines.join("\n")
+}
+
+fn told_error(value: f64, error: Option<f64>, ends: [f64; 2]) -> String {
+    match error {
+        Some(error) => format!("± {:.2}", Rounded(INTERVAL * error)),
+        None if ends.contains(&value) => "at the end of its range".to_owned(),
+        None => "not told by these spectra".to_owned(),
+    }
 }
 
 /// A number with so many digits that count.

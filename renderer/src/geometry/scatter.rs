@@ -13,6 +13,7 @@
 //! programme in three unknowns (`rest.rs`), which is solved again after each turn.
 
 mod body;
+mod inclination;
 mod pile;
 mod points;
 mod rest;
@@ -28,8 +29,9 @@ use self::points::Spaced;
 use super::scramble::scramble;
 
 pub use self::body::Body;
+pub use self::inclination::Inclination;
 pub use self::points::{Ground, triangles};
-pub use self::volume::{Inclination, Volume, VolumeError};
+pub use self::volume::{Arrangement, Centres, Volume, VolumeError};
 
 /// How many things lie on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,6 +16,7 @@ mod integrator;
 mod leaf;
 mod light;
 mod material;
+mod measured;
 mod mesh;
 mod name_list;
 mod object;

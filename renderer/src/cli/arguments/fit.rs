@@ -7,9 +7,19 @@ use clap::Args;
 /// `lamina fit`: contents of leaves from their spectra.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct FitArguments {
-    /// Table of spectra: wavelengths, and a column R, T or both for each leaf
-    #[arg(value_name = "SPECTRA.csv")]
-    pub spectra: PathBuf,
+    /// Table of spectra: wavelengths, and for each leaf columns R, T, R_abaxial or some of these
+    #[arg(value_name = "SPECTRA.csv", required_unless_present_any = ["adaxial", "abaxial", "transmittance"])]
+    pub spectra: Option<PathBuf>,
+    /// Reflectance of one leaf's adaxial face instead: a file of one spectrum, as a table of two
+    /// columns, ASCII export of an ASD, or .sig of an SVC
+    #[arg(long, value_name = "FILE", conflicts_with = "spectra")]
+    pub adaxial: Option<PathBuf>,
+    /// Reflectance of its abaxial face
+    #[arg(long, value_name = "FILE", conflicts_with = "spectra")]
+    pub abaxial: Option<PathBuf>,
+    /// Its transmittance
+    #[arg(long, value_name = "FILE", conflicts_with = "spectra")]
+    pub transmittance: Option<PathBuf>,
     /// Contents that are looked for: structure, chlorophyll, … [default: all of PROSPECT-D]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub free: Vec<String>,

@@ -1,6 +1,6 @@
 //! A drawing of measured and fitted spectra, and of what is left.
 
-use super::Fitted;
+use super::{Fitted, shown};
 use crate::plot::{Anchor, Axis, Canvas};
 
 /// Leaves that are drawn; more would be a book.
@@ -32,9 +32,14 @@ fn panel(canvas: &mut Canvas, Fitted { leaf, found }: &Fitted<'_>) {
         [MARGIN, SIZE[0] - MARGIN],
     );
     let y = Axis::linear([0.0, 1.0], [floor, MARGIN]);
+    let abaxial = if leaf.abaxial.is_empty() {
+        ""
+    } else {
+        " and of the abaxial face (brown)"
+    };
     let title = format!(
-        "{}: R (green), 1 − T (blue); points measured, lines fitted",
-        leaf.shown()
+        "{}: R (green){abaxial}, 1 − T (blue); points measured, lines fitted",
+        shown(leaf)
     );
     let below = format!(
         "below, fitted less measured, {LARGER} times larger; rms {:.1e}",
@@ -63,6 +68,7 @@ fn panel(canvas: &mut Canvas, Fitted { leaf, found }: &Fitted<'_>) {
     let through = |share: f64, is_r: bool| if is_r { share } else { 1.0 - share };
     for (measured, left, colour, is_r) in [
         (&leaf.reflectance, &found.reflectance_left, "#2a7d2a", true),
+        (&leaf.abaxial, &found.abaxial_left, "#8a5a1a", true),
         (
             &leaf.transmittance,
             &found.transmittance_left,

@@ -1,11 +1,11 @@
-//! Leaves afloat in a box, without regard to each other: what theory calls a turbid medium, with
-//! leaves of finite size.
+//! Leaves afloat in a box: what theory calls a turbid medium, with leaves of finite size; even, in
+//! rows, or in crowns.
 
 use glam::{DAffine3, DMat3, DVec3};
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 use thiserror::Error;
 
-use super::{MOST_THINGS, Strewn, from_z};
+use super::{Inclination, MOST_THINGS, Strewn, from_z};
 use crate::geometry::scramble::scramble;
 
 /// How many leaves float in a box, and how they are inclined.
@@ -18,30 +18,42 @@ pub struct Volume {
     pub lai: f64,
     /// The distribution of inclinations.
     pub inclination: Inclination,
+    /// Where in the box they float.
+    pub arrangement: Arrangement,
     /// Same volume and seed, same places.
     pub seed: u64,
 }
 
-/// Distributions of the angle θ between leaf normals and the vertical, from 0 to π/2. Azimuths are
-/// even.
-///
-/// # Source
-///
-/// \[dewit1965\], in the trigonometric forms of \[bunnik1978\]; the density g is over θ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inclination {
-    /// As the surface of a sphere: g = sin θ.
-    Spherical,
-    /// All angles alike: g = 2/π.
-    Uniform,
-    /// Mostly level: g = 2/π (1 + cos 2θ).
-    Planophile,
-    /// Mostly upright: g = 2/π (1 − cos 2θ).
-    Erectophile,
-    /// Mostly at 45°: g = 2/π (1 − cos 4θ).
-    Plagiophile,
-    /// Level or upright: g = 2/π (1 + cos 4θ).
-    Extremophile,
+/// Where in a box leaves float, each without regard to the others.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrangement {
+    /// Everywhere alike.
+    Even,
+    /// In strips along y, each in the middle of its share of the box's width.
+    Rows {
+        /// From the middle of one strip to that of the next, m; the box is a whole number of them
+        /// wide.
+        spacing: f64,
+        /// Width of a strip, m, at most the spacing.
+        width: f64,
+    },
+    /// In balls of one radius, as many leaves in each, but for one. A box repeats itself: what of a
+    /// crown reaches beyond a side comes in at the opposite one.
+    Crowns {
+        /// Their radius, m.
+        radius: f64,
+        /// Where they are.
+        centres: Centres,
+    },
+}
+
+/// Where crowns are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Centres {
+    /// So many, at random without regard to each other, as high in the box as they fit.
+    Random(u32),
+    /// At these points, at least one, m.
+    At(Vec<DVec3>),
 }
 
 /// Why a volume cannot be filled.
@@ -65,34 +77,6 @@ pub enum VolumeError {
         /// Mean area of a leaf, m².
         area: f64,
     },
-}
-
-impl Inclination {
-    /// The angle below which a share `u` in [0, 1] of the leaves is inclined, rad.
-    pub fn angle(self, u: f64) -> f64 {
-        let share = |theta: f64| {
-            let (double, fourfold) = (libm::sin(2.0 * theta) / 2.0, libm::sin(4.0 * theta) / 4.0);
-            match self {
-                Self::Spherical => 1.0 - libm::cos(theta),
-                Self::Uniform => FRAC_2_PI * theta,
-                Self::Planophile => FRAC_2_PI * (theta + double),
-                Self::Erectophile => FRAC_2_PI * (theta - double),
-                Self::Plagiophile => FRAC_2_PI * (theta - fourfold),
-                Self::Extremophile => FRAC_2_PI * (theta + fourfold),
-            }
-        };
-        let (mut low, mut high) = (0.0, FRAC_PI_2);
-        // Each share rises from 0 to 1; 44 halvings leave 1e-13.
-        for _ in 0..44 {
-            let middle = 0.5 * (low + high);
-            if share(middle) < u {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
-    }
 }
 
 /// What a random number of a leaf is for.
@@ -135,7 +119,8 @@ impl Volume {
         }
         let place = |number: u64| {
             let random = |what: Use| self.random(number, what);
-            let at = least + size * DVec3::new(random(Use::X), random(Use::Y), random(Use::Z));
+            let draws = DVec3::new(random(Use::X), random(Use::Y), random(Use::Z));
+            let at = self.at(draws, number / areas.len() as u64);
             let (sin, cos) = libm::sincos(self.inclination.angle(random(Use::Inclination)));
             let (east, north) = libm::sincos(TAU * random(Use::Azimuth));
             let normal = DVec3::new(sin * east, sin * north, cos);
@@ -153,6 +138,56 @@ impl Volume {
         Ok((0..wanted.round() as u64).map(place).collect())
     }
 
+    /// The place of a leaf from three random numbers in [0, 1); `turn` counts rounds of shapes, so
+    /// that every crown has leaves of each.
+    fn at(&self, draws: DVec3, turn: u64) -> DVec3 {
+        let [least, most] = self.within;
+        let size = most - least;
+        let even = least + size * draws;
+        match &self.arrangement {
+            Arrangement::Even => even,
+            Arrangement::Rows { spacing, width } => {
+                let rows = (size.x / spacing).round().max(1.0);
+                // The whole part of the number chooses the row, the rest the place in it.
+                let along = draws.x * rows;
+                let row = along.floor();
+                let x = (row + 0.5) * spacing + (along - row - 0.5) * width;
+                DVec3::new(least.x + x, even.y, even.z)
+            }
+            Arrangement::Crowns { radius, centres } => {
+                let centre = self.centre(*radius, centres, turn);
+                let cos = 1.0 - 2.0 * draws.x;
+                let (east, north) = libm::sincos(TAU * draws.y);
+                let sin = (1.0 - cos * cos).max(0.0).sqrt();
+                let direction = DVec3::new(sin * east, sin * north, cos);
+                let at = centre + radius * libm::cbrt(draws.z) * direction;
+                let wrapped =
+                    |at: f64, least: f64, size: f64| least + (at - least).rem_euclid(size);
+                DVec3::new(
+                    wrapped(at.x, least.x, size.x),
+                    wrapped(at.y, least.y, size.y),
+                    at.z,
+                )
+            }
+        }
+    }
+
+    /// The middle of the crown of a leaf.
+    fn centre(&self, radius: f64, centres: &Centres, turn: u64) -> DVec3 {
+        let [least, most] = self.within;
+        match centres {
+            Centres::At(places) => places[(turn % places.len() as u64) as usize],
+            Centres::Random(count) => {
+                let crown = turn % u64::from(*count);
+                // Crowns draw from numbers that leaves do not reach.
+                let random = |what: Use| self.random(u64::MAX - crown, what);
+                let up = DVec3::Z * radius;
+                let (low, high) = (least + up, most - up);
+                low + (high - low) * DVec3::new(random(Use::X), random(Use::Y), random(Use::Z))
+            }
+        }
+    }
+
     /// A number in [0, 1) for each use of each leaf.
     fn random(&self, number: u64, what: Use) -> f64 {
         let bits = scramble(scramble(self.seed ^ scramble(number)) ^ what as u64);
@@ -161,97 +196,4 @@ impl Volume {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const ALL: [Inclination; 6] = [
-        Inclination::Spherical,
-        Inclination::Uniform,
-        Inclination::Planophile,
-        Inclination::Erectophile,
-        Inclination::Plagiophile,
-        Inclination::Extremophile,
-    ];
-
-    #[test]
-    fn mean_inclinations_are_those_of_their_densities() {
-        // ∫ θ g dθ in closed form; plagiophile and extremophile are symmetric about 45°.
-        let pi = std::f64::consts::PI;
-        let expected = [
-            1.0,
-            pi / 4.0,
-            pi / 4.0 - 1.0 / pi,
-            pi / 4.0 + 1.0 / pi,
-            pi / 4.0,
-            pi / 4.0,
-        ];
-        for (kind, expected) in ALL.into_iter().zip(expected) {
-            let count = 20_000;
-            let angles = (0..count).map(|i| kind.angle((f64::from(i) + 0.5) / f64::from(count)));
-            let mean = angles.sum::<f64>() / f64::from(count);
-            assert!(
-                (mean - expected).abs() < 1e-6,
-                "{kind:?}: {mean} for {expected}"
-            );
-        }
-    }
-
-    #[test]
-    fn leaves_of_a_spherical_volume_cast_half_their_area_whatever_the_sun() {
-        let volume = Volume {
-            within: [DVec3::new(-1.0, 2.0, 0.0), DVec3::new(3.0, 3.0, 0.5)],
-            lai: 5.0,
-            inclination: Inclination::Spherical,
-            seed: 3,
-        };
-        let places = volume.places(&[2e-4]).expect("there is room");
-        assert_eq!(places.len(), 100_000);
-        for sun in [DVec3::Z, DVec3::X, DVec3::new(0.0, 0.6, 0.8)] {
-            let cast = places.iter().map(|place| {
-                let normal = place.to_world.matrix3.z_axis;
-                assert!((normal.length() - 1.0).abs() < 1e-12 && normal.z >= 0.0);
-                normal.dot(sun).abs()
-            });
-            let mean = cast.sum::<f64>() / places.len() as f64;
-            // |cos| is even in [0, 1]: its deviation is 1/√12.
-            assert!((mean - 0.5).abs() < 4.0 / (12.0 * 1e5_f64).sqrt(), "{mean}");
-        }
-        let middle = places.iter().map(|place| place.to_world.translation);
-        let middle = middle.sum::<DVec3>() / places.len() as f64;
-        assert!(
-            (middle - DVec3::new(1.0, 2.5, 0.25)).length() < 0.02,
-            "{middle}"
-        );
-    }
-
-    #[test]
-    fn shapes_of_a_list_take_turns_and_give_the_leaf_area_index() {
-        let areas = [1e-3, 5e-3, 3e-2];
-        let volume = Volume {
-            within: [DVec3::ZERO, DVec3::ONE],
-            lai: 1.2,
-            inclination: Inclination::Uniform,
-            seed: 8,
-        };
-        let places = volume.places(&areas).expect("there is room");
-        assert_eq!(places.len(), 100);
-        let lai: f64 = places.iter().map(|place| areas[place.body as usize]).sum();
-        assert!((lai - 1.2).abs() <= 3e-2, "{lai}");
-        let of = |body: u32| places.iter().filter(|place| place.body == body).count();
-        assert_eq!([of(0), of(1), of(2)], [34, 33, 33]);
-    }
-
-    #[test]
-    fn less_than_a_leaf_and_too_many_are_refused() {
-        let volume = |lai: f64| Volume {
-            within: [DVec3::ZERO, DVec3::ONE],
-            lai,
-            inclination: Inclination::Uniform,
-            seed: 1,
-        };
-        let none = volume(0.001).places(&[1.0]);
-        assert!(matches!(none, Err(VolumeError::None { .. })), "{none:?}");
-        let many = volume(10.0).places(&[1e-8]);
-        assert!(matches!(many, Err(VolumeError::TooMany { .. })), "{many:?}");
-    }
-}
+mod tests;

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
 use leafmodel::document::value_kind::{FilePath, Number};
@@ -10,9 +9,9 @@ use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
 use super::leaf::faces;
+use super::measured::{measured, set_ratio};
 use super::reflectance::reflectance;
 use super::solid::optics;
-use super::spectrum::SpectrumOf;
 use crate::scene::description::{
     Held, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
 };
@@ -90,10 +89,11 @@ const KINDS: [Variant<Material>; 5] = [
                 faces: both,
             } = material
             {
-                leaf_tissue(tissue, keys);
+                let ratio = leaf_tissue(tissue, keys);
                 keys.exclude("measured", "pigments");
                 pigments_block(pigments, keys);
                 faces(both, keys);
+                set_ratio(both, ratio, keys);
             }
         },
     },
@@ -155,7 +155,9 @@ fn pigments_block(pigments: &mut Pigments, keys: &mut Keys<'_>) {
     });
 }
 
-fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
+/// The tissue; the ratio of its faces, if both were measured.
+fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) -> Option<Spectrum> {
+    let mut ratio = None;
     let extrapolate = keys
         .reader()
         .is_some_and(|block| block.cx.extrapolate.get());
@@ -178,7 +180,7 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
             contents,
             extrapolate,
         });
-        return;
+        return ratio;
     }
     for kind in keys.one_of(&["contents", "map", "measured"], Some("contents")) {
         match kind {
@@ -196,10 +198,13 @@ fn leaf_tissue(tissue: &mut LeafTissue, keys: &mut Keys<'_>) {
             }),
             _ => {
                 let about = "Measured spectra of a leaf.";
-                keys.required_block("measured", about, &[], |keys| *tissue = measured(keys));
+                keys.required_block("measured", about, &[], |keys| {
+                    (*tissue, ratio) = measured(keys).into_parts();
+                });
             }
         }
     }
+    ratio
 }
 
 fn solid_tissue(held: &mut Held, keys: &mut Keys<'_>) {
@@ -240,73 +245,4 @@ fn map_file(keys: &mut Keys<'_>) -> PathBuf {
          be absent; the first row of the picture is v = 0.",
     );
     file
-}
-
-fn measured(keys: &mut Keys<'_>) -> LeafTissue {
-    let mut reflectance = Spectrum::Constant(0.0);
-    let mut transmittance = Spectrum::Constant(0.0);
-    let share = SpectrumOf::Share;
-    let about = "Directional–hemispherical, coat included.";
-    keys.required("reflectance", &mut reflectance, share, about);
-    keys.required(
-        "transmittance",
-        &mut transmittance,
-        share,
-        "The same. R + T must not exceed 1 \
-        at any wavelength.",
-    );
-    if keys.is_sound() {
-        require_energy(keys, &reflectance, &transmittance);
-    }
-    LeafTissue::Measured {
-        reflectance,
-        transmittance,
-    }
-}
-
-/// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
-/// of them.
-fn require_energy(keys: &Keys<'_>, reflectance: &Spectrum, transmittance: &Spectrum) {
-    // Sums of decimals may round to slightly above 1.
-    const ROUNDING: f64 = 1e-9;
-    let mut wavelengths: Vec<f64> = vec![550.0];
-    for spectrum in [reflectance, transmittance] {
-        if let Spectrum::Table { points, .. } = spectrum {
-            wavelengths.extend(points.iter().map(|(nm, _)| *nm));
-        }
-    }
-    let mut greatest = (0.0, 0.0);
-    for nm in wavelengths {
-        let sum = share_at(reflectance, nm) + share_at(transmittance, nm);
-        if sum > greatest.1 {
-            greatest = (nm, sum);
-        }
-    }
-    if greatest.1 > 1.0 + ROUNDING {
-        let error = DocumentError::EnergyNotConserved {
-            wavelength_nm: greatest.0,
-            sum: greatest.1,
-        };
-        keys.report(&[], error);
-    }
-}
-
-/// Value of a constant or table at a wavelength, with the end values outside.
-fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
-    match spectrum {
-        Spectrum::Constant(value) => *value,
-        Spectrum::Table { points, .. } => {
-            let above = points.partition_point(|(other, _)| *other < nm);
-            match (
-                above.checked_sub(1).and_then(|below| points.get(below)),
-                points.get(above),
-            ) {
-                (Some((x0, y0)), Some((x1, y1))) => y0 + (y1 - y0) * (nm - x0) / (x1 - x0),
-                (Some((_, value)), None) | (None, Some((_, value))) => *value,
-                (None, None) => 0.0,
-            }
-        }
-        // These forms are not used for shares of light.
-        Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
-    }
 }

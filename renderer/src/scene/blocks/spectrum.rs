@@ -1,21 +1,19 @@
 //! Spectra: a number, a table, a file of a table, daylight or a black body.
 
-use std::fs;
-
 use leafmodel::document::context::Context;
 use leafmodel::document::coverage::require_coverage;
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::{Limits, Plain};
-use leafmodel::document::path::{Wanted, resolve};
 use leafmodel::document::reader::Block;
 use leafmodel::document::schema::{EntrySchema, Group, Is, Type};
-use leafmodel::document::source::{Place, escaped};
+use leafmodel::document::source::Place;
 use leafmodel::document::tree::{Entry, Node, Table, Value};
 use leafmodel::document::value_kind::{Kind, Number};
 use leafmodel::document::values::{finite_at, list, number, number_at, wrong_length, wrong_type};
 
-use super::table_file::{Rows, read_table_file};
+use super::table_file::{self, Rows};
+use crate::measured::units;
 use crate::scene::description::Spectrum;
 
 /// A spectrum with its role.
@@ -116,7 +114,7 @@ impl Kind for SpectrumOf {
                     ("Linear between rows, whose wavelengths rise.", rows)
                 }
                 "file" => (
-                    "Such a table in a file.",
+                    "Such a table in a file, ASCII export of an ASD, or a `.sig` file of an SVC.",
                     Type::Text("the path of a CSV file"),
                 ),
                 "d65" => {
@@ -191,9 +189,11 @@ fn read_form(form: &Block<'_>, key: &str, role: SpectrumOf) -> Option<Spectrum> 
                 .and_then(|rows| checked_table(form, &rows, scale, key, role))
         }
         Some(_) => {
+            // Whoever writes a factor knows the unit.
+            let guess = role == SpectrumOf::Share && form.node("scale").is_none();
             let scale = form.number_or("scale", FACTORS, 1.0);
             form.text("file", "the path of a CSV file")
-                .and_then(|(path, at)| file_rows(form.cx, path, at))
+                .and_then(|(path, at)| table_file::rows(form.cx, path, at, guess))
                 .and_then(|rows| checked_table(form, &rows, scale, key, role))
         }
         None => {
@@ -235,26 +235,6 @@ fn inline_rows(cx: &Context, node: &Node, key: &str) -> Option<Rows> {
     (cx.error_count() == before_this).then_some(rows)
 }
 
-fn file_rows(cx: &Context, path: &str, at: &Place) -> Option<Rows> {
-    const MOST_BYTES: u64 = 16 << 20;
-    let wanted = Wanted {
-        endings: &["csv", "tsv", "txt"],
-        most_bytes: MOST_BYTES,
-    };
-    let file = resolve(cx, path, at, wanted)?;
-    let bytes = fs::read(file)
-        .map_err(|error| {
-            let error = DocumentError::BadFile {
-                path: escaped(path, 120),
-                problem: format!("cannot be read: {error}"),
-                help: "make the file readable".to_owned(),
-            };
-            cx.error(at, error);
-        })
-        .ok()?;
-    read_table_file(cx, path, at, &bytes)
-}
-
 /// A table whose wavelengths rise, whose values are allowed, and which covers the film.
 fn checked_table(
     form: &Block<'_>,
@@ -294,6 +274,17 @@ fn checked_table(
         };
         cx.error(&rows.places[index][0], error);
         return None;
+    }
+    if role == SpectrumOf::Share
+        && let Some(file) = &rows.file
+    {
+        let nm: Vec<f64> = points.iter().map(|point| point.0).collect();
+        if let Some(at) = units::gap(&nm)
+            && let Some(error) = table_file::gap(cx, file, [nm[at - 1], nm[at]])
+        {
+            cx.error(&rows.places[at][0], error);
+            return None;
+        }
     }
     let limits = role.limits();
     // Percent times 0.01 may round to just above 1.

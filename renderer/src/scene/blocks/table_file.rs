@@ -1,8 +1,19 @@
-//! Tables of spectra in files: two columns, wavelength in nm and value.
+//! Tables of spectra in files, read by [`series`]: what is wrong with one becomes a report in it.
+
+use std::fs;
 
 use leafmodel::document::context::{Context, QUOTED};
 use leafmodel::document::error::DocumentError;
+use leafmodel::document::path::{Wanted, resolve};
 use leafmodel::document::source::{Place, escaped, line_of_byte};
+
+use crate::measured::{Fault, What, series};
+
+/// Most bytes of a table.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// Endings of files of one spectrum.
+const ENDINGS: &[&str] = &["csv", "tsv", "txt", "sig", "asd"];
 
 /// Rows of a table, each with its place.
 #[derive(Debug, Default)]
@@ -10,107 +21,130 @@ pub(super) struct Rows {
     pub(super) points: Vec<(f64, f64)>,
     /// Places of the wavelength and of the value.
     pub(super) places: Vec<[Place; 2]>,
+    /// The file that they are of, as messages name it.
+    pub(super) file: Option<String>,
 }
 
-/// Reads a table file: columns separated by comma, semicolon, tab or spaces, an optional header
-/// line, `#` before comments; empty lines are ignored.
-///
-/// Errors point into the file; `at` is the place of its name in the scene, for files that are not
-/// text.
-pub(super) fn read_table_file(cx: &Context, path: &str, at: &Place, bytes: &[u8]) -> Option<Rows> {
-    let name = escaped(path, 2 * QUOTED);
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text),
-        Err(error) => {
-            let byte = error.valid_up_to();
-            let line = line_of_byte(bytes, byte);
-            cx.error(
-                at,
-                DocumentError::NotUtf8 {
-                    path: name,
-                    byte,
-                    line,
-                },
-            );
+/// Reads the file behind a path that stands at a place of the scene. With `guess`, micrometres and
+/// percent are recognised, and a warning says so.
+pub(super) fn rows(cx: &Context, path: &str, at: &Place, guess: bool) -> Option<Rows> {
+    let wanted = Wanted {
+        endings: ENDINGS,
+        most_bytes: MOST_BYTES,
+    };
+    let file = resolve(cx, path, at, wanted)?;
+    let bytes = bytes(cx, &file, path, at)?;
+    rows_of(cx, path, at, &bytes, guess)
+}
+
+/// All bytes of a file; an error at the place of its path otherwise.
+pub(super) fn bytes(
+    cx: &Context,
+    file: &std::path::Path,
+    path: &str,
+    at: &Place,
+) -> Option<Vec<u8>> {
+    let read = fs::read(file).map_err(|error| {
+        let problem = format!("cannot be read: {error}");
+        cx.error(at, bad_file(path, problem, "make the file readable"));
+    });
+    read.ok()
+}
+
+fn rows_of(cx: &Context, path: &str, at: &Place, bytes: &[u8], guess: bool) -> Option<Rows> {
+    let text = text(cx, path, at, bytes)?;
+    let mut found = match series::series(text) {
+        Ok(found) => found,
+        Err(fault) => {
+            report(cx, path, at, text, &fault);
             return None;
         }
     };
-    let source = cx.sources.borrow_mut().add(name.clone(), text);
-    let mut rows = Rows::default();
-    let mut names_allowed = true;
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let fields = fields(line, start, source);
-        start += line.len();
-        if fields.is_empty() {
-            continue;
-        }
-        let numbers: Vec<Option<f64>> =
-            fields.iter().map(|(field, _)| field.parse().ok()).collect();
-        if names_allowed && numbers[0].is_none() {
-            names_allowed = false;
-            continue;
-        }
-        names_allowed = false;
-        let whole_line = Place {
-            source,
-            span: fields[0].1.span.start..fields[fields.len() - 1].1.span.end,
-        };
-        let bad = |problem: String, help: &str| DocumentError::BadFile {
-            path: name.clone(),
-            problem,
-            help: help.to_owned(),
-        };
-        if fields.len() != 2 {
-            let problem = format!("has {} columns in this line, wanted are 2", fields.len());
-            let help = "keep the wavelength in nm and the value, with a decimal point";
-            cx.error(&whole_line, bad(problem, help));
-            return None;
-        }
-        for ((field, at), number) in fields.iter().zip(&numbers) {
-            match number {
-                Some(number) if number.is_finite() => {}
-                Some(_) => {
-                    let error = DocumentError::NotFinite {
-                        key: name.clone(),
-                        value: escaped(field, QUOTED),
-                    };
-                    cx.error(at, error);
-                    return None;
-                }
-                None => {
-                    let problem =
-                        format!("has `{}` where a number is wanted", escaped(field, QUOTED));
-                    cx.error(at, bad(problem, "write a number, or `#` before a comment"));
-                    return None;
-                }
-            }
-        }
-        if let (Some(wavelength_nm), Some(value)) = (numbers[0], numbers[1]) {
-            rows.points.push((wavelength_nm, value));
-            rows.places.push([fields[0].1.clone(), fields[1].1.clone()]);
+    if guess {
+        for note in found.to_nm_and_shares() {
+            tell(cx, path, at, &note);
         }
     }
-    Some(rows)
+    let name = escaped(path, 2 * QUOTED);
+    let source = cx.sources.borrow_mut().add(name.clone(), text);
+    let place = |span: std::ops::Range<usize>| Place { source, span };
+    Some(Rows {
+        points: found.points,
+        places: found
+            .spans
+            .into_iter()
+            .map(|spans| spans.map(place))
+            .collect(),
+        file: Some(name),
+    })
 }
 
-/// The columns of a line before its comment, each with its place.
-fn fields(line: &str, start: usize, source: usize) -> Vec<(&str, Place)> {
-    let line = line.split('#').next().unwrap_or("");
-    let separator =
-        |character: char| character == ',' || character == ';' || character.is_whitespace();
-    let base = line.as_ptr() as usize;
-    line.split(separator)
-        .filter(|field| !field.is_empty())
-        .map(|field| {
-            let from = start + (field.as_ptr() as usize - base);
-            let place = Place {
-                source,
-                span: from..from + field.len(),
-            };
-            (field, place)
-        })
-        .collect()
+/// The text of a file, or an error at the place of its path.
+pub(super) fn text<'b>(cx: &Context, path: &str, at: &Place, bytes: &'b [u8]) -> Option<&'b str> {
+    let is_text = std::str::from_utf8(bytes);
+    match (series::text(bytes), is_text) {
+        (Ok(text), _) => Some(text),
+        // Text with a byte that is wrong; other files say what they are.
+        (Err(Fault { span: Some(_), .. }), Err(error)) => {
+            let byte = error.valid_up_to();
+            let line = line_of_byte(bytes, byte);
+            let path = escaped(path, 2 * QUOTED);
+            cx.error(at, DocumentError::NotUtf8 { path, byte, line });
+            None
+        }
+        (Err(fault), _) => {
+            report(cx, path, at, "", &fault);
+            None
+        }
+    }
+}
+
+/// Reports a fault in its file, or at the place of the file's path.
+pub(super) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &Fault) {
+    let name = escaped(path, 2 * QUOTED);
+    let error = match &fault.what {
+        What::NotFinite { value } => DocumentError::NotFinite {
+            key: name.clone(),
+            value: value.clone(),
+        },
+        What::Words { problem, help } => bad_file(path, problem.clone(), help),
+    };
+    match &fault.span {
+        None => cx.error(at, error),
+        Some(span) => {
+            let source = cx.sources.borrow_mut().add(name, text);
+            let span = span.clone();
+            cx.error(&Place { source, span }, error);
+        }
+    }
+}
+
+/// Says what was taken for granted about a file.
+pub(super) fn tell(cx: &Context, path: &str, at: &Place, note: &str) {
+    let name = escaped(path, 2 * QUOTED);
+    let message = format!("\"{name}\": {note}");
+    let help = "if that is wrong, write `scale` beside the file, and wavelengths in nm";
+    cx.warn(at, "scene::units", message, help);
+}
+
+/// An error of a file.
+pub(super) fn bad_file(path: &str, problem: String, help: &str) -> DocumentError {
+    DocumentError::BadFile {
+        path: escaped(path, 2 * QUOTED),
+        problem,
+        help: help.to_owned(),
+    }
+}
+
+/// The error of a gap in a file's wavelengths, if it matters to the wavelengths that are needed.
+pub(super) fn gap(cx: &Context, path: &str, [from, to]: [f64; 2]) -> Option<DocumentError> {
+    let needed = cx.range_nm.get();
+    let matters = needed.is_none_or(|[low, high]| from < high && to > low);
+    matters.then(|| {
+        let problem = format!("has a gap: nothing between {from} and {to} nm");
+        let help = "measure or interpolate the values there and add their lines";
+        bad_file(path, problem, help)
+    })
 }
 
 #[cfg(test)]
@@ -118,34 +152,44 @@ mod tests {
     use super::*;
     use leafmodel::document::source::Sources;
 
-    /// The rows, and the codes of the errors.
-    type Outcome = (Option<Vec<(f64, f64)>>, Vec<&'static str>);
+    /// The rows, the codes of the errors, and the warnings.
+    type Outcome = (Option<Vec<(f64, f64)>>, Vec<&'static str>, Vec<String>);
 
-    fn read(text: &str) -> Outcome {
+    fn read(bytes: &[u8], guess: bool) -> Outcome {
         let cx = Context::new(Sources::default(), std::path::PathBuf::new());
         let at = Place {
             source: 0,
             span: 0..0,
         };
-        let rows = read_table_file(&cx, "t.csv", &at, text.as_bytes());
-        let (_, errors, _) = cx.into_parts();
+        let rows = rows_of(&cx, "t.csv", &at, bytes, guess);
+        let (_, errors, remarks) = cx.into_parts();
         let codes = errors.iter().map(|located| located.error.code()).collect();
-        (rows.map(|rows| rows.points), codes)
+        let said = remarks.into_iter().map(|remark| remark.message).collect();
+        (rows.map(|rows| rows.points), codes, said)
     }
 
     #[test]
-    fn names_comments_and_every_separator_are_read() {
-        let text = "\u{feff}# made up\nwavelength_nm,R\r\n400,0.1\r\n500; 0.2 # peak\n\n\
-                    600\t0.3\n700 4e-1";
-        let points = vec![(400.0, 0.1), (500.0, 0.2), (600.0, 0.3), (700.0, 0.4)];
-        assert_eq!(read(text), (Some(points), vec![]));
+    fn faults_become_errors_of_the_scene() {
+        assert_eq!(read(b"nm,R\nnm,R\n", false).1, ["scene::bad_file"]);
+        assert_eq!(read(b"400,0.1,3\n", false).1, ["scene::bad_file"]);
+        assert_eq!(read(b"400,nan\n", false).1, ["scene::not_finite"]);
+        assert_eq!(read(b"400,\xff\n", false).1, ["scene::not_utf8"]);
+        assert_eq!(read(b"as7\0\xff", false).1, ["scene::bad_file"]);
     }
 
     #[test]
-    fn what_is_no_number_is_an_error_below_the_names() {
-        assert_eq!(read("nm,R\nnm,R\n").1, ["scene::bad_file"]);
-        assert_eq!(read("400,0.1,3\n").1, ["scene::bad_file"]);
-        assert_eq!(read("400;0,1\n").1, ["scene::bad_file"]);
-        assert_eq!(read("400,nan\n").1, ["scene::not_finite"]);
+    fn units_are_guessed_where_that_is_asked_for_and_told() {
+        let text = b"0.4,5\n0.5,10\n0.8,50\n";
+        let (rows, codes, said) = read(text, true);
+        assert_eq!(rows, Some(vec![(400.0, 0.05), (500.0, 0.1), (800.0, 0.5)]));
+        assert!(codes.is_empty());
+        assert_eq!(said.len(), 2, "{said:?}");
+        assert!(
+            said[0].contains("t.csv") && said[0].contains("µm"),
+            "{said:?}"
+        );
+        let (rows, _, said) = read(text, false);
+        assert_eq!(rows.map(|rows| rows[0]), Some((0.4, 5.0)));
+        assert!(said.is_empty());
     }
 }

@@ -1,0 +1,358 @@
+//! A measured BRDF or BTDF over angles: its reciprocal part, its error, its energy.
+//!
+//! A table has the columns `theta_i`, `phi_i`, `theta_o`, `phi_o`, `wavelength` and `value`, in any
+//! order. Angles are degrees, θ from the normal of the face (0 to 90 on its side, 90 to 180 behind
+//! it, so that a BTDF has one angle on each side), φ around it; both directions point away from the
+//! surface. Wavelengths are nm, values sr⁻¹ without the cosine. Radians and micrometres are
+//! recognised and told.
+//!
+//! Reciprocity says `f(i → o) = f(o → i)`. A row's partner is the row whose directions are its own,
+//! exchanged; where light comes from one azimuth only the surface is taken to be isotropic and
+//! azimuths count from there. `f` is the sum of `(f + f′)/2`, its reciprocal part, and
+//! `(f − f′)/2`, its error. Nothing is interpolated: a row without a partner keeps its value and
+//! has no error.
+
+use std::collections::BTreeMap;
+
+use super::units::{MICROMETRES, are_micrometres};
+use super::{Fault, quoted, span_of_line};
+
+mod energy;
+
+pub use self::energy::Energy;
+
+/// What is told where angles are taken for radians.
+const RADIANS: &str = "angles are taken for radians";
+/// Directions that differ by less are the same, degrees.
+const SAME_DEG: f64 = 0.01;
+/// Columns, by what they hold.
+const COLUMNS: [&[&str]; 6] = [
+    &["theta_i", "theta_i_deg"],
+    &["phi_i", "phi_i_deg"],
+    &["theta_o", "theta_o_deg"],
+    &["phi_o", "phi_o_deg"],
+    &["wavelength", "wavelength_nm", "nm"],
+    &["value", "f", "brdf", "bsdf", "btdf"],
+];
+
+/// A direction, degrees: θ from the normal, φ around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction {
+    /// 0 to 180.
+    pub theta: f64,
+    /// Any.
+    pub phi: f64,
+}
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Whence light comes.
+    pub incident: Direction,
+    /// Whither it goes.
+    pub scattered: Direction,
+    /// Wavelength, nm.
+    pub nm: f64,
+    /// sr⁻¹, ≥ 0.
+    pub value: f64,
+    /// Line of the file.
+    pub line: usize,
+}
+
+/// A table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// In the order of the file.
+    pub samples: Vec<Sample>,
+    /// What was taken for granted, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// A row with what reciprocity makes of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parted {
+    /// As it stands.
+    pub sample: Sample,
+    /// Mean of the row and its partner; its own value if it has none, sr⁻¹.
+    pub reciprocal: f64,
+    /// Half of their difference, sr⁻¹; `None` without a partner.
+    pub error: Option<f64>,
+}
+
+/// Reciprocity at one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Wavelength, nm.
+    pub nm: f64,
+    /// Rows.
+    pub rows: usize,
+    /// Rows with a partner.
+    pub paired: usize,
+    /// Root mean square of the values of rows with a partner, sr⁻¹.
+    pub rms: f64,
+    /// Root mean square of their errors, sr⁻¹.
+    pub error_rms: f64,
+    /// The greatest error in size, sr⁻¹, and the line of its row; `None` without pairs.
+    pub worst: Option<(f64, usize)>,
+}
+
+/// What a check finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// Whether azimuths count from that of the light.
+    pub is_isotropic: bool,
+    /// The rows.
+    pub rows: Vec<Parted>,
+    /// By wavelength.
+    pub bands: Vec<Band>,
+    /// By wavelength and incident direction.
+    pub energy: Vec<Energy>,
+}
+
+/// Reads a table.
+///
+/// # Errors
+///
+/// The first [`Fault`]: a column that is missing, a value that is negative or no number, an angle
+/// out of range, a row that is there twice.
+pub fn read(text: &str) -> Result<Table, Fault> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let of_csv = |error: &csv::Error| {
+        let line = error.position().map(|at| at.line() as usize);
+        Fault {
+            span: line.map(|line| span_of_line(text, line)),
+            ..Fault::of_file(error.to_string(), "")
+        }
+    };
+    let names = reader.headers().map_err(|error| of_csv(&error))?.clone();
+    let mut places = [0; 6];
+    for (place, known) in places.iter_mut().zip(COLUMNS) {
+        let found = names
+            .iter()
+            .position(|name| known.contains(&name.to_ascii_lowercase().as_str()));
+        *place = found.ok_or_else(|| {
+            let problem = format!("has no column `{}`", known[0]);
+            let help = "columns are theta_i, phi_i, theta_o, phi_o, wavelength, value";
+            Fault::of_file(problem, help)
+        })?;
+    }
+    let mut samples = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| of_csv(&error))?;
+        let line = record.position().map_or(1, |at| at.line() as usize);
+        let mut numbers = [0.0; 6];
+        for (number, place) in numbers.iter_mut().zip(places) {
+            let written = &record[place];
+            let value = written
+                .parse::<f64>()
+                .ok()
+                .filter(|value| value.is_finite());
+            *number = value.ok_or_else(|| {
+                let problem = format!("{} is \"{}\", not a number", &names[place], quoted(written));
+                Fault::in_line(text, line, problem, "")
+            })?;
+        }
+        let [theta_i, phi_i, theta_o, phi_o, nm, value] = numbers;
+        if value < 0.0 {
+            let problem = format!("value is {value} sr⁻¹, allowed is 0 and more");
+            return Err(Fault::in_line(text, line, problem, ""));
+        }
+        let direction = |theta, phi| Direction { theta, phi };
+        samples.push(Sample {
+            incident: direction(theta_i, phi_i),
+            scattered: direction(theta_o, phi_o),
+            nm,
+            value,
+            line,
+        });
+    }
+    if samples.is_empty() {
+        return Err(Fault::of_file("there are no lines of numbers", ""));
+    }
+    let notes = to_degrees_and_nm(&mut samples);
+    let thetas = |sample: &Sample| [sample.incident.theta, sample.scattered.theta];
+    let is_out = |theta: f64| !(0.0..=180.0).contains(&theta);
+    if let Some(bad) = samples.iter().find(|s| thetas(s).into_iter().any(is_out)) {
+        let [i, o] = thetas(bad);
+        let problem = format!("theta_i is {i}°, theta_o {o}°, allowed is 0 to 180");
+        return Err(Fault::in_line(text, bad.line, problem, ""));
+    }
+    if let Some(bad) = samples.iter().find(|sample| sample.nm <= 0.0) {
+        let problem = format!("wavelength is {} nm, allowed is above 0", bad.nm);
+        return Err(Fault::in_line(text, bad.line, problem, ""));
+    }
+    refuse_twins(text, &samples)?;
+    Ok(Table { samples, notes })
+}
+
+/// Brings angles into degrees and wavelengths into nm; what was taken for granted.
+fn to_degrees_and_nm(samples: &mut [Sample]) -> Vec<String> {
+    use std::f64::consts::{PI, TAU};
+    let mut notes = Vec::new();
+    let most = |of: fn(&Sample) -> [f64; 2]| {
+        let all = samples.iter().flat_map(of);
+        all.fold(0.0_f64, |most, angle| most.max(angle.abs()))
+    };
+    let theta = most(|sample| [sample.incident.theta, sample.scattered.theta]);
+    let phi = most(|sample| [sample.incident.phi, sample.scattered.phi]);
+    // A table whose steepest angle is 3° would not be worth a check.
+    if theta > 0.0 && theta <= PI + 1e-3 && phi <= TAU + 1e-3 {
+        notes.push(RADIANS.to_owned());
+        for sample in &mut *samples {
+            for direction in [&mut sample.incident, &mut sample.scattered] {
+                direction.theta = direction.theta.to_degrees().min(180.0);
+                direction.phi = direction.phi.to_degrees();
+            }
+        }
+    }
+    if are_micrometres(samples.iter().map(|sample| sample.nm)) {
+        notes.push(MICROMETRES.to_owned());
+        for sample in samples {
+            sample.nm *= 1000.0;
+        }
+    }
+    notes
+}
+
+/// A direction and a wavelength in whole steps, to be compared.
+type Steps = [i64; 2];
+
+fn steps(direction: Direction) -> Steps {
+    let step = |angle: f64| (angle / SAME_DEG).round() as i64;
+    let theta = step(direction.theta);
+    // At a pole there is no azimuth.
+    let is_pole = theta == 0 || theta == step(180.0);
+    let phi = if is_pole {
+        0
+    } else {
+        step(direction.phi.rem_euclid(360.0)) % step(360.0)
+    };
+    [theta, phi]
+}
+
+fn wavelength_steps(nm: f64) -> i64 {
+    (nm * 1000.0).round() as i64
+}
+
+fn refuse_twins(text: &str, samples: &[Sample]) -> Result<(), Fault> {
+    let mut seen = BTreeMap::new();
+    for sample in samples {
+        // As written: a grid may have its pole once for each azimuth.
+        let raw = |direction: Direction| [direction.theta.to_bits(), direction.phi.to_bits()];
+        let key = (
+            raw(sample.incident),
+            raw(sample.scattered),
+            sample.nm.to_bits(),
+        );
+        if let Some(before) = seen.insert(key, sample.line) {
+            let problem = format!("has the directions and wavelength of line {before} again");
+            return Err(Fault::in_line(text, sample.line, problem, ""));
+        }
+    }
+    Ok(())
+}
+
+/// Both directions and the wavelength of a row, in whole steps.
+type Key = (Steps, Steps, i64);
+
+/// The key of a row whose light goes from `from` to `to`; azimuths count from that of `from` if the
+/// surface is isotropic.
+fn key(from: Direction, to: Direction, nm: f64, is_isotropic: bool) -> Key {
+    let (from, to) = if is_isotropic {
+        let is_pole = |direction: Direction| {
+            steps(direction)[1] == 0 && {
+                let theta = steps(direction)[0];
+                theta == 0
+                    || theta
+                        == steps(Direction {
+                            theta: 180.0,
+                            phi: 0.0,
+                        })[0]
+            }
+        };
+        let turn = if is_pole(from) { to.phi } else { from.phi };
+        let turned = |direction: Direction| Direction {
+            phi: direction.phi - turn,
+            ..direction
+        };
+        (turned(from), turned(to))
+    } else {
+        (from, to)
+    };
+    (steps(from), steps(to), wavelength_steps(nm))
+}
+
+impl Table {
+    /// Checks reciprocity and energy.
+    pub fn check(&self) -> Check {
+        let first = self.samples[0].incident.phi;
+        let is_isotropic = self.samples.iter().all(|sample| {
+            let is_pole = sample.incident.theta == 0.0 || sample.incident.theta == 180.0;
+            is_pole || (sample.incident.phi - first).abs() < SAME_DEG
+        });
+        // Sum and number of the rows of each key: a pole may be there once for each azimuth.
+        let mut known: BTreeMap<Key, (f64, u32)> = BTreeMap::new();
+        for sample in &self.samples {
+            let key = key(sample.incident, sample.scattered, sample.nm, is_isotropic);
+            let (sum, count) = known.entry(key).or_default();
+            *sum += sample.value;
+            *count += 1;
+        }
+        let rows = self.samples.iter().map(|&sample| {
+            let back = key(sample.scattered, sample.incident, sample.nm, is_isotropic);
+            let partner = known.get(&back).map(|(sum, count)| sum / f64::from(*count));
+            Parted {
+                sample,
+                reciprocal: partner.map_or(sample.value, |partner| 0.5 * (sample.value + partner)),
+                error: partner.map(|partner| 0.5 * (sample.value - partner)),
+            }
+        });
+        let rows: Vec<Parted> = rows.collect();
+        Check {
+            is_isotropic,
+            bands: bands(&rows),
+            energy: energy::by_incidence(&self.samples),
+            rows,
+        }
+    }
+}
+
+fn bands(rows: &[Parted]) -> Vec<Band> {
+    let mut by_wavelength: BTreeMap<i64, Vec<&Parted>> = BTreeMap::new();
+    for row in rows {
+        let of = by_wavelength.entry(wavelength_steps(row.sample.nm));
+        of.or_default().push(row);
+    }
+    let bands = by_wavelength.into_values().map(|rows| {
+        let paired = || {
+            rows.iter()
+                .filter_map(|row| row.error.map(|error| (row, error)))
+        };
+        let count = paired().count();
+        let mean = |sum: f64| (sum / count.max(1) as f64).sqrt();
+        let worst = paired().fold(None, |worst: Option<(f64, usize)>, (row, error)| {
+            let is_worse = worst.is_none_or(|(most, _)| error.abs() > most.abs());
+            if is_worse {
+                Some((error, row.sample.line))
+            } else {
+                worst
+            }
+        });
+        Band {
+            nm: rows[0].sample.nm,
+            rows: rows.len(),
+            paired: count,
+            rms: mean(paired().map(|(row, _)| row.sample.value.powi(2)).sum()),
+            error_rms: mean(paired().map(|(_, error)| error * error).sum()),
+            worst,
+        }
+    });
+    bands.collect()
+}
+
+#[cfg(test)]
+mod tests;

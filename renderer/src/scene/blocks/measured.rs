@@ -1,0 +1,299 @@
+//! `[materials.NAME.leaf.measured]`: spectra of a real leaf, of one face or of both.
+
+use leafmodel::document::coverage::require_coverage;
+use leafmodel::document::error::DocumentError;
+use leafmodel::document::keys::Keys;
+use leafmodel::document::reader::Block;
+use leafmodel::document::value_kind::{FilePath, NamedFile, Text};
+use leafmodel::document::values::listed;
+
+use super::spectrum::{SpectrumOf, TABLE_WAVELENGTHS_NM};
+use super::table_file::{bad_file, bytes, gap, report, tell, text};
+use crate::measured::Slack;
+use crate::measured::spectra::{self, Leaf};
+use crate::measured::units;
+use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
+
+/// Largest table of leaves, bytes.
+const MOST_BYTES: u64 = 64 << 20;
+/// Longest step between two values of the ratio of the faces, nm: between them it is linear, while
+/// reflectances are.
+const RATIO_STEP_NM: f64 = 5.0;
+
+/// The spectra of a leaf.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    reflectance: Spectrum,
+    abaxial: Option<Spectrum>,
+    transmittance: Spectrum,
+}
+
+impl Measured {
+    /// The tissue, and the ratio of the faces if both were measured.
+    pub(super) fn into_parts(self) -> (LeafTissue, Option<Spectrum>) {
+        let ratio = self.abaxial.as_ref();
+        let ratio = ratio.map(|abaxial| ratio_of(abaxial, &self.reflectance));
+        let tissue = LeafTissue::Measured {
+            reflectance: self.reflectance,
+            transmittance: self.transmittance,
+        };
+        (tissue, ratio)
+    }
+}
+
+/// The keys of the block.
+pub(super) fn measured(keys: &mut Keys<'_>) -> Measured {
+    let mut measured = Measured {
+        reflectance: Spectrum::Constant(0.0),
+        abaxial: None,
+        transmittance: Spectrum::Constant(0.0),
+    };
+    for way in keys.one_of(&["reflectance", "file"], Some("reflectance")) {
+        if way == "reflectance" {
+            spectra_by_key(&mut measured, keys);
+        } else if let Some(found) = of_table(keys) {
+            measured = found;
+        }
+    }
+    measured
+}
+
+fn spectra_by_key(measured: &mut Measured, keys: &mut Keys<'_>) {
+    let share = SpectrumOf::Share;
+    let about = "Directional–hemispherical, coat included, of the adaxial face.";
+    keys.required("reflectance", &mut measured.reflectance, share, about);
+    let about = "The same of the abaxial face. Left out, it follows `abaxial_ratio`.";
+    keys.optional("abaxial_reflectance", &mut measured.abaxial, share, about);
+    let about = "The same through the leaf. R + T must not exceed 1 at any wavelength.";
+    keys.needed("transmittance", &mut measured.transmittance, share, about);
+    if keys.is_sound() {
+        let faces = [Some(&measured.reflectance), measured.abaxial.as_ref()];
+        for reflectance in faces.into_iter().flatten() {
+            require_energy(keys, reflectance, &measured.transmittance);
+        }
+    }
+}
+
+/// `file` and `leaf`: a table with the columns of a leaf.
+fn of_table(keys: &mut Keys<'_>) -> Option<Measured> {
+    const PATH: FilePath = FilePath::of(
+        "the path of a CSV file with R and T",
+        &["csv", "tsv", "txt"],
+        MOST_BYTES,
+    );
+    let mut file = NamedFile::default();
+    let about = "A table with columns wavelength, R, T and, if it was measured, R_abaxial, as \
+        `lamina fit` reads it.";
+    keys.required("file", &mut file, PATH, about);
+    let mut leaf = None;
+    let kind = Text("the name of a leaf of the table");
+    let about = "Which of the table's leaves, if it has several.";
+    keys.optional("leaf", &mut leaf, kind, about);
+    let block = keys.reader().filter(|_| keys.is_sound())?;
+    let at = &block.node("file")?.at;
+    let bytes = bytes(block.cx, &file.file, &file.written, at)?;
+    let text = text(block.cx, &file.written, at, &bytes)?;
+    let refuse = |fault| report(block.cx, &file.written, at, text, &fault);
+    let found = spectra::read(text).map_err(refuse).ok()?;
+    for note in &found.notes {
+        tell(block.cx, &file.written, at, note);
+    }
+    let leaf = chosen(block, &file.written, &found.leaves, leaf.as_deref())?;
+    leaf.check(text, Slack::NONE).map_err(refuse).ok()?;
+    spectra_of(block, &file.written, leaf)
+}
+
+/// The leaf of that name, or the only one.
+fn chosen<'l>(
+    block: &Block<'_>,
+    file: &str,
+    leaves: &'l [Leaf],
+    name: Option<&str>,
+) -> Option<&'l Leaf> {
+    let found = match (name, leaves) {
+        (None, [only]) => return Some(only),
+        (None, _) => None,
+        (Some(name), _) => leaves.iter().find(|leaf| leaf.name == name),
+    };
+    if found.is_none() {
+        let names = listed(leaves.iter().take(12).map(|leaf| leaf.name.as_str()));
+        let key = if name.is_some() { "leaf" } else { "file" };
+        let at = block.node(key).map_or(&block.at, |node| &node.at);
+        let problem = match name {
+            Some(name) => format!("has no leaf `{}`", name.escape_debug()),
+            None => format!("has {} leaves", leaves.len()),
+        };
+        let help = format!("write `leaf` with one of its names: {names}");
+        block.cx.error(at, bad_file(file, problem, &help));
+    }
+    found
+}
+
+/// What a scene needs of a leaf: R and T without gaps, over the wavelengths that are needed.
+fn spectra_of(block: &Block<'_>, file: &str, leaf: &Leaf) -> Option<Measured> {
+    let cx = block.cx;
+    let at = &block.node("file")?.at;
+    for (what, values) in [("R", &leaf.reflectance), ("T", &leaf.transmittance)] {
+        if values.is_empty() {
+            let problem = format!("has no column {what}");
+            let help = "a leaf needs its reflectance and its transmittance";
+            cx.error(at, bad_file(file, problem, help));
+            return None;
+        }
+    }
+    let (Some(first), Some(last)) = (leaf.nm.first(), leaf.nm.last()) else {
+        return None;
+    };
+    if leaf.nm.len() < 2 || !TABLE_WAVELENGTHS_NM.contain(*first) {
+        let problem = format!("has {} wavelengths from {first} nm on", leaf.nm.len());
+        let help = "at least 2 are needed, from 1 nm on";
+        cx.error(at, bad_file(file, problem, help));
+        return None;
+    }
+    let hole = units::gap(&leaf.nm).and_then(|i| gap(cx, file, [leaf.nm[i - 1], leaf.nm[i]]));
+    if let Some(error) = hole {
+        cx.error(at, error);
+        return None;
+    }
+    require_coverage(cx, at, "the file", [*first, *last]).then_some(())?;
+    let table = |values: &[f64]| {
+        let points = leaf.nm.iter().zip(values);
+        Spectrum::Table {
+            // Rounding may leave them.
+            points: points
+                .map(|(nm, value)| (*nm, value.clamp(0.0, 1.0)))
+                .collect(),
+            extrapolate: cx.extrapolate.get(),
+        }
+    };
+    Some(Measured {
+        reflectance: table(&leaf.reflectance),
+        abaxial: (!leaf.abaxial.is_empty()).then(|| table(&leaf.abaxial)),
+        transmittance: table(&leaf.transmittance),
+    })
+}
+
+/// Takes the ratio of the faces that a measurement gives; both ways to say it exclude each other.
+pub(super) fn set_ratio(faces: &mut LeafFaces, ratio: Option<Spectrum>, keys: &Keys<'_>) {
+    if ratio.is_none() {
+        return;
+    }
+    if faces.abaxial_ratio.is_some() {
+        let problem = "both faces were measured".to_owned();
+        let help = "leave `abaxial_ratio` out, or the abaxial reflectance";
+        keys.refuse(&["abaxial_ratio"], problem, help);
+    }
+    faces.abaxial_ratio = ratio;
+}
+
+/// One reflectance over another, at the wavelengths of both and often enough between them.
+fn ratio_of(abaxial: &Spectrum, adaxial: &Spectrum) -> Spectrum {
+    // A face that reflects nothing has no ratio.
+    const LEAST: f64 = 1e-6;
+    let ratio = |nm: f64| {
+        let ratio = share_at(abaxial, nm).max(LEAST) / share_at(adaxial, nm).max(LEAST);
+        ratio.clamp(1e-3, 1e3)
+    };
+    let mut nm: Vec<f64> = Vec::new();
+    let mut extrapolates = false;
+    for spectrum in [abaxial, adaxial] {
+        if let Spectrum::Table {
+            points,
+            extrapolate,
+        } = spectrum
+        {
+            nm.extend(points.iter().map(|point| point.0));
+            extrapolates |= extrapolate;
+        }
+    }
+    nm.sort_by(f64::total_cmp);
+    nm.dedup();
+    let Some(&last) = nm.last() else {
+        return Spectrum::Constant(ratio(550.0));
+    };
+    let mut points = Vec::new();
+    for pair in nm.windows(2) {
+        let steps = ((pair[1] - pair[0]) / RATIO_STEP_NM)
+            .ceil()
+            .clamp(1.0, 1000.0);
+        let between =
+            (0..steps as u32).map(|i| pair[0] + (pair[1] - pair[0]) * f64::from(i) / steps);
+        points.extend(between.map(|nm| (nm, ratio(nm))));
+    }
+    points.push((last, ratio(last)));
+    Spectrum::Table {
+        points,
+        extrapolate: extrapolates,
+    }
+}
+
+/// Reports R + T > 1. The sum is linear between the rows of both tables, so it is greatest at one
+/// of them.
+fn require_energy(keys: &Keys<'_>, reflectance: &Spectrum, transmittance: &Spectrum) {
+    // Sums of decimals may round to slightly above 1.
+    const ROUNDING: f64 = 1e-9;
+    let mut wavelengths: Vec<f64> = vec![550.0];
+    for spectrum in [reflectance, transmittance] {
+        if let Spectrum::Table { points, .. } = spectrum {
+            wavelengths.extend(points.iter().map(|(nm, _)| *nm));
+        }
+    }
+    let mut greatest = (0.0, 0.0);
+    for nm in wavelengths {
+        let sum = share_at(reflectance, nm) + share_at(transmittance, nm);
+        if sum > greatest.1 {
+            greatest = (nm, sum);
+        }
+    }
+    if greatest.1 > 1.0 + ROUNDING {
+        let error = DocumentError::EnergyNotConserved {
+            wavelength_nm: greatest.0,
+            sum: greatest.1,
+        };
+        keys.report(&[], error);
+    }
+}
+
+/// Value of a constant or table at a wavelength, with the end values outside.
+fn share_at(spectrum: &Spectrum, nm: f64) -> f64 {
+    match spectrum {
+        Spectrum::Constant(value) => *value,
+        Spectrum::Table { points, .. } => {
+            let above = points.partition_point(|(other, _)| *other < nm);
+            match (
+                above.checked_sub(1).and_then(|below| points.get(below)),
+                points.get(above),
+            ) {
+                (Some((x0, y0)), Some((x1, y1))) => y0 + (y1 - y0) * (nm - x0) / (x1 - x0),
+                (Some((_, value)), None) | (None, Some((_, value))) => *value,
+                (None, None) => 0.0,
+            }
+        }
+        // These forms are not used for shares of light.
+        Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ratio_gives_back_the_abaxial_face_between_coarse_points_too() {
+        let table = |points: &[(f64, f64)]| Spectrum::Table {
+            points: points.to_vec(),
+            extrapolate: false,
+        };
+        let adaxial = table(&[(400.0, 0.05), (700.0, 0.05), (800.0, 0.5)]);
+        let abaxial = table(&[(400.0, 0.09), (750.0, 0.25), (800.0, 0.48)]);
+        let ratio = ratio_of(&abaxial, &adaxial);
+        for nm in 400..=800 {
+            let nm = f64::from(nm);
+            let found = share_at(&ratio, nm) * share_at(&adaxial, nm);
+            let off = (found - share_at(&abaxial, nm)).abs();
+            assert!(off < 1e-3, "{nm}: {off}");
+        }
+        let even = ratio_of(&Spectrum::Constant(0.3), &Spectrum::Constant(0.2));
+        assert!((share_at(&even, 550.0) - 1.5).abs() < 1e-12);
+    }
+}

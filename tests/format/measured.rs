@@ -1,0 +1,72 @@
+//! Measured leaves: what their files mean.
+
+use renderer::scene::description::{LeafFaces, LeafTissue, Material, Spectrum};
+
+use super::{accept, text_of};
+
+/// A scene with a material of a measured leaf, and the material's parts.
+fn leaf(measured: &str) -> (LeafTissue, LeafFaces, Vec<String>) {
+    let text = format!(
+        "{}\n[materials.own.leaf]\nmeasured = {measured}\n",
+        text_of("minimal.toml")
+    );
+    let loaded = accept(&text, "measured.toml", &[]);
+    let materials = &loaded.description.materials;
+    let own = materials.iter().find(|material| material.name == "own");
+    let Material::Leaf { tissue, faces, .. } = &own.expect("it is there").value else {
+        panic!("it is a leaf");
+    };
+    let said = loaded.warnings.iter().map(|warning| warning.to_string());
+    (tissue.clone(), faces.clone(), said.collect())
+}
+
+fn points(spectrum: &Spectrum) -> &[(f64, f64)] {
+    match spectrum {
+        Spectrum::Table { points, .. } => points,
+        Spectrum::Constant(_) | Spectrum::D65 { .. } | Spectrum::Blackbody { .. } => {
+            panic!("{spectrum:?} is no table")
+        }
+    }
+}
+
+#[test]
+fn both_faces_of_a_table_in_percent_and_micrometres_are_read_and_told() {
+    let (tissue, faces, said) = leaf("{ file = \"leaves.csv\", leaf = \"oak\" }");
+    let LeafTissue::Measured {
+        reflectance,
+        transmittance,
+    } = tissue
+    else {
+        panic!("it was measured");
+    };
+    let [(first, r), ..] = points(&reflectance)[..] else {
+        panic!("it has rows");
+    };
+    assert!((first - 380.0).abs() < 1e-9 && (r - 0.05).abs() < 1e-12);
+    assert!((points(&transmittance)[42].1 - 0.01).abs() < 1e-12);
+    let ratio = faces.abaxial_ratio.expect("both faces were measured");
+    assert!(
+        points(&ratio)
+            .iter()
+            .all(|(_, ratio)| (ratio - 1.8).abs() < 1e-9)
+    );
+    let said = said.join("\n");
+    assert!(said.contains("µm") && said.contains("percent"), "{said}");
+}
+
+#[test]
+fn files_of_spectrometers_are_read_for_each_spectrum() {
+    let (tissue, faces, said) =
+        leaf("{ reflectance = { file = \"oak.sig\" }, transmittance = { file = \"oak.txt\" } }");
+    let LeafTissue::Measured {
+        reflectance,
+        transmittance,
+    } = tissue
+    else {
+        panic!("it was measured");
+    };
+    assert!((points(&reflectance)[7].1 - 0.3).abs() < 1e-12);
+    assert!((points(&transmittance)[7].1 - 0.4).abs() < 1e-12);
+    assert!(faces.abaxial_ratio.is_none());
+    assert_eq!(said.len(), 1, "percent of the .sig file: {said:?}");
+}
