@@ -163,17 +163,22 @@ impl WideTree {
                 let node = &self.nodes[child as usize];
                 let (enters, mut met) = ray.eight(e, &node.planes, limit);
                 if met != 0 {
+                    let one = take_lane(&mut met);
+                    child = node.children[one];
+                    if met == 0 {
+                        continue;
+                    }
                     let enters = e.store(enters);
+                    let mut first = waiting(enters.0[one], child);
+                    self.ask_for(e, child, visitor);
                     let lane = take_lane(&mut met);
-                    let mut first = waiting(enters.0[lane], node.children[lane]);
-                    if met != 0 {
-                        self.ask_for(e, child_of(first), visitor);
-                        let lane = take_lane(&mut met);
-                        let other = waiting(enters.0[lane], node.children[lane]);
-                        self.ask_for(e, child_of(other), visitor);
-                        let second = first.max(other);
-                        first = first.min(other);
-                        // Two children are the usual case and need no search for a place.
+                    let other = waiting(enters.0[lane], node.children[lane]);
+                    self.ask_for(e, child_of(other), visitor);
+                    let second = first.max(other);
+                    first = first.min(other);
+                    if met == 0 {
+                        stack.push(second);
+                    } else {
                         let base = stack.height();
                         while met != 0 {
                             let lane = take_lane(&mut met);
