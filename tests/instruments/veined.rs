@@ -167,7 +167,6 @@ fn leaves_of_several_species_differ_from_the_mean_of_their_tissues_by_what_veins
             );
             // Surfaces with relief take up to 5 % of the light that passes; of R the same light is
             // missing that coats throw to where the relief hides it.
-            eprintln!("{}", report.lines().last().unwrap_or_default());
             let slack = 4.0 * back.error + 3e-3 + 0.05 * r;
             assert!(
                 (back.value - r).abs() < slack,
