@@ -29,8 +29,10 @@ SCENES = ROOT / "scenes" / "rami"
 ERADIATE = ROOT / "reference" / "data" / "het01_brfpp_eradiate.csv"
 RESULTS = ROOT / "reference" / "results" / "rami.md"
 PLACE = "-1.000000"
-# Eradiate's file has 10,000 samples a direction and a crown of other leaves.
-MOST_OFF = 0.02
+# Both have noise of about 1 % an angle (8192 rays of two sets of leaves here, 10,000 samples a direction
+# there), and other leaves: at any angle and in the mean over angles they may differ by this.
+MOST_OFF = 0.04
+MEAN_OFF = 0.015
 
 
 @dataclass(frozen=True)
@@ -176,20 +178,20 @@ def brfs(case: Case, figures: Figures, zeniths: Sequence[int]) -> list[str]:
     return rows
 
 
-def against_eradiate(figures: Figures) -> tuple[list[str], float]:
-    """Rows of the comparison, and the greatest relative difference outside of the hot spot."""
+def against_eradiate(figures: Figures) -> tuple[list[str], list[float]]:
+    """Rows of the comparison, and the relative differences."""
     lines = ERADIATE.read_text(encoding="utf-8").splitlines()
     reference = [line.split(",") for line in lines if not line.startswith(("#", "view"))]
     of_plane = dict(plane(figures, 20, 860.0, 0.0))
-    rows, worst = [], 0.0
+    rows, differences = [], []
     for zenith, value in ((float(fields[0]), float(fields[1])) for fields in reference):
         found = of_plane[zenith]
         off = found.value / value - 1.0
-        worst = max(worst, abs(off))
+        differences.append(off)
         rows.append(
             f"| {zenith:.0f} | {found.value:.4f} ± {found.error:.4f} | {value:.4f} | {100 * off:+.2f} |"
         )
-    return rows, worst
+    return rows, differences
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -205,14 +207,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cases = [case for case in CASES if (options.only or "") in case.name]
     zeniths = [-75, -61, -51, -41, -31, -21, -11, -1, 11, 21, 31, 41, 51, 61, 75]
     tables: list[list[str]] = [[], [], []]
-    worst = None
+    differences: list[float] = []
     for case in cases:
         print(f"measuring {case.name}", file=sys.stderr)
         figures = measure(options.lamina, case, options.seeds, options.rays)
         tables[0] += fluxes(case, figures)
         tables[1] += brfs(case, figures, zeniths)
         if case.name == "HET01_DIS_UNI":
-            tables[2], worst = against_eradiate(figures)
+            tables[2], differences = against_eradiate(figures)
         if options.out:
             options.out.mkdir(parents=True, exist_ok=True)
             hand_in(options.out, case, figures)
@@ -249,9 +251,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(text)
     if options.record:
         RESULTS.write_text(text, encoding="utf-8")
-    if worst is not None and worst > MOST_OFF:
-        print(f"differs from Eradiate by {100 * worst:.1f} %", file=sys.stderr)
-        return 1
+    if differences:
+        worst = max(abs(off) for off in differences)
+        mean = statistics.fmean(differences)
+        print(f"differs from Eradiate by up to {100 * worst:.1f} %, in the mean by {100 * mean:+.2f} %")
+        return int(worst > MOST_OFF or abs(mean) > MEAN_OFF)
     return 0
 
 

@@ -27,6 +27,7 @@ pub mod units;
 use std::ops::Range;
 use std::path::Path;
 
+use leafmodel::document::source::line_of_byte;
 use thiserror::Error;
 
 /// Longest piece of a file that a message repeats, in characters.
@@ -100,10 +101,10 @@ impl Fault {
     /// As a message of a program: file, line, problem, help.
     pub fn shown(&self, file: &Path, text: &str) -> String {
         let file = file.display();
-        let line = self.span.as_ref().map(|span| {
-            let before = &text.as_bytes()[..span.start.min(text.len())];
-            before.iter().filter(|byte| **byte == b'\n').count() + 1
-        });
+        let line = self
+            .span
+            .as_ref()
+            .map(|span| line_of_byte(text.as_bytes(), span.start));
         let place = line.map_or_else(|| file.to_string(), |line| format!("{file}, line {line}"));
         match &self.what {
             What::Words { problem, help: "" } => format!("{place}: {problem}"),

@@ -18,9 +18,12 @@ fn field([radius, lai]: [f64; 2], volume: &str, canopy: &str) -> String {
     )
 }
 
+/// Rays that leave less noise than a set of discs does.
+const MANY: u64 = 1 << 16;
+
 /// Light of some directions that arrives at the soil as it came, and its error.
-fn gaps(text: &str, directions: &[Direction]) -> Vec<(f64, f64)> {
-    let rows = figures(text, &rays(1 << 16)).expect("it can be measured");
+fn gaps(text: &str, directions: &[Direction], count: u64) -> Vec<(f64, f64)> {
+    let rows = figures(text, &rays(count)).expect("it can be measured");
     let gap = |direction: &Direction| {
         let row = of(&rows, "uncollided", *direction, 550.0).next();
         let row = row.expect("it is measured");
@@ -46,7 +49,7 @@ fn level_and_upright_leaves_leave_the_gaps_of_their_projection() {
         ("inclination = \"beta\", beta = [1, 1]", 2.0 / PI),
     ] {
         let text = field([radius, 1.0], &format!("{inclination}, seed = 4"), "");
-        let [(gap, error)] = gaps(&text, &[NORMAL])[..] else {
+        let [(gap, error)] = gaps(&text, &[NORMAL], MANY)[..] else {
             panic!("one light");
         };
         let expected = libm::exp(-projection);
@@ -69,7 +72,7 @@ fn rows_leave_the_gaps_between_them_and_the_denser_ones_within() {
     let keys = "incidence_deg = [0, 50]\nazimuth_deg = 90\n";
     let text = field([radius, 1.0], &volume, keys);
     let directions = [NORMAL, Direction::Beam(along)];
-    let found = gaps(&text, &directions);
+    let found = gaps(&text, &directions, MANY);
     for ((gap, error), cosine) in found.into_iter().zip([1.0, libm::cos(along)]) {
         let share = width / spacing;
         let within = libm::exp(-0.5 / share / cosine);
@@ -95,7 +98,7 @@ fn crowns_apart_hide_what_their_chords_hide() {
     let centres = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.95, 0.75]];
     let places = centres.map(|[x, y]| format!("[{x}, {y}, 0.5]")).join(", ");
     let volume = format!("crowns = {{ radius_m = {radius}, at_m = [{places}] }}, seed = 4");
-    let [(gap, error)] = gaps(&field([disc, lai], &volume, ""), &[NORMAL])[..] else {
+    let [(gap, error)] = gaps(&field([disc, lai], &volume, ""), &[NORMAL], MANY)[..] else {
         panic!("one light");
     };
     let hidden = 1.0 - through_a_crown(radius, lai / 4.0);
@@ -110,7 +113,7 @@ fn crowns_apart_hide_what_their_chords_hide() {
 }
 
 #[test]
-#[ignore = "slow: 20 s"]
+#[ignore = "slow: a minute"]
 fn crowns_at_random_have_the_gaps_of_nilsons_binomial_form() {
     // Each of N crowns hides the shadow π R² / cos θ of the plan but for what comes through:
     // (1 − π R² / cos θ (1 − p))^N.
@@ -123,7 +126,8 @@ fn crowns_at_random_have_the_gaps_of_nilsons_binomial_form() {
             let crowns = format!("crowns = {{ radius_m = {radius}, count = {crowns} }}");
             let volume = format!("{crowns}, seed = {seed}");
             let text = field([disc, lai], &volume, "incidence_deg = [0, 50]\n");
-            gaps(&text, &directions)
+            // Sets of crowns differ by far more than so few rays.
+            gaps(&text, &directions, 1 << 13)
         })
         .collect();
     for (number, cosine) in [1.0, libm::cos(slant)].into_iter().enumerate() {

@@ -165,15 +165,15 @@ fn leaves_of_several_species_differ_from_the_mean_of_their_tissues_by_what_veins
                 plain.value,
                 plain.value - t
             );
-            // Relief takes about 1 % of the light that passes; light that spreads adds where little
-            // comes through.
-            let slack = 4.0 * back.error + 3e-3 + 0.02 * r;
+            // Surfaces with relief take up to 5 % of the light that passes; of R the same light is
+            // missing that coats throw to where the relief hides it.
+            let slack = 4.0 * back.error + 3e-3 + 0.05 * r;
             assert!(
                 (back.value - r).abs() < slack,
                 "{}: {back:?} {r}",
                 leaf.preset
             );
-            let slack = 4.0 * plain.error + 3e-3 + 0.03 * t;
+            let slack = 4.0 * plain.error + 3e-3 + 0.07 * t;
             assert!(
                 (plain.value - t).abs() < slack,
                 "{}: {plain:?} {t}",

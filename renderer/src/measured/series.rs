@@ -164,7 +164,7 @@ pub fn series(text: &str) -> Result<Series, Fault> {
             let span = first.1.start..last.1.end;
             return Err(wrong_columns(span, fields.len(), columns));
         }
-        let numbers = [first, last].map(|field| number(field));
+        let numbers = [first, last].map(number);
         let [wavelength, value] = numbers;
         let (wavelength, value) = (wavelength?, value?);
         if form == Form::Svc && found.points.last().is_some_and(|(nm, _)| *nm >= wavelength) {

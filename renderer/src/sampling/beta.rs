@@ -30,6 +30,8 @@ impl Beta {
 
     /// The density at `x` in 0 to 1; infinite at an end where the exponent is below 0.
     pub fn density(&self, x: f64) -> f64 {
+        // Rounding may have carried it beyond an end.
+        let x = x.clamp(0.0, 1.0);
         libm::pow(x, self.a - 1.0) * libm::pow(1.0 - x, self.b - 1.0) * libm::exp(-self.log_norm)
     }
 

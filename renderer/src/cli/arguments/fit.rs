@@ -7,7 +7,7 @@ use clap::Args;
 /// `lamina fit`: contents of leaves from their spectra.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct FitArguments {
-    /// Table of spectra: wavelengths, and for each leaf columns R, T, R_abaxial or some of these
+    /// Table of spectra: wavelengths, and for each leaf columns R, T, abaxial R or some of these
     #[arg(value_name = "SPECTRA.csv", required_unless_present_any = ["adaxial", "abaxial", "transmittance"])]
     pub spectra: Option<PathBuf>,
     /// Reflectance of one leaf's adaxial face instead: a file of one spectrum, as a table of two

@@ -107,7 +107,20 @@ pub(super) fn report(cx: &Context, path: &str, at: &Place, text: &str, fault: &F
             key: name.clone(),
             value: value.clone(),
         },
-        What::Words { problem, help } => bad_file(path, problem.clone(), help),
+        What::Words { problem, help } => {
+            let is_of_file = problem.starts_with("has ") || problem.starts_with("is ");
+            let problem = if is_of_file {
+                problem.clone()
+            } else {
+                format!("cannot be used: {problem}")
+            };
+            let help = if help.is_empty() {
+                "mend this place, or take another file"
+            } else {
+                help
+            };
+            bad_file(path, problem, help)
+        }
     };
     match &fault.span {
         None => cx.error(at, error),

@@ -103,13 +103,13 @@ fn inclination(volume: &mut Volume, keys: &mut Keys<'_>) {
     keys.optional("beta", &mut beta, limits, about);
     volume.inclination = match (named, beta) {
         (Named::Spherical, _) => Inclination::Spherical,
-        (Named::Uniform, _) => Inclination::Uniform,
+        // The last is refused below.
+        (Named::Uniform, _) | (Named::Beta, None) => Inclination::Uniform,
         (Named::Planophile, _) => Inclination::Planophile,
         (Named::Erectophile, _) => Inclination::Erectophile,
         (Named::Plagiophile, _) => Inclination::Plagiophile,
         (Named::Extremophile, _) => Inclination::Extremophile,
         (Named::Beta, Some([mu, nu])) => Inclination::Beta { mu, nu },
-        (Named::Beta, None) => Inclination::Uniform,
     };
     if keys.is_sound() && (named == Named::Beta) != beta.is_some() {
         let problem = "`inclination = \"beta\"` and `beta` belong together".to_owned();

@@ -113,12 +113,12 @@ fn all() -> impl Iterator<Item = Inclination> {
 
 /// `∫ f g dθ` from one inclination to another.
 fn by_density(kind: Inclination, [low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
-    // Midpoints in the cube of the distance from the ends, where densities may be infinite.
+    // Midpoints in the fourth root of the distance from the ends, where densities may be infinite.
     let count = 4000;
     let (mut sum, middle) = (0.0, 0.5 * (low + high));
     for i in 0..count {
         let s = (f64::from(i) + 0.5) / f64::from(count);
-        let near = s.powi(4);
+        let near = s.powi(4).max(1e-12);
         let slope = 4.0 * s.powi(3) / f64::from(count) * (middle - low);
         for theta in [low + near * (middle - low), high - near * (high - middle)] {
             sum += f(theta) * kind.density(theta) * slope;
