@@ -7,12 +7,12 @@
 //! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
 //! [`pigments`] says which substances the pigment columns consist of; [`inversion`] goes the way back,
 //! from spectra to contents. [`layers`] is another model: tissue of several layers, whose faces differ.
+//! [`fluorescence`] is light that chlorophyll emits.
 //!
 //! - **In**: [`Contents`] per leaf area, a wavelength in nm.
 //! - **Out**: [`ReflectanceTransmittance`], both in [0, 1], for light at near-normal incidence.
 //! - **Always true**: reflectance + transmittance ≤ 1, and = 1 where nothing absorbs.
-//! - **Left out**: fluorescence, the direction in which light leaves and faces that differ, but in
-//!   [`layers`].
+//! - **Left out**: the direction in which light leaves and faces that differ, but in [`layers`].
 //!
 //! ```
 //! use leafmodel::optics::{Contents, ProspectD};
@@ -30,6 +30,7 @@ pub mod constituent;
 pub mod contents;
 pub mod dust;
 pub mod fast;
+pub mod fluorescence;
 pub mod interface;
 pub mod inversion;
 pub mod layers;
