@@ -2,6 +2,7 @@
 
 mod anchors;
 mod canopy;
+mod fluorescence;
 mod sphere;
 
 use std::path::Path;

@@ -21,9 +21,13 @@ const COLOURS: [&str; 5] = ["#c8c400", "#8fb80e", "#4f9a22", "#1f7434", "#0b4a2f
 type Spectra = [Vec<f64>; 2];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| chlorophyll, µg/cm² | excitation, nm | F690/F735 lit | other face | F735/F700 lit | leaves, of emitted |");
+    println!(
+        "| chlorophyll, µg/cm² | excitation, nm | F690/F735 lit | other face | F735/F700 lit | leaves, of emitted |"
+    );
     println!("| --- | --- | --- | --- | --- | --- |");
-    let nm: Vec<f64> = (0..=105).map(|i| EMITTED_NM[0] + 2.0 * f64::from(i)).collect();
+    let nm: Vec<f64> = (0..=105)
+        .map(|i| EMITTED_NM[0] + 2.0 * f64::from(i))
+        .collect();
     let mut drawn: Vec<Spectra> = Vec::new();
     for chlorophyll in CHLOROPHYLL {
         let carotenoids = 1.13 + 0.222 * chlorophyll;
@@ -42,7 +46,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             let optics = at.reflectance_transmittance(&leaf.contents);
             let absorbed = 1.0 - optics.reflectance - optics.transmittance;
             let share = leafmodel::optics::fluorescence::chlorophyll_share(&at, &leaf.contents);
-            let left: f64 = whole.backward[e].iter().chain(&whole.forward[e]).sum::<f64>() * 2.0;
+            let left: f64 = whole.backward[e]
+                .iter()
+                .chain(&whole.forward[e])
+                .sum::<f64>()
+                * 2.0;
             println!(
                 "| {chlorophyll} | {excitation} | {:.3} | {:.3} | {:.3} | {:.3} |",
                 of(&ratios.backward, 0) / of(&ratios.backward, 2),
@@ -53,7 +61,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let energy = |row: &[f64]| -> Vec<f64> {
             let pairs = row.iter().zip(&nm);
-            pairs.map(|(photons, nm)| photons * energy_over_photons(440.0, *nm)).collect()
+            pairs
+                .map(|(photons, nm)| photons * energy_over_photons(440.0, *nm))
+                .collect()
         };
         drawn.push([energy(&whole.backward[0]), energy(&whole.forward[0])]);
     }
@@ -66,7 +76,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Two panels side by side, of the lit and of the other face.
 fn drawing(nm: &[f64], drawn: &[Spectra]) -> Result<String, std::fmt::Error> {
     let (width, height) = (330.0, 250.0);
-    let most = drawn.iter().flatten().flatten().fold(0.0, |most, v| v.max(most));
+    let most = drawn
+        .iter()
+        .flatten()
+        .flatten()
+        .fold(0.0, |most, v| v.max(most));
     let mut svg = String::from(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"330\" viewBox=\"0 0 800 330\" \
          font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"800\" height=\"330\" fill=\"white\"/>\n",
@@ -75,13 +89,28 @@ fn drawing(nm: &[f64], drawn: &[Spectra]) -> Result<String, std::fmt::Error> {
         let left = 50.0 + 375.0 * panel as f64;
         let x = |nm: f64| left + width * (nm - EMITTED_NM[0]) / (EMITTED_NM[1] - EMITTED_NM[0]);
         let y = |value: f64| 280.0 - height * value / (1.05 * most);
-        writeln!(svg, "<path d=\"M{left},30 V280 H{}\" fill=\"none\" stroke=\"black\"/>", left + width)?;
-        writeln!(svg, "<text x=\"{}\" y=\"24\" text-anchor=\"middle\">{title}</text>", left + 0.5 * width)?;
+        writeln!(
+            svg,
+            "<path d=\"M{left},30 V280 H{}\" fill=\"none\" stroke=\"black\"/>",
+            left + width
+        )?;
+        writeln!(
+            svg,
+            "<text x=\"{}\" y=\"24\" text-anchor=\"middle\">{title}</text>",
+            left + 0.5 * width
+        )?;
         for tick in [650, 685, 740, 800, 850] {
             let at = x(f64::from(tick));
-            writeln!(svg, "<path d=\"M{at:.1},280 v5\" stroke=\"black\"/><text x=\"{at:.1}\" y=\"298\" text-anchor=\"middle\">{tick}</text>")?;
+            writeln!(
+                svg,
+                "<path d=\"M{at:.1},280 v5\" stroke=\"black\"/><text x=\"{at:.1}\" y=\"298\" text-anchor=\"middle\">{tick}</text>"
+            )?;
         }
-        writeln!(svg, "<text x=\"{}\" y=\"318\" text-anchor=\"middle\">wavelength, nm</text>", left + 0.5 * width)?;
+        writeln!(
+            svg,
+            "<text x=\"{}\" y=\"318\" text-anchor=\"middle\">wavelength, nm</text>",
+            left + 0.5 * width
+        )?;
         for (i, spectra) in drawn.iter().enumerate() {
             let colour = COLOURS[i];
             svg.push_str("<polyline fill=\"none\" stroke-width=\"1.6\" points=\"");
@@ -91,11 +120,18 @@ fn drawing(nm: &[f64], drawn: &[Spectra]) -> Result<String, std::fmt::Error> {
             writeln!(svg, "\" stroke=\"{colour}\"/>")?;
             let down = 50.0 + 16.0 * i as f64;
             let name = CHLOROPHYLL[i];
-            writeln!(svg, "<text x=\"{}\" y=\"{down}\" text-anchor=\"end\" fill=\"{colour}\">{name} µg/cm²</text>", left + width)?;
+            writeln!(
+                svg,
+                "<text x=\"{}\" y=\"{down}\" text-anchor=\"end\" fill=\"{colour}\">{name} µg/cm²</text>",
+                left + width
+            )?;
         }
     }
     let top = 1.05 * most * 1e5;
-    writeln!(svg, "<text x=\"14\" y=\"155\" text-anchor=\"middle\" transform=\"rotate(-90 14 155)\">energy over energy at 440 nm, 0 to {top:.1} · 10⁻⁵ nm⁻¹</text>")?;
+    writeln!(
+        svg,
+        "<text x=\"14\" y=\"155\" text-anchor=\"middle\" transform=\"rotate(-90 14 155)\">energy over energy at 440 nm, 0 to {top:.1} · 10⁻⁵ nm⁻¹</text>"
+    )?;
     svg.push_str("</svg>\n");
     Ok(svg)
 }

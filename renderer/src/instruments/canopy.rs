@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
+use super::fluorescence::{self, Illumination, Manner};
 use super::period::Period;
 use super::row::{Direction, Row};
 use super::sphere::{directions, towards};
@@ -139,12 +140,7 @@ impl Experiment for Lit<'_> {
     }
 
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
-        let [x, y, u, v] = stream.next4();
-        let towards = match self.direction {
-            Direction::Beam(angle) => towards(angle, self.azimuth),
-            Direction::Diffuse => warp::cosine_hemisphere(Vec2::new(u, v)),
-        };
-        let ray = Ray::new(self.period.on_top([x, y]), -towards);
+        let ray = self.ray(stream);
         sums[0] += 1.0;
         let walk = Walk {
             stage: self.stage,
@@ -166,6 +162,21 @@ impl Experiment for Lit<'_> {
     }
 }
 
+impl Illumination for Lit<'_> {
+    fn ray(&self, stream: &mut Stream) -> Ray {
+        let [x, y, u, v] = stream.next4();
+        let towards = match self.direction {
+            Direction::Beam(angle) => towards(angle, self.azimuth),
+            Direction::Diffuse => warp::cosine_hemisphere(Vec2::new(u, v)),
+        };
+        Ray::new(self.period.on_top([x, y]), -towards)
+    }
+
+    fn is_back(&self, direction: Vec3) -> bool {
+        direction.z > 0.0
+    }
+}
+
 /// The sums to which one ray adds.
 struct Tally<'a> {
     ledger: &'a Ledger,
@@ -174,7 +185,7 @@ struct Tally<'a> {
     is_untouched: bool,
 }
 
-impl Witness for Tally<'_> {
+impl Witness<'_> for Tally<'_> {
     fn event(&mut self, event: &Event) {
         self.is_untouched = false;
         if event.is_first && Some(event.object) == self.ledger.soil {
@@ -277,6 +288,33 @@ pub(super) fn read_out(
                 });
             }
         }
+    }
+    if let Some(reading) = &instrument.value.fluorescence {
+        let lights: Vec<_> = lit
+            .iter()
+            .step_by(sets)
+            .map(|lit| (lit, lit.direction, None))
+            .collect();
+        let manner = Manner {
+            words: [
+                Some("fluorescence_emitted"),
+                Some("fluorescence_upwards"),
+                Some("fluorescence_downwards"),
+                Some("fluorescence_absorbed"),
+                canopy.soil.map(|_| "fluorescence_absorbed_by_soil"),
+            ],
+            ways: 1,
+            counts_misses: true,
+            soil: canopy.soil,
+        };
+        let read = (instrument.name.as_str(), reading);
+        rows.extend(fluorescence::read_out(
+            (&stage, &period),
+            &lights,
+            read,
+            &manner,
+            budget,
+        ));
     }
     Ok(rows)
 }

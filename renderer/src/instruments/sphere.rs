@@ -8,6 +8,7 @@
 use glam::{Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
+use super::fluorescence::{self, Illumination, Manner};
 use super::row::{Direction, Row};
 use super::spot::{Port, axes_of, ports};
 use super::stage::Stage;
@@ -28,6 +29,20 @@ const WAYS: u32 = 8;
 const FACES: [&str; 2] = ["adaxial", "abaxial"];
 /// Figures of a wavelength.
 const QUANTITIES: [&str; 3] = ["reflectance", "transmittance", "absorptance"];
+
+/// How fluorescence is shown.
+const FLUORESCENCE: Manner = Manner {
+    words: [
+        Some("fluorescence_emitted"),
+        Some("fluorescence_backward"),
+        Some("fluorescence_forward"),
+        Some("fluorescence_absorbed"),
+        None,
+    ],
+    ways: WAYS,
+    counts_misses: false,
+    soil: None,
+};
 
 /// Where rays start.
 enum Opening {
@@ -109,7 +124,7 @@ struct Gathered {
     flux: [[f64; LANES]; 2],
 }
 
-impl Witness for Gathered {
+impl Witness<'_> for Gathered {
     fn event(&mut self, _event: &Event) {
         self.is_lit = true;
     }
@@ -237,7 +252,30 @@ pub(super) fn read_out(
             }
         }
     }
+    if let Some(reading) = &instrument.value.fluorescence {
+        let firsts = lit.iter().step_by(sets);
+        let lights: Vec<_> = firsts
+            .map(|lit| {
+                let face = lit.stream as usize / directions.len();
+                (lit, lit.direction, Some(FACES[face]))
+            })
+            .collect();
+        let sample = (&stage, &Straight);
+        let read = (instrument.name.as_str(), reading);
+        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, budget);
+        rows.extend(own);
+    }
     Ok(rows)
+}
+
+impl Illumination for Lit<'_> {
+    fn ray(&self, stream: &mut Stream) -> Ray {
+        Lit::ray(self, stream)
+    }
+
+    fn is_back(&self, direction: Vec3) -> bool {
+        direction.dot(self.frame.to_world(Vec3::Z)) > 0.0
+    }
 }
 
 /// The frame with +z along a normal whose x axis is as near to `x` as can be.

@@ -7,6 +7,7 @@ use super::stage::Stage;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
+use crate::material::Material;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
 
@@ -31,6 +32,16 @@ pub(super) struct Event {
     pub(super) after: Lanes<LANES>,
     /// Whether the light comes straight from where it started.
     pub(super) is_first: bool,
+}
+
+/// Light that arrives at a surface, before it is scattered.
+pub(super) struct Struck<'a, 'm> {
+    /// Where, and from where.
+    pub(super) encounter: &'a Encounter<'m, LANES>,
+    /// The material.
+    pub(super) material: &'m Material,
+    /// Weight of the light.
+    pub(super) weight: Lanes<LANES>,
 }
 
 /// Light that leaves.
@@ -75,17 +86,19 @@ struct Leg {
 }
 
 /// What is told of light on its way, in the order of what befalls it.
-pub(super) trait Witness {
+pub(super) trait Witness<'m> {
+    /// It arrives at a surface.
+    fn struck(&mut self, _struck: &Struck<'_, 'm>) {}
     /// It is scattered.
     fn event(&mut self, event: &Event);
     /// It leaves.
     fn escape(&mut self, escaped: &Escaped);
 }
 
-impl<C: Course> Walk<'_, C> {
+impl<'m, C: Course> Walk<'m, C> {
     /// Follows light of weight 1 until all of it is absorbed or leaves. The first set of the stream
     /// is the caller's.
-    pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness) {
+    pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness<'m>) {
         let (cone, weight) = (Cone::of_beam(), Lanes::ONE);
         let mut leg = Leg { ray, cone, weight };
         let Some(met) = self.meet(&mut leg, witness) else {
@@ -106,8 +119,30 @@ impl<C: Course> Walk<'_, C> {
         }
     }
 
+    /// Follows light of a weight that starts at a surface, with random numbers from a set on that is
+    /// not the first.
+    pub(super) fn follow_on(
+        &self,
+        ray: Ray,
+        weight: Lanes<LANES>,
+        first_set: u32,
+        stream: &mut Stream,
+        witness: &mut impl Witness<'m>,
+    ) {
+        let cone = Cone::of_beam();
+        let mut next = Some(Leg { ray, cone, weight });
+        let mut event = first_set;
+        while let Some(mut leg) = next {
+            let Some(met) = self.meet(&mut leg, witness) else {
+                break;
+            };
+            next = self.scatter(&met, leg.weight, event, stream, witness);
+            event += 1;
+        }
+    }
+
     /// The surface that light meets; `None` if it leaves.
-    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness) -> Option<Met<'_>> {
+    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness<'m>) -> Option<Met<'m>> {
         let (hit, gone) = self.course.next(self.stage, &mut leg.ray);
         let Some(hit) = hit else {
             witness.escape(&Escaped {
@@ -123,6 +158,7 @@ impl<C: Course> Walk<'_, C> {
         let encounter = Encounter::new(geometry, material, beam, &hit, self.wavelengths);
         Some(Met {
             encounter,
+            material,
             object: self.stage.objects[hit.instance as usize].object,
         })
     }
@@ -130,12 +166,21 @@ impl<C: Course> Walk<'_, C> {
     /// Light of a weight that goes on from a surface; `None` if nothing does.
     fn scatter(
         &self,
-        Met { encounter, object }: &Met<'_>,
+        Met {
+            encounter,
+            material,
+            object,
+        }: &Met<'m>,
         weight: Lanes<LANES>,
         event: u32,
         stream: &mut Stream,
-        witness: &mut impl Witness,
+        witness: &mut impl Witness<'m>,
     ) -> Option<Leg> {
+        witness.struck(&Struck {
+            encounter,
+            material,
+            weight,
+        });
         let Encounter { bsdf, wo, .. } = encounter;
         stream.seek(1 + event);
         let [lobe, x, y, roulette] = stream.next4();
@@ -176,6 +221,7 @@ impl<C: Course> Walk<'_, C> {
 /// A surface that light meets.
 struct Met<'a> {
     encounter: Encounter<'a, LANES>,
+    material: &'a Material,
     /// Number of the object in the scene.
     object: usize,
 }

@@ -112,8 +112,8 @@ fn scattering_and_absorption_give_back_reflectance_and_transmittance() {
                 let b = slope(ahead(0.5 * h, a));
                 let c = slope(ahead(0.5 * h, b));
                 let d = slope(ahead(h, c));
-                for i in 0..2 {
-                    streams[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+                for (i, stream) in streams.iter_mut().enumerate() {
+                    *stream += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
                 }
             }
             let [down, up] = streams;
@@ -128,7 +128,7 @@ fn scattering_and_absorption_give_back_reflectance_and_transmittance() {
 
 #[test]
 fn the_integral_over_depth_is_what_fluspects_doubling_tends_to() {
-    let mut greatest = [0.0_f64; 3];
+    let mut greatest = [0.0_f64; 2];
     for contents in LEAVES {
         let leaf = leaf(contents);
         let found = matrices(&leaf, &EXCITATIONS_NM, &EMISSIONS_NM);
@@ -141,10 +141,10 @@ fn the_integral_over_depth_is_what_fluspects_doubling_tends_to() {
                 // Thin layers of first order are off by their thickness, so that two numbers of
                 // doublings tell the limit.
                 let [coarse, fine] = [15, 16].map(|n| by_doubling(&excited, &emitted, n));
-                for side in 0..2 {
-                    let limit = phi * (2.0 * fine[side] - coarse[side]);
+                for ((own, coarse), fine) in own.into_iter().zip(coarse).zip(fine) {
+                    let limit = phi * (2.0 * fine - coarse);
                     let off = |value: f64| (value / limit - 1.0).abs();
-                    let offs = [off(own[side]), off(phi * coarse[side])];
+                    let offs = [off(own), off(phi * coarse)];
                     for (greatest, off) in greatest.iter_mut().zip(offs) {
                         *greatest = greatest.max(off);
                     }

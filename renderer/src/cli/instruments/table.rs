@@ -14,17 +14,21 @@ pub(super) fn csv(rows: &[Row]) -> String {
         "instrument,quantity,part,face,incidence_deg,wavelength_nm,value,standard_error,unit\n",
     );
     for row in rows {
+        // Shares of the incident flux are of the order of 1, other figures of any.
+        let value = match row.unit {
+            "1" => format!("{:.9}", row.value),
+            _ => format!("{:.8e}", row.value),
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{:.9},{:.3e},{}",
+            "{},{},{},{},{},{},{value},{:.3e},{}",
             row.instrument,
             row.quantity,
             row.part.as_deref().unwrap_or(""),
             row.face.unwrap_or(""),
             row.incidence,
             row.wavelength_nm,
-            row.value,
             row.error,
             row.unit,
         );

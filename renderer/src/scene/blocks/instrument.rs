@@ -1,6 +1,7 @@
 //! `[instruments.NAME.…]`: sphere, canopy.
 
 mod canopy;
+mod fluorescence;
 mod sphere;
 
 use glam::DVec2;
@@ -32,6 +33,7 @@ impl Instrument {
             at: String::new(),
             wavelengths_nm: every(USUAL_RANGE_NM, USUAL_STEP_NM),
             kind,
+            fluorescence: None,
         }
     }
 }
@@ -60,6 +62,7 @@ const KINDS: [Variant<Instrument>; 2] = [
             if let InstrumentKind::Sphere(own) = &mut instrument.kind {
                 sphere::sphere(own, keys);
             }
+            fluorescence::fluorescence(&mut instrument.fluorescence, keys);
         },
     },
     Variant {
@@ -72,6 +75,7 @@ const KINDS: [Variant<Instrument>; 2] = [
             if let InstrumentKind::Canopy(own) = &mut instrument.kind {
                 canopy::canopy(own, keys);
             }
+            fluorescence::fluorescence(&mut instrument.fluorescence, keys);
         },
     },
 ];

@@ -9,6 +9,7 @@ use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
+use super::fluorescence::fluorescence;
 use super::leaf::faces;
 use super::reflectance::reflectance;
 use super::solid::optics;
@@ -81,6 +82,7 @@ const KINDS: [Variant<Material>; 5] = [
             tissue: LeafTissue::Held(NOTHING),
             pigments: Box::default(),
             faces: LeafFaces::usual(),
+            fluorescence: None,
         },
         is: |material| matches!(material, Material::Leaf { .. }),
         declare: |material, keys| {
@@ -88,12 +90,15 @@ const KINDS: [Variant<Material>; 5] = [
                 tissue,
                 pigments,
                 faces: both,
+                fluorescence: emission,
             } = material
             {
                 leaf_tissue(tissue, keys);
                 keys.exclude("measured", "pigments");
                 pigments_block(pigments, keys);
                 faces(both, keys);
+                keys.exclude("measured", "fluorescence");
+                fluorescence(emission, keys);
             }
         },
     },

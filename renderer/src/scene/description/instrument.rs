@@ -1,6 +1,9 @@
 //! Instruments that measure how a scene scatters and absorbs light.
 
 use glam::DVec2;
+use leafmodel::optics::fluorescence::EXCITED_NM;
+
+use super::Spectrum;
 
 /// An instrument with the wavelengths at which it measures.
 #[derive(Clone, Debug)]
@@ -12,12 +15,44 @@ pub struct Instrument {
     pub wavelengths_nm: Vec<f64>,
     /// What it measures.
     pub kind: InstrumentKind,
+    /// What it measures of fluorescence, if anything.
+    pub fluorescence: Option<FluorescenceReading>,
+}
+
+/// What an instrument measures of fluorescence.
+#[derive(Clone, Debug)]
+pub struct FluorescenceReading {
+    /// The light that excites.
+    pub light: ExcitationLight,
+    /// Wavelengths of emission, nm, rising, at least one.
+    pub emission_nm: Vec<f64>,
+}
+
+/// Light that excites fluorescence.
+#[derive(Clone, Debug)]
+pub enum ExcitationLight {
+    /// Monochromatic light of these wavelengths, nm, one after the other.
+    Monochromatic(Vec<f64>),
+    /// Light of a spectral irradiance, W m⁻² nm⁻¹.
+    Spectrum(Spectrum),
 }
 
 impl Instrument {
-    /// First and last of its wavelengths, nm; `None` if the file lacks them.
+    /// First and last of its wavelengths, of excitation and emission too, nm; `None` if the file
+    /// lacks them.
     pub fn range_nm(&self) -> Option<[f64; 2]> {
-        Some([*self.wavelengths_nm.first()?, *self.wavelengths_nm.last()?])
+        let ends = |list: &[f64]| Some([*list.first()?, *list.last()?]);
+        let own = ends(&self.wavelengths_nm)?;
+        let Some(reading) = &self.fluorescence else {
+            return Some(own);
+        };
+        let excited = match &reading.light {
+            ExcitationLight::Monochromatic(list) => ends(list)?,
+            ExcitationLight::Spectrum(_) => EXCITED_NM,
+        };
+        let all = [own, excited, ends(&reading.emission_nm)?];
+        all.into_iter()
+            .reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
     }
 }
 
