@@ -5,10 +5,11 @@ use std::path::Path;
 
 use leafmodel::optics::fluorescence::{Leaf, energy_over_photons, matrices};
 use leafmodel::optics::{Contents, Pigments};
+use renderer::export::mitsuba;
 use renderer::instruments::{Budget, Row, read_out, sets_of};
 use renderer::scene::load::parse_for_instruments;
 use renderer::scene::world::{BuildOptions, World};
-use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of};
+use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of, world_of};
 
 const CONTENTS: [f64; 7] = [1.5, 40.0, 10.0, 0.0, 0.0, 0.01, 0.009];
 const EFFICIENCY: f64 = 0.02;
@@ -174,4 +175,13 @@ fn a_grown_leaf_with_maps_fluoresces_in_pictures_of_the_same_bytes() {
     assert_eq!(once, again);
     let lit = once.iter().filter(|bits| f64::from_bits(**bits) > 0.0);
     assert!(lit.count() > 32);
+}
+
+#[test]
+fn a_scene_that_fluoresces_is_not_exported_without_it() {
+    let (scene, world) = world_of(&scene("[lights.sky.constant]\nradiance_w_m2_sr_nm = 1\n"));
+    let folder = Path::new("never-written");
+    let refused = mitsuba::write(&scene, &world, folder).expect_err("Mitsuba cannot show it");
+    assert!(refused.to_string().contains("leave `fluorescence` out"));
+    assert!(!folder.exists());
 }
