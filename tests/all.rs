@@ -3,6 +3,7 @@
 
 mod architecture;
 mod determinism;
+mod fluorescence;
 mod format;
 mod golden;
 mod instruments;

@@ -4,6 +4,7 @@ mod anchors;
 mod arrangement;
 mod brf;
 mod canopy;
+mod fluorescence;
 mod gonio;
 mod spectral;
 mod sphere;

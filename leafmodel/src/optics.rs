@@ -6,13 +6,14 @@
 //! coefficient of one plate, [`interface`] averages Fresnel's formulae over directions, [`plate`]
 //! and [`pile`] follow the light between the faces. [`fast`] is the same model for inner loops;
 //! [`pigments`] says which substances the pigment columns consist of; [`inversion`] goes the way back,
-//! from spectra to contents. [`faces`] has the rule by which faces differ. [`layers`] is another model: tissue of several layers, whose faces differ.
+//! from spectra to contents. [`faces`] has the rule by which faces differ. [`layers`] is another model:
+//! tissue of several layers, whose faces differ. [`fluorescence`] is light that chlorophyll emits.
 //!
 //! - **In**: [`Contents`] per leaf area, a wavelength in nm.
 //! - **Out**: [`ReflectanceTransmittance`], both in [0, 1], for light at near-normal incidence.
 //! - **Always true**: reflectance + transmittance ≤ 1, and = 1 where nothing absorbs.
-//! - **Left out**: fluorescence, the direction in which light leaves and faces that differ, but in
-//!   [`faces`] and [`layers`].
+//! - **Left out**: the direction in which light leaves and faces that differ, but in [`faces`] and
+//!   [`layers`].
 //!
 //! ```
 //! use leafmodel::optics::{Contents, ProspectD};
@@ -31,6 +32,7 @@ pub mod contents;
 pub mod dust;
 pub mod faces;
 pub mod fast;
+pub mod fluorescence;
 pub mod interface;
 pub mod inversion;
 pub mod layers;

@@ -32,6 +32,7 @@ pub mod coat_table;
 pub mod dielectric;
 pub mod directional_albedo;
 pub mod dust;
+pub mod fluorescence;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
@@ -40,6 +41,7 @@ pub mod relief;
 
 use crate::sampling::warp;
 use dielectric::Dielectric;
+use fluorescence::FluorescenceView;
 use leaf::{LeafBsdf, LeafView};
 use relief::{ReliefBsdf, ReliefFace, ReliefView};
 
@@ -107,6 +109,8 @@ pub enum View<'a, const N: usize> {
     Leaf(LeafView<'a, N>),
     /// A leaf with a relief.
     Relief(ReliefView<'a, N>),
+    /// A leaf that emits what light of other wavelengths excites.
+    Fluorescence(FluorescenceView<'a>),
 }
 
 impl<const N: usize> View<'_, N> {
@@ -130,6 +134,7 @@ impl<const N: usize> View<'_, N> {
             },
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
+            Self::Fluorescence(leaf) => leaf.scatter(wi),
         }
     }
 
@@ -157,6 +162,7 @@ impl<const N: usize> View<'_, N> {
             }
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
+            Self::Fluorescence(leaf) => leaf.sample(u),
         }
     }
 }

@@ -5,7 +5,7 @@
 //! - **Out**: [`Row`]s, one figure each.
 //! - **Always true**: same scene, budget and seed, same figures, bit for bit, on any number of
 //!   threads; of the light of a beam nothing is lost or counted twice.
-//! - **Left out**: polarisation, fluorescence.
+//! - **Left out**: polarisation; fluorescence that fluorescence excites.
 //!
 //! Flux is followed from the light on, by the BSDFs that pictures use. Those of smooth surfaces are
 //! reciprocal: the share of light that is scattered from `wo` to `wi` is that from `wi` to `wo`. With
@@ -57,6 +57,7 @@ mod canopy;
 mod constituents;
 mod depth;
 mod detector;
+mod fluorescence;
 mod gonio;
 mod lamp;
 mod ledger;

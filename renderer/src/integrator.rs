@@ -49,6 +49,7 @@ pub mod develop;
 pub mod effort;
 pub mod encounter;
 pub mod features;
+mod fluorescence;
 mod job;
 pub mod layers;
 pub mod mis;

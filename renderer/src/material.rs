@@ -145,6 +145,14 @@ impl Material {
         }
     }
 
+    /// The leaf that it is, if that fluoresces.
+    pub fn fluorescing(&self) -> Option<&LeafMaterial> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
+            Self::Leaf(leaf) => leaf.fluoresces().then_some(&**leaf),
+        }
+    }
+
     /// Its relief, if it has one.
     #[inline]
     pub fn relief(&self) -> Option<&Relief> {

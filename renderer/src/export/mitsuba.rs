@@ -55,6 +55,12 @@ pub enum ExportError {
     /// The picture of a light cannot be read any more.
     #[error(transparent)]
     Asset(#[from] AssetError),
+    /// Light that changes its wavelength.
+    #[error(
+        "a leaf fluoresces, which cannot be exported: Mitsuba's light keeps its wavelength; leave \
+         `fluorescence` out"
+    )]
+    Fluorescence,
     /// A lens that Mitsuba does not have.
     #[error(
         "camera.perspective.{key} cannot be exported: Mitsuba's thin lens is round, open over the \
@@ -109,9 +115,12 @@ fn absorption_table(pigments: &Pigments) -> String {
 ///
 /// # Errors
 ///
-/// [`ExportError`] if the scene has a lens that Mitsuba lacks, something cannot be written, or `dir`
-/// is a folder of another kind.
+/// [`ExportError`] if the scene has a lens that Mitsuba lacks or a leaf that fluoresces, something
+/// cannot be written, or `dir` is a folder of another kind.
 pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), ExportError> {
+    if world.fluoresces {
+        return Err(ExportError::Fluorescence);
+    }
     let at = |path: &Path| {
         let path = path.to_owned();
         move |source| ExportError::Write { path, source }

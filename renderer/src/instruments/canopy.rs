@@ -8,6 +8,7 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
 use super::detector::{Detectors, angles};
+use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
 use super::period::Period;
@@ -54,12 +55,7 @@ impl Experiment for Lit<'_> {
     }
 
     fn shoot(&self, stream: &mut Stream, sums: &mut [f64]) {
-        let [x, y, u, v] = stream.next4();
-        let towards = match self.direction {
-            Direction::Beam(angle) => towards(angle, self.azimuth),
-            Direction::Diffuse => warp::cosine_hemisphere(Vec2::new(u, v)),
-        };
-        let ray = Ray::new(self.period.on_top([x, y]), -towards);
+        let ray = self.ray(stream);
         sums[0] += 1.0;
         let walk = Walk {
             stage: self.stage,
@@ -76,6 +72,21 @@ impl Experiment for Lit<'_> {
     }
 }
 
+impl Illumination for Lit<'_> {
+    fn ray(&self, stream: &mut Stream) -> Ray {
+        let [x, y, u, v] = stream.next4();
+        let towards = match self.direction {
+            Direction::Beam(angle) => towards(angle, self.azimuth),
+            Direction::Diffuse => warp::cosine_hemisphere(Vec2::new(u, v)),
+        };
+        Ray::new(self.period.on_top([x, y]), -towards)
+    }
+
+    fn is_back(&self, direction: Vec3) -> bool {
+        direction.z > 0.0
+    }
+}
+
 /// The sums to which one ray adds.
 struct Tally<'a> {
     lit: &'a Lit<'a>,
@@ -84,7 +95,7 @@ struct Tally<'a> {
     is_untouched: bool,
 }
 
-impl Witness for Tally<'_> {
+impl Witness<'_> for Tally<'_> {
     fn scattering(&mut self, at: &Scattering<'_>) {
         let Lit {
             stage,
@@ -225,6 +236,33 @@ pub(super) fn read_out(
             });
         }
         all.extend(rows(&instrument.value, &series));
+    }
+    if let Some(reading) = &instrument.value.fluorescence {
+        let lights: Vec<_> = lit
+            .iter()
+            .step_by(sets)
+            .map(|lit| (lit, lit.direction, None))
+            .collect();
+        let manner = Manner {
+            words: [
+                Some("fluorescence_emitted"),
+                Some("fluorescence_upwards"),
+                Some("fluorescence_downwards"),
+                Some("fluorescence_absorbed"),
+                canopy.soil.map(|_| "fluorescence_absorbed_by_soil"),
+            ],
+            ways: 1,
+            counts_misses: true,
+            soil: canopy.soil,
+        };
+        let read = (instrument.name.as_str(), reading);
+        all.extend(fluorescence::read_out(
+            (&stage, &period),
+            &lights,
+            read,
+            &manner,
+            budget,
+        ));
     }
     Ok(all)
 }

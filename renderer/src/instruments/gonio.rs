@@ -74,7 +74,7 @@ impl Tally<'_> {
     }
 }
 
-impl Witness for Tally<'_> {
+impl Witness<'_> for Tally<'_> {
     fn scattering(&mut self, at: &Scattering<'_>) {
         let lit = self.lit;
         for (side, detectors) in lit.detectors.iter().enumerate() {

@@ -5,14 +5,18 @@
 //! the other is transmitted. The rest is absorbed. Light that leaves does not come back: the sphere
 //! is an ideal one, without the error of substitution.
 
+use glam::Vec3;
+
 use super::batches::{Budget, Experiment, estimates};
 use super::constituents::{self, PARTS};
+use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{Bench, FACES, Lamp};
 use super::row::Row;
 use super::spectral::{Series, by_wavelength, plain, rows};
 use super::stage::Stage;
 use super::walk::{Escaped, Event, Straight, Walk, Witness};
 use super::{InstrumentError, LANES};
+use crate::geometry::Ray;
 use crate::sampling::stream::Stream;
 use crate::scene::description::{Description, Instrument, Named, Sample};
 use crate::scene::world::World;
@@ -32,6 +36,20 @@ const BY_CONSTITUENT: (&str, &str) = (
     "absorbed_by_constituent",
     "photon_flux_absorbed_by_constituent",
 );
+
+/// How fluorescence is shown.
+const FLUORESCENCE: Manner = Manner {
+    words: [
+        Some("fluorescence_emitted"),
+        Some("fluorescence_backward"),
+        Some("fluorescence_forward"),
+        Some("fluorescence_absorbed"),
+        None,
+    ],
+    ways: WAYS,
+    counts_misses: false,
+    soil: None,
+};
 
 /// One light on one face, at one set of wavelengths.
 struct Lit<'a> {
@@ -88,14 +106,14 @@ struct Gathered<'a> {
     /// Sums of constituents.
     parts: &'a mut [f64],
     /// Out of the face that is lit.
-    normal: glam::Vec3,
+    normal: Vec3,
     /// Whether the ray has met the sample.
     is_lit: bool,
     /// Reflected and transmitted flux.
     flux: [[f64; LANES]; 2],
 }
 
-impl Witness for Gathered<'_> {
+impl Witness<'_> for Gathered<'_> {
     fn event(&mut self, event: &Event) {
         self.is_lit = true;
         if self.lit.constituents {
@@ -170,5 +188,25 @@ pub(super) fn read_out(
             .collect();
         all.extend(rows(&instrument.value, &series));
     }
+    if let Some(reading) = &instrument.value.fluorescence {
+        let lights: Vec<_> = lamps
+            .iter()
+            .map(|lamp| (lamp, lamp.direction, Some(FACES[lamp.face])))
+            .collect();
+        let read = (instrument.name.as_str(), reading);
+        let sample = (&bench.stage, &Straight);
+        let own = fluorescence::read_out(sample, &lights, read, &FLUORESCENCE, budget);
+        all.extend(own);
+    }
     Ok(all)
+}
+
+impl Illumination for Lamp<'_> {
+    fn ray(&self, stream: &mut Stream) -> Ray {
+        Lamp::ray(self, stream)
+    }
+
+    fn is_back(&self, direction: Vec3) -> bool {
+        direction.dot(self.frame.normal) > 0.0
+    }
 }

@@ -8,6 +8,7 @@ use crate::bsdf::View;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
+use crate::material::Material;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
 
@@ -50,6 +51,16 @@ pub(super) struct Scattering<'e> {
     pub(super) weight: Lanes<LANES>,
     /// Random numbers that the way of the light does not use.
     pub(super) numbers: [f32; 4],
+}
+
+/// Light that arrives at a surface, before it is scattered.
+pub(super) struct Struck<'a, 'm> {
+    /// Where, and from where.
+    pub(super) encounter: &'a Encounter<'m, LANES>,
+    /// The material.
+    pub(super) material: &'m Material,
+    /// Weight of the light.
+    pub(super) weight: Lanes<LANES>,
 }
 
 /// Light that leaves.
@@ -104,8 +115,10 @@ struct Leg {
 }
 
 /// What is told of light on its way, in the order of what befalls it.
-pub(super) trait Witness {
-    /// It meets a surface that sends it on; told before the event.
+pub(super) trait Witness<'m> {
+    /// It arrives at a surface.
+    fn struck(&mut self, _struck: &Struck<'_, 'm>) {}
+    /// The surface sends it on; told before the event.
     fn scattering(&mut self, _at: &Scattering<'_>) {}
     /// It is scattered.
     fn event(&mut self, event: &Event);
@@ -113,10 +126,10 @@ pub(super) trait Witness {
     fn escape(&mut self, escaped: &Escaped);
 }
 
-impl<C: Course> Walk<'_, C> {
+impl<'m, C: Course> Walk<'m, C> {
     /// Follows light of weight 1 until all of it is absorbed or leaves. The first set of the stream
     /// is the caller's.
-    pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness) {
+    pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness<'m>) {
         let mut leg = Leg {
             ray,
             cone: Cone::of_beam(),
@@ -141,8 +154,34 @@ impl<C: Course> Walk<'_, C> {
         }
     }
 
+    /// Follows light of a weight that starts at a surface, with random numbers from a set on that is
+    /// not the first.
+    pub(super) fn follow_on(
+        &self,
+        ray: Ray,
+        weight: Lanes<LANES>,
+        first_set: u32,
+        stream: &mut Stream,
+        witness: &mut impl Witness<'m>,
+    ) {
+        let mut next = Some(Leg {
+            ray,
+            cone: Cone::of_beam(),
+            weight,
+            is_specular: false,
+        });
+        let mut event = first_set;
+        while let Some(mut leg) = next {
+            let Some(met) = self.meet(&mut leg, witness) else {
+                break;
+            };
+            next = self.scatter(&met, leg.weight, event, stream, witness);
+            event += 1;
+        }
+    }
+
     /// The surface that light meets; `None` if it leaves.
-    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness) -> Option<Met<'_>> {
+    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness<'m>) -> Option<Met<'m>> {
         let (hit, gone) = self.course.next(self.stage, &mut leg.ray);
         let Some(hit) = hit else {
             witness.escape(&Escaped {
@@ -159,6 +198,7 @@ impl<C: Course> Walk<'_, C> {
         let encounter = Encounter::new(geometry, material, beam, &hit, self.wavelengths);
         Some(Met {
             encounter,
+            material,
             object: self.stage.objects[hit.instance as usize].object,
         })
     }
@@ -166,12 +206,21 @@ impl<C: Course> Walk<'_, C> {
     /// Light of a weight that goes on from a surface; `None` if nothing does.
     fn scatter(
         &self,
-        Met { encounter, object }: &Met<'_>,
+        Met {
+            encounter,
+            material,
+            object,
+        }: &Met<'m>,
         weight: Lanes<LANES>,
         event: u32,
         stream: &mut Stream,
-        witness: &mut impl Witness,
+        witness: &mut impl Witness<'m>,
     ) -> Option<Leg> {
+        witness.struck(&Struck {
+            encounter,
+            material,
+            weight,
+        });
         let Encounter { bsdf, wo, .. } = encounter;
         stream.seek(1 + event);
         let [lobe, x, y, roulette] = stream.next4();
@@ -228,6 +277,7 @@ impl<C: Course> Walk<'_, C> {
 /// A surface that light meets.
 struct Met<'a> {
     encounter: Encounter<'a, LANES>,
+    material: &'a Material,
     /// Number of the object in the scene.
     object: usize,
 }

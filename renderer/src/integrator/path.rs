@@ -110,13 +110,14 @@ pub fn trace<const N: usize>(
         world,
         effort,
         wavelengths,
+        excitation_sets: None,
     };
     paths.follow(from_camera, 0, stream, &mut result);
     result
 }
 
 /// A ray of a path and its origin.
-struct Leg<const N: usize> {
+pub(super) struct Leg<const N: usize> {
     ray: Ray,
     cone: Cone,
     /// Factor on radiance along the ray, up to the camera.
@@ -125,16 +126,25 @@ struct Leg<const N: usize> {
 }
 
 /// Data that all legs of a path share.
-struct Paths<'a, const N: usize> {
-    world: &'a World,
-    effort: Effort,
-    wavelengths: &'a Wavelengths<N>,
+pub(super) struct Paths<'a, const N: usize> {
+    pub(super) world: &'a World,
+    pub(super) effort: Effort,
+    pub(super) wavelengths: &'a Wavelengths<N>,
+    /// Of a path that excites fluorescence, whose wavelengths are not of the film, the first of its
+    /// sets of random numbers.
+    pub(super) excitation_sets: Option<u32>,
 }
 
 impl<const N: usize> Paths<'_, N> {
     /// Adds the radiance that a path finds from a leg on. Its ray was scattered `from` times
     /// before.
-    fn follow(&self, mut leg: Leg<N>, from: u32, stream: &mut Stream, result: &mut PathResult<N>) {
+    pub(super) fn follow(
+        &self,
+        mut leg: Leg<N>,
+        from: u32,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from.. {
             result.rays += 1;
@@ -152,20 +162,14 @@ impl<const N: usize> Paths<'_, N> {
             let material = world.material_of(hit.instance);
             let encounter =
                 Encounter::new(&world.geometry, material, (ray, cone), &hit, wavelengths);
-            let Encounter {
-                surface,
-                frame,
-                bsdf,
-                wo,
-                width,
-                has_relief,
-            } = encounter;
+            let (surface, frame, bsdf) = (&encounter.surface, &encounter.frame, &encounter.bsdf);
+            let (wo, width) = (encounter.wo, encounter.width);
             if let Some(number) = world.objects[surface.instance as usize].light {
-                let found = emission(world, number, ray, &surface, bounce, wavelengths);
+                let found = emission(world, number, ray, surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
             if depth == 0 {
-                let facing = if has_relief {
+                let facing = if encounter.has_relief {
                     frame.to_world(bsdf.normal(wo))
                 } else if wo.z < 0.0 {
                     -surface.shading_normal
@@ -186,13 +190,13 @@ impl<const N: usize> Paths<'_, N> {
             let Some(view) = bsdf.seen_from(wo) else {
                 return;
             };
-            let set = CAMERA_SETS + depth * VERTEX_SETS;
+            let set = self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS;
             stream.seek(set);
             let numbers = stream.next4();
             let vertex = Vertex {
                 paths: self,
-                surface: &surface,
-                frame: &frame,
+                surface,
+                frame,
                 view: &view,
                 receiver: Receiver {
                     position: surface.position,
@@ -212,6 +216,11 @@ impl<const N: usize> Paths<'_, N> {
                 let [_, x, y, _] = numbers;
                 let (light, rays) = sampled_light(world, &vertex, wavelengths, [x, y], stream);
                 result.radiance += light;
+                result.rays += rays;
+            }
+            if let Some(leaf) = self.fluorescing(material) {
+                let (light, rays) = self.emitted(leaf, &encounter, depth, stream);
+                result.radiance += *throughput * light;
                 result.rays += rays;
             }
             if depth == 0 && self.effort.branches > 1 && !specular && result.radiance.is_zero() {
@@ -244,33 +253,41 @@ struct Bounce {
 }
 
 /// An illuminated surface point.
-struct Vertex<'a, const N: usize> {
-    paths: &'a Paths<'a, N>,
-    surface: &'a SurfacePoint,
-    frame: &'a Frame,
-    view: &'a View<'a, N>,
-    receiver: Receiver,
+pub(super) struct Vertex<'a, const N: usize> {
+    pub(super) paths: &'a Paths<'a, N>,
+    pub(super) surface: &'a SurfacePoint,
+    pub(super) frame: &'a Frame,
+    pub(super) view: &'a View<'a, N>,
+    pub(super) receiver: Receiver,
     /// Number of lights that are chosen and sampled.
-    light_samples: u32,
+    pub(super) light_samples: u32,
     /// Factor on radiance from here, up to the camera.
-    throughput: Lanes<N>,
+    pub(super) throughput: Lanes<N>,
     /// Width of the ray that found it, m.
-    width: f32,
+    pub(super) width: f32,
     /// Radiance that the path has found so far.
-    gathered: Lanes<N>,
+    pub(super) gathered: Lanes<N>,
 }
 
 impl<const N: usize> Vertex<'_, N> {
     /// The leg that leaves by a random bounce with a share of the throughput; `None` if Russian
     /// roulette, below a threshold, ends the path.
-    fn bounce(&self, numbers: [f32; 4], share: f32, roulette_below: f32) -> Option<Leg<N>> {
+    pub(super) fn bounce(
+        &self,
+        numbers: [f32; 4],
+        share: f32,
+        roulette_below: f32,
+    ) -> Option<Leg<N>> {
         let [lobe, x, y, roulette] = numbers;
         let sample = self.view.sample(lobe, Vec2::new(x, y))?;
         let mut throughput = self.throughput * sample.weight * share;
         let Paths {
             world, wavelengths, ..
         } = self.paths;
-        let brightness = world.wavelengths.brightness(wavelengths, &throughput);
+        let brightness = match self.paths.excitation_sets {
+            None => world.wavelengths.brightness(wavelengths, &throughput),
+            Some(_) => throughput.max_lane(),
+        };
         if brightness <= 0.0 {
             return None;
         }
@@ -301,7 +318,7 @@ impl<const N: usize> Vertex<'_, N> {
 
 /// The radiance that the sampled lights contribute at a vertex, and the number of rays traced for
 /// it.
-fn sampled_light<const N: usize>(
+pub(super) fn sampled_light<const N: usize>(
     world: &World,
     vertex: &Vertex<'_, N>,
     wavelengths: &Wavelengths<N>,

@@ -1,5 +1,7 @@
 //! A leaf's material: its tissue, which determines R and T, and its coats.
 
+pub mod fluorescence;
+
 use glam::Vec2;
 use leafmodel::optics::{ProspectD, Texel};
 
@@ -28,6 +30,8 @@ pub struct LeafMaterial {
     spread: Option<LightSpread>,
     /// The face with half of the tissue that this is, if it is not the whole leaf.
     half: Option<Half>,
+    /// Photons that its chlorophyll emits for each that it absorbs.
+    quantum_efficiency: f64,
     /// The relief of its faces, if they are not smooth.
     pub relief: Option<Relief>,
 }
@@ -72,6 +76,7 @@ impl LeafMaterial {
             uniform: None,
             spread: None,
             half: None,
+            quantum_efficiency: 0.0,
             relief: None,
         }
     }

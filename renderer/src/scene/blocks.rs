@@ -9,6 +9,7 @@
 mod camera;
 mod daylight;
 mod film;
+mod fluorescence;
 mod gltf;
 mod instances;
 mod instrument;
@@ -165,6 +166,7 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
     keys.required_block("film", about, &["rgb", "spectral"], |keys| {
         film::film(&mut scene.film, keys);
     });
+    fluorescence::tell_range(keys);
     let about = "How the picture to look at is made from the film.";
     keys.block("picture", about, |keys| {
         picture::picture(&mut scene.picture, keys);

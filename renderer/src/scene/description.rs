@@ -21,8 +21,8 @@ use leafmodel::solid::SolidPlan;
 
 pub use self::camera::{Camera, FocusObject};
 pub use self::instrument::{
-    Amount, Canopy, DepthProfile, Detector, Estimator, Gonio, Incidence, Incident, Index,
-    Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
+    Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
+    Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
@@ -197,6 +197,8 @@ pub enum Material {
         pigments: Box<Pigments>,
         /// The properties of its faces.
         faces: LeafFaces,
+        /// How its chlorophyll fluoresces; `None` if it does not.
+        fluorescence: Option<Fluorescence>,
     },
     /// Solid tissue of uniform contents or a map (grown bodies bring their own maps).
     Solid {
@@ -216,6 +218,13 @@ pub struct LeafFaces {
     pub abaxial_ratio: Option<Spectrum>,
     /// Adaxial and abaxial coat.
     pub coats: [Coat; 2],
+}
+
+/// Chlorophyll fluorescence of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fluorescence {
+    /// Photons emitted for each photon that chlorophyll absorbs, in (0, 1].
+    pub quantum_efficiency: f64,
 }
 
 /// Contents of tissue per area of its surface.
@@ -330,6 +339,8 @@ pub struct Leaf {
     pub plan: LeafPlan,
     /// The properties of its faces.
     pub faces: LeafFaces,
+    /// How its chlorophyll fluoresces; `None` if it does not.
+    pub fluorescence: Option<Fluorescence>,
     /// Factor on the distance over which light that the blade lets through spreads sideways, ≥ 0.
     pub light_spread: f64,
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.

@@ -97,7 +97,10 @@ pub fn grow(
         None => grow()?,
     };
     let faces = leaf.faces_by_age();
-    let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &faces);
+    let material = |held| {
+        let held = LeafTissue::Held(held);
+        tissue::leaf(held, palette.clone(), &faces, leaf.fluorescence)
+    };
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
     let is_closed = leaf.plan.form.closed;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leafmodel::optics::solid::ReflectanceTable;
 
-use super::description::{self, LeafFaces, SolidOptics};
+use super::description::{self, Fluorescence, LeafFaces, SolidOptics};
 use crate::bsdf::leaf::Coat;
 use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
@@ -13,9 +13,18 @@ use crate::material::solid::SolidMaterial;
 use crate::spectrum::Curve;
 
 /// Leaf tissue between its faces.
-pub(super) fn leaf(tissue: LeafTissue, palette: Palette, faces: &LeafFaces) -> LeafMaterial {
+pub(super) fn leaf(
+    tissue: LeafTissue,
+    palette: Palette,
+    faces: &LeafFaces,
+    fluorescence: Option<Fluorescence>,
+) -> LeafMaterial {
     let ratio = faces.abaxial_ratio.as_ref().map(Curve::from_description);
-    LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of))
+    let leaf = LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of));
+    match fluorescence {
+        Some(own) => leaf.fluorescing(own.quantum_efficiency),
+        None => leaf,
+    }
 }
 
 /// Solid tissue below its skin; `table` is that of its refractive index.

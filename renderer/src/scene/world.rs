@@ -16,6 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DVec3};
+use leafmodel::optics::fluorescence::EXCITED_NM;
 use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
@@ -79,6 +80,8 @@ pub struct World {
     pub integrator: description::Integrator,
     /// The wavelengths of paths.
     pub wavelengths: WavelengthSampler,
+    /// Whether any of its materials fluoresces.
+    pub fluoresces: bool,
     /// Notes for the user, such as dropped faces or clamped reflectance.
     pub notes: Vec<String>,
 }
@@ -312,9 +315,9 @@ impl World {
         for light in &mut lights {
             light.tabulate(wavelengths.grid());
         }
-        let geometry = Geometry::build(meshes, instances)?;
+        let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
         Ok(Self {
-            geometry,
+            geometry: Geometry::build(meshes, instances)?,
             origin,
             objects,
             pieces,
@@ -322,13 +325,14 @@ impl World {
             materials,
             owners,
             palettes: known.palettes,
-            selection: LightSelection::new(&lights, range_nm),
+            selection: LightSelection::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
             camera: Camera::new(&view, scene.film.width, scene.film.height),
             view,
             filter: PixelFilter::new(scene.film.filter_radius as f32),
             integrator: scene.integrator,
             wavelengths,
+            fluoresces,
             notes,
         })
     }
@@ -336,6 +340,15 @@ impl World {
     /// The material of an instance.
     pub fn material_of(&self, instance: u32) -> &Material {
         &self.materials[self.objects[instance as usize].material]
+    }
+}
+
+/// Wavelengths at which lights count, nm: those of paths, and those that excite what fluoresces.
+fn lit_range([first, last]: [f64; 2], fluoresces: bool) -> [f64; 2] {
+    if fluoresces {
+        [first.min(EXCITED_NM[0]), last.max(EXCITED_NM[1])]
+    } else {
+        [first, last]
     }
 }
 

@@ -16,10 +16,15 @@ pub(super) fn csv(rows: &[Row]) -> String {
     );
     for row in rows {
         let [zenith, azimuth] = view_of(row);
+        // Shares of the incident flux are of the order of 1, other figures of any.
+        let value = match row.unit {
+            "1" => format!("{:.9}", row.value),
+            _ => format!("{:.8e}", row.value),
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{},{},{:.9},{:.3e},{}",
+            "{},{},{},{},{},{},{},{},{},{},{value},{:.3e},{}",
             row.instrument,
             row.quantity,
             row.part.as_deref().unwrap_or(""),
@@ -30,7 +35,6 @@ pub(super) fn csv(rows: &[Row]) -> String {
             shown(row.depth_um),
             row.band.as_deref().unwrap_or(""),
             shown(row.wavelength_nm),
-            row.value,
             row.error,
             row.unit,
         );

@@ -98,6 +98,7 @@ pub(super) fn bsdf(
             tissue,
             pigments: _,
             faces,
+            fluorescence: _,
         } => {
             let bsdf = match tissue {
                 LeafTissue::Held(held) => plugin(LEAF, held.extrapolates()),

@@ -4,6 +4,7 @@ mod bands;
 mod canopy;
 mod depth;
 mod detector;
+mod fluorescence;
 pub(super) mod incident;
 mod sample;
 
@@ -43,6 +44,7 @@ impl Instrument {
             indices: Vec::new(),
             incident: None,
             kind,
+            fluorescence: None,
         }
     }
 }
@@ -73,6 +75,7 @@ const KINDS: [Variant<Instrument>; 4] = [
                 keys.key("constituents", &mut own.constituents, Flag, BY_CONSTITUENT);
             }
             incident::incident(instrument, keys);
+            fluorescence::fluorescence(&mut instrument.fluorescence, keys);
         },
     },
     Variant {
@@ -106,6 +109,7 @@ const KINDS: [Variant<Instrument>; 4] = [
                 canopy::canopy(own, keys);
             }
             incident::incident(instrument, keys);
+            fluorescence::fluorescence(&mut instrument.fluorescence, keys);
         },
     },
     Variant {

@@ -8,6 +8,7 @@ use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
 use leafmodel::species::surfaces::adaxial_roughness;
 
+use super::fluorescence::fluorescence;
 use super::spectrum::SpectrumOf;
 use crate::scene::description::{Coat, Leaf, LeafFaces};
 
@@ -26,6 +27,7 @@ impl From<LeafPlan> for Leaf {
         Self {
             plan,
             faces: LeafFaces::usual(),
+            fluorescence: None,
             light_spread: 1.0,
             extrapolate: false,
         }
@@ -74,6 +76,12 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
     }
     plan_file::leaf(&mut leaf.plan, keys);
     faces(&mut leaf.faces, keys);
+    fluorescence(&mut leaf.fluorescence, keys);
+    if leaf.plan.form.closed && leaf.fluorescence.is_some() {
+        let problem = "a closed blade is cut in two, and its halves cannot fluoresce".to_owned();
+        let help = "leave `fluorescence` out, or let the blade be open: `blade.closed = false`";
+        keys.refuse(&["fluorescence"], problem, help);
+    }
     keys.key(
         "light_spread",
         &mut leaf.light_spread,

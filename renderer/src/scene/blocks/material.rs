@@ -8,6 +8,7 @@ use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
+use super::fluorescence::fluorescence;
 use super::leaf::faces;
 use super::measured::{measured, set_ratio};
 use super::reflectance::reflectance;
@@ -80,6 +81,7 @@ const KINDS: [Variant<Material>; 5] = [
             tissue: LeafTissue::Held(NOTHING),
             pigments: Box::default(),
             faces: LeafFaces::usual(),
+            fluorescence: None,
         },
         is: |material| matches!(material, Material::Leaf { .. }),
         declare: |material, keys| {
@@ -87,6 +89,7 @@ const KINDS: [Variant<Material>; 5] = [
                 tissue,
                 pigments,
                 faces: both,
+                fluorescence: emission,
             } = material
             {
                 let ratio = leaf_tissue(tissue, keys);
@@ -94,6 +97,8 @@ const KINDS: [Variant<Material>; 5] = [
                 pigments_block(pigments, keys);
                 faces(both, keys);
                 set_ratio(both, ratio, keys);
+                keys.exclude("measured", "fluorescence");
+                fluorescence(emission, keys);
             }
         },
     },

@@ -1,6 +1,7 @@
 //! Instruments that measure how a scene scatters and absorbs light.
 
 use glam::DVec2;
+use leafmodel::optics::fluorescence::EXCITED_NM;
 
 use super::Spectrum;
 
@@ -20,6 +21,26 @@ pub struct Instrument {
     pub incident: Option<Incident>,
     /// What it measures.
     pub kind: InstrumentKind,
+    /// What it measures of fluorescence, if anything.
+    pub fluorescence: Option<FluorescenceReading>,
+}
+
+/// What an instrument measures of fluorescence.
+#[derive(Clone, Debug)]
+pub struct FluorescenceReading {
+    /// The light that excites.
+    pub light: ExcitationLight,
+    /// Wavelengths of emission, nm, rising, at least one.
+    pub emission_nm: Vec<f64>,
+}
+
+/// Light that excites fluorescence.
+#[derive(Clone, Debug)]
+pub enum ExcitationLight {
+    /// Monochromatic light of these wavelengths, nm, one after the other.
+    Monochromatic(Vec<f64>),
+    /// Light of a spectral irradiance, W m⁻² nm⁻¹.
+    Spectrum(Spectrum),
 }
 
 impl Instrument {
@@ -36,9 +57,17 @@ impl Instrument {
         all
     }
 
-    /// Least and greatest of its wavelengths, nm; `None` if the file lacks them.
+    /// Least and greatest of its wavelengths, of excitation and emission too, nm; `None` if the file
+    /// lacks them.
     pub fn range_nm(&self) -> Option<[f64; 2]> {
-        let all = self.measured_nm();
+        let mut all = self.measured_nm();
+        if let Some(reading) = &self.fluorescence {
+            match &reading.light {
+                ExcitationLight::Monochromatic(list) => all.extend(list),
+                ExcitationLight::Spectrum(_) => all.extend(EXCITED_NM),
+            }
+            all.extend(&reading.emission_nm);
+        }
         let first = *all.first()?;
         let fold = |[low, high]: [f64; 2], &nm: &f64| [low.min(nm), high.max(nm)];
         Some(all.iter().fold([first; 2], fold))

@@ -101,6 +101,7 @@ fn build_material(
             tissue,
             pigments,
             faces,
+            fluorescence,
         } => {
             let made = match tissue {
                 description::LeafTissue::Held(held) => LeafTissue::Held(read(held)?),
@@ -113,7 +114,7 @@ fn build_material(
                 },
             };
             let palette = known.palettes.of(pigments);
-            Material::Leaf(Box::new(tissue::leaf(made, palette, faces)))
+            Material::Leaf(Box::new(tissue::leaf(made, palette, faces, *fluorescence)))
         }
         description::Material::Solid {
             held,
