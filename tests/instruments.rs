@@ -75,7 +75,8 @@ const NORMAL: Direction = Direction::Beam(0.0);
 fn a_number_of_threads_changes_no_bit() {
     let text = format!(
         "{}\n[instruments.field.canopy]\nwithin_m = [0, 0, 1, 1]\nwavelengths_nm = [550, 800]\n\
-         diffuse = true\nsoil = \"ground\"\n",
+         diffuse = true\nsoil = \"ground\"\ninstances = true\n\
+         detector = {{ step_deg = 25, half_angle_deg = 2 }}\n",
         canopy::discs(0.05, 2.0, [0.0, 1.0])
     );
     let run = |threads: usize| {

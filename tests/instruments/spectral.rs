@@ -14,6 +14,7 @@ fn paper(keys: &str) -> String {
          [materials.paper.diffuse]\nreflectance = {{ table = [[400, 0.1], [2500, 0.625]] }}\n\
          [objects.paper]\nmesh = \"sheet\"\nmaterial = \"paper\"\n\
          [lights.noon.daylight]\nelevation_deg = 60\nazimuth_deg = 0\n\
+         [lights.lamp.constant]\nradiance_w_m2_sr_nm = {{ blackbody_k = 3000 }}\n\
          [instruments.ball.sphere]\nobject = \"paper\"\ndiffuse = false\nfaces = \"adaxial\"\n\
          spot = {{ at_mm = [0, 0], diameter_mm = 10 }}\n{keys}"
     )
@@ -108,6 +109,20 @@ fn photons_are_shares_of_those_that_fall_in() {
             assert_eq!(row.unit, "umol m-2 s-1");
         }
     }
+    // Paper that reflects more of red light reflects more photons of a lamp than of daylight.
+    let reflected = |light: &str| {
+        let incident = format!("incident = {{ par_umol_m2_s = 1000, {light} }}\n");
+        let text = paper(&format!("wavelengths_nm = [550]\n{incident}"));
+        let rows = figures(&text, &rays(1024)).expect("it can be measured");
+        band(&rows, "reflected_photon_flux", "PAR").value
+    };
+    let lamp = reflected("light = \"lamp\"");
+    assert_eq!(lamp, reflected("spectrum = { blackbody_k = 3000 }"));
+    let (noon, even) = (reflected("light = \"noon\""), reflected("spectrum = 1"));
+    assert!(
+        lamp > even + 5.0 && even > noon + 0.5,
+        "{lamp} {even} {noon}"
+    );
     // An even spectrum of 1 W m⁻² nm⁻¹ has 300 nm · 550 nm / (h c N) of photons.
     let keys = "wavelengths_nm = [550]\nincident = { irradiance_w_m2 = 300, spectrum = 1 }\n";
     let rows = figures(&grey(keys), &rays(1024)).expect("it can be measured");
@@ -300,7 +315,8 @@ fn a_leaf_that_absorbs_next_to_nothing_is_filled_with_light_by_its_index() {
     let mut compared = 0;
     for (upper, lower) in on_face("adaxial").zip(on_face("abaxial")) {
         assert_eq!((upper.depth_um, &upper.part), (lower.depth_um, &lower.part));
-        let names = leafmodel::optics::layers::Tissue::ALL.map(|tissue| tissue.name());
+        let names =
+            leafmodel::optics::layers::Tissue::ALL.map(leafmodel::optics::layers::Tissue::name);
         let layer = names
             .iter()
             .position(|name| upper.part.as_deref() == Some(*name));

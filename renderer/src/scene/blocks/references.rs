@@ -14,12 +14,13 @@ use crate::scene::description::{
 };
 
 /// Sections to whose blocks others refer.
-pub(super) const SECTIONS: [&str; 6] = [
+pub(super) const SECTIONS: [&str; 7] = [
     "meshes",
     "materials",
     "leaves",
     "solids",
     "plants",
+    "lights",
     "objects",
 ];
 
