@@ -8,6 +8,7 @@ mod golden;
 mod instruments;
 mod layers;
 mod lights;
+mod media;
 mod optics;
 mod radiometry;
 mod random_plans;

@@ -2,6 +2,7 @@
 
 mod anchors;
 mod canopy;
+mod slabs;
 mod sphere;
 
 use std::path::Path;

@@ -127,6 +127,17 @@ pub enum InstrumentError {
         /// The object.
         object: String,
     },
+    /// A medium in a canopy of layers.
+    #[error(
+        "{at}: the object `{object}` is filled by a medium, whose absorption is not told by layers: \
+         leave out `layers_m`"
+    )]
+    MediumInLayers {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+    },
     /// A port that looks at its own object, as one within a closed body does.
     #[error(
         "{at}: the abaxial face of the object `{object}` cannot be lit through a port: the port \

@@ -83,6 +83,7 @@ pub mod instruments;
 pub mod integrator;
 pub mod light;
 pub mod material;
+pub mod medium;
 mod plot;
 pub mod sampling;
 pub mod scene;

@@ -170,13 +170,13 @@ impl Experiment for Lit<'_> {
 struct Tally<'a> {
     ledger: &'a Ledger,
     sums: &'a mut [f64],
-    /// Whether the ray has met nothing so far.
+    /// Whether the ray has been scattered by nothing so far.
     is_untouched: bool,
 }
 
 impl Witness for Tally<'_> {
     fn event(&mut self, event: &Event) {
-        self.is_untouched = false;
+        self.is_untouched &= !event.is_scattered;
         if event.is_first && Some(event.object) == self.ledger.soil {
             add(self.sums, UNCOLLIDED, |lane| {
                 f64::from(event.before.0[lane])
@@ -232,6 +232,17 @@ pub(super) fn read_out(
     let ledger = Ledger::new(scene, &stage, canopy);
     if ledger.objects.1.is_empty() {
         return Err(InstrumentError::NoLeaves { at: at.clone() });
+    }
+    let stands = 0..stage.objects.len();
+    let mut bodies = stands.filter(|&number| {
+        let body = stage.objects[number].body;
+        body.is_some_and(|body| body.medium.is_some())
+    });
+    if let (Some(number), false) = (bodies.next(), canopy.layers.is_empty()) {
+        return Err(InstrumentError::MediumInLayers {
+            at: at.clone(),
+            object: scene.objects[stage.objects[number].object].name.clone(),
+        });
     }
     if let Some(soil) = canopy.soil
         && !is_covered(&stage, &period, soil)

@@ -1,6 +1,10 @@
 //! Light followed from where it starts until it leaves, by the renderer's own scattering.
 
+mod media;
+
 use glam::{Vec2, Vec3};
+
+use self::media::Passage;
 
 use super::LANES;
 use super::stage::Stage;
@@ -31,6 +35,8 @@ pub(super) struct Event {
     pub(super) after: Lanes<LANES>,
     /// Whether the light comes straight from where it started.
     pub(super) is_first: bool,
+    /// Whether it is scattered; if not, it goes straight on, perhaps weakened by a medium.
+    pub(super) is_scattered: bool,
 }
 
 /// Light that leaves.
@@ -42,7 +48,8 @@ pub(super) struct Escaped {
 }
 
 /// The first hit of a ray, which may be moved on its way to it, and the distance that it went
-/// before it was moved last; `None` if the ray leaves.
+/// before it was moved last; `None` if the ray leaves. A ray that has an end may come to it instead:
+/// then it is `None` too, and the end of the moved ray is finite.
 pub(super) trait Course {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32);
 }
@@ -72,6 +79,7 @@ struct Leg {
     ray: Ray,
     cone: Cone,
     weight: Lanes<LANES>,
+    passage: Passage,
 }
 
 /// What is told of light on its way, in the order of what befalls it.
@@ -86,29 +94,45 @@ impl<C: Course> Walk<'_, C> {
     /// Follows light of weight 1 until all of it is absorbed or leaves. The first set of the stream
     /// is the caller's.
     pub(super) fn follow(&self, ray: Ray, stream: &Stream, witness: &mut impl Witness) {
-        let (cone, weight) = (Cone::of_beam(), Lanes::ONE);
-        let mut leg = Leg { ray, cone, weight };
-        let Some(met) = self.meet(&mut leg, witness) else {
+        let mut leg = Leg {
+            ray,
+            cone: Cone::of_beam(),
+            weight: Lanes::ONE,
+            passage: Passage::in_the_open(),
+        };
+        let Some(met) = self.meet(&mut leg, &mut stream.clone(), witness) else {
             return;
         };
         let share = 1.0 / self.ways as f32;
         for way in 0..self.ways {
             let mut stream = stream.part(way, self.ways);
-            let mut next = self.scatter(&met, leg.weight * share, 0, &mut stream, witness);
+            let mut next = self.scatter(&met, &leg, share, 0, &mut stream, witness);
             let mut event = 1;
             while let Some(mut leg) = next {
-                let Some(met) = self.meet(&mut leg, witness) else {
+                let Some(met) = self.meet(&mut leg, &mut stream, witness) else {
                     break;
                 };
-                next = self.scatter(&met, leg.weight, event, &mut stream, witness);
+                next = self.scatter(&met, &leg, 1.0, event, &mut stream, witness);
                 event += 1;
             }
         }
     }
 
     /// The surface that light meets; `None` if it leaves.
-    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness) -> Option<Met<'_>> {
-        let (hit, gone) = self.course.next(self.stage, &mut leg.ray);
+    fn meet(
+        &self,
+        leg: &mut Leg,
+        stream: &mut Stream,
+        witness: &mut impl Witness,
+    ) -> Option<Met<'_>> {
+        let (hit, gone) = if self.stage.world.media.are_present {
+            self.fly(leg, stream, witness)
+        } else {
+            self.course.next(self.stage, &mut leg.ray)
+        };
+        if leg.weight.is_zero() {
+            return None;
+        }
         let Some(hit) = hit else {
             witness.escape(&Escaped {
                 direction: leg.ray.direction,
@@ -127,16 +151,19 @@ impl<C: Course> Walk<'_, C> {
         })
     }
 
-    /// Light of a weight that goes on from a surface; `None` if nothing does.
+    /// A share of light that has met a surface and goes on from there; `None` if nothing does.
     fn scatter(
         &self,
-        Met { encounter, object }: &Met<'_>,
-        weight: Lanes<LANES>,
+        met: &Met<'_>,
+        arriving: &Leg,
+        share: f32,
         event: u32,
         stream: &mut Stream,
         witness: &mut impl Witness,
     ) -> Option<Leg> {
+        let Met { encounter, object } = met;
         let Encounter { bsdf, wo, .. } = encounter;
+        let weight = arriving.weight * share;
         stream.seek(1 + event);
         let [lobe, x, y, roulette] = stream.next4();
         let view = bsdf.seen_from(*wo);
@@ -161,15 +188,23 @@ impl<C: Course> Walk<'_, C> {
             position: encounter.surface.position,
             before: weight,
             after,
-            is_first: event == 0,
+            is_first: event == 0 && arriving.passage.is_straight,
+            is_scattered: true,
         });
         let sample = sample.filter(|_| !after.is_zero())?;
         let towards = encounter.frame.to_world(sample.wi);
-        Some(Leg {
+        let mut leg = Leg {
             ray: encounter.surface.spawn(towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
-        })
+            passage: arriving.passage,
+        };
+        if self.stage.world.media.are_present {
+            let mut passage = leg.passage;
+            passage.leave(self.stage, met, &mut leg.ray);
+            leg.passage = passage;
+        }
+        Some(leg)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The finished scene, immutable and shared by all threads.
 
+mod bodies;
 mod lights;
 mod materials;
 mod meshes;
@@ -20,6 +21,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use self::bodies::{around, build_media, set_bodies};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
@@ -39,6 +41,7 @@ use crate::material::Material;
 use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
+use crate::medium::Media;
 use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
@@ -61,6 +64,8 @@ pub struct World {
     pub strewn: Places,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
+    /// The media that fill bodies.
+    pub media: Media,
     /// The owner of each material.
     pub owners: Vec<MaterialOwner>,
     /// The distinct palettes of pigments.
@@ -153,6 +158,18 @@ pub enum WorldError {
     NoTextureCoordinates {
         /// Name of the light.
         name: String,
+    },
+    /// The mesh of a body with a medium in it has holes.
+    #[error(
+        "objects.{object}: its mesh does not enclose a body with normals to the outside, and \
+         `interior` of the material `{material}` fills one: use a closed mesh, such as a box, a sphere \
+         or a lump"
+    )]
+    OpenBody {
+        /// Name of the object.
+        object: String,
+        /// Name of its material.
+        material: String,
     },
     /// There is no room for what is strewn.
     #[error("objects.{name}.scatter: {source}")]
@@ -290,6 +307,10 @@ impl World {
             mut objects,
             first,
         } = place(scene, &pieces, &strewn_around);
+        let mut media = build_media(scene, wavelengths.grid());
+        if media.are_present {
+            set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;
+        }
         let view = scene
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
@@ -313,6 +334,9 @@ impl World {
             light.tabulate(wavelengths.grid());
         }
         let geometry = Geometry::build(meshes, instances)?;
+        if media.are_present {
+            media.around_camera = around(view.position.as_vec3(), &geometry, &objects);
+        }
         Ok(Self {
             geometry,
             origin,
@@ -320,6 +344,7 @@ impl World {
             pieces,
             strewn,
             materials,
+            media,
             owners,
             palettes: known.palettes,
             selection: LightSelection::new(&lights, range_nm),
