@@ -100,10 +100,14 @@ fn a_furnace_is_one_through_and_inside_of_media_that_absorb_nothing() {
             );
         }
     }
-    // A rough boundary loses what would be scattered more than once by its microfacets.
-    let rough = "eta = 1.4\nroughness = 0.05";
-    let found = mean_and_error(&scene("", &tank(rough, even)), 0, 8);
-    assert!((found.0 - 1.0).abs() < 4.0 * found.1 + 3e-3, "{found:?}");
+    // A rough boundary loses what its microfacets would scatter more than once, each time that light
+    // is sent back inside: 1.4 % at 0.05.
+    for (roughness, loss) in [(0.01, 5e-3), (0.05, 2e-2)] {
+        let rough = format!("eta = 1.4\nroughness = {roughness}");
+        let found = mean_and_error(&scene("", &tank(&rough, even)), 0, 8);
+        let lost = 1.0 - found.0;
+        assert!(lost > -4.0 * found.1 && lost < loss + 4.0 * found.1, "{roughness}: {found:?}");
+    }
     for eta in ["eta = 1", "eta = 1.4"] {
         for channel in [0, 1] {
             let found = mean_and_error(&scene("", &tank(eta, coloured)), channel, 8);

@@ -95,7 +95,9 @@ impl Ledger {
         let absorbed =
             |lane: usize| f64::from(event.before.0[lane]) - f64::from(event.after.0[lane]);
         if Some(event.object) == self.soil {
-            add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+            if event.is_scattered {
+                add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+            }
             add(sums, BY_SOIL, absorbed);
             return;
         }
