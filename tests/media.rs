@@ -106,7 +106,10 @@ fn a_furnace_is_one_through_and_inside_of_media_that_absorb_nothing() {
         let rough = format!("eta = 1.4\nroughness = {roughness}");
         let found = mean_and_error(&scene("", &tank(&rough, even)), 0, 8);
         let lost = 1.0 - found.0;
-        assert!(lost > -4.0 * found.1 && lost < loss + 4.0 * found.1, "{roughness}: {found:?}");
+        assert!(
+            lost > -4.0 * found.1 && lost < loss + 4.0 * found.1,
+            "{roughness}: {found:?}"
+        );
     }
     for eta in ["eta = 1", "eta = 1.4"] {
         for channel in [0, 1] {

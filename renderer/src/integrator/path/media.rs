@@ -80,23 +80,24 @@ impl<const N: usize> Paths<'_, N> {
                 medium.map(|medium| (medium, place, body.is_matched))
             });
             leg.ray.t_max = f32::INFINITY;
+            result.rays += 1;
+            // Within a closed body there is something ahead. Where a ray passes an edge, rounding may
+            // turn the order of two boundaries round, so that it takes itself for inside: then it is
+            // in the open here, and does not walk on for ever.
+            let Some(hit) = world.geometry.intersect(&leg.ray) else {
+                return Met::Nothing;
+            };
+            let mut end = f32::INFINITY;
             if let Some((medium, ..)) = &medium {
                 stream.seek(FLIGHT_SETS + passage.flights);
                 passage.flights += 1;
                 let [choice, distance, ..] = stream.next4();
-                leg.ray.t_max = from + medium.reach(&leg.throughput, [choice, distance]);
+                end = from + medium.reach(&leg.throughput, [choice, distance]);
             }
-            result.rays += 1;
-            let end = leg.ray.t_max;
-            let Some(hit) = world.geometry.intersect(&leg.ray) else {
-                let Some((medium, place, is_lit)) = medium else {
-                    return Met::Nothing;
-                };
-                if end.is_infinite() {
-                    // No closed body is left without passing its boundary.
-                    leg.throughput *= medium.passed(&leg.throughput, end);
-                    return Met::Nothing;
-                }
+            if let Some((medium, place, is_lit)) = &medium
+                && end < hit.t
+            {
+                leg.ray.t_max = end;
                 leg.throughput *= medium.scattered(&leg.throughput, end - from);
                 let position = leg.ray.origin + leg.ray.direction * end;
                 if is_camera_ray && result.first.is_none() {
@@ -104,15 +105,15 @@ impl<const N: usize> Paths<'_, N> {
                         position,
                         normal: -leg.ray.direction,
                         albedo: medium.albedo(),
-                        object: world.objects.object_of(place) as u32,
+                        object: world.objects.object_of(*place) as u32,
                     });
                 }
                 return Met::Medium(Collision {
                     position,
                     phase: medium.phase,
-                    is_lit,
+                    is_lit: *is_lit,
                 });
-            };
+            }
             if let Some((medium, ..)) = &medium {
                 leg.throughput *= medium.passed(&leg.throughput, hit.t - from);
             }
