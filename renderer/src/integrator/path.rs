@@ -7,7 +7,7 @@ mod scatterer;
 use glam::{Vec2, Vec3};
 
 use self::found::{emission, from_infinity};
-use self::media::{Met, Passage, transmittance};
+use self::media::{Collision, Met, Passage, transmittance};
 use self::scatterer::Scatterer;
 use crate::bsdf::Scattered;
 use crate::camera::FilmRay;
@@ -176,26 +176,8 @@ impl<const N: usize> Paths<'_, N> {
                     if throughput.is_zero() || is_last {
                         return;
                     }
-                    let vertex = Vertex {
-                        paths: self,
-                        scatterer: Scatterer::Medium {
-                            position: collision.position,
-                            way: ray.direction,
-                            phase: collision.phase,
-                        },
-                        receiver: Receiver {
-                            position: collision.position,
-                            normal: Vec3::ZERO,
-                        },
-                        is_lit: collision.is_lit,
-                        light_samples: self.light_samples(depth),
-                        throughput: *throughput,
-                        width: cone.width_at(ray.t_max),
-                        gathered: result.radiance,
-                        inside: &passage.inside,
-                        boundary: None,
-                    };
-                    let Some(next) = self.scatter(&vertex, &passage, depth, stream, result) else {
+                    let next = self.collide(&leg, &passage, &collision, depth, stream, result);
+                    let Some(next) = next else {
                         return;
                     };
                     leg = next;
@@ -271,6 +253,39 @@ impl<const N: usize> Paths<'_, N> {
             }
             leg = next;
         }
+    }
+
+    /// The leg by which a path goes on that a medium has scattered, if it does; adds the light of
+    /// lamps there.
+    fn collide(
+        &self,
+        leg: &Leg<N>,
+        passage: &Passage,
+        collision: &Collision,
+        depth: u32,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> Option<Leg<N>> {
+        let vertex = Vertex {
+            paths: self,
+            scatterer: Scatterer::Medium {
+                position: collision.position,
+                way: leg.ray.direction,
+                phase: collision.phase,
+            },
+            receiver: Receiver {
+                position: collision.position,
+                normal: Vec3::ZERO,
+            },
+            is_lit: collision.is_lit,
+            light_samples: self.light_samples(depth),
+            throughput: leg.throughput,
+            width: leg.cone.width_at(leg.ray.t_max),
+            gathered: result.radiance,
+            inside: &passage.inside,
+            boundary: None,
+        };
+        self.scatter(&vertex, passage, depth, stream, result)
     }
 
     /// Adds the light of lamps at a vertex, and that of several paths from the first one if no lamp

@@ -34,7 +34,7 @@ use crate::camera::filter::PixelFilter;
 use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
 use crate::geometry::scatter::{ScatterError, VolumeError};
-use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
+use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
@@ -315,18 +315,7 @@ impl World {
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
-        let mut lights = Vec::new();
-        for light in &scene.lights {
-            if let description::Light::Area { object, .. } = light.value {
-                objects.shine(first[object], lights.len());
-            }
-            lights.extend(build_lights(
-                &light.name,
-                &light.value,
-                &meshes,
-                |object| &instances[first[object]],
-            )?);
-        }
+        let mut lights = all_lights(scene, &meshes, &instances, &first, &mut objects)?;
         for material in &mut materials {
             material.tabulate(wavelengths.grid());
         }
@@ -362,6 +351,30 @@ impl World {
     pub fn material_of(&self, instance: u32) -> &Material {
         &self.materials[self.objects[instance as usize].material]
     }
+}
+
+/// The scene's lights; objects that emit light are told so.
+fn all_lights(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+    first: &[usize],
+    objects: &mut WorldObjects,
+) -> Result<Vec<Light>, WorldError> {
+    let mut lights = Vec::new();
+    for light in &scene.lights {
+        if let description::Light::Area { object, .. } = light.value {
+            objects.shine(first[object], lights.len());
+        }
+        let instance_of = |object: usize| &instances[first[object]];
+        lights.extend(build_lights(
+            &light.name,
+            &light.value,
+            meshes,
+            instance_of,
+        )?);
+    }
+    Ok(lights)
 }
 
 /// Meshes, and the colours that each brings along.
