@@ -9,6 +9,7 @@ mod golden;
 mod instruments;
 mod layers;
 mod lights;
+mod media;
 mod optics;
 mod presets;
 mod radiometry;

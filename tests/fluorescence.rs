@@ -136,7 +136,8 @@ fn two_leaves_one_over_the_other_look_as_the_instrument_measures_them() {
     };
     let rows = read_out(&world, &description, 0, first[0], &budget).expect("it can be measured");
     for ((mean, error), nm) in bands(&text).into_iter().zip(BANDS_NM) {
-        let own = |row: &&Row| row.quantity == "fluorescence_upwards" && row.wavelength_nm == Some(nm);
+        let own =
+            |row: &&Row| row.quantity == "fluorescence_upwards" && row.wavelength_nm == Some(nm);
         let row = rows.iter().find(own).expect("it is measured");
         // The light of the instrument is counted by level area, and its leaves send out light evenly.
         let (measured, measured_error) = (0.5 * row.value / PI, 0.5 * row.error / PI);

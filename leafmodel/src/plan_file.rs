@@ -151,12 +151,13 @@ fn whole_leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
 }
 
 /// The other keys at the top of a scene, which a file of leaves may have.
-const SECTIONS: [&str; 10] = [
+const SECTIONS: [&str; 11] = [
     "name",
     "film",
     "picture",
     "camera",
     "integrator",
+    "media",
     "materials",
     "meshes",
     "solids",

@@ -34,13 +34,14 @@ SCENES = (
     "instances",
     "spots",
     "pots",
+    "milk-glass",
 )
 
 
 def arguments() -> argparse.Namespace:
     """What is to be done."""
     parser = argparse.ArgumentParser(prog="reference/compare", description=__doc__)
-    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the ten")
+    parser.add_argument("scenes", nargs="*", type=Path, help="scene folders; default: the eleven")
     parser.add_argument("--lamina", type=Path, default=program())
     parser.add_argument(
         "--spp", type=int, default=None, help="Lamina's samples a pixel, all seeds (1024)"

@@ -24,6 +24,8 @@ from PythonicDISORT.pydisort import pydisort
 ROOT = Path(__file__).resolve().parents[2]
 ANCHORS = ROOT / "tests" / "data" / "transport_anchors.csv"
 RESULTS = ROOT / "reference" / "results" / "slabs.md"
+# Heading of the part that slabs_mitsuba writes.
+MITSUBA = "## By Mitsuba's volpath"
 SHARES = ("R1", "T1", "Rd", "Td")
 STREAMS = 64
 # Optical depth that stands for infinity in PythonicDISORT.
@@ -125,7 +127,10 @@ def main() -> int:
     arguments = parser.parse_args()
     text, faults = report()
     if arguments.record:
-        RESULTS.write_text(text, encoding="utf-8")
+        # Below stands what Mitsuba finds, by slabs_mitsuba.
+        _, mark, mitsuba = RESULTS.read_text(encoding="utf-8").partition(MITSUBA)
+        below = f"\n{mark}{mitsuba}" if mark else ""
+        RESULTS.write_text(text + below, encoding="utf-8")
     print(text)
     for fault in faults:
         print(f"too far off: {fault}", file=sys.stderr)

@@ -135,6 +135,16 @@ pub enum InstrumentError {
         /// The object.
         object: String,
     },
+    /// A medium where a figure does not count what it scatters or absorbs.
+    #[error("{at}: the object `{object}` is filled by a medium, {problem}")]
+    Medium {
+        /// Where the block stands.
+        at: String,
+        /// The object.
+        object: String,
+        /// What is not counted, and what to write.
+        problem: &'static str,
+    },
     /// A port that looks at its own object, as one within a closed body does.
     #[error(
         "{at}: the abaxial face of the object `{object}` cannot be lit through a port: the port \

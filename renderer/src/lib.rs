@@ -84,6 +84,7 @@ pub mod integrator;
 pub mod light;
 pub mod material;
 pub mod measured;
+pub mod medium;
 mod plot;
 pub mod sampling;
 pub mod scene;

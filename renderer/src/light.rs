@@ -73,7 +73,7 @@ pub struct Receiver {
     /// Position, world, m.
     pub position: Vec3,
     /// Unit normal, world. Light is weighted by the absolute value of its cosine, from either side,
-    /// since a leaf transmits.
+    /// since a leaf transmits. Zero in a medium, where light is weighted by no cosine.
     pub normal: Vec3,
 }
 

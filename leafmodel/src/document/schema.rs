@@ -217,7 +217,7 @@ impl Type {
 
 /// The unit that the ending of a key tells.
 pub fn unit_of(key: &str) -> Option<&'static str> {
-    const UNITS: [(&str, &str); 21] = [
+    const UNITS: [(&str, &str); 22] = [
         ("_w_m2_sr_nm", "W m⁻² sr⁻¹ nm⁻¹"),
         ("_w_sr_nm", "W sr⁻¹ nm⁻¹"),
         ("_w_m2_nm", "W m⁻² nm⁻¹"),
@@ -226,6 +226,7 @@ pub fn unit_of(key: &str) -> Option<&'static str> {
         ("_per_segment2", "per segment²"),
         ("_per_mm", "mm⁻¹"),
         ("_per_cm", "cm⁻¹"),
+        ("_per_m", "m⁻¹"),
         ("_segments", "segments"),
         ("_days", "days"),
         ("_day", "days"),

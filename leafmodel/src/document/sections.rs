@@ -53,6 +53,7 @@ pub fn singular(section: &str) -> &'static str {
         "lights" => "light",
         "solids" => "solid",
         "plants" => "plant",
+        "media" => "medium",
         _ => "block",
     }
 }

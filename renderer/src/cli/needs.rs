@@ -63,7 +63,7 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
         }
         Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
-        Mesh::Rectangle { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
+        Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
     });
     let places = scene.objects.iter().map(|object| {
         let own = object.value.instances.as_ref().map_or(1, Vec::len);
@@ -115,6 +115,7 @@ fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
         Mesh::Disc { radius, .. } => volume.lai * ground / (std::f64::consts::PI * radius * radius),
         Mesh::Rectangle { width, height } => volume.lai * ground / (width * height),
         Mesh::Sphere { .. }
+        | Mesh::Box { .. }
         | Mesh::Drop(_)
         | Mesh::Lump(_)
         | Mesh::Terrain(_)
@@ -138,6 +139,7 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         Mesh::Rectangle { width, height } => width * height,
         Mesh::Terrain(terrain) => terrain.size[0] * terrain.size[1],
         Mesh::Sphere { .. }
+        | Mesh::Box { .. }
         | Mesh::Disc { .. }
         | Mesh::Drop(_)
         | Mesh::Lump(_)

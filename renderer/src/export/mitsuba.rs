@@ -10,6 +10,7 @@
 mod bsdf;
 mod colours;
 mod emitter;
+mod media;
 mod mesh;
 mod plugin;
 mod sensor;
@@ -70,6 +71,21 @@ pub enum ExportError {
         /// The key that says so.
         key: &'static str,
     },
+    /// Bodies within each other.
+    #[error(
+        "the objects `{first}` and `{second}` are transparent bodies that touch or lie within each \
+         other, of which one holds a medium or has the index of air: Mitsuba must be told what is \
+         around the inner one, and a scene does not say so; move them apart"
+    )]
+    Nested {
+        /// Name of an object.
+        first: String,
+        /// Name of the other.
+        second: String,
+    },
+    /// The camera stands in a medium.
+    #[error("the camera stands within a transparent body: move it out, to export the scene")]
+    CameraInside,
     /// The folder exists and holds something other than an export.
     #[error(
         "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -132,6 +148,15 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     }
     if let Some(key) = sensor::foreign_key(&world.view) {
         return Err(ExportError::Lens { key });
+    }
+    if let Some([first, second]) = media::nested(scene, world) {
+        return Err(ExportError::Nested {
+            first: first.to_owned(),
+            second: second.to_owned(),
+        });
+    }
+    if world.media.around_camera.innermost().is_some() {
+        return Err(ExportError::CameraInside);
     }
     let parent = dir.parent().filter(|parent| !parent.as_os_str().is_empty());
     let parent = parent.unwrap_or(Path::new("."));

@@ -1,5 +1,7 @@
 //! Triangle meshes, checked and cleaned for tracing.
 
+mod closed;
+
 use std::fmt;
 
 use glam::{DVec3, Vec2, Vec3};

@@ -1,5 +1,6 @@
 //! Meshes of shapes that are given by numbers.
 
+mod cuboid;
 mod disc;
 mod drop;
 mod globe;
@@ -10,6 +11,7 @@ mod tests;
 
 use super::scramble::scramble;
 
+pub use self::cuboid::cuboid;
 pub use self::disc::disc;
 pub use self::drop::Drop;
 pub use self::globe::sphere;

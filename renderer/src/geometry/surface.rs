@@ -13,6 +13,10 @@ const ROUNDING: f64 = 1.0 / 16_777_216.0;
 /// Share of the distance that a ray of [`SurfacePoint::spawn_to`] leaves out at its target.
 const SHADOW_GAP: f32 = 1e-4;
 
+/// Cosine from the normal below which a ray of [`SurfacePoint::spawn_whole`] would leave out too
+/// much.
+const LEAST_SLOPE: f32 = 0.01;
+
 /// A point of a surface, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
@@ -45,10 +49,29 @@ impl SurfacePoint {
         Ray::new(self.beside(direction), direction)
     }
 
+    /// The same ray, but from the point itself, so that the way to a hit is whole: what is missing
+    /// beside the surface counts where a metre of a medium is hundreds of mean free paths. What lies
+    /// within the point's error of the surface is left out. Nearly along the surface it is
+    /// [`SurfacePoint::spawn`].
+    pub fn spawn_whole(&self, direction: Vec3) -> Ray {
+        let slope = direction.dot(self.geometric_normal).abs();
+        if slope < LEAST_SLOPE * direction.length() {
+            return self.spawn(direction);
+        }
+        Ray {
+            t_min: 1.001 * self.position_error / slope,
+            ..Ray::new(self.position, direction)
+        }
+    }
+
     /// The ray from this point to `target`: `t` is 0 here and 1 there, and ends a ten-thousandth
     /// before it.
     pub fn spawn_to(&self, target: Vec3) -> Ray {
-        let origin = self.beside(target - self.position);
+        Self::shadow(self.beside(target - self.position), target)
+    }
+
+    /// The ray from any point to `target`, likewise.
+    pub fn shadow(origin: Vec3, target: Vec3) -> Ray {
         Ray {
             t_max: 1.0 - SHADOW_GAP,
             ..Ray::new(origin, target - origin)

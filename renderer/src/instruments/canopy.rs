@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
-use super::detector::{Detectors, angles};
+use super::detector::{Detectors, UNSEEN_MEDIUM, angles};
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
@@ -21,7 +21,7 @@ use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
-use crate::scene::description::{Canopy, Description, Instrument, Named};
+use crate::scene::description::{Canopy, Description, Detector, Instrument, Named};
 use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
 
@@ -91,7 +91,7 @@ impl Illumination for Lit<'_> {
 struct Tally<'a> {
     lit: &'a Lit<'a>,
     sums: &'a mut [f64],
-    /// Whether the ray has met nothing so far.
+    /// Whether the ray has been scattered by nothing so far.
     is_untouched: bool,
 }
 
@@ -113,7 +113,7 @@ impl Witness<'_> for Tally<'_> {
     }
 
     fn event(&mut self, event: &Event) {
-        self.is_untouched = false;
+        self.is_untouched &= !event.is_scattered;
         let ledger = self.lit.ledger;
         if event.is_first && Some(event.object) == ledger.soil {
             add(self.sums, UNCOLLIDED, |lane| {
@@ -177,6 +177,32 @@ pub(super) fn read_out(
     let ledger = Ledger::new(scene, &stage, canopy, ground);
     if ledger.objects.1.is_empty() {
         return Err(InstrumentError::NoLeaves { at: at.clone() });
+    }
+    let untold = [
+        (
+            !canopy.layers.is_empty(),
+            "whose absorption is not told by layers: leave out `layers_m`",
+        ),
+        (
+            canopy.instances,
+            "whose absorption is not told by instances: leave out `instances`",
+        ),
+        (
+            canopy
+                .detector
+                .as_ref()
+                .is_some_and(Detector::has_next_events),
+            UNSEEN_MEDIUM,
+        ),
+    ];
+    for (asked, problem) in untold {
+        if let (true, Some(object)) = (asked, stage.filled()) {
+            return Err(InstrumentError::Medium {
+                at: at.clone(),
+                object: scene.objects[object].name.clone(),
+                problem,
+            });
+        }
     }
     if let Some(soil) = canopy.soil
         && !is_covered(&stage, &period, soil)

@@ -10,6 +10,7 @@ use leafmodel::optics::{Constituent, Texel};
 use super::LANES;
 use super::stage::Stage;
 use super::walk::Event;
+use crate::material::Material;
 use crate::spectrum::{Lanes, Wavelengths};
 
 /// Number of parts: the constituents that absorb, and `other`.
@@ -29,7 +30,8 @@ pub(super) fn absorbed(
 ) -> [Lanes<LANES>; PARTS] {
     let mut parts = [Lanes::ZERO; PARTS];
     let all = event.before - event.after;
-    let tissue = stage.material_of(event.instance).tissue();
+    let material = event.instance.map(|instance| stage.material_of(instance));
+    let tissue = material.and_then(Material::tissue);
     let Some((tissue, held)) = tissue.and_then(|tissue| Some((tissue, tissue.held?))) else {
         parts[PARTS - 1] = all;
         return parts;

@@ -22,6 +22,10 @@ use crate::sampling::warp;
 use crate::scene::description::{Detector, Estimator};
 use crate::spectrum::Lanes;
 
+/// Why a detector with next events cannot be had beside a medium.
+pub(super) const UNSEEN_MEDIUM: &str =
+    "whose scattering next events do not see: write `estimator = \"count\"` in `detector`";
+
 /// One direction of a detector.
 #[derive(Clone, Copy, Debug)]
 struct Towards {

@@ -11,7 +11,7 @@ use super::LANES;
 use super::batches::{Budget, Experiment, estimates};
 use super::row::{Direction, Row};
 use super::stage::Stage;
-use super::walk::{Course, Escaped, Event, Struck, Walk, Witness};
+use super::walk::{Course, Escaped, Event, Passage, Struck, Walk, Witness};
 use crate::bsdf::fluorescence::{sent_out, taken_in};
 use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
@@ -179,7 +179,7 @@ impl<L: Illumination, C: Course + Sync> Experiment for Reading<'_, L, C> {
                 sums: &mut *sums,
             };
             emitted.add(EMITTED, |lane| f64::from(weight.0[lane]));
-            walk.follow_on(ray, weight, first, stream, &mut emitted);
+            walk.follow_on((ray, start.passage), weight, first, stream, &mut emitted);
         }
     }
 }
@@ -201,6 +201,8 @@ struct Start<'m> {
     lit: f32,
     /// What leaves the lit and the other face.
     leaving: [[f64; LANES]; 2],
+    /// Where it is, in scenes with media.
+    passage: Passage,
 }
 
 impl<'m> Witness<'m> for Exciting<'_, 'm> {
@@ -224,6 +226,7 @@ impl<'m> Witness<'m> for Exciting<'_, 'm> {
             frame: encounter.frame,
             lit: 1.0_f32.copysign(wo.z),
             leaving: [false, true].map(|through| emitting.leaving(&source, through)),
+            passage: struck.passage,
         });
     }
 

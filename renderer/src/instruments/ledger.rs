@@ -127,7 +127,9 @@ impl Ledger {
         let absorbed =
             |lane: usize| f64::from(event.before.0[lane]) - f64::from(event.after.0[lane]);
         if Some(event.object) == self.soil {
-            add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+            if event.is_scattered {
+                add(sums, ARRIVING, |lane| f64::from(event.before.0[lane]));
+            }
             add(sums, BY_SOIL, absorbed);
             return;
         }
@@ -145,8 +147,9 @@ impl Ledger {
                 add(sums, first + part, |lane| f64::from(absorbed.0[lane]));
             }
         }
-        if let Some((first, numbers)) = &self.instances {
-            let number = numbers[stage.numbers[event.instance as usize] as usize];
+        // No medium stands where instances are told.
+        if let (Some((first, numbers)), Some(instance)) = (&self.instances, event.instance) {
+            let number = numbers[stage.numbers[instance as usize] as usize];
             add(sums, first + number as usize, absorbed);
         }
     }

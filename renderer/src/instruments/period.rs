@@ -34,12 +34,18 @@ pub(super) struct Period {
 impl Course for Period {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32) {
         let mut gone = 0.0;
+        let end = ray.t_max;
         for _ in 0..MOST_TURNS {
             let (t_side, t_beyond, axis) = self.side(ray);
-            ray.t_max = t_beyond;
+            let to_end = end - gone;
+            ray.t_max = t_beyond.min(to_end);
             if let Some(hit) = stage.geometry.intersect(ray) {
                 return (Some(hit), gone);
             }
+            if to_end <= t_side {
+                return (None, gone);
+            }
+            ray.t_max = f32::INFINITY;
             if !self.enter(ray, t_side, axis) {
                 return (None, gone);
             }
@@ -72,6 +78,7 @@ impl Period {
             return false;
         }
         ray.origin += ray.direction * t_side;
+        ray.t_min = (ray.t_min - t_side).max(0.0);
         // By the size, not to the side: what starts beyond a surface on the side stays beyond it.
         let size = self.most[axis] - self.least[axis];
         ray.origin[axis] -= size.copysign(ray.direction[axis]);

@@ -36,6 +36,15 @@ impl<'w> Stage<'w> {
         )
     }
 
+    /// The first object that a medium fills.
+    pub(super) fn filled(&self) -> Option<usize> {
+        let bodies = (0..self.objects.len()).filter(|&number| {
+            let body = self.objects[number].body;
+            body.is_some_and(|body| body.medium.is_some())
+        });
+        bodies.map(|number| self.objects[number].object).next()
+    }
+
     /// The material of an instance.
     pub(super) fn material_of(&self, instance: u32) -> &'w Material {
         &self.world.materials[self.objects[instance as usize].material]

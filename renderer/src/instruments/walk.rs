@@ -1,6 +1,10 @@
 //! Light followed from where it starts until it leaves, by the renderer's own scattering.
 
+mod media;
+
 use glam::{Vec2, Vec3};
+
+pub(super) use self::media::Passage;
 
 use super::LANES;
 use super::stage::Stage;
@@ -27,8 +31,8 @@ const ASIDE: u32 = 1 << 24;
 pub(super) struct Event {
     /// Number of the object in the scene.
     pub(super) object: usize,
-    /// Number of the instance on the stage.
-    pub(super) instance: u32,
+    /// Number of the instance on the stage; `None` within a medium.
+    pub(super) instance: Option<u32>,
     /// Where it is, m, and its texture coordinates.
     pub(super) position: Vec3,
     pub(super) uv: Vec2,
@@ -39,6 +43,8 @@ pub(super) struct Event {
     pub(super) after: Lanes<LANES>,
     /// Whether the light comes straight from where it started.
     pub(super) is_first: bool,
+    /// Whether it is scattered; if not, it goes straight on, perhaps weakened by a medium.
+    pub(super) is_scattered: bool,
 }
 
 /// Light at a surface that it meets, before it goes on.
@@ -61,6 +67,8 @@ pub(super) struct Struck<'a, 'm> {
     pub(super) material: &'m Material,
     /// Weight of the light.
     pub(super) weight: Lanes<LANES>,
+    /// Where it is, in scenes with media.
+    pub(super) passage: Passage,
 }
 
 /// Light that leaves.
@@ -74,7 +82,8 @@ pub(super) struct Escaped {
 }
 
 /// The first hit of a ray, which may be moved on its way to it, and the distance that it went
-/// before it was moved last; `None` if the ray leaves.
+/// before it was moved last; `None` if the ray leaves. A ray that has an end may come to it instead:
+/// then it is `None` too, and the end of the moved ray is finite.
 pub(super) trait Course {
     fn next(&self, stage: &Stage<'_>, ray: &mut Ray) -> (Option<Hit>, f32);
 
@@ -112,6 +121,7 @@ struct Leg {
     cone: Cone,
     weight: Lanes<LANES>,
     is_specular: bool,
+    passage: Passage,
 }
 
 /// What is told of light on its way, in the order of what befalls it.
@@ -135,20 +145,21 @@ impl<'m, C: Course> Walk<'m, C> {
             cone: Cone::of_beam(),
             weight: Lanes::ONE,
             is_specular: true,
+            passage: Passage::in_the_open(),
         };
-        let Some(met) = self.meet(&mut leg, witness) else {
+        let Some(met) = self.meet(&mut leg, &mut stream.clone(), witness) else {
             return;
         };
         let share = 1.0 / self.ways as f32;
         for way in 0..self.ways {
             let mut stream = stream.part(way, self.ways);
-            let mut next = self.scatter(&met, leg.weight * share, 0, &mut stream, witness);
+            let mut next = self.scatter(&met, &leg, share, 0, &mut stream, witness);
             let mut event = 1;
             while let Some(mut leg) = next {
-                let Some(met) = self.meet(&mut leg, witness) else {
+                let Some(met) = self.meet(&mut leg, &mut stream, witness) else {
                     break;
                 };
-                next = self.scatter(&met, leg.weight, event, &mut stream, witness);
+                next = self.scatter(&met, &leg, 1.0, event, &mut stream, witness);
                 event += 1;
             }
         }
@@ -158,7 +169,7 @@ impl<'m, C: Course> Walk<'m, C> {
     /// not the first.
     pub(super) fn follow_on(
         &self,
-        ray: Ray,
+        (ray, passage): (Ray, Passage),
         weight: Lanes<LANES>,
         first_set: u32,
         stream: &mut Stream,
@@ -169,20 +180,33 @@ impl<'m, C: Course> Walk<'m, C> {
             cone: Cone::of_beam(),
             weight,
             is_specular: false,
+            passage,
         });
         let mut event = first_set;
         while let Some(mut leg) = next {
-            let Some(met) = self.meet(&mut leg, witness) else {
+            let Some(met) = self.meet(&mut leg, stream, witness) else {
                 break;
             };
-            next = self.scatter(&met, leg.weight, event, stream, witness);
+            next = self.scatter(&met, &leg, 1.0, event, stream, witness);
             event += 1;
         }
     }
 
     /// The surface that light meets; `None` if it leaves.
-    fn meet(&self, leg: &mut Leg, witness: &mut impl Witness<'m>) -> Option<Met<'m>> {
-        let (hit, gone) = self.course.next(self.stage, &mut leg.ray);
+    fn meet(
+        &self,
+        leg: &mut Leg,
+        stream: &mut Stream,
+        witness: &mut impl Witness<'m>,
+    ) -> Option<Met<'m>> {
+        let (hit, gone) = if self.stage.world.media.are_present {
+            self.fly(leg, stream, witness)
+        } else {
+            self.course.next(self.stage, &mut leg.ray)
+        };
+        if leg.weight.is_zero() {
+            return None;
+        }
         let Some(hit) = hit else {
             witness.escape(&Escaped {
                 direction: leg.ray.direction,
@@ -203,25 +227,29 @@ impl<'m, C: Course> Walk<'m, C> {
         })
     }
 
-    /// Light of a weight that goes on from a surface; `None` if nothing does.
+    /// A share of light that has met a surface and goes on from there; `None` if nothing does.
     fn scatter(
         &self,
-        Met {
-            encounter,
-            material,
-            object,
-        }: &Met<'m>,
-        weight: Lanes<LANES>,
+        met: &Met<'m>,
+        arriving: &Leg,
+        share: f32,
         event: u32,
         stream: &mut Stream,
         witness: &mut impl Witness<'m>,
     ) -> Option<Leg> {
+        let Met {
+            encounter,
+            material,
+            object,
+        } = met;
+        let Encounter { bsdf, wo, .. } = encounter;
+        let weight = arriving.weight * share;
         witness.struck(&Struck {
             encounter,
             material,
             weight,
+            passage: arriving.passage,
         });
-        let Encounter { bsdf, wo, .. } = encounter;
         stream.seek(1 + event);
         let [lobe, x, y, roulette] = stream.next4();
         let view = bsdf.seen_from(*wo);
@@ -256,21 +284,29 @@ impl<'m, C: Course> Walk<'m, C> {
         }
         witness.event(&Event {
             object: *object,
-            instance: encounter.surface.instance,
+            instance: Some(encounter.surface.instance),
             position: encounter.surface.position,
             uv: encounter.surface.uv,
             before: weight,
             after,
-            is_first: event == 0,
+            is_first: event == 0 && arriving.passage.is_straight,
+            is_scattered: true,
         });
         let sample = sample.filter(|_| !after.is_zero())?;
         let towards = encounter.frame.to_world(sample.wi);
-        Some(Leg {
+        let mut leg = Leg {
             ray: encounter.surface.spawn(towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
             is_specular: sample.specular,
-        })
+            passage: arriving.passage,
+        };
+        if self.stage.world.media.are_present {
+            let mut passage = leg.passage;
+            passage.leave(self.stage, met, &mut leg.ray);
+            leg.passage = passage;
+        }
+        Some(leg)
     }
 }
 

@@ -8,6 +8,8 @@
 
 use leafmodel::optics::fluorescence::EXCITED_NM;
 
+use super::path::media::Passage;
+use super::path::scatterer::Scatterer;
 use super::path::{PathResult, Paths, Vertex, sampled_light};
 use crate::bsdf::View;
 use crate::bsdf::fluorescence::FluorescenceView;
@@ -39,6 +41,7 @@ impl<const N: usize> Paths<'_, N> {
         &self,
         leaf: &LeafMaterial,
         encounter: &Encounter<'_, N>,
+        passage: &Passage,
         depth: u32,
         stream: &Stream,
     ) -> (Lanes<N>, u32) {
@@ -79,7 +82,7 @@ impl<const N: usize> Paths<'_, N> {
 
         let (found, rays) = self.exciting(
             leaf,
-            encounter,
+            (encounter, passage),
             (&wavelengths, first_set, depth),
             is_through,
             &mut stream,
@@ -103,7 +106,7 @@ impl<const N: usize> Paths<'_, N> {
     fn exciting(
         &self,
         leaf: &LeafMaterial,
-        encounter: &Encounter<'_, N>,
+        (encounter, passage): (&Encounter<'_, N>, &Passage),
         (wavelengths, first_set, depth): (&Wavelengths<N>, u32, u32),
         is_through: bool,
         stream: &mut Stream,
@@ -122,17 +125,23 @@ impl<const N: usize> Paths<'_, N> {
         ));
         let vertex = Vertex {
             paths: &paths,
-            surface,
-            frame: &encounter.frame,
-            view: &view,
+            scatterer: Scatterer::Surface {
+                surface,
+                frame: &encounter.frame,
+                view: &view,
+            },
             receiver: Receiver {
                 position: surface.position,
                 normal: surface.shading_normal,
             },
+            is_lit: true,
             light_samples: 1,
             throughput: Lanes::ONE,
             width: encounter.width,
             gathered: Lanes::ZERO,
+            inside: &passage.inside,
+            // A leaf is a sheet, no boundary of a body.
+            boundary: None,
         };
         let mut result = PathResult {
             radiance: Lanes::ZERO,
@@ -145,7 +154,7 @@ impl<const N: usize> Paths<'_, N> {
         result.radiance += light;
         result.rays += rays;
         if let Some(leg) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) {
-            paths.follow(leg, depth + 1, stream, &mut result);
+            paths.follow(leg, *passage, depth + 1, stream, &mut result);
         }
         (result.radiance, result.rays)
     }

@@ -1,18 +1,24 @@
 //! The path estimator: unidirectional, with light samples at every vertex.
 
+mod found;
+pub(super) mod media;
+pub(super) mod scatterer;
+
 use glam::{Vec2, Vec3};
 
-use crate::bsdf::{Scattered, View};
+use self::found::{emission, from_infinity};
+use self::media::{Collision, Met, Passage, transmittance};
+use self::scatterer::Scatterer;
+use crate::bsdf::Scattered;
 use crate::camera::FilmRay;
-use crate::geometry::frame::Frame;
 use crate::geometry::ray::Ray;
-use crate::geometry::surface::SurfacePoint;
 use crate::integrator::cone::Cone;
 use crate::integrator::effort::Effort;
 use crate::integrator::encounter::Encounter;
 use crate::integrator::mis;
+use crate::light::Receiver;
 use crate::light::selection::Choice;
-use crate::light::{Light, Receiver};
+use crate::medium::{Body, BodyPlace, Inside};
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
@@ -112,7 +118,8 @@ pub fn trace<const N: usize>(
         wavelengths,
         excitation_sets: None,
     };
-    paths.follow(from_camera, 0, stream, &mut result);
+    let passage = Passage::of_camera(world);
+    paths.follow(from_camera, passage, 0, stream, &mut result);
     result
 }
 
@@ -137,27 +144,49 @@ pub(super) struct Paths<'a, const N: usize> {
 
 impl<const N: usize> Paths<'_, N> {
     /// Adds the radiance that a path finds from a leg on. Its ray was scattered `from` times
-    /// before.
+    /// before; `passage` is where it starts, in scenes with media.
     pub(super) fn follow(
         &self,
         mut leg: Leg<N>,
+        mut passage: Passage,
         from: u32,
         stream: &mut Stream,
         result: &mut PathResult<N>,
     ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from.. {
-            result.rays += 1;
+            let met = if world.media.are_present {
+                self.advance(&mut leg, &mut passage, depth == 0, stream, result)
+            } else {
+                result.rays += 1;
+                let hit = world.geometry.intersect(&leg.ray);
+                hit.map_or(Met::Nothing, Met::Surface)
+            };
             let Leg {
                 ray,
                 cone,
                 throughput,
                 bounce,
             } = &leg;
-            let Some(hit) = world.geometry.intersect(ray) else {
-                result.radiance +=
-                    *throughput * from_infinity(world, ray.direction, bounce, wavelengths);
-                return;
+            let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
+            let hit = match met {
+                Met::Surface(hit) => hit,
+                Met::Nothing => {
+                    result.radiance +=
+                        *throughput * from_infinity(world, ray.direction, bounce, wavelengths);
+                    return;
+                }
+                Met::Medium(collision) => {
+                    if throughput.is_zero() || is_last {
+                        return;
+                    }
+                    let next = self.collide(&leg, &passage, &collision, depth, stream, result);
+                    let Some(next) = next else {
+                        return;
+                    };
+                    leg = next;
+                    continue;
+                }
             };
             let material = world.material_of(hit.instance);
             let encounter =
@@ -168,7 +197,7 @@ impl<const N: usize> Paths<'_, N> {
                 let found = emission(world, number, ray, surface, bounce, wavelengths);
                 result.radiance += *throughput * found;
             }
-            if depth == 0 {
+            if depth == 0 && result.first.is_none() {
                 let facing = if encounter.has_relief {
                     frame.to_world(bsdf.normal(wo))
                 } else if wo.z < 0.0 {
@@ -183,61 +212,129 @@ impl<const N: usize> Paths<'_, N> {
                     object: world.objects[surface.instance as usize].object as u32,
                 });
             }
-            if throughput.is_zero() || world.integrator.max_depth.is_some_and(|most| depth >= most)
-            {
+            if throughput.is_zero() || is_last {
                 return;
             }
             let Some(view) = bsdf.seen_from(wo) else {
                 return;
             };
-            let set = self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS;
-            stream.seek(set);
-            let numbers = stream.next4();
             let vertex = Vertex {
                 paths: self,
-                surface,
-                frame,
-                view: &view,
+                scatterer: Scatterer::Surface {
+                    surface,
+                    frame,
+                    view: &view,
+                },
                 receiver: Receiver {
                     position: surface.position,
                     normal: surface.shading_normal,
                 },
-                light_samples: if depth == 0 {
-                    self.effort.light_samples
-                } else {
-                    1
-                },
+                is_lit: !bsdf.is_specular(),
+                light_samples: self.light_samples(depth),
                 throughput: *throughput,
                 width,
                 gathered: result.radiance,
+                inside: &passage.inside,
+                boundary: world.objects[surface.instance as usize].body.map(|body| {
+                    let place = world.objects.body_place(surface.instance);
+                    (place, body, surface.geometric_normal)
+                }),
             };
-            let specular = bsdf.is_specular();
-            if !specular {
-                let [_, x, y, _] = numbers;
-                let (light, rays) = sampled_light(world, &vertex, wavelengths, [x, y], stream);
-                result.radiance += light;
-                result.rays += rays;
-            }
             if let Some(leaf) = self.fluorescing(material) {
-                let (light, rays) = self.emitted(leaf, &encounter, depth, stream);
+                let (light, rays) = self.emitted(leaf, &encounter, &passage, depth, stream);
                 result.radiance += *throughput * light;
                 result.rays += rays;
             }
-            if depth == 0 && self.effort.branches > 1 && !specular && result.radiance.is_zero() {
-                for number in 0..self.effort.branches {
-                    let mut stream = stream.part(number, self.effort.branches);
-                    stream.seek(set);
-                    let share = 1.0 / self.effort.branches as f32;
-                    if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
-                        self.follow(leg, 1, &mut stream, result);
-                    }
-                }
-                return;
-            }
-            let Some(next) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) else {
+            let Some(next) = self.scatter(&vertex, &passage, depth, stream, result) else {
                 return;
             };
+            if let Some((place, body, normal)) = vertex.boundary {
+                let direction = next.ray.direction;
+                passage
+                    .inside
+                    .leave_boundary(place, body, normal, direction);
+            }
             leg = next;
+        }
+    }
+
+    /// The leg by which a path goes on that a medium has scattered, if it does; adds the light of
+    /// lamps there.
+    fn collide(
+        &self,
+        leg: &Leg<N>,
+        passage: &Passage,
+        collision: &Collision,
+        depth: u32,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> Option<Leg<N>> {
+        let vertex = Vertex {
+            paths: self,
+            scatterer: Scatterer::Medium {
+                position: collision.position,
+                way: leg.ray.direction,
+                phase: collision.phase,
+            },
+            receiver: Receiver {
+                position: collision.position,
+                normal: Vec3::ZERO,
+            },
+            is_lit: collision.is_lit,
+            light_samples: self.light_samples(depth),
+            throughput: leg.throughput,
+            width: leg.cone.width_at(leg.ray.t_max),
+            gathered: result.radiance,
+            inside: &passage.inside,
+            boundary: None,
+        };
+        self.scatter(&vertex, passage, depth, stream, result)
+    }
+
+    /// Adds the light of lamps at a vertex, and that of several paths from the first one if no lamp
+    /// shines there; the leg by which the path goes on, if it does.
+    #[inline(always)]
+    fn scatter(
+        &self,
+        vertex: &Vertex<'_, N>,
+        passage: &Passage,
+        depth: u32,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> Option<Leg<N>> {
+        let set = self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS;
+        stream.seek(set);
+        let numbers = stream.next4();
+        if vertex.is_lit {
+            let [_, x, y, _] = numbers;
+            let (light, rays) = sampled_light(self.world, vertex, self.wavelengths, [x, y], stream);
+            result.radiance += light;
+            result.rays += rays;
+        }
+        if depth == 0 && self.effort.branches > 1 && vertex.is_lit && result.radiance.is_zero() {
+            for number in 0..self.effort.branches {
+                let mut stream = stream.part(number, self.effort.branches);
+                stream.seek(set);
+                let share = 1.0 / self.effort.branches as f32;
+                if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
+                    let passage = Passage {
+                        inside: vertex.inside_towards(leg.ray.direction),
+                        ..*passage
+                    };
+                    self.follow(leg, passage, 1, &mut stream, result);
+                }
+            }
+            return None;
+        }
+        vertex.bounce(numbers, 1.0, self.effort.roulette_below)
+    }
+
+    /// Number of lights that are chosen and sampled at a vertex.
+    fn light_samples(&self, depth: u32) -> u32 {
+        if depth == 0 {
+            self.effort.light_samples
+        } else {
+            1
         }
     }
 }
@@ -252,13 +349,13 @@ struct Bounce {
     light_samples: u32,
 }
 
-/// An illuminated surface point.
+/// A point where a path is scattered.
 pub(super) struct Vertex<'a, const N: usize> {
     pub(super) paths: &'a Paths<'a, N>,
-    pub(super) surface: &'a SurfacePoint,
-    pub(super) frame: &'a Frame,
-    pub(super) view: &'a View<'a, N>,
+    pub(super) scatterer: Scatterer<'a, N>,
     pub(super) receiver: Receiver,
+    /// Whether lamps are sampled.
+    pub(super) is_lit: bool,
     /// Number of lights that are chosen and sampled.
     pub(super) light_samples: u32,
     /// Factor on radiance from here, up to the camera.
@@ -267,6 +364,10 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) width: f32,
     /// Radiance that the path has found so far.
     pub(super) gathered: Lanes<N>,
+    /// The bodies from whose inside the ray came.
+    pub(super) inside: &'a Inside,
+    /// The body on whose boundary the point lies, with its outward normal, in scenes with media.
+    pub(super) boundary: Option<(BodyPlace, Body, Vec3)>,
 }
 
 impl<const N: usize> Vertex<'_, N> {
@@ -279,7 +380,7 @@ impl<const N: usize> Vertex<'_, N> {
         roulette_below: f32,
     ) -> Option<Leg<N>> {
         let [lobe, x, y, roulette] = numbers;
-        let sample = self.view.sample(lobe, Vec2::new(x, y))?;
+        let sample = self.scatterer.sample(lobe, Vec2::new(x, y))?;
         let mut throughput = self.throughput * sample.weight * share;
         let Paths {
             world, wavelengths, ..
@@ -298,13 +399,19 @@ impl<const N: usize> Vertex<'_, N> {
             }
             throughput *= 1.0 / survival;
         }
-        let pdf = if sample.specular {
-            f32::INFINITY
-        } else {
+        // Where lamps were not sampled, what the bounce finds has no other weight.
+        let pdf = if self.is_lit {
             sample.pdf
+        } else {
+            f32::INFINITY
         };
         Some(Leg {
-            ray: self.surface.spawn(self.frame.to_world(sample.wi)),
+            ray: match (&self.scatterer, self.boundary) {
+                (Scatterer::Surface { surface, .. }, Some(_)) => {
+                    surface.spawn_whole(sample.wi_world)
+                }
+                (scatterer, _) => scatterer.spawn(sample.wi_world),
+            },
             throughput,
             cone: Cone::scattered(self.width),
             bounce: Bounce {
@@ -313,6 +420,15 @@ impl<const N: usize> Vertex<'_, N> {
                 light_samples: self.light_samples,
             },
         })
+    }
+
+    /// The bodies around a ray that leaves in a direction.
+    fn inside_towards(&self, direction: Vec3) -> Inside {
+        let mut inside = *self.inside;
+        if let Some((place, body, normal)) = self.boundary {
+            inside.leave_boundary(place, body, normal, direction);
+        }
+        inside
     }
 }
 
@@ -352,57 +468,6 @@ pub(super) fn sampled_light<const N: usize>(
     (sum, rays)
 }
 
-/// Light from infinity that a bounce or the camera ray found.
-fn from_infinity<const N: usize>(
-    world: &World,
-    direction: Vec3,
-    bounce: &Bounce,
-    wavelengths: &Wavelengths<N>,
-) -> Lanes<N> {
-    let mut sum = Lanes::ZERO;
-    for &number in &world.selection.at_infinity {
-        let light = &world.lights[number];
-        if let Some((radiance, pdf)) = light.at_infinity(direction, wavelengths) {
-            let chosen = bounce.light_samples as f32;
-            let samples = world
-                .selection
-                .samples_of_infinite(number, &bounce.from, chosen);
-            sum += radiance * mis::power(bounce.pdf, pdf * samples);
-        }
-    }
-    sum
-}
-
-/// Light of an emitting surface that a bounce or the camera ray hit.
-fn emission<const N: usize>(
-    world: &World,
-    number: usize,
-    ray: &Ray,
-    surface: &SurfacePoint,
-    bounce: &Bounce,
-    wavelengths: &Wavelengths<N>,
-) -> Lanes<N> {
-    let Light::Area(light) = &world.lights[number] else {
-        return Lanes::ZERO;
-    };
-    let normal = surface.geometric_normal;
-    let place = (surface.triangle, surface.position);
-    let Some(radiance) = light.emitted(ray.direction, normal, place, wavelengths) else {
-        return Lanes::ZERO;
-    };
-    if bounce.pdf.is_infinite() {
-        return radiance;
-    }
-    let light_pdf = light.patch_of(surface.triangle).map_or(0.0, |part| {
-        bounce.light_samples as f32
-            * world
-                .selection
-                .probability_of_part(number, part, &bounce.from)
-            * light.pdf(part, &bounce.from, surface.position)
-    });
-    radiance * mis::power(bounce.pdf, light_pdf)
-}
-
 /// Light samples that would add less than this share of the path's radiance so far, in every lane,
 /// undergo Russian roulette before the shadow ray.
 const FAINT: f32 = 0.2;
@@ -425,9 +490,7 @@ fn direct<const N: usize>(
     let Some(sample) = light.sample(choice.part, &vertex.receiver, wavelengths, place) else {
         return (Lanes::ZERO, 0);
     };
-    let wi = vertex.frame.to_local(sample.wi);
-    let Scattered { f, pdf } = vertex.view.scatter(wi);
-    let scattered = f * wi.z.abs();
+    let Scattered { f: scattered, pdf } = vertex.scatterer.scatter(sample.wi);
     if scattered.is_zero() || sample.radiance.is_zero() {
         return (Lanes::ZERO, 0);
     }
@@ -446,9 +509,14 @@ fn direct<const N: usize>(
         }
     }
     let shadow = match sample.point {
-        Some(point) => vertex.surface.spawn_to(point),
-        None => vertex.surface.spawn(sample.wi),
+        Some(point) => vertex.scatterer.spawn_to(point),
+        None => vertex.scatterer.spawn(sample.wi),
     };
+    if world.media.are_present {
+        let inside = vertex.inside_towards(sample.wi);
+        let (share, rays) = transmittance(world, shadow, sample.point, inside, wavelengths);
+        return (added * share, rays);
+    }
     if world.geometry.occluded(&shadow) {
         return (Lanes::ZERO, 1);
     }

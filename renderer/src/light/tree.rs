@@ -200,6 +200,7 @@ impl Node {
     /// The importance of \[conty2018\], with cosines instead of angles.
     fn importances(&self, receiver: &Receiver) -> [f32; WIDTH] {
         let (p, n) = (receiver.position, receiver.normal);
+        let least_received = if n == Vec3::ZERO { 1.0 } else { LEAST_COSINE };
         let mut importances = [0.0; WIDTH];
         for (k, slot) in importances.iter_mut().enumerate() {
             let x = self.center[0][k] - p.x;
@@ -230,7 +231,7 @@ impl Node {
             let sent = if inside { 1.0 } else { sent };
 
             let least_distance2 = distance2.max(self.radius2[k]);
-            let cosines = received.max(LEAST_COSINE) * sent.max(LEAST_COSINE);
+            let cosines = received.max(least_received) * sent.max(LEAST_COSINE);
             // A point light may be almost at the receiver.
             let importance = (self.intensity[k] * cosines / least_distance2).min(1e30);
             let dark = sent < self.least_cos[k];

@@ -18,6 +18,7 @@ mod leaf;
 mod light;
 mod material;
 mod measured;
+mod medium;
 mod mesh;
 mod name_list;
 mod object;
@@ -50,14 +51,14 @@ use leafmodel::plan_file::{self, EXTRAPOLATE, read_leaves};
 
 pub(crate) use self::solid::solid;
 use super::description::{
-    Description, Instrument, InstrumentKind, Leaf, Light, Material, Mesh, Object, Picture, Plant,
-    Reflectance, Sample, Solid, Spectrum,
+    Description, Instrument, InstrumentKind, Leaf, Light, Material, Medium, Mesh, Object, Picture,
+    Plant, Reflectance, Sample, Solid, Spectrum,
 };
 use super::plants::{boughs, individuals};
 use super::rigs;
 
 /// All keys at the top of a scene file.
-const SECTIONS: [&str; 15] = [
+const SECTIONS: [&str; 16] = [
     "format",
     "name",
     "extrapolate",
@@ -66,6 +67,7 @@ const SECTIONS: [&str; 15] = [
     "camera",
     "integrator",
     "instruments",
+    "media",
     "materials",
     "meshes",
     "leaves",
@@ -206,6 +208,15 @@ fn scene(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
 
 /// The named blocks.
 fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
+    let about = "What fills bodies.";
+    section(
+        keys,
+        "media",
+        &mut scene.media,
+        &Medium::clear,
+        about,
+        medium::medium,
+    );
     let about = "What surfaces are made of.";
     let new = || Material::Diffuse {
         reflectance: Reflectance::Even(Spectrum::Constant(0.0)),

@@ -5,6 +5,7 @@
 
 mod camera;
 mod instrument;
+mod medium;
 mod object;
 mod reflectance;
 
@@ -24,6 +25,7 @@ pub use self::instrument::{
     Amount, Canopy, DepthProfile, Detector, Estimator, ExcitationLight, FluorescenceReading, Gonio,
     Incidence, Incident, Index, Instrument, InstrumentKind, Response, Sample, Spot, SpotMiddle,
 };
+pub use self::medium::{Medium, MediumPhase};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
 pub use crate::geometry::shapes::{Drop, Lump, Terrain};
@@ -51,6 +53,8 @@ pub struct Description {
     pub camera: Camera,
     /// How light is followed.
     pub integrator: Integrator,
+    /// Media that fill bodies, in the file's order.
+    pub media: Vec<Named<Medium>>,
     /// Materials, in the file's order.
     pub materials: Vec<Named<Material>>,
     /// Meshes, in the file's order.
@@ -87,6 +91,20 @@ impl Material {
     }
 }
 
+impl Material {
+    /// Whether paths need to know on which side of it they are: it bounds a medium, or it is no
+    /// boundary for light at all.
+    pub fn is_transparent_to_paths(&self) -> bool {
+        match self {
+            Self::Dielectric { eta, interior, .. } => interior.is_some() || *eta == 1.0,
+            Self::Diffuse { .. }
+            | Self::Plastic { .. }
+            | Self::Leaf { .. }
+            | Self::Solid { .. } => false,
+        }
+    }
+}
+
 impl Held {
     /// Whether PROSPECT's table is continued by its end values outside 400–2500 nm.
     pub fn extrapolates(&self) -> bool {
@@ -118,6 +136,7 @@ impl Description {
             picture: Picture::default(),
             camera: Camera::usual(),
             integrator: Integrator::default(),
+            media: Vec::new(),
             materials: Vec::new(),
             meshes: Vec::new(),
             leaves: Vec::new(),
@@ -179,6 +198,8 @@ pub enum Material {
         eta: f64,
         /// GGX roughness; 0 is smooth.
         roughness: f64,
+        /// What fills the body, index into [`Description::media`]; `None` is clear.
+        interior: Option<usize>,
     },
     /// A diffuse body below a rough dielectric coat.
     Plastic {
@@ -297,6 +318,11 @@ pub enum Mesh {
         radius: f64,
         /// Triangles around the equator and half as many from pole to pole.
         segments: u32,
+    },
+    /// A closed box around the origin.
+    Box {
+        /// Extent along x, y and z, m.
+        size: [f64; 3],
     },
     /// A disc in the xy plane around the origin, normal +z, uv from 0 to 1 over the square around
     /// it.

@@ -1,5 +1,6 @@
 //! The finished scene, immutable and shared by all threads.
 
+mod bodies;
 mod lights;
 mod materials;
 mod meshes;
@@ -21,6 +22,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use self::bodies::{around, build_media, set_bodies};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
@@ -33,13 +35,14 @@ use crate::camera::filter::PixelFilter;
 use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
 use crate::geometry::scatter::{ScatterError, VolumeError};
-use crate::geometry::{Geometry, GeometryError, ImportError, MeshError, TriangleMesh};
+use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
 use crate::material::colour_map::ColourMap;
 use crate::material::palette::{Palette, Palettes};
 use crate::material::solid::SolidMaterial;
+use crate::medium::Media;
 use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
@@ -62,6 +65,8 @@ pub struct World {
     pub strewn: Places,
     /// Materials: the scene's, then those of each grown leaf, then that of each grown body.
     pub materials: Vec<Material>,
+    /// The media that fill bodies.
+    pub media: Media,
     /// The owner of each material.
     pub owners: Vec<MaterialOwner>,
     /// The distinct palettes of pigments.
@@ -156,6 +161,18 @@ pub enum WorldError {
     NoTextureCoordinates {
         /// Name of the light.
         name: String,
+    },
+    /// The mesh of a body with a medium in it has holes.
+    #[error(
+        "objects.{object}: its mesh does not enclose a body with normals to the outside, and \
+         `interior` of the material `{material}` fills one: use a closed mesh, such as a box, a sphere \
+         or a lump"
+    )]
+    OpenBody {
+        /// Name of the object.
+        object: String,
+        /// Name of its material.
+        material: String,
     },
     /// There is no room for what is strewn.
     #[error("objects.{name}.scatter: {source}")]
@@ -293,22 +310,15 @@ impl World {
             mut objects,
             first,
         } = place(scene, &pieces, &strewn_around);
+        let mut media = build_media(scene, wavelengths.grid());
+        if media.are_present {
+            set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;
+        }
         let view = scene
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
-        let mut lights = Vec::new();
-        for light in &scene.lights {
-            if let description::Light::Area { object, .. } = light.value {
-                objects.shine(first[object], lights.len());
-            }
-            lights.extend(build_lights(
-                &light.name,
-                &light.value,
-                &meshes,
-                |object| &instances[first[object]],
-            )?);
-        }
+        let mut lights = all_lights(scene, &meshes, &instances, &first, &mut objects)?;
         for material in &mut materials {
             material.tabulate(wavelengths.grid());
         }
@@ -316,13 +326,18 @@ impl World {
             light.tabulate(wavelengths.grid());
         }
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
+        let geometry = Geometry::build(meshes, instances)?;
+        if media.are_present {
+            media.around_camera = around(view.position.as_vec3(), &geometry, &objects);
+        }
         Ok(Self {
-            geometry: Geometry::build(meshes, instances)?,
+            geometry,
             origin,
             objects,
             pieces,
             strewn,
             materials,
+            media,
             owners,
             palettes: known.palettes,
             selection: LightSelection::new(&lights, lit_range(range_nm, fluoresces)),
@@ -350,6 +365,30 @@ fn lit_range([first, last]: [f64; 2], fluoresces: bool) -> [f64; 2] {
     } else {
         [first, last]
     }
+}
+
+/// The scene's lights; objects that emit light are told so.
+fn all_lights(
+    scene: &Description,
+    meshes: &[TriangleMesh],
+    instances: &[Instance],
+    first: &[usize],
+    objects: &mut WorldObjects,
+) -> Result<Vec<Light>, WorldError> {
+    let mut lights = Vec::new();
+    for light in &scene.lights {
+        if let description::Light::Area { object, .. } = light.value {
+            objects.shine(first[object], lights.len());
+        }
+        let instance_of = |object: usize| &instances[first[object]];
+        lights.extend(build_lights(
+            &light.name,
+            &light.value,
+            meshes,
+            instance_of,
+        )?);
+    }
+    Ok(lights)
 }
 
 /// Meshes, and the colours that each brings along.

@@ -25,3 +25,32 @@ pub enum Spectrum {
         scale: f64,
     },
 }
+
+impl Spectrum {
+    /// This spectrum times a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(factor * value),
+            Self::Table {
+                mut points,
+                extrapolate,
+            } => {
+                for (_, value) in &mut points {
+                    *value *= factor;
+                }
+                Self::Table {
+                    points,
+                    extrapolate,
+                }
+            }
+            Self::D65 { scale } => Self::D65 {
+                scale: factor * scale,
+            },
+            Self::Blackbody { kelvin, scale } => Self::Blackbody {
+                kelvin,
+                scale: factor * scale,
+            },
+        }
+    }
+}

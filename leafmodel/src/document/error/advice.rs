@@ -165,6 +165,7 @@ fn plural(kind: &str) -> String {
     match kind {
         "mesh" => "meshes".to_owned(),
         "leaf" => "leaves".to_owned(),
+        "medium" => "media".to_owned(),
         other => format!("{other}s"),
     }
 }

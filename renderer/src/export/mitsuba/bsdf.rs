@@ -67,7 +67,11 @@ pub(super) fn bsdf(
                 .holding(one_side.holding(shared(&id, own, reflectance, spectra)))
                 .laid_out(Layout::Inline)
         }
-        Material::Dielectric { eta, roughness } => {
+        // Mitsuba's boundary without a change of index; it is no event on a path either.
+        Material::Dielectric { eta, .. } if *eta == 1.0 => {
+            Element::plugin("bsdf", "null").called(&id)
+        }
+        Material::Dielectric { eta, roughness, .. } => {
             let is_rough = *roughness > 0.0;
             let kind = if is_rough {
                 "roughdielectric"

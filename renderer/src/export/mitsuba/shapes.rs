@@ -18,10 +18,10 @@ use crate::scene::description::{Description, Light, Object, ObjectShape};
 use crate::scene::plants::Piece;
 use crate::scene::world::World;
 
-use super::emitter;
 use super::plugin::matrix;
 use super::spectra::Spectra;
 use super::units::{UNITS_PER_METRE, material_id};
+use super::{emitter, media};
 
 /// A mesh of the world, or its mirror image in x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -186,6 +186,7 @@ impl Writer<'_> {
             .boolean("face_normals", mesh.normals().is_none())
             .placed([matrix(to_world)])
             .referring(material_id(self.scene, self.world, piece.material))
+            .holding_all(media::of_material(self.scene, self.world, piece.material))
     }
 
     /// All parts of a shape, in millimetres.

@@ -413,3 +413,78 @@ scatter = { on = "left", count = 25, settle = true }
         );
     }
 }
+
+const MILK: &str = r#"
+[media.milk]
+scattering_per_mm = 0.2
+absorption_per_mm = { table = [[300, 0.1], [500, 0.1], [600, 0]] }
+g = 0.7
+[media.air]
+scattering_per_m = 2
+phase = "rayleigh"
+[materials.milk.dielectric]
+eta = 1.35
+interior = "milk"
+[materials.air.dielectric]
+eta = 1
+interior = "air"
+[meshes.ball.sphere]
+radius_m = 0.01
+[objects.milk]
+mesh = "ball"
+material = "milk"
+[objects.air]
+mesh = "ball"
+material = "air"
+position_m = [0.05, 0, 0]
+"#;
+
+#[test]
+fn media_are_extinction_in_inverse_millimetres_and_albedo_and_fill_their_shapes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, world) = scene_with(MILK, folder.path());
+    let out = folder.path().join("out");
+    write(&scene, &world, &out).expect("it is written");
+    let xml = fs::read_to_string(out.join("scene.xml")).expect("scene.xml");
+    for part in [
+        "<integrator type=\"volpath\">",
+        "<medium type=\"homogeneous\" id=\"medium-milk\">",
+        "<ref name=\"interior\" id=\"medium-milk\"/>",
+        "<ref name=\"interior\" id=\"medium-air\"/>",
+        "<phase type=\"rayleigh\"/>",
+        "<float name=\"g\" value=\"0.7\"/>",
+        "<bsdf type=\"null\" id=\"material-air\"/>",
+        "name=\"sigma_t\" value=\"300:0.002, 2600:0.002\"",
+    ] {
+        assert!(xml.contains(part), "{part} is missing: {xml}");
+    }
+    let spectra = fs::read_dir(out.join("spectra")).expect("spectra");
+    let texts: Vec<String> = spectra
+        .map(|file| fs::read_to_string(file.expect("a file").path()).expect("text"))
+        .collect();
+    // At 550 nm half of the absorption is left: 0.05 of 0.25 per mm.
+    let has = |nm: &str, value: f64| {
+        texts.iter().any(|text| {
+            let line = text.lines().find_map(|line| line.strip_prefix(nm));
+            line.is_some_and(|line| {
+                let found: f64 = line.trim().parse().expect("a number");
+                (found - value).abs() < 1e-6
+            })
+        })
+    };
+    assert!(has("550 ", 0.25) && has("550 ", 0.8), "{texts:?}");
+}
+
+#[test]
+fn bodies_within_each_other_and_a_camera_in_a_body_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let nested = MILK.replace("0.05, 0, 0", "0.005, 0, 0");
+    let (scene, world) = scene_with(&nested, folder.path());
+    let error = write(&scene, &world, &out).expect_err("they overlap");
+    assert!(matches!(error, ExportError::Nested { .. }), "{error}");
+    let around = MILK.replace("0.05, 0, 0", "0, 0, 0.5");
+    let (scene, world) = scene_with(&around, folder.path());
+    let error = write(&scene, &world, &out).expect_err("the camera is in the air");
+    assert!(matches!(error, ExportError::CameraInside), "{error}");
+}

@@ -8,6 +8,7 @@ use crate::scene::world::World;
 
 use super::bsdf::bsdf;
 use super::emitter::emitter;
+use super::media::media;
 use super::sensor::sensor;
 use super::shapes::{self, MeshFile};
 use super::spectra::Spectra;
@@ -22,10 +23,13 @@ pub(super) fn scene(
 ) -> (String, BTreeSet<MeshFile>) {
     let root = Element::new("scene").with("version", "3.0.0");
     let mut document = Document::new(&root);
-    document.add(&integrator(scene));
+    document.add(&integrator(scene, world.media.are_present));
     document.add(&sensor(scene, &world.view));
     for number in 0..world.materials.len() {
         document.add(&bsdf(scene, world, number, spectra));
+    }
+    for medium in media(scene, spectra) {
+        document.add(&medium);
     }
     let meshes = shapes::write(&mut document, scene, world, spectra);
     for light in &scene.lights {
@@ -39,11 +43,12 @@ pub(super) fn scene(
     (document.finish(), meshes)
 }
 
-fn integrator(scene: &Description) -> Element {
+/// The integrator; only that of media heeds boundaries without a change of index in shadows.
+fn integrator(scene: &Description, has_media: bool) -> Element {
     // Mitsuba counts the camera's own hit as depth 1.
     let depth = scene.integrator.max_depth;
     let depth = depth.map_or(-1, |most| i64::from(most) + 1);
-    Element::plugin("integrator", "path")
+    Element::plugin("integrator", if has_media { "volpath" } else { "path" })
         .integer("max_depth", depth)
         .integer("rr_depth", 1000)
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
+use leafmodel::document::names::NameIn;
 use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
@@ -45,21 +46,17 @@ const KINDS: [Variant<Material>; 5] = [
         new: || Material::Dielectric {
             eta: 1.5,
             roughness: 0.0,
+            interior: None,
         },
         is: |material| matches!(material, Material::Dielectric { .. }),
         declare: |material, keys| {
-            if let Material::Dielectric { eta, roughness } = material {
-                let limits = Number(Limits::closed(0.25, 4.0));
-                keys.key(
-                    "eta",
-                    eta,
-                    limits,
-                    "Refractive index inside over outside; the normal \
-                    points outside.",
-                );
-                let limits = Number(Limits::closed(0.0, 1.0));
-                let about = "GGX roughness; 0 is smooth.";
-                keys.key("roughness", roughness, limits, about);
+            if let Material::Dielectric {
+                eta,
+                roughness,
+                interior,
+            } = material
+            {
+                dielectric((eta, roughness, interior), keys);
             }
         },
     },
@@ -125,6 +122,27 @@ const KINDS: [Variant<Material>; 5] = [
         },
     },
 ];
+
+fn dielectric(
+    (eta, roughness, interior): (&mut f64, &mut f64, &mut Option<usize>),
+    keys: &mut Keys<'_>,
+) {
+    let limits = Number(Limits::closed(0.25, 4.0));
+    let about = "Refractive index inside over outside; the normal points outside. 1 is no boundary: \
+        light goes straight on.";
+    keys.key("eta", eta, limits, about);
+    let limits = Number(Limits::closed(0.0, 1.0));
+    let about = "GGX roughness; 0 is smooth.";
+    keys.key("roughness", roughness, limits, about);
+    let kind = NameIn("media", "the name of a medium");
+    let about = "What fills the body, whose mesh is closed; left out, it is clear.";
+    keys.optional("interior", interior, kind, about);
+    if keys.is_sound() && *eta == 1.0 && *roughness > 0.0 {
+        let problem = "a boundary with the same index on both sides cannot be rough".to_owned();
+        let help = "leave `roughness` out, or write another `eta`";
+        keys.refuse(&["roughness"], problem, help);
+    }
+}
 
 fn plastic(material: &mut Material, keys: &mut Keys<'_>) {
     if let Material::Plastic {

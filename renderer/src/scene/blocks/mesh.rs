@@ -1,4 +1,4 @@
-//! `[meshes.NAME.…]`: rectangle, sphere, disc, drop, lump, terrain, file, gltf.
+//! `[meshes.NAME.…]`: rectangle, sphere, box, disc, drop, lump, terrain, file, gltf.
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
@@ -17,7 +17,7 @@ pub(super) fn mesh(mesh: &mut Mesh, keys: &mut Keys<'_>) {
     keys.kind(mesh, &KINDS);
 }
 
-const KINDS: [Variant<Mesh>; 8] = [
+const KINDS: [Variant<Mesh>; 9] = [
     Variant {
         name: "rectangle",
         about: "A rectangle in the xy plane around the origin, its normal along +z.",
@@ -43,6 +43,18 @@ const KINDS: [Variant<Mesh>; 8] = [
                 keys.required("radius_m", radius, EXTENTS_M, "Its radius.");
                 let about = "Triangles around the equator, half as many from pole to pole.";
                 keys.key("segments", segments, SEGMENTS, about);
+            }
+        },
+    },
+    Variant {
+        name: "box",
+        about: "A closed box around the origin.",
+        new: || Mesh::Box { size: [1.0; 3] },
+        is: |mesh| matches!(mesh, Mesh::Box { .. }),
+        declare: |mesh, keys| {
+            if let Mesh::Box { size } = mesh {
+                let limits = Numbers::<3>(Limits::above(0.0, 1e6));
+                keys.required("size_m", size, limits, "Extent along x, y and z.");
             }
         },
     },

@@ -14,7 +14,8 @@ use crate::scene::description::{
 };
 
 /// Sections to whose blocks others refer.
-pub(super) const SECTIONS: [&str; 7] = [
+pub(super) const SECTIONS: [&str; 8] = [
+    "media",
     "meshes",
     "materials",
     "leaves",
@@ -84,6 +85,8 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
             "is a leaf, and leaves do not shine"
         } else if matches!(shape, Some(ObjectShape::Solid { .. })) {
             "is a body of solid tissue, and those do not shine"
+        } else if shape.is_some_and(|shape| is_no_surface(scene, *shape)) {
+            "is the boundary of a medium, and those do not shine"
         } else if shining.insert(object) {
             continue;
         } else {
@@ -95,6 +98,15 @@ fn check_shining(scene: &Description, keys: &Keys<'_>) {
         };
         keys.report_at_key(&["lights", &light.name], error);
     }
+}
+
+/// Whether a shape is a mesh whose material is the boundary of a medium or no boundary at all.
+fn is_no_surface(scene: &Description, shape: ObjectShape) -> bool {
+    let material = match shape {
+        ObjectShape::Mesh { material, .. } => scene.materials.get(material),
+        ObjectShape::Leaf { .. } | ObjectShape::Solid { .. } => None,
+    };
+    material.is_some_and(|named| named.value.is_transparent_to_paths())
 }
 
 /// What is strewn on something that is strewn itself stands behind it in the file.
@@ -243,7 +255,17 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
         leaves.extend(&plant.value.leaves);
         materials.extend(plant.value.bark);
     }
+    let media = scene.materials.iter();
+    let media = media.filter_map(|named| match named.value {
+        Material::Dielectric { interior, .. } => interior,
+        Material::Diffuse { .. }
+        | Material::Plastic { .. }
+        | Material::Leaf { .. }
+        | Material::Solid { .. } => None,
+    });
+    let media: BTreeSet<usize> = media.collect();
     for (section, used) in [
+        ("media", media),
         ("plants", plants),
         ("meshes", meshes),
         ("materials", materials),
@@ -257,8 +279,15 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
             .enumerate()
             .filter(|(index, _)| !used.contains(index))
         {
-            let message = format!("no object uses the {kind} `{}`", entry.key);
-            let help = "take it out, or add an object with it";
+            let (user, help) = if section == "media" {
+                (
+                    "material",
+                    "take it out, or write `interior` in a dielectric",
+                )
+            } else {
+                ("object", "take it out, or add an object with it")
+            };
+            let message = format!("no {user} uses the {kind} `{}`", entry.key);
             root.cx.warn(&entry.key_at, "scene::unused", message, help);
         }
     }

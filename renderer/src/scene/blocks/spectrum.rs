@@ -25,6 +25,10 @@ pub(super) enum SpectrumOf {
     Ratio,
     /// Radiance, irradiance or intensity.
     Emission,
+    /// A coefficient of a medium, mm⁻¹.
+    PerMillimetre,
+    /// A coefficient of a medium, m⁻¹.
+    PerMetre,
 }
 
 impl SpectrumOf {
@@ -33,12 +37,14 @@ impl SpectrumOf {
             Self::Share => Limits::closed(0.0, 1.0),
             Self::Ratio => Limits::closed(1e-3, 1e3),
             Self::Emission => Limits::closed(0.0, 1e12),
+            Self::PerMillimetre => Limits::closed(0.0, 1e6),
+            Self::PerMetre => Limits::closed(0.0, 1e9),
         }
     }
 
     fn forms(self) -> &'static str {
         match self {
-            Self::Share | Self::Ratio => {
+            Self::Share | Self::Ratio | Self::PerMillimetre | Self::PerMetre => {
                 "a number, `{ table = [[nm, value], …] }` or `{ file = \"….csv\" }`"
             }
             Self::Emission => {
@@ -50,7 +56,7 @@ impl SpectrumOf {
 
     fn keys(self) -> &'static [&'static str] {
         match self {
-            Self::Share | Self::Ratio => &["table", "file"],
+            Self::Share | Self::Ratio | Self::PerMillimetre | Self::PerMetre => &["table", "file"],
             Self::Emission => &["table", "file", "d65", "blackbody_k"],
         }
     }
@@ -290,7 +296,11 @@ fn checked_table(
     // Percent times 0.01 may round to just above 1.
     let clamped = |value: f64| match role {
         SpectrumOf::Share if value > 1.0 && value < 1.0 + 1e-9 => 1.0,
-        SpectrumOf::Share | SpectrumOf::Ratio | SpectrumOf::Emission => value,
+        SpectrumOf::Share
+        | SpectrumOf::Ratio
+        | SpectrumOf::Emission
+        | SpectrumOf::PerMillimetre
+        | SpectrumOf::PerMetre => value,
     };
     if let Some(bad) = points
         .iter()

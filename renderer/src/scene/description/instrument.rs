@@ -259,6 +259,13 @@ pub struct DepthProfile {
     pub slices: usize,
 }
 
+impl Detector {
+    /// Whether it looks at each surface that scatters light, besides counting what arrives.
+    pub fn has_next_events(&self) -> bool {
+        self.estimator == Estimator::NextEvent
+    }
+}
+
 /// How a detector's figures are estimated; both are unbiased.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Estimator {

@@ -83,10 +83,12 @@ fn build_material(
         description::Material::Diffuse { reflectance } => {
             Material::Diffuse(build_reflectance(name, reflectance, colours)?)
         }
-        description::Material::Dielectric { eta, roughness } => Material::Dielectric(Dielectric {
-            eta: *eta as f32,
-            alpha: *roughness as f32,
-        }),
+        description::Material::Dielectric { eta, roughness, .. } => {
+            Material::Dielectric(Dielectric {
+                eta: *eta as f32,
+                alpha: *roughness as f32,
+            })
+        }
         description::Material::Plastic {
             reflectance,
             eta,

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::WorldError;
 use crate::geometry::TriangleMesh;
-use crate::geometry::shapes::{disc, sphere};
+use crate::geometry::shapes::{cuboid, disc, sphere};
 use crate::material::colour_map::ColourMap;
 use crate::scene::assets;
 use crate::scene::description;
@@ -67,6 +67,7 @@ fn plain_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, Worl
             .map_err(named)
         }
         description::Mesh::Sphere { radius, segments } => sphere(*radius, *segments).map_err(named),
+        description::Mesh::Box { size } => cuboid(*size).map_err(named),
         description::Mesh::Disc { radius, segments } => disc(*radius, *segments).map_err(named),
         description::Mesh::Drop(drop) => drop.mesh().map_err(named),
         description::Mesh::Lump(lump) => lump.mesh().map_err(named),

@@ -6,6 +6,7 @@ use std::ops::Index;
 use glam::{Affine3A, DAffine3, DMat4};
 
 use crate::geometry::Instance;
+use crate::medium::{Body, BodyPlace};
 use crate::scene::description::{Description, InstancePlace, ObjectShape};
 use crate::scene::plants::Piece;
 
@@ -42,6 +43,8 @@ pub struct WorldObject {
     pub material: usize,
     /// Number of its light, if it emits light.
     pub light: Option<usize>,
+    /// What it is to a ray, if it is a transparent body in a scene with media.
+    pub body: Option<Body>,
 }
 
 /// The object, material and light of each instance. All places of an object share an entry for each
@@ -77,6 +80,17 @@ impl WorldObjects {
         self.instances[instance as usize].place
     }
 
+    /// Which body an instance is, if it is one.
+    pub fn body_place(&self, instance: u32) -> BodyPlace {
+        let Standing { part, place } = self.instances[instance as usize];
+        BodyPlace { part, place }
+    }
+
+    /// Number of the object of a body.
+    pub fn object_of(&self, body: BodyPlace) -> usize {
+        self.parts[body.part as usize].object
+    }
+
     /// The objects of some of the instances, in the order given.
     #[must_use]
     pub fn pick(&self, instances: impl IntoIterator<Item = u32>) -> Self {
@@ -94,11 +108,27 @@ impl WorldObjects {
         self.parts[self.instances[instance].part as usize].light = Some(light);
     }
 
+    /// Says of each part what body it is, given the number of an instance of it.
+    pub(super) fn set_bodies<E>(
+        &mut self,
+        body: impl Fn(usize, WorldObject) -> Result<Option<Body>, E>,
+    ) -> Result<(), E> {
+        let mut is_known = vec![false; self.parts.len()];
+        for (instance, standing) in self.instances.iter().enumerate() {
+            let part = standing.part as usize;
+            if !std::mem::replace(&mut is_known[part], true) {
+                self.parts[part].body = body(instance, self.parts[part])?;
+            }
+        }
+        Ok(())
+    }
+
     fn add_part(&mut self, object: usize, material: usize) -> u32 {
         self.parts.push(WorldObject {
             object,
             material,
             light: None,
+            body: None,
         });
         self.parts.len() as u32 - 1
     }
