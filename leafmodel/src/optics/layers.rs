@@ -29,6 +29,7 @@
 //! ```
 
 mod anatomy;
+mod bidirectional;
 mod boundary;
 mod directions;
 mod leaf;
@@ -40,6 +41,7 @@ mod slab;
 mod stack;
 
 pub use anatomy::{Anatomy, AnatomyError, Tissue};
+pub use bidirectional::{Bidirectional, Binned};
 pub use leaf::{Cells, Faces, LayeredLeaf, Scattering, Slice};
 pub use monte_carlo::{Bins, Estimate, Tallies, follow};
 pub use ordinates::{Fluxes, Leaving, Ordinates, Resolution};
