@@ -2,6 +2,7 @@
 
 mod anchors;
 mod canopy;
+mod layered;
 mod sphere;
 
 use std::path::Path;

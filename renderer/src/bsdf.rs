@@ -35,12 +35,14 @@ pub mod dust;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
+pub mod leaf_face;
 pub mod leaf_tissue;
 pub mod relief;
 
 use crate::sampling::warp;
 use dielectric::Dielectric;
 use leaf::{LeafBsdf, LeafView};
+use leaf_face::FaceView;
 use relief::{ReliefBsdf, ReliefFace, ReliefView};
 
 /// A sampled direction, with the weight of light from it.
@@ -107,6 +109,8 @@ pub enum View<'a, const N: usize> {
     Leaf(LeafView<'a, N>),
     /// A leaf with a relief.
     Relief(ReliefView<'a, N>),
+    /// A face of a leaf whose inside is followed.
+    Face(FaceView),
 }
 
 impl<const N: usize> View<'_, N> {
@@ -130,6 +134,7 @@ impl<const N: usize> View<'_, N> {
             },
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
+            Self::Face(face) => face.scatter(wi),
         }
     }
 
@@ -157,6 +162,7 @@ impl<const N: usize> View<'_, N> {
             }
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
+            Self::Face(face) => face.sample(lobe, u),
         }
     }
 }

@@ -51,6 +51,7 @@ pub mod encounter;
 pub mod features;
 mod job;
 pub mod layers;
+pub mod leaf_walk;
 pub mod mis;
 pub mod noise;
 pub mod path;

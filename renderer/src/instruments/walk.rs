@@ -7,6 +7,8 @@ use super::stage::Stage;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
+use crate::integrator::leaf_walk::{LeafWalk, Leaving};
+use crate::material::leaf::Inside;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
 
@@ -119,10 +121,12 @@ impl<C: Course> Walk<'_, C> {
         let cone = leg.cone.from(gone);
         let geometry = &self.stage.geometry;
         let material = self.stage.material_of(hit.instance);
+        let inside = material.inside().map(|inside| (inside, hit));
         let beam = (&leg.ray, &cone);
         let encounter = Encounter::new(geometry, material, beam, &hit, self.wavelengths);
         Some(Met {
             encounter,
+            inside,
             object: self.stage.objects[hit.instance as usize].object,
         })
     }
@@ -130,20 +134,28 @@ impl<C: Course> Walk<'_, C> {
     /// Light of a weight that goes on from a surface; `None` if nothing does.
     fn scatter(
         &self,
-        Met { encounter, object }: &Met<'_>,
+        Met {
+            encounter,
+            inside,
+            object,
+        }: &Met<'_>,
         weight: Lanes<LANES>,
         event: u32,
         stream: &mut Stream,
         witness: &mut impl Witness,
     ) -> Option<Leg> {
-        let Encounter { bsdf, wo, .. } = encounter;
         stream.seek(1 + event);
-        let [lobe, x, y, roulette] = stream.next4();
-        let view = bsdf.seen_from(*wo);
-        let sample = view.and_then(|view| view.sample(lobe, Vec2::new(x, y)));
-        let mut after = sample.map_or(Lanes::ZERO, |sample| {
-            weight * sample.weight * bsdf.flux_over_radiance(*wo, sample.wi)
-        });
+        let numbers = stream.next4();
+        let [.., roulette] = numbers;
+        let leaving = match inside {
+            Some((inside, hit)) => {
+                let at = (hit, &encounter.surface, &encounter.frame, encounter.wo);
+                let geometry = &self.stage.geometry;
+                LeafWalk::new(geometry, *inside, at, self.wavelengths, numbers).through()
+            }
+            None => at_surface(encounter, numbers),
+        };
+        let mut after = leaving.map_or(Lanes::ZERO, |leaving| weight * leaving.weight);
         let greatest = after.max_lane();
         let below = ROULETTE_BELOW / self.ways as f32;
         if !greatest.is_finite() || event + 1 == MOST_EVENTS {
@@ -163,19 +175,35 @@ impl<C: Course> Walk<'_, C> {
             after,
             is_first: event == 0,
         });
-        let sample = sample.filter(|_| !after.is_zero())?;
-        let towards = encounter.frame.to_world(sample.wi);
+        let leaving = leaving.filter(|_| !after.is_zero())?;
         Some(Leg {
-            ray: encounter.surface.spawn(towards),
+            ray: leaving.surface.spawn(leaving.towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
         })
     }
 }
 
+/// Light that goes on from a surface which scatters it there.
+fn at_surface(
+    encounter: &Encounter<'_, LANES>,
+    [lobe, x, y, _]: [f32; 4],
+) -> Option<Leaving<LANES>> {
+    let Encounter { bsdf, wo, .. } = encounter;
+    let sample = bsdf.seen_from(*wo)?.sample(lobe, Vec2::new(x, y))?;
+    Some(Leaving {
+        towards: encounter.frame.to_world(sample.wi),
+        pdf: None,
+        weight: sample.weight * bsdf.flux_over_radiance(*wo, sample.wi),
+        surface: encounter.surface,
+    })
+}
+
 /// A surface that light meets.
 struct Met<'a> {
     encounter: Encounter<'a, LANES>,
+    /// What is inside, if light is followed through it, and where it was met.
+    inside: Option<(Inside<'a>, Hit)>,
     /// Number of the object in the scene.
     object: usize,
 }

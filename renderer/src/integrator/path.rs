@@ -17,6 +17,8 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
+mod through_leaf;
+
 /// Number of sets of four random numbers before the first vertex: one for the places on film and
 /// lens, one for the wavelengths. Without a lens the first set holds both.
 pub const CAMERA_SETS: u32 = 2;
@@ -182,6 +184,19 @@ impl<const N: usize> Paths<'_, N> {
             if throughput.is_zero() || world.integrator.max_depth.is_some_and(|most| depth >= most)
             {
                 return;
+            }
+            if let Some(inside) = material.inside() {
+                let entry = through_leaf::Entry {
+                    inside,
+                    at: (&hit, &surface, &frame, wo),
+                    leg: (*throughput, width),
+                    depth,
+                };
+                let Some(next) = self.through_leaf(&entry, stream, result) else {
+                    return;
+                };
+                leg = next;
+                continue;
             }
             let Some(view) = bsdf.seen_from(wo) else {
                 return;

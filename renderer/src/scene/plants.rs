@@ -26,7 +26,7 @@ use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
 use crate::material::relief::{ReliefMap, StomataNumbers};
 use crate::material::solid::SolidMaterial;
-use crate::scene::description;
+use crate::scene::description::{self, LeafFaces, LeafOptics};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::tissue;
 
@@ -98,6 +98,12 @@ pub fn grow(
     };
     let faces = leaf.faces_by_age();
     let material = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &faces);
+    // Stalks and hairs are no sheets, through which light could be followed from face to face.
+    let round = LeafFaces {
+        optics: LeafOptics::Plates,
+        ..faces.clone()
+    };
+    let round = |held| tissue::leaf(LeafTissue::Held(held), palette.clone(), &round);
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
     let is_closed = leaf.plan.form.closed;
@@ -134,7 +140,7 @@ pub fn grow(
             vec![blade(map, None)]
         }
     });
-    let uniform = |contents| material(Held::Uniform(contents));
+    let uniform = |contents| round(Held::Uniform(contents));
     let stalk = parts.stalk.map(uniform);
     let hairs = parts.hairs.into_iter().map(uniform);
     let meshes = parts.meshes.into_iter().map(|mesh| {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leafmodel::optics::solid::ReflectanceTable;
 
-use super::description::{self, LeafFaces, SolidOptics};
+use super::description::{self, LeafFaces, LeafOptics, SolidOptics};
 use crate::bsdf::leaf::Coat;
 use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
@@ -15,7 +15,11 @@ use crate::spectrum::Curve;
 /// Leaf tissue between its faces.
 pub(super) fn leaf(tissue: LeafTissue, palette: Palette, faces: &LeafFaces) -> LeafMaterial {
     let ratio = faces.abaxial_ratio.as_ref().map(Curve::from_description);
-    LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of))
+    let leaf = LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of));
+    match faces.optics {
+        LeafOptics::Plates => leaf,
+        LeafOptics::Layers => leaf.layered(),
+    }
 }
 
 /// Solid tissue below its skin; `table` is that of its refractive index.

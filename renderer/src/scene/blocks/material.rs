@@ -9,12 +9,12 @@ use leafmodel::document::value_kind::{FilePath, Number};
 use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
-use super::leaf::faces;
+use super::leaf::{faces, impossible};
 use super::reflectance::reflectance;
 use super::solid::optics;
 use super::spectrum::SpectrumOf;
 use crate::scene::description::{
-    Held, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
+    Held, LeafFaces, LeafOptics, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
 };
 
 /// Largest map of contents that is read, bytes.
@@ -94,6 +94,15 @@ const KINDS: [Variant<Material>; 5] = [
                 keys.exclude("measured", "pigments");
                 pigments_block(pigments, keys);
                 faces(both, keys);
+                if both.optics == LeafOptics::Layers
+                    && matches!(tissue, LeafTissue::Measured { .. })
+                {
+                    impossible(
+                        keys,
+                        "layers need contents, and measured spectra say nothing of the inside",
+                        "give contents or a map, or leave `optics` out",
+                    );
+                }
             }
         },
     },
