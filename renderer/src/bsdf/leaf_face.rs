@@ -46,7 +46,7 @@ impl LeafFace {
 
     /// Flux scattered by one facet from `wo` to `wi` per solid angle, which is also the density with
     /// which [`LeafFace::cross`] draws such a direction: what a facet shadows goes on to the next.
-    fn once(&self, wo: Vec3, wi: Vec3) -> f32 {
+    fn once(self, wo: Vec3, wi: Vec3) -> f32 {
         let f = self.boundary.eval(wo, wi);
         f * wi.z.abs() * self.boundary.flux_over_radiance(wo, wi)
     }

@@ -108,8 +108,11 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
         (!face.is_smooth()).then(|| face.seen_from(self.at.wo))
     }
 
-    /// What the face does: the light that leaves, or else the direction in which it goes inside,
-    /// for [`LeafWalk::go_on`].
+    /// What the face does: the light that leaves.
+    ///
+    /// # Errors
+    ///
+    /// The direction in which it goes inside, for [`LeafWalk::go_on`], if it does not leave.
     pub fn cross(&mut self) -> Result<Leaving<N>, Vec3> {
         let face = self.walk.face(self.at.face);
         let crossed = face.cross(self.at.wo, || self.chance.number());

@@ -170,12 +170,12 @@ impl Binned {
             for turn in 0..azimuth {
                 let [from, to] = [turn, turn + 1].map(|end| 2.0 * PI * end as f64 / azimuth as f64);
                 // The mean of cos mφ from one azimuth to the other.
-                let wave = |mode: usize| match mode {
-                    0 => 1.0,
-                    _ => {
-                        let m = mode as f64;
-                        (libm::sin(m * to) - libm::sin(m * from)) / (m * (to - from))
+                let wave = |mode: usize| {
+                    if mode == 0 {
+                        return 1.0;
                     }
+                    let m = mode as f64;
+                    (libm::sin(m * to) - libm::sin(m * from)) / (m * (to - from))
                 };
                 let mut means = [0.0; 2];
                 for (node, (_, weight)) in rule.iter().enumerate() {
