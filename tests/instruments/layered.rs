@@ -63,7 +63,7 @@ fn a_flat_leaf_reads_what_the_ordinates_of_its_layers_say_on_both_faces() {
         let stack = LayeredLeaf::new(&contents).stack(&at);
         let slanted = libm::cos(f64::to_radians(60.0));
         let solved = Ordinates::new(&stack, Resolution::new(16), &[1.0, slanted]).expect("solved");
-        let rows = smooth(&sphere(preset, nm), &rays(8192));
+        let rows = smooth(&sphere(preset, nm), &rays(16384));
         let cases = [
             (Direction::Beam(0.0), Incidence::NORMAL),
             (
