@@ -6,6 +6,7 @@ mod brf;
 mod canopy;
 mod fluorescence;
 mod gonio;
+mod layered;
 mod slabs;
 mod spectral;
 mod sphere;

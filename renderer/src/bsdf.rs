@@ -36,6 +36,7 @@ pub mod fluorescence;
 pub mod fresnel;
 pub mod ggx;
 pub mod leaf;
+pub mod leaf_face;
 pub mod leaf_tissue;
 pub mod relief;
 
@@ -43,6 +44,7 @@ use crate::sampling::warp;
 use dielectric::Dielectric;
 use fluorescence::FluorescenceView;
 use leaf::{LeafBsdf, LeafView};
+use leaf_face::FaceView;
 use relief::{ReliefBsdf, ReliefFace, ReliefView};
 
 /// A sampled direction, with the weight of light from it.
@@ -111,6 +113,8 @@ pub enum View<'a, const N: usize> {
     Relief(ReliefView<'a, N>),
     /// A leaf that emits what light of other wavelengths excites.
     Fluorescence(FluorescenceView<'a>),
+    /// A face of a leaf whose inside is followed.
+    Face(FaceView),
 }
 
 impl<const N: usize> View<'_, N> {
@@ -135,6 +139,7 @@ impl<const N: usize> View<'_, N> {
             Self::Leaf(leaf) => leaf.scatter(wi),
             Self::Relief(relief) => relief.scatter(wi),
             Self::Fluorescence(leaf) => leaf.scatter(wi),
+            Self::Face(face) => face.scatter(wi),
         }
     }
 
@@ -163,6 +168,7 @@ impl<const N: usize> View<'_, N> {
             Self::Leaf(leaf) => leaf.sample(lobe, u),
             Self::Relief(relief) => relief.sample(lobe, u),
             Self::Fluorescence(leaf) => leaf.sample(u),
+            Self::Face(face) => face.sample(lobe, u),
         }
     }
 }

@@ -135,9 +135,9 @@ pub enum InstrumentError {
         /// The object.
         object: String,
     },
-    /// A medium where a figure does not count what it scatters or absorbs.
-    #[error("{at}: the object `{object}` is filled by a medium, {problem}")]
-    Medium {
+    /// An object whose inside scatters or absorbs what a figure does not count.
+    #[error("{at}: the object `{object}` {problem}")]
+    Inside {
         /// Where the block stands.
         at: String,
         /// The object.

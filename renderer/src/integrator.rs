@@ -52,6 +52,7 @@ pub mod features;
 mod fluorescence;
 mod job;
 pub mod layers;
+pub mod leaf_walk;
 pub mod mis;
 pub mod noise;
 pub mod path;

@@ -18,6 +18,7 @@ pub mod colour_map;
 pub mod contents_texture;
 pub mod held;
 pub mod leaf;
+pub mod leaf_layers;
 pub mod light_spread;
 pub mod palette;
 pub mod plastic;
@@ -33,7 +34,7 @@ use crate::spectrum::{WavelengthGrid, Wavelengths};
 use colour_map::ColourMap;
 use contents_texture::ContentsTexture;
 use held::Held;
-use leaf::{LeafMaterial, LeafTissue};
+use leaf::{Inside, LeafMaterial, LeafTissue};
 use palette::Palette;
 use plastic::PlasticMaterial;
 use reflectance::Reflectance;
@@ -159,6 +160,15 @@ impl Material {
         match self {
             Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
             Self::Leaf(leaf) => leaf.relief.as_ref(),
+        }
+    }
+
+    /// Its inside, if light is to be followed through it.
+    #[inline]
+    pub fn inside(&self) -> Option<Inside<'_>> {
+        match self {
+            Self::Diffuse(_) | Self::Dielectric(_) | Self::Plastic(_) | Self::Solid(_) => None,
+            Self::Leaf(leaf) => leaf.inside(),
         }
     }
 

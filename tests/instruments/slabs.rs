@@ -242,8 +242,5 @@ fn layers_of_a_canopy_cannot_tell_what_a_medium_absorbs() {
     };
     let text = format!("{}layers_m = [0, 0.2]\n", scene(&[anchor]));
     let error = figures(&text, &rays(1 << 10)).expect_err("it is refused");
-    assert!(
-        matches!(error, InstrumentError::Medium { .. }),
-        "{error}"
-    );
+    assert!(matches!(error, InstrumentError::Inside { .. }), "{error}");
 }

@@ -11,7 +11,7 @@
 //! - **Always true**: the shares add up to 1; layers that do not absorb lose nothing; diffuse light
 //!   passes a stack equally well from both faces.
 //! - **Left out**: rough boundaries, polarisation (light that meets two boundaries is taken as
-//!   unpolarised at each), interference, sideways spread.
+//!   unpolarised at each), interference; sideways spread but in [`spread`].
 //!
 //! `docs/src/theory/leaf-layers.md` derives it.
 //!
@@ -29,6 +29,7 @@
 //! ```
 
 mod anatomy;
+mod bidirectional;
 mod boundary;
 mod directions;
 mod leaf;
@@ -40,8 +41,9 @@ mod slab;
 mod stack;
 
 pub use anatomy::{Anatomy, AnatomyError, Tissue};
+pub use bidirectional::{Bidirectional, Binned};
 pub use leaf::{Cells, Faces, LayeredLeaf, Scattering, Slice};
-pub use monte_carlo::{Bins, Estimate, Tallies, follow};
+pub use monte_carlo::{Bins, Estimate, Spread, Tallies, follow, spread};
 pub use ordinates::{Fluxes, Leaving, Ordinates, Resolution};
 pub use phase::{Phase, mean_cosine_of_ball, wall};
 pub use stack::{Face, Incidence, Layer, Stack, StackError};

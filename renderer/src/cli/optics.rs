@@ -1,6 +1,7 @@
 //! `lamina optics`: R and T of a leaf by PROSPECT-D as a table, and their colours; both faces of the
 //! leaf as layers.
 
+mod angles;
 mod colour;
 mod figures;
 mod layers;
@@ -37,6 +38,7 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         arguments.out.as_deref(),
         arguments.colour.as_ref().and_then(|file| file.as_deref()),
         arguments.layers.as_ref().and_then(|file| file.as_deref()),
+        arguments.angles.as_deref(),
     ];
     let given: Vec<&Path> = files.into_iter().flatten().collect();
     if let Some((_, file)) = given
@@ -46,8 +48,13 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
     {
         return Err(Failure::written_twice(file));
     }
-    let [out, _, layers_out] = files;
-    for (option, file) in [("--out", out), ("--layers", layers_out)] {
+    let [out, _, layers_out, angles_out] = files;
+    let tables = [
+        ("--out", out),
+        ("--layers", layers_out),
+        ("--angles", angles_out),
+    ];
+    for (option, file) in tables {
         if let Some(file) = file.filter(|file| !is_stdout(file)) {
             check_ending(file, "csv", &format!("{option} writes a table"))?;
         }
@@ -75,6 +82,14 @@ pub(super) fn run(arguments: &OpticsArguments) -> Result<(), Failure> {
         Some(Some(file)) => hand_over(file, &layers::table(&contents, &chosen.line()))?,
         Some(None) => say(layers::faces(&contents)),
         None => {}
+    }
+    if let Some(file) = &arguments.angles {
+        let angles = angles::Angles::of(&contents, &arguments.nm);
+        let table = match arguments.photons {
+            Some(photons) => angles.compared(photons, &chosen.line()),
+            None => angles.table(&chosen.line()),
+        };
+        hand_over(file, &table)?;
     }
     if let Some(file) = &arguments.colour {
         let colours = colour::Colours::of(&contents);

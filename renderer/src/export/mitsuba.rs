@@ -86,6 +86,15 @@ pub enum ExportError {
     /// The camera stands in a medium.
     #[error("the camera stands within a transparent body: move it out, to export the scene")]
     CameraInside,
+    /// A leaf whose inside is followed.
+    #[error(
+        "{place}.optics = \"layers\" cannot be exported: Mitsuba follows no light through a leaf of \
+         layers; write \"plates\""
+    )]
+    Layers {
+        /// The block that says so.
+        place: String,
+    },
     /// The folder exists and holds something other than an export.
     #[error(
         "{path} exists and holds no lamina.json: name a new folder, or one that was exported before"
@@ -157,6 +166,9 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
     }
     if world.media.around_camera.innermost().is_some() {
         return Err(ExportError::CameraInside);
+    }
+    if let Some(place) = bsdf::layered(scene) {
+        return Err(ExportError::Layers { place });
     }
     let parent = dir.parent().filter(|parent| !parent.as_os_str().is_empty());
     let parent = parent.unwrap_or(Path::new("."));

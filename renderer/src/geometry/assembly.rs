@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3, Vec3A};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3, Vec3A};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -13,7 +13,7 @@ use super::memory;
 use super::mesh::TriangleMesh;
 use super::placement::{Carrier, Placement};
 use super::ray::Ray;
-use super::surface::{SurfacePoint, TextureScale};
+use super::surface::{self, SurfacePoint, TextureScale};
 use super::triangle::TriangleBlock;
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
@@ -312,6 +312,16 @@ impl Geometry {
         let block = &mesh.blocks[hit.place as usize / LANES];
         let corners = block.corners(hit.place as usize % LANES);
         TextureScale::at(hit, corners, &mesh.mesh, placement)
+    }
+
+    /// How texture coordinates change along two unit directions in the plane of the surface at a hit,
+    /// 1/m; not at all if the triangle is degenerate.
+    pub fn uv_per_metre(&self, hit: &Hit, directions: [Vec3; 2]) -> [Vec2; 2] {
+        let placement = &self.placements[hit.instance as usize];
+        let mesh = &self.meshes[placement.instance.mesh as usize];
+        let block = &mesh.blocks[hit.place as usize / LANES];
+        let corners = block.corners(hit.place as usize % LANES);
+        surface::uv_per_metre(hit, corners, (&mesh.mesh, placement), directions)
     }
 
     /// Smallest and largest coordinates of all instances' boxes, m; both the origin if there are

@@ -202,6 +202,36 @@ impl TextureScale {
     }
 }
 
+/// How texture coordinates change along unit directions in the plane of a triangle with these
+/// corners, in the frame in which the placement's mesh is traced, 1/m.
+///
+/// A direction is `α e₁ + β e₂` of two edges, and the change `α Δuv₁ + β Δuv₂`.
+pub(super) fn uv_per_metre(
+    hit: &Hit,
+    [a, b, c]: [Vec3; 3],
+    (mesh, placement): (&TriangleMesh, &Placement),
+    directions: [Vec3; 2],
+) -> [Vec2; 2] {
+    let vertices = mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
+    // Without texture coordinates the weights of the second and the third vertex stand for them.
+    let (first, second) = mesh.uvs().map_or((Vec2::X, Vec2::Y), |uvs| {
+        let [at_a, at_b, at_c] = vertices.map(|vertex| uvs[vertex]);
+        (at_b - at_a, at_c - at_a)
+    });
+    let [e1, e2] = [b - a, c - a].map(|edge| placement.linear * edge.as_dvec3());
+    let normal = e1.cross(e2);
+    let square = normal.length_squared();
+    directions.map(|direction| {
+        if square == 0.0 {
+            return Vec2::ZERO;
+        }
+        let direction = direction.as_dvec3();
+        let alpha = direction.cross(e2).dot(normal) / square;
+        let beta = e1.cross(direction).dot(normal) / square;
+        first * alpha as f32 + second * beta as f32
+    })
+}
+
 /// Unit direction of ∂p/∂v in the world, at right angles to `normal`; `None` if the uvs do not span
 /// the triangle.
 ///

@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::batches::{Budget, Experiment, estimates};
-use super::detector::{Detectors, UNSEEN_MEDIUM, angles};
+use super::detector::{self, Detectors, angles};
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{directions, towards};
 use super::ledger::{Ledger, REFLECTED, TRANSMITTED, UNCOLLIDED, add};
@@ -21,7 +21,7 @@ use crate::geometry::Ray;
 use crate::geometry::frame::Frame;
 use crate::sampling::stream::Stream;
 use crate::sampling::warp;
-use crate::scene::description::{Canopy, Description, Detector, Instrument, Named};
+use crate::scene::description::{Canopy, Description, Instrument, Named};
 use crate::scene::world::World;
 use crate::spectrum::Wavelengths;
 
@@ -181,23 +181,19 @@ pub(super) fn read_out(
     let untold = [
         (
             !canopy.layers.is_empty(),
-            "whose absorption is not told by layers: leave out `layers_m`",
+            "is filled by a medium, whose absorption is not told by layers: leave out `layers_m`",
         ),
         (
             canopy.instances,
-            "whose absorption is not told by instances: leave out `instances`",
-        ),
-        (
-            canopy
-                .detector
-                .as_ref()
-                .is_some_and(Detector::has_next_events),
-            UNSEEN_MEDIUM,
+            "is filled by a medium, whose absorption is not told by instances: leave out `instances`",
         ),
     ];
+    if let Some(detector) = &canopy.detector {
+        detector::check(scene, &stage, detector, at)?;
+    }
     for (asked, problem) in untold {
         if let (true, Some(object)) = (asked, stage.filled()) {
-            return Err(InstrumentError::Medium {
+            return Err(InstrumentError::Inside {
                 at: at.clone(),
                 object: scene.objects[object].name.clone(),
                 problem,

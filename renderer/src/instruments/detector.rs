@@ -13,18 +13,46 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
-use super::LANES;
 use super::row::ViewAngles;
 use super::stage::Stage;
 use super::walk::{Course, Escaped, Scattering};
+use super::{InstrumentError, LANES};
 use crate::geometry::frame::Frame;
 use crate::sampling::warp;
-use crate::scene::description::{Detector, Estimator};
+use crate::scene::description::{Description, Detector, Estimator};
 use crate::spectrum::Lanes;
 
-/// Why a detector with next events cannot be had beside a medium.
-pub(super) const UNSEEN_MEDIUM: &str =
-    "whose scattering next events do not see: write `estimator = \"count\"` in `detector`";
+/// Fails if next events are asked for where they would miss light: that which a medium scatters, and
+/// that which leaves a leaf of layers elsewhere than it came in.
+pub(super) fn check(
+    scene: &Description,
+    stage: &Stage<'_>,
+    detector: &Detector,
+    at: &str,
+) -> Result<(), InstrumentError> {
+    let unseen = [
+        (
+            stage.filled(),
+            "is filled by a medium, whose scattering next events do not see: write \
+             `estimator = \"count\"` in `detector`",
+        ),
+        (
+            stage.layered(),
+            "is a leaf of layers, through which next events do not see: write \
+             `estimator = \"count\"` in `detector`",
+        ),
+    ];
+    for (object, problem) in unseen {
+        if let (true, Some(object)) = (detector.has_next_events(), object) {
+            return Err(InstrumentError::Inside {
+                at: at.to_owned(),
+                object: scene.objects[object].name.clone(),
+                problem,
+            });
+        }
+    }
+    Ok(())
+}
 
 /// One direction of a detector.
 #[derive(Clone, Copy, Debug)]

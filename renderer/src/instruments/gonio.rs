@@ -7,7 +7,7 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::batches::{Budget, Estimate, Experiment, estimates};
-use super::detector::{Detectors, UNSEEN_MEDIUM, angles};
+use super::detector::{self, Detectors, angles};
 use super::lamp::{Bench, FACES, Lamp};
 use super::row::{Direction, Row};
 use super::spectral::{Series, by_wavelength, plain, rows};
@@ -121,13 +121,7 @@ pub(super) fn read_out(
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, &gonio.sample, at)?;
-    if let (true, Some(object)) = (gonio.detector.has_next_events(), bench.stage.filled()) {
-        return Err(InstrumentError::Medium {
-            at: at.clone(),
-            object: scene.objects[object].name.clone(),
-            problem: UNSEEN_MEDIUM,
-        });
-    }
+    detector::check(scene, &bench.stage, &gonio.detector, at)?;
     let lamps = bench.lamps(&gonio.sample);
     let detectors: Vec<[Detectors; 2]> = lamps
         .iter()

@@ -45,6 +45,15 @@ impl<'w> Stage<'w> {
         bodies.map(|number| self.objects[number].object).next()
     }
 
+    /// The first object that is a leaf of layers.
+    pub(super) fn layered(&self) -> Option<usize> {
+        let mut numbers = 0..self.objects.len();
+        let layered = |number: &usize| self.material_of(*number as u32).inside().is_some();
+        numbers
+            .find(layered)
+            .map(|number| self.objects[number].object)
+    }
+
     /// The material of an instance.
     pub(super) fn material_of(&self, instance: u32) -> &'w Material {
         &self.world.materials[self.objects[instance as usize].material]

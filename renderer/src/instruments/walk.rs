@@ -12,7 +12,9 @@ use crate::bsdf::View;
 use crate::geometry::{Hit, Ray};
 use crate::integrator::cone::Cone;
 use crate::integrator::encounter::Encounter;
+use crate::integrator::leaf_walk::{LeafWalk, Leaving};
 use crate::material::Material;
+use crate::material::leaf::Inside;
 use crate::sampling::stream::Stream;
 use crate::spectrum::{Lanes, Wavelengths};
 
@@ -218,11 +220,13 @@ impl<'m, C: Course> Walk<'m, C> {
         let cone = leg.cone.from(gone);
         let geometry = &self.stage.geometry;
         let material = self.stage.material_of(hit.instance);
+        let inside = material.inside().map(|inside| (inside, hit));
         let beam = (&leg.ray, &cone);
         let encounter = Encounter::new(geometry, material, beam, &hit, self.wavelengths);
         Some(Met {
             encounter,
             material,
+            inside,
             object: self.stage.objects[hit.instance as usize].object,
         })
     }
@@ -240,9 +244,9 @@ impl<'m, C: Course> Walk<'m, C> {
         let Met {
             encounter,
             material,
+            inside,
             object,
         } = met;
-        let Encounter { bsdf, wo, .. } = encounter;
         let weight = arriving.weight * share;
         witness.struck(&Struck {
             encounter,
@@ -251,25 +255,28 @@ impl<'m, C: Course> Walk<'m, C> {
             passage: arriving.passage,
         });
         stream.seek(1 + event);
-        let [lobe, x, y, roulette] = stream.next4();
-        let view = bsdf.seen_from(*wo);
-        if let Some(view) = &view {
-            let numbers = {
+        let numbers = stream.next4();
+        let [.., roulette] = numbers;
+        let (leaving, is_specular) = if let Some((inside, hit)) = inside {
+            let at = (hit, &encounter.surface, &encounter.frame, encounter.wo);
+            let geometry = &self.stage.geometry;
+            let walk = LeafWalk::new(geometry, *inside, at, self.wavelengths, numbers);
+            (walk.through(), false)
+        } else {
+            let view = encounter.bsdf.seen_from(encounter.wo);
+            if let Some(view) = &view {
                 let mut aside = stream.clone();
                 aside.seek(ASIDE + event);
-                aside.next4()
-            };
-            witness.scattering(&Scattering {
-                encounter,
-                view,
-                weight,
-                numbers,
-            });
-        }
-        let sample = view.and_then(|view| view.sample(lobe, Vec2::new(x, y)));
-        let mut after = sample.map_or(Lanes::ZERO, |sample| {
-            weight * sample.weight * bsdf.flux_over_radiance(*wo, sample.wi)
-        });
+                witness.scattering(&Scattering {
+                    encounter,
+                    view,
+                    weight,
+                    numbers: aside.next4(),
+                });
+            }
+            at_surface(encounter, view, numbers)
+        };
+        let mut after = leaving.map_or(Lanes::ZERO, |leaving| weight * leaving.weight);
         let greatest = after.max_lane();
         let below = ROULETTE_BELOW / self.ways as f32;
         if !greatest.is_finite() || event + 1 == MOST_EVENTS {
@@ -292,13 +299,12 @@ impl<'m, C: Course> Walk<'m, C> {
             is_first: event == 0 && arriving.passage.is_straight,
             is_scattered: true,
         });
-        let sample = sample.filter(|_| !after.is_zero())?;
-        let towards = encounter.frame.to_world(sample.wi);
+        let leaving = leaving.filter(|_| !after.is_zero())?;
         let mut leg = Leg {
-            ray: encounter.surface.spawn(towards),
+            ray: leaving.surface.spawn(leaving.towards),
             cone: Cone::scattered(encounter.width),
             weight: after,
-            is_specular: sample.specular,
+            is_specular,
             passage: arriving.passage,
         };
         if self.stage.world.media.are_present {
@@ -310,10 +316,32 @@ impl<'m, C: Course> Walk<'m, C> {
     }
 }
 
+/// Light that goes on from a surface which scatters it there, and whether its direction is one of
+/// finitely many.
+fn at_surface(
+    encounter: &Encounter<'_, LANES>,
+    view: Option<View<'_, LANES>>,
+    [lobe, x, y, _]: [f32; 4],
+) -> (Option<Leaving<LANES>>, bool) {
+    let Some(sample) = view.and_then(|view| view.sample(lobe, Vec2::new(x, y))) else {
+        return (None, false);
+    };
+    let flux = encounter.bsdf.flux_over_radiance(encounter.wo, sample.wi);
+    let leaving = Leaving {
+        towards: encounter.frame.to_world(sample.wi),
+        pdf: None,
+        weight: sample.weight * flux,
+        surface: encounter.surface,
+    };
+    (Some(leaving), sample.specular)
+}
+
 /// A surface that light meets.
 struct Met<'a> {
     encounter: Encounter<'a, LANES>,
     material: &'a Material,
+    /// What is inside, if light is followed through it, and where it was met.
+    inside: Option<(Inside<'a>, Hit)>,
     /// Number of the object in the scene.
     object: usize,
 }

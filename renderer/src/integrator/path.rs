@@ -23,6 +23,8 @@ use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
 
+mod through_leaf;
+
 /// Number of sets of four random numbers before the first vertex: one for the places on film and
 /// lens, one for the wavelengths. Without a lens the first set holds both.
 pub const CAMERA_SETS: u32 = 2;
@@ -215,6 +217,20 @@ impl<const N: usize> Paths<'_, N> {
             if throughput.is_zero() || is_last {
                 return;
             }
+            if let Some(inside) = material.inside() {
+                let entry = through_leaf::Entry {
+                    inside,
+                    at: (&hit, surface, frame, wo),
+                    passage: &passage,
+                    leg: (*throughput, width),
+                    depth,
+                };
+                let Some(next) = self.through_leaf(&entry, stream, result) else {
+                    return;
+                };
+                leg = next;
+                continue;
+            }
             let Some(view) = bsdf.seen_from(wo) else {
                 return;
             };
@@ -302,7 +318,7 @@ impl<const N: usize> Paths<'_, N> {
         stream: &mut Stream,
         result: &mut PathResult<N>,
     ) -> Option<Leg<N>> {
-        let set = self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS;
+        let set = self.set_of(depth);
         stream.seek(set);
         let numbers = stream.next4();
         if vertex.is_lit {
@@ -327,6 +343,23 @@ impl<const N: usize> Paths<'_, N> {
             return None;
         }
         vertex.bounce(numbers, 1.0, self.effort.roulette_below)
+    }
+
+    /// How much of a throughput counts: as the film sees it, or of light that excites, the brightest
+    /// lane.
+    fn brightness(&self, throughput: &Lanes<N>) -> f32 {
+        match self.excitation_sets {
+            None => self
+                .world
+                .wavelengths
+                .brightness(self.wavelengths, throughput),
+            Some(_) => throughput.max_lane(),
+        }
+    }
+
+    /// The first set of random numbers of a vertex.
+    fn set_of(&self, depth: u32) -> u32 {
+        self.excitation_sets.unwrap_or(0) + CAMERA_SETS + depth * VERTEX_SETS
     }
 
     /// Number of lights that are chosen and sampled at a vertex.
@@ -382,13 +415,7 @@ impl<const N: usize> Vertex<'_, N> {
         let [lobe, x, y, roulette] = numbers;
         let sample = self.scatterer.sample(lobe, Vec2::new(x, y))?;
         let mut throughput = self.throughput * sample.weight * share;
-        let Paths {
-            world, wavelengths, ..
-        } = self.paths;
-        let brightness = match self.paths.excitation_sets {
-            None => world.wavelengths.brightness(wavelengths, &throughput),
-            Some(_) => throughput.max_lane(),
-        };
+        let brightness = self.paths.brightness(&throughput);
         if brightness <= 0.0 {
             return None;
         }

@@ -8,6 +8,7 @@ use leafmodel::optics::{ProspectD, Texel};
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
 use crate::material::held::Held;
+use crate::material::leaf_layers::LeafLayers;
 use crate::material::light_spread::LightSpread;
 use crate::material::palette::Palette;
 use crate::material::relief::{Relief, ReliefMap};
@@ -34,6 +35,19 @@ pub struct LeafMaterial {
     quantum_efficiency: f64,
     /// The relief of its faces, if they are not smooth.
     pub relief: Option<Relief>,
+    /// Its layers, if light is followed through them.
+    layers: Option<Box<LeafLayers>>,
+}
+
+/// The inside of a leaf through which light is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside<'m> {
+    /// Its layers.
+    pub layers: &'m LeafLayers,
+    /// What it holds.
+    pub held: &'m Held,
+    /// The palette of its pigments.
+    pub palette: &'m Palette,
 }
 
 /// A face with half of the tissue.
@@ -78,6 +92,7 @@ impl LeafMaterial {
             half: None,
             quantum_efficiency: 0.0,
             relief: None,
+            layers: None,
         }
     }
 
@@ -89,6 +104,34 @@ impl LeafMaterial {
             self.spread = Some(LightSpread::new(thickness_uv, &map.mean(), &self.palette));
         }
         self
+    }
+
+    /// The same leaf, through whose layers light is followed; what is asked of it otherwise, such as
+    /// its albedo, is that of the leaf BSDF. Measured spectra have no inside and stay as they are.
+    #[must_use]
+    pub fn layered(mut self) -> Self {
+        if let LeafTissue::Held(held) = &self.tissue {
+            let alpha = self.coats.each_ref().map(|coat| {
+                let (_, [across, along]) = coat.numbers();
+                (across * along).sqrt()
+            });
+            self.layers = Some(Box::new(LeafLayers::new(held, alpha)));
+        }
+        self
+    }
+
+    /// Its inside, if light is to be followed through it.
+    #[inline]
+    pub fn inside(&self) -> Option<Inside<'_>> {
+        let layers = self.layers.as_deref()?;
+        match &self.tissue {
+            LeafTissue::Held(held) => Some(Inside {
+                layers,
+                held,
+                palette: &self.palette,
+            }),
+            LeafTissue::Measured { .. } => None,
+        }
     }
 
     /// How far light that it lets through spreads sideways.

@@ -232,9 +232,21 @@ pub enum Material {
     },
 }
 
+/// How light is scattered by a leaf.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LeafOptics {
+    /// At its surface, by the leaf BSDF of the plate model.
+    #[default]
+    Plates,
+    /// On its way through five layers, which it may leave beside the place where it entered.
+    Layers,
+}
+
 /// The two faces of a leaf, grown or of a material.
 #[derive(Clone, Debug)]
 pub struct LeafFaces {
+    /// How light is scattered.
+    pub optics: LeafOptics,
     /// Abaxial over adaxial reflectance; none if it follows what the leaf absorbs.
     pub abaxial_ratio: Option<Spectrum>,
     /// Adaxial and abaxial coat.

@@ -26,7 +26,7 @@ use crate::material::leaf::{LeafMaterial, LeafTissue};
 use crate::material::palette::Palette;
 use crate::material::relief::{ReliefMap, StomataNumbers};
 use crate::material::solid::SolidMaterial;
-use crate::scene::description;
+use crate::scene::description::{self, LeafFaces, LeafOptics};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::tissue;
 
@@ -101,6 +101,15 @@ pub fn grow(
         let held = LeafTissue::Held(held);
         tissue::leaf(held, palette.clone(), &faces, leaf.fluorescence)
     };
+    // Stalks and hairs are no sheets, through which light could be followed from face to face.
+    let round = LeafFaces {
+        optics: LeafOptics::Plates,
+        ..faces.clone()
+    };
+    let round = |held| {
+        let held = LeafTissue::Held(held);
+        tissue::leaf(held, palette.clone(), &round, leaf.fluorescence)
+    };
     let spread_mm = leaf.light_spread * leaf.plan.form.thickness_mm;
     let surface = leaf.plan.surface.as_ref();
     let is_closed = leaf.plan.form.closed;
@@ -137,7 +146,7 @@ pub fn grow(
             vec![blade(map, None)]
         }
     });
-    let uniform = |contents| material(Held::Uniform(contents));
+    let uniform = |contents| round(Held::Uniform(contents));
     let stalk = parts.stalk.map(uniform);
     let hairs = parts.hairs.into_iter().map(uniform);
     let meshes = parts.meshes.into_iter().map(|mesh| {

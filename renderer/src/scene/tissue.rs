@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leafmodel::optics::solid::ReflectanceTable;
 
-use super::description::{self, Fluorescence, LeafFaces, SolidOptics};
+use super::description::{self, Fluorescence, LeafFaces, LeafOptics, SolidOptics};
 use crate::bsdf::leaf::Coat;
 use crate::material::held::Held;
 use crate::material::leaf::{LeafMaterial, LeafTissue};
@@ -21,9 +21,13 @@ pub(super) fn leaf(
 ) -> LeafMaterial {
     let ratio = faces.abaxial_ratio.as_ref().map(Curve::from_description);
     let leaf = LeafMaterial::new(tissue, palette, ratio, faces.coats.map(coat_of));
-    match fluorescence {
+    let leaf = match fluorescence {
         Some(own) => leaf.fluorescing(own.quantum_efficiency),
         None => leaf,
+    };
+    match faces.optics {
+        LeafOptics::Plates => leaf,
+        LeafOptics::Layers => leaf.layered(),
     }
 }
 

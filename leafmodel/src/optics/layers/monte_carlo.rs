@@ -11,6 +11,10 @@ use super::boundary::reflectance;
 use super::stack::{Face, Incidence, Layer, Stack, StackError};
 use crate::shape::chance::{bits, share};
 
+mod sideways;
+
+pub use sideways::{Spread, spread};
+
 /// Separates these random numbers from those of other rooms; it must never change.
 const PURPOSE: u64 = 0x00f2_0000;
 /// Photons that one thread follows at a time.
@@ -94,6 +98,7 @@ pub fn follow(
     }
     let walk = Walk {
         layers: &layers,
+        thickness: None,
         incidence,
         bins: Bins {
             polar: bins.polar.max(1),
@@ -205,6 +210,8 @@ impl Chance {
 
 struct Walk<'a> {
     layers: &'a [Layer],
+    /// Of each layer, if places beside the entry are wanted.
+    thickness: Option<&'a [f64]>,
     incidence: Incidence,
     bins: Bins,
 }
@@ -228,6 +235,25 @@ impl Walk<'_> {
 
     /// One photon's life. Gives the tally of its direction, if it left after scattering.
     fn photon(&self, chance: &mut Chance, tally: &mut [f64]) -> Option<usize> {
+        self.photon_beside(chance, tally, &mut [0.0; 2])
+    }
+
+    /// The same; `beside` becomes the distance of its place from the entry, across the layers, in the
+    /// unit of the thickness.
+    fn photon_beside(
+        &self,
+        chance: &mut Chance,
+        tally: &mut [f64],
+        beside: &mut [f64; 2],
+    ) -> Option<usize> {
+        let mut move_by = |layer: usize, share: f64, heading: Heading| {
+            if let Some(thickness) = self.thickness {
+                let [x, y, z] = heading.0;
+                let length = share * thickness[layer] / z.abs();
+                beside[0] += length * x;
+                beside[1] += length * y;
+            }
+        };
         let cosine = match self.incidence {
             Incidence::Directional { cosine } => cosine,
             // 1 − u lies in (0, 1].
@@ -249,6 +275,7 @@ impl Walk<'_> {
             let to_side = if down { medium.depth - place } else { place };
             let path = to_side / heading.0[2].abs();
             if free < path {
+                move_by(layer, free * heading.0[2].abs() / medium.depth, heading);
                 place += free * heading.0[2];
                 let index = 2 + layer;
                 let kept = weight * medium.albedo;
@@ -270,6 +297,13 @@ impl Walk<'_> {
                 continue;
             }
             free -= path;
+            // A layer without depth is crossed whole.
+            let share = if medium.depth > 0.0 {
+                to_side / medium.depth
+            } else {
+                1.0
+            };
+            move_by(layer, share, heading);
             // Out of the last layer as out of the first: air has the number of no layer.
             let next = if down {
                 layer + 1

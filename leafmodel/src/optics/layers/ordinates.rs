@@ -8,6 +8,8 @@ use super::matrix::Matrix;
 use super::slab::Slab;
 use super::stack::{Face, Incidence, Layer, Stack, StackError};
 
+mod waves;
+
 /// How finely directions are resolved.
 ///
 /// The phase function keeps half as many moments again before its forward peak is cut.
@@ -174,26 +176,18 @@ impl Ordinates {
     pub fn fluxes(&self, face: Face, incidences: &[Incidence]) -> Result<Vec<Fluxes>, StackError> {
         let entering = self.entering(incidences)?;
         let swept = Swept::new(&self.elements, face, &entering);
-        let flux = |light: &Matrix, column: usize| {
-            let roots = self.directions.within(f64::INFINITY).iter();
-            let sum: f64 = roots
-                .take(light.rows())
-                .enumerate()
-                .map(|(row, direction)| direction.root * light[[row, column]])
-                .sum();
-            2.0 * PI * sum
-        };
         Ok((0..incidences.len())
             .map(|column| {
                 let mut absorbed = vec![0.0; self.stack.layers().len()];
                 for (layer, net_in, net_out) in &swept.layers {
-                    let net =
-                        |light: &[Matrix; 2]| flux(&light[0], column) - flux(&light[1], column);
+                    let net = |light: &[Matrix; 2]| {
+                        self.flux(&light[0], column) - self.flux(&light[1], column)
+                    };
                     absorbed[*layer] = net(net_in) - net(net_out);
                 }
                 Fluxes {
-                    reflected: flux(&swept.back, column),
-                    transmitted: flux(&swept.through, column),
+                    reflected: self.flux(&swept.back, column),
+                    transmitted: self.flux(&swept.through, column),
                     absorbed,
                 }
             })
@@ -208,8 +202,8 @@ impl Ordinates {
     pub fn leaving(&self, face: Face, incidence: Incidence) -> Result<Vec<Leaving>, StackError> {
         let swept = self.scattered(face, incidence, &self.elements)?;
         let shares = self
-            .radiance(&swept.back)
-            .zip(self.radiance(&swept.through));
+            .radiance(&swept.back, 0)
+            .zip(self.radiance(&swept.through, 0));
         Ok(self
             .cosines
             .iter()
@@ -222,41 +216,32 @@ impl Ordinates {
             .collect())
     }
 
-    /// Radiance of light that falls in from one direction, in the directions asked for, at each of
-    /// these azimuths (rad) from the plane of incidence: 0 is the half-plane that the light goes
-    /// on in. The outer order is that of azimuths.
-    ///
-    /// Every part of the light that goes as `cos mφ` is solved for, up to the last moment of the
-    /// phase function. The forward peak that is cut off it counts as not scattered, so radiance
-    /// near that of unscattered light is too low.
-    ///
-    /// # Errors
-    ///
-    /// [`StackError::NotSolvedFor`] for a direction that was not named when this was made.
-    pub fn leaving_by_azimuth(
-        &self,
-        face: Face,
-        cosine: f64,
-        azimuths: &[f64],
-    ) -> Result<Vec<Vec<Leaving>>, StackError> {
-        let incidence = Incidence::Directional { cosine };
-        let mut all = vec![self.leaving(face, incidence)?; azimuths.len()];
-        let moments = self.resolution.moments();
-        for mode in 1..moments {
-            let elements = self.elements_with(|layer, at| Slab::new(layer, at, mode, moments));
-            let swept = self.scattered(face, incidence, &elements)?;
-            for (leaving, azimuth) in all.iter_mut().zip(azimuths) {
-                let wave = 2.0 * libm::cos(mode as f64 * azimuth);
-                let shares = self
-                    .radiance(&swept.back)
-                    .zip(self.radiance(&swept.through));
-                for (one, (reflected, transmitted)) in leaving.iter_mut().zip(shares) {
-                    one.reflected += wave * reflected;
-                    one.transmitted += wave * transmitted;
-                }
-            }
+    /// The place of a cosine among those that may be asked for.
+    fn place(&self, cosine: f64) -> Result<usize, StackError> {
+        let place = self.cosines.iter().position(|known| *known == cosine);
+        place.ok_or(StackError::NotSolvedFor { cosine })
+    }
+
+    /// Light in air of unit flux from the directions of these places, a column for each.
+    fn entering_at(&self, places: &[usize]) -> Matrix {
+        let air = self.directions.within(1.0);
+        let mut entering = Matrix::zero(air.len(), places.len());
+        for (column, place) in places.iter().enumerate() {
+            let row = self.directions.probe(*place);
+            entering[[row, column]] = 1.0 / (2.0 * PI * air[row].root);
         }
-        Ok(all)
+        entering
+    }
+
+    /// The flux of light in air.
+    fn flux(&self, light: &Matrix, column: usize) -> f64 {
+        let roots = self.directions.within(f64::INFINITY).iter();
+        let sum: f64 = roots
+            .take(light.rows())
+            .enumerate()
+            .map(|(row, direction)| direction.root * light[[row, column]])
+            .sum();
+        2.0 * PI * sum
     }
 
     /// Light of one incidence in these elements, without what was never scattered if it falls in
@@ -284,11 +269,11 @@ impl Ordinates {
     }
 
     /// π times radiance, of unit flux, in the directions asked for.
-    fn radiance<'a>(&'a self, light: &'a Matrix) -> impl Iterator<Item = f64> + 'a {
+    fn radiance<'a>(&'a self, light: &'a Matrix, column: usize) -> impl Iterator<Item = f64> + 'a {
         let air = self.directions.within(1.0);
         (0..self.cosines.len()).map(move |place| {
             let row = self.directions.probe(place);
-            PI * light[[row, 0]] / air[row].root
+            PI * light[[row, column]] / air[row].root
         })
     }
 
@@ -299,9 +284,7 @@ impl Ordinates {
         for (column, incidence) in incidences.iter().enumerate() {
             match incidence {
                 Incidence::Directional { cosine } => {
-                    let place = self.cosines.iter().position(|known| known == cosine);
-                    let place = place.ok_or(StackError::NotSolvedFor { cosine: *cosine })?;
-                    let row = self.directions.probe(place);
+                    let row = self.directions.probe(self.place(*cosine)?);
                     entering[[row, column]] = 1.0 / (2.0 * PI * air[row].root);
                 }
                 Incidence::Lambertian => {

@@ -1,8 +1,9 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::optics::quadrature::gauss;
 use crate::optics::solid::HalfSpace;
+
+mod directions;
 
 /// Layers that differ in everything, some of which do not absorb if `clear`.
 fn varied(clear: bool) -> Stack {
@@ -280,55 +281,6 @@ fn both_ways_find_the_same_in_layers_that_differ() {
             let sum: f64 = found.absorbed.iter().map(|one| one.value).sum();
             let sum = sum + found.reflected.value + found.transmitted.value;
             assert!((sum - 1.0).abs() < 1e-12, "photons are lost: {sum}");
-        }
-    }
-}
-
-#[test]
-fn both_ways_send_light_into_the_same_directions() {
-    let bins = Bins {
-        polar: 4,
-        azimuth: 4,
-    };
-    let stack = varied(false);
-    // Means over the bins, by quadrature.
-    let rule = gauss(6);
-    let cosines: Vec<f64> = (0..bins.polar)
-        .flat_map(|bin| {
-            let at = move |x: f64| ((bin as f64 + x) / 4.0).sqrt();
-            rule.iter().map(move |(x, _)| at(*x)).collect::<Vec<_>>()
-        })
-        .chain([0.6])
-        .collect();
-    let light = solved(&stack, &cosines);
-    let turns: Vec<f64> = (0..bins.azimuth)
-        .flat_map(|bin| {
-            let at = move |x: f64| 2.0 * PI * (bin as f64 + x) / 4.0;
-            rule.iter().map(move |(x, _)| at(*x)).collect::<Vec<_>>()
-        })
-        .collect();
-    let incidence = Incidence::Directional { cosine: 0.6 };
-    let found = followed(&stack, Face::First, incidence, bins, 400_000, 5);
-    let all = leaving_by_azimuth(&light, Face::First, 0.6, &turns);
-    for polar in 0..bins.polar {
-        for azimuth in 0..bins.azimuth {
-            let mut exact = [0.0; 2];
-            for (i, (_, turn)) in rule.iter().enumerate() {
-                for (j, (_, tilt)) in rule.iter().enumerate() {
-                    let at = &all[azimuth * rule.len() + i][polar * rule.len() + j];
-                    exact[0] += turn * tilt * at.reflected;
-                    exact[1] += turn * tilt * at.transmitted;
-                }
-            }
-            let bin = polar * bins.azimuth + azimuth;
-            let both = [
-                found.reflected_by_direction[bin],
-                found.transmitted_by_direction[bin],
-            ];
-            for (found, exact) in both.into_iter().zip(exact) {
-                let z = (found.value - exact) / found.standard_error;
-                assert!(z.abs() < 4.0, "{polar} {azimuth}: {found:?} for {exact}");
-            }
         }
     }
 }

@@ -7,7 +7,7 @@ use leafmodel::optics::{Constituent, PerConstituent};
 
 /// `lamina optics`: a preset, PROSPECT-D's inputs and betalains, and what is to be told of them.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
-#[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "about"]).required(true).multiple(true))]
+#[command(group = ArgGroup::new("wanted").args(["list", "figures", "out", "colour", "layers", "angles", "about"]).required(true).multiple(true))]
 pub struct OpticsArguments {
     /// Start from the contents of a preset; numbers that are given take the place of its own
     #[arg(long, value_name = "NAME")]
@@ -56,6 +56,17 @@ pub struct OpticsArguments {
     /// every nanometre; `-` is the standard output
     #[arg(long, value_name = "FILE.csv", num_args = 0..=1)]
     pub layers: Option<Option<PathBuf>>,
+    /// BRDF and BTDF of both faces of the leaf as five layers, by incidence, view and azimuth, as a
+    /// table; `-` is the standard output
+    #[arg(long, value_name = "FILE.csv")]
+    pub angles: Option<PathBuf>,
+    /// Wavelengths of that table, nm, 400 to 2500 [default: 450,550,680,800]
+    #[arg(long, value_name = "NM", value_delimiter = ',', requires = "angles", value_parser = in_table)]
+    pub nm: Vec<f64>,
+    /// Give means over ranges of directions in that table instead, beside what so many photons find,
+    /// 1000 to 1000000000, with standard errors
+    #[arg(long, value_name = "N", requires = "angles", value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
+    pub photons: Option<u64>,
     /// Print every number with what it rests on
     #[arg(long)]
     pub about: bool,
@@ -75,6 +86,15 @@ impl OpticsArguments {
             Constituent::Water => ("--cw", self.cw),
             Constituent::DryMatter => ("--cm", self.cm),
         })
+    }
+}
+
+fn in_table(text: &str) -> Result<f64, String> {
+    let nm: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (400.0..=2500.0).contains(&nm) {
+        Ok(nm)
+    } else {
+        Err("write a wavelength from 400 to 2500 nm".to_owned())
     }
 }
 

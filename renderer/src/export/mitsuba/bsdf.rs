@@ -4,7 +4,7 @@ use crate::export::element::{Element, Layout};
 use crate::material;
 use crate::material::held::Held;
 use crate::scene::description::{
-    Description, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics,
+    Description, LeafFaces, LeafOptics, LeafTissue, Material, Reflectance, SolidOptics,
 };
 use crate::scene::world::{MaterialOwner, World};
 
@@ -24,6 +24,29 @@ const SOLID: &str = "lamina_solid";
 
 /// The faces of a leaf.
 const FACES: [&str; 2] = ["adaxial", "abaxial"];
+
+/// The block of a leaf through whose layers light is followed, which Mitsuba does not do.
+pub(super) fn layered(scene: &Description) -> Option<String> {
+    let leaves = scene.leaves.iter();
+    let leaves = leaves.map(|leaf| ("leaves", &leaf.name, Some(&leaf.value.faces)));
+    let materials = scene.materials.iter().map(|material| {
+        let faces = match &material.value {
+            Material::Leaf { faces, .. } => Some(faces),
+            Material::Diffuse { .. }
+            | Material::Dielectric { .. }
+            | Material::Plastic { .. }
+            | Material::Solid { .. } => None,
+        };
+        ("materials", &material.name, faces)
+    });
+    let mut all = leaves.chain(materials);
+    let found =
+        all.find(|(_, _, faces)| faces.is_some_and(|faces| faces.optics == LeafOptics::Layers));
+    found.map(|(block, name, _)| match block {
+        "materials" => format!("{block}.{name}.leaf"),
+        _ => format!("{block}.{name}"),
+    })
+}
 
 /// The material with this number.
 pub(super) fn bsdf(

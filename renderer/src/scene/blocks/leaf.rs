@@ -1,22 +1,31 @@
 //! `[leaves.NAME]`: a grown leaf, and the keys for faces that leaves share with materials.
 
 use leafmodel::blade::surface::SurfacePlan;
+use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::Number;
+use leafmodel::document::value_kind::{Number, Word};
 use leafmodel::leaf::LeafPlan;
 use leafmodel::plan_file::{self, require_prospect};
 use leafmodel::species::surfaces::adaxial_roughness;
 
 use super::fluorescence::fluorescence;
 use super::spectrum::SpectrumOf;
-use crate::scene::description::{Coat, Leaf, LeafFaces};
+use crate::scene::description::{Coat, Leaf, LeafFaces, LeafOptics};
 
+/// Why a leaf of layers does not fluoresce.
+pub(super) const DARK_LAYERS: &str = "fluorescence is worked out for plates, not for layers";
 /// Refractive index of a coat.
 const COAT_ETA: f64 = 1.45;
 /// GGX roughness of the adaxial and the abaxial coat: satin on the adaxial, matt on the abaxial
 /// face.
 const COAT_ALPHA: [f64; 2] = [0.3, 0.45];
+
+/// Words for the ways in which light is scattered.
+const OPTICS: [(&str, LeafOptics); 2] = [
+    ("plates", LeafOptics::Plates),
+    ("layers", LeafOptics::Layers),
+];
 
 /// Least GGX roughness of a coat.
 const LEAST_ALPHA: f64 = 0.02;
@@ -38,6 +47,7 @@ impl LeafFaces {
     /// Faces with all defaults.
     pub(crate) fn usual() -> Self {
         Self {
+            optics: LeafOptics::Plates,
             abaxial_ratio: None,
             coats: COAT_ALPHA.map(|alpha| Coat {
                 eta: COAT_ETA,
@@ -82,6 +92,16 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
         let help = "leave `fluorescence` out, or let the blade be open: `blade.closed = false`";
         keys.refuse(&["fluorescence"], problem, help);
     }
+    if leaf.faces.optics == LeafOptics::Layers && leaf.fluorescence.is_some() {
+        impossible(keys, DARK_LAYERS, "leave `fluorescence` out, or `optics`");
+    }
+    if leaf.faces.optics == LeafOptics::Layers && leaf.plan.form.closed {
+        impossible(
+            keys,
+            "a closed blade is two sheets, and light is followed through one",
+            "leave the key of the closed blade out, or `optics`",
+        );
+    }
     keys.key(
         "light_spread",
         &mut leaf.light_spread,
@@ -91,8 +111,32 @@ pub(super) fn leaf(leaf: &mut Leaf, keys: &mut Keys<'_>) {
     );
 }
 
+/// Reports what a leaf of layers cannot be.
+pub(super) fn impossible(keys: &Keys<'_>, problem: &str, help: &str) {
+    let error = DocumentError::Impossible {
+        key: "optics".to_owned(),
+        problem: problem.to_owned(),
+        help: help.to_owned(),
+    };
+    keys.report(&["optics"], error);
+}
+
 /// The keys of a leaf's faces.
 pub(super) fn faces(faces: &mut LeafFaces, keys: &mut Keys<'_>) {
+    keys.key(
+        "optics",
+        &mut faces.optics,
+        Word(&OPTICS),
+        "`plates`: light is scattered at the surface. `layers`, for close-ups: it is followed through \
+         cuticle, epidermis and mesophyll, and may leave beside the place where it entered.",
+    );
+    if faces.optics == LeafOptics::Layers && keys.has("abaxial_ratio") {
+        impossible(
+            keys,
+            "layers have two faces of their own",
+            "leave `abaxial_ratio` out, or `optics`",
+        );
+    }
     keys.optional(
         "abaxial_ratio",
         &mut faces.abaxial_ratio,

@@ -10,12 +10,12 @@ use leafmodel::optics::{Contents, Pigments};
 use leafmodel::plan_file::{self, held_contents, require_prospect};
 
 use super::fluorescence::fluorescence;
-use super::leaf::faces;
+use super::leaf::{DARK_LAYERS, faces, impossible};
 use super::measured::{measured, set_ratio};
 use super::reflectance::reflectance;
 use super::solid::optics;
 use crate::scene::description::{
-    Held, LeafFaces, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
+    Held, LeafFaces, LeafOptics, LeafTissue, Material, Reflectance, SolidOptics, Spectrum,
 };
 
 /// Largest map of contents that is read, bytes.
@@ -96,6 +96,18 @@ const KINDS: [Variant<Material>; 5] = [
                 set_ratio(both, ratio, keys);
                 keys.exclude("measured", "fluorescence");
                 fluorescence(emission, keys);
+                if both.optics == LeafOptics::Layers && emission.is_some() {
+                    impossible(keys, DARK_LAYERS, "leave `fluorescence` out, or `optics`");
+                }
+                if both.optics == LeafOptics::Layers
+                    && matches!(tissue, LeafTissue::Measured { .. })
+                {
+                    impossible(
+                        keys,
+                        "layers need contents, and measured spectra say nothing of the inside",
+                        "give contents or a map, or leave `optics` out",
+                    );
+                }
             }
         },
     },

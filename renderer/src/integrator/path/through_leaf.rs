@@ -1,0 +1,119 @@
+//! The part of a path that leads through a leaf of layers.
+
+use glam::Vec3;
+
+use super::media::Passage;
+use super::scatterer::Scatterer;
+use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, VERTEX_SETS, Vertex, sampled_light};
+use crate::bsdf::View;
+use crate::geometry::Hit;
+use crate::geometry::frame::Frame;
+use crate::geometry::surface::SurfacePoint;
+use crate::integrator::leaf_walk::LeafWalk;
+use crate::material::leaf::Inside;
+use crate::sampling::stream::Stream;
+use crate::spectrum::Lanes;
+
+/// Sets of random numbers for lights at the faces that light meets from inside, behind those of all
+/// vertices.
+const FACE_SETS: u32 = 0x4000_0000;
+/// Faces of one walk that have such sets; lights at later ones are sampled by the same numbers.
+const FACES: u32 = 64;
+
+/// Where a path meets the leaf.
+pub(super) struct Entry<'a, const N: usize> {
+    pub(super) inside: Inside<'a>,
+    /// The hit, the surface, its frame, and the direction from which the ray came in it.
+    pub(super) at: (&'a Hit, &'a SurfacePoint, &'a Frame, Vec3),
+    /// Throughput and width of the ray.
+    pub(super) leg: (Lanes<N>, f32),
+    pub(super) depth: u32,
+    /// The bodies around, in scenes with media.
+    pub(super) passage: &'a Passage,
+}
+
+impl<const N: usize> Paths<'_, N> {
+    /// The leg that leaves the leaf, by either face; `None` if the path ends in it. Lights are
+    /// sampled at every face that the light meets, from outside and from inside, and weighted
+    /// against the chance that one facet of it sends light there.
+    pub(super) fn through_leaf(
+        &self,
+        entry: &Entry<'_, N>,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> Option<Leg<N>> {
+        let (throughput, width) = entry.leg;
+        let world = self.world;
+        stream.seek(self.set_of(entry.depth));
+        let numbers = stream.next4();
+        let light_samples = self.light_samples(entry.depth);
+        let mut walk = LeafWalk::new(
+            &world.geometry,
+            entry.inside,
+            entry.at,
+            self.wavelengths,
+            numbers,
+        );
+        let [_, mut x, mut y, _] = numbers;
+        for face in 0.. {
+            let at = *walk.at();
+            let receiver = Receiver {
+                position: at.surface.position,
+                normal: at.surface.shading_normal,
+            };
+            if let Some(view) = walk.view() {
+                let vertex = Vertex {
+                    paths: self,
+                    scatterer: Scatterer::Surface {
+                        surface: &at.surface,
+                        frame: &at.outward,
+                        view: &View::Face(view),
+                    },
+                    receiver,
+                    is_lit: true,
+                    light_samples,
+                    throughput: throughput * walk.weight(),
+                    width,
+                    gathered: result.radiance,
+                    inside: &entry.passage.inside,
+                    boundary: None,
+                };
+                let (light, rays) = sampled_light(world, &vertex, self.wavelengths, [x, y], stream);
+                result.radiance += light;
+                result.rays += rays;
+            }
+            match walk.cross() {
+                Ok(leaving) => {
+                    let mut throughput = throughput * leaving.weight;
+                    let brightness = self.brightness(&throughput);
+                    if brightness <= 0.0 {
+                        return None;
+                    }
+                    if brightness < self.effort.roulette_below {
+                        let survival = brightness / self.effort.roulette_below;
+                        if walk.number() >= survival {
+                            return None;
+                        }
+                        throughput *= 1.0 / survival;
+                    }
+                    return Some(Leg {
+                        ray: leaving.surface.spawn(leaving.towards),
+                        cone: Cone::scattered(width),
+                        throughput,
+                        bounce: Bounce {
+                            pdf: leaving.pdf.unwrap_or(f32::INFINITY),
+                            from: receiver,
+                            light_samples,
+                        },
+                    });
+                }
+                Err(heading) => walk.go_on(heading)?,
+            }
+            result.rays += 1;
+            let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);
+            stream.seek(FACE_SETS.wrapping_add(place.wrapping_mul(VERTEX_SETS)));
+            [_, x, y, _] = stream.next4();
+        }
+        None
+    }
+}

@@ -1,0 +1,302 @@
+//! Light inside a leaf of layers, from face to face.
+
+use glam::{Vec2, Vec3};
+use leafmodel::optics::{Constituent, Texel};
+
+use super::{LAYERS, LeafLayers};
+use crate::bsdf::fresnel;
+use crate::bsdf::leaf_face::LeafFace;
+use crate::material::held::Held;
+use crate::material::palette::Palette;
+use crate::spectrum::{Lanes, Wavelengths};
+
+/// Weight, in the lane where it is greatest, below which chance decides whether light goes on with
+/// that much, or ends.
+const ROULETTE_BELOW: f32 = 0.05;
+/// Most events of a walk: light may be caught in a layer whose neighbours have a lower index, if
+/// nothing scatters or absorbs it there.
+const MOST_EVENTS: u32 = 100_000;
+/// Most texels of a map that light crosses between two looks at the contents.
+const TEXELS: f32 = 1.0;
+
+/// Random numbers of a walk, which needs no one knows how many: splitmix64, seeded by numbers of
+/// the path's stream.
+#[derive(Clone, Debug)]
+pub struct Chance(u64);
+
+impl Chance {
+    /// Random numbers that depend on these alone.
+    pub fn new(numbers: [f32; 4]) -> Self {
+        let mut chance = Self(0x1a7e_5eed);
+        for number in numbers {
+            chance.0 ^= u64::from(number.to_bits());
+            chance.0 = chance.next();
+        }
+        chance
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+
+    /// A number in [0, 1).
+    pub fn number(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / 16_777_216.0
+    }
+}
+
+/// Where a walk begins: texture coordinates there, and how they change by m along the two axes of
+/// the frame of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Their change along x and along y, 1/m.
+    pub uv_per_m: [Vec2; 2],
+}
+
+/// Light that meets a face from inside.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// The face: 0 adaxial, 1 abaxial.
+    pub face: usize,
+    /// Direction in which the light goes, in the frame of the surface, unit.
+    pub heading: Vec3,
+}
+
+/// Light inside a leaf; the frame is that of the surface, +z adaxial.
+#[derive(Clone, Debug)]
+pub struct Walk<'a, const N: usize> {
+    layers: &'a LeafLayers,
+    held: &'a Held,
+    place: Place,
+    /// Indices, and coefficients of scattering with the greatest amount that the leaf has, 1/m.
+    index: [f32; LAYERS],
+    scattering: [f32; LAYERS],
+    g: f32,
+    /// What one unit of each constituent absorbs.
+    specific: [Lanes<N>; Constituent::COUNT],
+    /// Absorption of each layer, if the leaf is uniform, 1/m.
+    uniform: Option<[Lanes<N>; LAYERS]>,
+    /// Distance that light goes between two looks at the contents, m.
+    stride: f32,
+    /// Which layer the light is in, how deep in it, m, and how far beside its entry, m.
+    layer: usize,
+    depth: f32,
+    offset: Vec2,
+    /// Share of the light that is left.
+    weight: Lanes<N>,
+    events: u32,
+}
+
+impl<'a, const N: usize> Walk<'a, N> {
+    /// Light of a path's wavelengths at a place, about to enter by a face (0 adaxial, 1 abaxial).
+    /// The refractive index is that of the mean wavelength.
+    pub fn new(
+        layers: &'a LeafLayers,
+        (held, palette): (&'a Held, &Palette),
+        place: Place,
+        wavelengths: &Wavelengths<N>,
+        face: usize,
+    ) -> Self {
+        let nm = wavelengths.nm.iter().sum::<f32>() / N as f32;
+        let row = layers.row(nm);
+        let coefficients = wavelengths.nm.map(|nm| palette.coefficients(f64::from(nm)));
+        let specific = Constituent::ALL.map(|constituent| {
+            Lanes::from_fn(|lane| match constituent {
+                Constituent::Structure => 0.0,
+                Constituent::Chlorophyll
+                | Constituent::Carotenoids
+                | Constituent::Anthocyanins
+                | Constituent::Betacyanins
+                | Constituent::Betaxanthins
+                | Constituent::Brown
+                | Constituent::Water
+                | Constituent::DryMatter => coefficients[lane].absorption[constituent] as f32,
+            })
+        });
+        let stride = match held {
+            Held::Uniform(_) => f32::INFINITY,
+            Held::Map(map) => {
+                let (width, height) = map.size();
+                let texels = Vec2::new(width as f32, height as f32);
+                let [x, y] = place.uv_per_m.map(|change| (change * texels).length());
+                TEXELS / x.max(y).max(1e-6)
+            }
+        };
+        let mut walk = Self {
+            layers,
+            held,
+            place,
+            index: row.index,
+            scattering: std::array::from_fn(|layer| {
+                row.scattering[layer] * layers.most / layers.thickness_m[layer]
+            }),
+            g: row.g,
+            specific,
+            uniform: None,
+            stride,
+            layer: 0,
+            depth: 0.0,
+            offset: Vec2::ZERO,
+            weight: Lanes::ONE,
+            events: 0,
+        };
+        walk.stand_at(face);
+        if let Held::Uniform(contents) = held {
+            let texel = contents.to_texel();
+            walk.uniform = Some(std::array::from_fn(|layer| walk.absorption(layer, &texel)));
+        }
+        walk
+    }
+
+    fn stand_at(&mut self, face: usize) {
+        self.layer = face * (LAYERS - 1);
+        self.depth = face as f32 * self.layers.thickness_m[self.layer];
+    }
+
+    /// A face of the leaf.
+    pub fn face(&self, face: usize) -> LeafFace {
+        let index = self.index[face * (LAYERS - 1)];
+        self.layers.face(face, index)
+    }
+
+    /// How far beside its entry the light is, m along x and y.
+    pub fn offset(&self) -> Vec2 {
+        self.offset
+    }
+
+    /// The share of the light that is left.
+    pub fn weight(&self) -> Lanes<N> {
+        self.weight
+    }
+
+    /// Absorption of a layer with these contents, 1/m.
+    fn absorption(&self, layer: usize, contents: &Texel) -> Lanes<N> {
+        let mut sum = Lanes::ZERO;
+        let shares = &self.layers.shares[layer];
+        for (constituent, specific) in Constituent::ALL.into_iter().zip(&self.specific) {
+            sum += *specific * (shares[constituent as usize] * contents[constituent]);
+        }
+        sum * (1.0 / self.layers.thickness_m[layer])
+    }
+
+    fn contents(&self) -> Texel {
+        let [x, y] = self.place.uv_per_m;
+        self.held
+            .at(self.place.uv + x * self.offset.x + y * self.offset.y)
+    }
+
+    /// Goes straight on for a distance, m, and leaves behind what is absorbed.
+    fn advance(&mut self, heading: Vec3, distance: f32) {
+        let beside = Vec2::new(heading.x, heading.y);
+        if let Some(uniform) = &self.uniform {
+            self.absorb(uniform[self.layer], distance);
+            self.offset += beside * distance;
+        } else {
+            let steps = (distance * beside.length() / self.stride)
+                .ceil()
+                .clamp(1.0, 1000.0);
+            let step = distance / steps;
+            for _ in 0..steps as u32 {
+                self.offset += beside * (0.5 * step);
+                let absorption = self.absorption(self.layer, &self.contents());
+                self.absorb(absorption, step);
+                self.offset += beside * (0.5 * step);
+            }
+        }
+        self.depth -= heading.z * distance;
+    }
+
+    fn absorb(&mut self, absorption: Lanes<N>, distance: f32) {
+        self.weight *= Lanes::from_fn(|lane| libm::expf(-absorption.0[lane] * distance));
+    }
+
+    /// Follows light from the face at which it is until it meets a face again; `None` if it ends.
+    pub fn to_face(&mut self, mut heading: Vec3, chance: &mut Chance) -> Option<Arrival> {
+        loop {
+            self.events += 1;
+            let greatest = self.weight.max_lane();
+            if greatest <= 0.0 || self.events > MOST_EVENTS {
+                return None;
+            }
+            if greatest < ROULETTE_BELOW {
+                if chance.number() * ROULETTE_BELOW >= greatest {
+                    return None;
+                }
+                self.weight *= ROULETTE_BELOW / greatest;
+            }
+            let layer = self.layer;
+            let thickness = self.layers.thickness_m[layer];
+            let down = heading.z < 0.0;
+            let left = if down {
+                thickness - self.depth
+            } else {
+                self.depth
+            };
+            let to_side = left.max(0.0) / heading.z.abs().max(1e-7);
+            let free = -libm::logf(1.0 - chance.number()) / self.scattering[layer];
+            if free < to_side {
+                self.advance(heading, free);
+                if self.uniform.is_none() {
+                    // Chance leaves out what scatters less here than where it does most.
+                    let structure = self.contents()[Constituent::Structure];
+                    let here = self.layers.more_scattering(structure) / self.layers.most;
+                    if chance.number() >= here {
+                        continue;
+                    }
+                }
+                heading = self.scattered(heading, chance);
+                continue;
+            }
+            self.advance(heading, to_side);
+            self.depth = if down { thickness } else { 0.0 };
+            let next = if down {
+                layer + 1
+            } else {
+                layer.wrapping_sub(1)
+            };
+            if next >= LAYERS {
+                let face = usize::from(down);
+                return Some(Arrival { face, heading });
+            }
+            let relative = self.index[next] / self.index[layer];
+            let cosine = heading.z.abs();
+            let refracted = fresnel::refracted_cosine(cosine, relative).filter(|_| {
+                relative == 1.0 || chance.number() >= fresnel::dielectric(cosine, relative)
+            });
+            if let Some(refracted) = refracted {
+                let refracted = refracted.copysign(heading.z);
+                heading = Vec3::new(heading.x / relative, heading.y / relative, refracted);
+                heading = heading.normalize();
+                self.layer = next;
+                self.depth = if down {
+                    0.0
+                } else {
+                    self.layers.thickness_m[next]
+                };
+            } else {
+                heading.z = -heading.z;
+            }
+        }
+    }
+
+    /// A direction after scattering, by Henyey and Greenstein.
+    fn scattered(&self, heading: Vec3, chance: &mut Chance) -> Vec3 {
+        let (g, x) = (self.g, 2.0 * chance.number() - 1.0);
+        let cosine = if g.abs() < 1e-3 {
+            x
+        } else {
+            let root = (1.0 - g * g) / (1.0 + g * x);
+            ((1.0 + g * g - root * root) / (2.0 * g)).clamp(-1.0, 1.0)
+        };
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let (turn_sine, turn_cosine) = libm::sincosf(std::f32::consts::TAU * chance.number());
+        let (across, along) = heading.any_orthonormal_pair();
+        (across * (sine * turn_cosine) + along * (sine * turn_sine) + heading * cosine).normalize()
+    }
+}
