@@ -175,39 +175,7 @@ pub(super) fn read_out(
     let (stage, period) = Period::stage(within(world, canopy), world, at)?;
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
-    if ledger.objects.1.is_empty() {
-        return Err(InstrumentError::NoLeaves { at: at.clone() });
-    }
-    let untold = [
-        (
-            !canopy.layers.is_empty(),
-            "is filled by a medium, whose absorption is not told by layers: leave out `layers_m`",
-        ),
-        (
-            canopy.instances,
-            "is filled by a medium, whose absorption is not told by instances: leave out `instances`",
-        ),
-    ];
-    if let Some(detector) = &canopy.detector {
-        detector::check(scene, &stage, detector, at)?;
-    }
-    for (asked, problem) in untold {
-        if let (true, Some(object)) = (asked, stage.filled()) {
-            return Err(InstrumentError::Inside {
-                at: at.clone(),
-                object: scene.objects[object].name.clone(),
-                problem,
-            });
-        }
-    }
-    if let Some(soil) = canopy.soil
-        && !is_covered(&stage, &period, soil)
-    {
-        return Err(InstrumentError::SoilTooSmall {
-            at: at.clone(),
-            object: scene.objects[soil].name.clone(),
-        });
-    }
+    check(scene, (&stage, &period), canopy, &ledger, at)?;
     let count = instrument.value.measured_nm().len();
     let sets = count.div_ceil(LANES);
     let directions = directions(&canopy.incidence);
@@ -265,28 +233,73 @@ pub(super) fn read_out(
             .step_by(sets)
             .map(|lit| (lit, lit.direction, None))
             .collect();
-        let manner = Manner {
-            words: [
-                Some("fluorescence_emitted"),
-                Some("fluorescence_upwards"),
-                Some("fluorescence_downwards"),
-                Some("fluorescence_absorbed"),
-                canopy.soil.map(|_| "fluorescence_absorbed_by_soil"),
-            ],
-            ways: 1,
-            counts_misses: true,
-            soil: canopy.soil,
-        };
         let read = (instrument.name.as_str(), reading);
+        let (sample, manner) = ((&stage, &period), fluorescence_of(canopy));
         all.extend(fluorescence::read_out(
-            (&stage, &period),
-            &lights,
-            read,
-            &manner,
-            budget,
+            sample, &lights, read, &manner, budget,
         ));
     }
     Ok(all)
+}
+
+/// How fluorescence is shown.
+fn fluorescence_of(canopy: &Canopy) -> Manner {
+    Manner {
+        words: [
+            Some("fluorescence_emitted"),
+            Some("fluorescence_upwards"),
+            Some("fluorescence_downwards"),
+            Some("fluorescence_absorbed"),
+            canopy.soil.map(|_| "fluorescence_absorbed_by_soil"),
+        ],
+        ways: 1,
+        counts_misses: true,
+        soil: canopy.soil,
+    }
+}
+
+/// Fails if a canopy cannot be measured as it is asked for.
+fn check(
+    scene: &Description,
+    (stage, period): (&Stage<'_>, &Period),
+    canopy: &Canopy,
+    ledger: &Ledger,
+    at: &str,
+) -> Result<(), InstrumentError> {
+    if ledger.objects.1.is_empty() {
+        return Err(InstrumentError::NoLeaves { at: at.to_owned() });
+    }
+    let untold = [
+        (
+            !canopy.layers.is_empty(),
+            "is filled by a medium, whose absorption is not told by layers: leave out `layers_m`",
+        ),
+        (
+            canopy.instances,
+            "is filled by a medium, whose absorption is not told by instances: leave out `instances`",
+        ),
+    ];
+    if let Some(detector) = &canopy.detector {
+        detector::check(scene, stage, detector, at)?;
+    }
+    for (asked, problem) in untold {
+        if let (true, Some(object)) = (asked, stage.filled()) {
+            return Err(InstrumentError::Inside {
+                at: at.to_owned(),
+                object: scene.objects[object].name.clone(),
+                problem,
+            });
+        }
+    }
+    if let Some(soil) = canopy.soil
+        && !is_covered(stage, period, soil)
+    {
+        return Err(InstrumentError::SoilTooSmall {
+            at: at.to_owned(),
+            object: scene.objects[soil].name.clone(),
+        });
+    }
+    Ok(())
 }
 
 /// Fails if there are more sums of instances than there is memory for.

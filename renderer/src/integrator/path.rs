@@ -56,6 +56,25 @@ pub struct FirstHit<const N: usize> {
     pub object: u32,
 }
 
+impl<const N: usize> FirstHit<N> {
+    fn new(world: &World, encounter: &Encounter<'_, N>) -> Self {
+        let (surface, bsdf, wo) = (&encounter.surface, &encounter.bsdf, encounter.wo);
+        let normal = if encounter.has_relief {
+            encounter.frame.to_world(bsdf.normal(wo))
+        } else if wo.z < 0.0 {
+            -surface.shading_normal
+        } else {
+            surface.shading_normal
+        };
+        Self {
+            position: surface.position,
+            normal,
+            albedo: bsdf.albedo(wo),
+            object: world.objects[surface.instance as usize].object as u32,
+        }
+    }
+}
+
 /// A path through a random place in a pixel, and its wavelengths; `stream` gives the random
 /// numbers.
 pub fn of_pixel<const N: usize>(
@@ -200,19 +219,7 @@ impl<const N: usize> Paths<'_, N> {
                 result.radiance += *throughput * found;
             }
             if depth == 0 && result.first.is_none() {
-                let facing = if encounter.has_relief {
-                    frame.to_world(bsdf.normal(wo))
-                } else if wo.z < 0.0 {
-                    -surface.shading_normal
-                } else {
-                    surface.shading_normal
-                };
-                result.first = Some(FirstHit {
-                    position: surface.position,
-                    normal: facing,
-                    albedo: bsdf.albedo(wo),
-                    object: world.objects[surface.instance as usize].object as u32,
-                });
+                result.first = Some(FirstHit::new(world, &encounter));
             }
             if throughput.is_zero() || is_last {
                 return;
