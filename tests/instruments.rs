@@ -40,6 +40,12 @@ fn built(text: &str) -> (Description, World, Vec<usize>) {
     (scene, world, first)
 }
 
+/// Whether figures are asked for at their full precision, with `LAMINA_ANCHORS=all`; the suite follows
+/// less light.
+fn in_full() -> bool {
+    std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all")
+}
+
 /// The figures of all instruments of a scene.
 fn figures(text: &str, budget: &Budget) -> Result<Vec<Row>, InstrumentError> {
     let (scene, world, first) = built(text);

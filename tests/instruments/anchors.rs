@@ -86,7 +86,7 @@ fn canopies_of_small_discs_have_the_fluxes_of_a_turbid_layer() {
     // All: as many sets of discs as bring their own deviation to 5e-4; each has rays of its own.
     // Else the same discs in fewer sets, whose own deviation is less well known: of 5 and 4 degrees
     // of freedom, 10 standard errors are as rare as 4 of many, for 33 figures.
-    let is_whole = std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all");
+    let is_whole = super::in_full();
     let (sets, limit, most) = if is_whole {
         ([32, 20], 4.0, 5e-4)
     } else {

@@ -86,7 +86,7 @@ fn scene(anchors: &[Anchor]) -> String {
 fn slabs_and_half_spaces_of_media_are_those_of_the_table() {
     let anchors = anchors();
     assert_eq!(anchors.len(), 25);
-    let is_whole = std::env::var("LAMINA_ANCHORS").is_ok_and(|asked| asked == "all");
+    let is_whole = super::in_full();
     let (most, budget) = if is_whole {
         (
             5e-4,

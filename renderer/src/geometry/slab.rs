@@ -68,6 +68,12 @@ const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
 /// the error is below 2 |b − o| · 2⁻²⁴ / |d|. 8 of each is more than twice their sum.
 const ROUGHNESS: f32 = 8.0 / 16_777_216.0;
 
+/// Greatest 1/d, relative to that of the longest axis. Along an axis across which a ray runs it would be
+/// infinite, and `b · 1/d − o · 1/d` no number, so that no box would be left out by that axis. With this,
+/// the difference has the right sign, and planes at the error of the origin are still farther away
+/// than anything along the ray.
+const MOST_INVERSE: f32 = 1.267_650_6e30; // 2^100
+
 /// Allows for the three roundings in each of the two compared distances, (b − o) · 1/d.
 const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
 
@@ -112,9 +118,11 @@ impl SlabRay {
     pub(super) fn new(origin: Vec3A, direction: Vec3A, t_min: f32, bounds: &Bounds) -> Self {
         let (low, high) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
         let reach = (low - origin).abs().max((high - origin).abs());
-        let along = reach.to_array()[longest(direction)];
+        let axis = longest(direction);
+        let along = reach.to_array()[axis];
         let error = (reach + Vec3A::splat(along)) * SHEAR_ERROR;
-        let inverse = direction.recip();
+        let most = Vec3A::splat(MOST_INVERSE / direction.to_array()[axis].abs());
+        let inverse = direction.recip().min(most).max(-most);
         // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
         let down = inverse.is_negative_bitmask() as usize;
         let shift = error.copysign(inverse);
@@ -137,8 +145,8 @@ impl SlabRay {
     /// each box that it may meet no later than `limit`.
     ///
     /// The distance is at most that of [`SlabRay::one`] for any box inside, and the bit is set if
-    /// `one` meets any box inside no later than `limit`. A plane in which the ray lies (0 · ∞) is
-    /// ignored, which is conservative.
+    /// `one` meets any box inside no later than `limit`. Where products
+    /// overflow, a plane may be ignored, which is conservative.
     #[inline(always)]
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
@@ -213,6 +221,36 @@ mod tests {
             1 => Vec3::new(at.x, 0.0, at.z),
             2 => at.round(),
             _ => at,
+        }
+    }
+
+    #[test]
+    fn a_ray_along_an_axis_leaves_out_the_boxes_beside_it() {
+        let scene = Bounds::around([Vec3::splat(-100.0), Vec3::splat(100.0)]);
+        for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+            for length in [1e-12, 1.0, 1e12] {
+                let mut direction = Vec3::ZERO;
+                direction[axis] = sign * length;
+                for corner in [Vec3::splat(3.0), Vec3::splat(-3.0)] {
+                    let bounds = Bounds::around([corner, corner * 1.1]);
+                    let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
+                    let planes = [low[0], low[1], low[2], high[0], high[1], high[2]];
+                    let planes = planes.map(|plane| Row([plane; LANES]));
+                    let from = |offset: f32| {
+                        let mut origin = corner * offset;
+                        origin[axis] = -sign * 50.0;
+                        let slab = SlabRay::new(origin.into(), direction.into(), 0.0, &scene);
+                        let met = Level::all()
+                            .into_iter()
+                            .map(|level| level.run(Quick(&slab, planes, f32::INFINITY)).1);
+                        (slab.one(&bounds).is_some(), met.collect::<Vec<_>>())
+                    };
+                    let levels = Level::all().len();
+                    assert_eq!(from(1.05), (true, vec![0xff; levels]));
+                    assert_eq!(from(1.2), (false, vec![0; levels]));
+                    assert_eq!(from(0.9), (false, vec![0; levels]));
+                }
+            }
         }
     }
 
