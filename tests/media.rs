@@ -113,7 +113,7 @@ fn a_furnace_is_one_through_and_inside_of_media_that_absorb_nothing() {
     }
     for eta in ["eta = 1", "eta = 1.4"] {
         for channel in [0, 1] {
-            let found = mean_and_error(&scene("", &tank(eta, coloured)), channel, 8);
+            let found = mean_and_error(&scene("", &tank(eta, coloured)), channel, 24);
             assert_agrees("a coloured tank", found, 1.0, 5e-3);
         }
     }
