@@ -2,7 +2,7 @@
 //!
 //! Kernels are written once over `Eight` and compiled for each instruction set; which one runs is
 //! chosen when the program starts ([`Level::best`]). Operations are those that IEEE 754 rounds
-//! correctly, so that every level gives the same bits; [`Eight::mul_add_roughly`] is the exception,
+//! correctly, so that every level gives the same bits; `Eight::mul_add_roughly` is the exception,
 //! for bounds that leave room for either rounding.
 //!
 //! - **In**: rows of eight numbers.

@@ -162,8 +162,8 @@ fn the_flux_of_a_medium_is_whole_and_what_it_absorbs_is_its_objects() {
     for (index, depth) in [(1.0, 2.0), (1.33, 2.0), (1.33, 40.0)] {
         let others = [0.3, 0.8, 0.999].map(|albedo| Anchor {
             index,
-            depth,
             albedo,
+            depth,
             ..anchor.clone()
         });
         let found = figures(&scene(&others), &rays(1 << 12)).expect("it can be measured");

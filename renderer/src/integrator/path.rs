@@ -176,13 +176,7 @@ impl<const N: usize> Paths<'_, N> {
     ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from.. {
-            let met = if world.media.are_present {
-                self.advance(&mut leg, &mut passage, depth == 0, stream, result)
-            } else {
-                result.rays += 1;
-                let hit = world.geometry.intersect(&leg.ray);
-                hit.map_or(Met::Nothing, Met::Surface)
-            };
+            let met = self.meet(&mut leg, &mut passage, depth == 0, stream, result);
             let Leg {
                 ray,
                 cone,
@@ -279,6 +273,24 @@ impl<const N: usize> Paths<'_, N> {
             }
             leg = next;
         }
+    }
+
+    /// What a leg meets; in scenes with media it goes on through boundaries that are none.
+    #[inline(always)]
+    fn meet(
+        &self,
+        leg: &mut Leg<N>,
+        passage: &mut Passage,
+        is_first: bool,
+        stream: &mut Stream,
+        result: &mut PathResult<N>,
+    ) -> Met {
+        if self.world.media.are_present {
+            return self.advance(leg, passage, is_first, stream, result);
+        }
+        result.rays += 1;
+        let hit = self.world.geometry.intersect(&leg.ray);
+        hit.map_or(Met::Nothing, Met::Surface)
     }
 
     /// The leg by which a path goes on that a medium has scattered, if it does; adds the light of
