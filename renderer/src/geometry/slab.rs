@@ -68,11 +68,18 @@ const SHEAR_ERROR: f32 = 8.0 / 16_777_216.0;
 /// the error is below 2 |b − o| · 2⁻²⁴ / |d|. 8 of each is more than twice their sum.
 const ROUGHNESS: f32 = 8.0 / 16_777_216.0;
 
-/// Greatest 1/d, relative to that of the longest axis. Along an axis across which a ray runs it would be
-/// infinite, and `b · 1/d − o · 1/d` no number, so that no box would be left out by that axis. With this,
-/// the difference has the right sign, and planes at the error of the origin are still farther away
-/// than anything along the ray.
+/// Greatest 1/d of the quick test, relative to that of the longest axis. Along an axis across which a
+/// ray runs it would be infinite, and `b · 1/d − o · 1/d` no number, so that no box would be left
+/// out by that axis. With this the difference has the right sign, and planes at the error of the
+/// origin are still farther away than anything along the ray.
 const MOST_INVERSE: f32 = 1.267_650_6e30; // 2^100
+
+/// Greatest 1/d of the quick test times a coordinate: products stay finite.
+const MOST_PRODUCT: f32 = 4.253_529_6e37; // 2^125
+
+/// The least that [`MOST_INVERSE`] may become by that. Rays whose direction is so short that it
+/// would be less are not culled.
+const LEAST_INVERSE: f32 = 1.099_511_6e12; // 2^40
 
 /// Allows for the three roundings in each of the two compared distances, (b − o) · 1/d.
 const FAR_FACTOR: f32 = 1.0 + 8.0 / 16_777_216.0;
@@ -88,10 +95,11 @@ pub(super) struct SlabRay {
     /// Origin for near planes and for far planes: shifted outwards by the error.
     near_origin: [f32; 3],
     far_origin: [f32; 3],
-    /// Distance to a plane over its coordinate, for planes that the ray meets first and last.
+    inverse: [f32; 3],
+    /// For the quick test: distance to a plane over its coordinate, for planes that the ray meets
+    /// first and last, and distance to the plane of coordinate 0.
     near_inverse: [f32; 3],
     far_inverse: [f32; 3],
-    /// Distance to the plane of coordinate 0, for [`SlabRay::eight`].
     near_offset: [f32; 3],
     far_offset: [f32; 3],
     /// Planes that the ray meets first and last on each axis.
@@ -121,20 +129,29 @@ impl SlabRay {
         let axis = longest(direction);
         let along = reach.to_array()[axis];
         let error = (reach + Vec3A::splat(along)) * SHEAR_ERROR;
-        let most = Vec3A::splat(MOST_INVERSE / direction.to_array()[axis].abs());
-        let inverse = direction.recip().min(most).max(-most);
+        let inverse = direction.recip();
         // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
         let down = inverse.is_negative_bitmask() as usize;
         let shift = error.copysign(inverse);
         let wide = (error + (reach + origin.abs()) * ROUGHNESS).copysign(inverse);
-        let far_inverse = inverse * FAR_FACTOR;
+        let length = direction.to_array()[axis].abs();
+        let coordinates = (origin.abs() + reach).max_element();
+        let most = less(MOST_INVERSE / length, MOST_PRODUCT / coordinates);
+        let (near_inverse, far) = if most * length >= LEAST_INVERSE {
+            let most = Vec3A::splat(most);
+            (inverse.min(most).max(-most), 0.0)
+        } else {
+            (Vec3A::ZERO, f32::MAX)
+        };
+        let far_inverse = near_inverse * FAR_FACTOR;
         Self {
             near_origin: (origin + shift).to_array(),
             far_origin: (origin - shift).to_array(),
-            near_inverse: inverse.to_array(),
+            inverse: inverse.to_array(),
+            near_inverse: near_inverse.to_array(),
             far_inverse: far_inverse.to_array(),
-            near_offset: (-(origin + wide) * inverse).to_array(),
-            far_offset: (-(origin - wide) * far_inverse).to_array(),
+            near_offset: (-(origin + wide) * near_inverse - far).to_array(),
+            far_offset: (-(origin - wide) * far_inverse + far).to_array(),
             near_plane: NEAR_PLANES[down & 7],
             far_plane: NEAR_PLANES[!down & 7],
             t_min: greater(t_min, 0.0),
@@ -145,8 +162,7 @@ impl SlabRay {
     /// each box that it may meet no later than `limit`.
     ///
     /// The distance is at most that of [`SlabRay::one`] for any box inside, and the bit is set if
-    /// `one` meets any box inside no later than `limit`. Where products
-    /// overflow, a plane may be ignored, which is conservative.
+    /// `one` meets any box inside no later than `limit`.
     #[inline(always)]
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
@@ -179,14 +195,10 @@ impl SlabRay {
             } else {
                 (max[axis], min[axis])
             };
-            enter = greater(
-                (near - self.near_origin[axis]) * self.near_inverse[axis],
-                enter,
-            );
-            leave = less(
-                (far - self.far_origin[axis]) * self.far_inverse[axis],
-                leave,
-            );
+            let inverse = self.inverse[axis];
+            enter = greater((near - self.near_origin[axis]) * inverse, enter);
+            let inverse = inverse * FAR_FACTOR;
+            leave = less((far - self.far_origin[axis]) * inverse, leave);
         }
         (enter <= leave).then_some(enter)
     }
@@ -228,7 +240,7 @@ mod tests {
     fn a_ray_along_an_axis_leaves_out_the_boxes_beside_it() {
         let scene = Bounds::around([Vec3::splat(-100.0), Vec3::splat(100.0)]);
         for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
-            for length in [1e-12, 1.0, 1e12] {
+            for length in [1e-9, 1.0, 1e12] {
                 let mut direction = Vec3::ZERO;
                 direction[axis] = sign * length;
                 for corner in [Vec3::splat(3.0), Vec3::splat(-3.0)] {

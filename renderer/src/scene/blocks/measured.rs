@@ -18,7 +18,7 @@ use crate::scene::description::{LeafFaces, LeafTissue, Spectrum};
 const MOST_BYTES: u64 = 64 << 20;
 /// Longest step between two values of the ratio of the faces, nm: between them it is linear, while
 /// reflectances are.
-const RATIO_STEP_NM: f64 = 5.0;
+const RATIO_STEP_NM: f64 = 1.0;
 
 /// The spectra of a leaf.
 #[derive(Clone, Debug)]
