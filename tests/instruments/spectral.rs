@@ -208,7 +208,6 @@ fn leaves_constituents_and_objects_absorb_the_same_in_all() {
             sum("transmitted"),
             sum("absorbed_by_soil"),
         ];
-        // The balance of the issue is 1e-4.
         assert!((fates.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{fates:?}");
     }
     let photons = |word: &str| {

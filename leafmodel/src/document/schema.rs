@@ -217,10 +217,13 @@ impl Type {
 
 /// The unit that the ending of a key tells.
 pub fn unit_of(key: &str) -> Option<&'static str> {
-    const UNITS: [(&str, &str); 22] = [
+    const UNITS: [(&str, &str); 25] = [
         ("_w_m2_sr_nm", "W m⁻² sr⁻¹ nm⁻¹"),
         ("_w_sr_nm", "W sr⁻¹ nm⁻¹"),
         ("_w_m2_nm", "W m⁻² nm⁻¹"),
+        ("_umol_m2_s", "µmol m⁻² s⁻¹"),
+        ("_w_m2", "W m⁻²"),
+        ("_sr", "sr"),
         ("_ug_per_cm2", "µg cm⁻²"),
         ("_g_per_cm2", "g cm⁻²"),
         ("_per_segment2", "per segment²"),

@@ -176,6 +176,7 @@ pub(super) fn read_out(
     let ground = (canopy.within[1] - canopy.within[0]).element_product();
     let ledger = Ledger::new(scene, &stage, canopy, ground);
     check(scene, (&stage, &period), canopy, &ledger, at)?;
+    detector::check_layers(scene, &stage, &instrument.value, canopy.constituents)?;
     let count = instrument.value.measured_nm().len();
     let sets = count.div_ceil(LANES);
     let directions = directions(&canopy.incidence);

@@ -230,7 +230,9 @@ impl<'m> Witness<'m> for Exciting<'_, 'm> {
         });
     }
 
-    fn event(&mut self, _event: &Event) {}
+    fn event(&mut self, _event: &Event) {
+        self.is_lit = true;
+    }
 
     fn escape(&mut self, _escaped: &Escaped) {}
 }

@@ -122,6 +122,7 @@ pub(super) fn read_out(
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, &gonio.sample, at)?;
     detector::check(scene, &bench.stage, &gonio.detector, at)?;
+    detector::check_layers(scene, &bench.stage, &instrument.value, false)?;
     let lamps = bench.lamps(&gonio.sample);
     let detectors: Vec<[Detectors; 2]> = lamps
         .iter()

@@ -70,6 +70,10 @@ pub(super) fn rows(instrument: &Instrument, series: &[Series]) -> Vec<Row> {
         let reflecting = series.iter().enumerate();
         for (number, one) in reflecting.filter(|(_, one)| is_reflectance(one.row.quantity)) {
             let [counted, taken] = index.bands.map(|band| &of_bands[band][number]);
+            if counted.value + taken.value == 0.0 {
+                // Of a black surface there is no index.
+                continue;
+            }
             let found = normalised_difference(counted, taken);
             rows.push(Row {
                 quantity: index.name,

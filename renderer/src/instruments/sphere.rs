@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::batches::{Budget, Experiment, estimates};
 use super::constituents::{self, PARTS};
+use super::detector::check_layers;
 use super::fluorescence::{self, Illumination, Manner};
 use super::lamp::{Bench, FACES, Lamp};
 use super::row::Row;
@@ -143,6 +144,7 @@ pub(super) fn read_out(
 ) -> Result<Vec<Row>, InstrumentError> {
     let at = &instrument.value.at;
     let bench = Bench::new(world, scene, sample, at)?;
+    check_layers(scene, &bench.stage, &instrument.value, sample.constituents)?;
     let lamps = bench.lamps(sample);
     let count = instrument.value.measured_nm().len();
     let sets = count.div_ceil(LANES);

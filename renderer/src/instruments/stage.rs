@@ -45,6 +45,15 @@ impl<'w> Stage<'w> {
         bodies.map(|number| self.objects[number].object).next()
     }
 
+    /// The first object that light passes straight through, changed by nothing.
+    pub(super) fn passed(&self) -> Option<usize> {
+        let mut numbers = 0..self.objects.len();
+        let matched = |number: &usize| self.objects[*number].body.is_some_and(|own| own.is_matched);
+        numbers
+            .find(matched)
+            .map(|number| self.objects[number].object)
+    }
+
     /// The first object that is a leaf of layers.
     pub(super) fn layered(&self) -> Option<usize> {
         let mut numbers = 0..self.objects.len();

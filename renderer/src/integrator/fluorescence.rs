@@ -27,6 +27,10 @@ const BEYOND_THE_FIRST: f32 = 0.25;
 
 /// Sets of random numbers from one path of excitation to the next, which a path never uses up.
 const SETS_OF_A_PATH: u32 = 1 << 16;
+/// Number of vertices whose paths of excitation have sets of their own.
+const MOST_DEPTH: u32 = 254;
+/// Flights through media from the sets of which a path of excitation has its own.
+const FLIGHTS_OF_A_PATH: u32 = 1 << 22;
 
 impl<const N: usize> Paths<'_, N> {
     /// The leaf that a material is, if that fluoresces on this path.
@@ -47,7 +51,8 @@ impl<const N: usize> Paths<'_, N> {
     ) -> (Lanes<N>, u32) {
         let surface: &SurfacePoint = &encounter.surface;
         let emitting = leaf.emitting(surface.uv, self.wavelengths);
-        let first_set = SETS_OF_A_PATH * (1 + depth);
+        // Below the sets of flights; deeper vertices share the last ones.
+        let first_set = SETS_OF_A_PATH * (1 + depth.min(MOST_DEPTH));
         let mut stream = stream.clone();
         stream.seek(first_set);
         let [coin, wavelength, side, _] = stream.next4();
@@ -154,7 +159,11 @@ impl<const N: usize> Paths<'_, N> {
         result.radiance += light;
         result.rays += rays;
         if let Some(leg) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) {
-            paths.follow(leg, *passage, depth + 1, stream, &mut result);
+            let passage = Passage {
+                flights: passage.flights + FLIGHTS_OF_A_PATH,
+                ..*passage
+            };
+            paths.follow(leg, passage, depth + 1, stream, &mut result);
         }
         (result.radiance, result.rays)
     }

@@ -32,6 +32,10 @@ pub const CAMERA_SETS: u32 = 2;
 /// for the chosen light.
 const VERTEX_SETS: u32 = 2;
 
+/// Most scattering events of a path. Roulette ends paths long before, unless light is caught in what
+/// absorbs nothing, as in a medium so dense that its free paths are below the precision of places.
+const MOST_EVENTS: u32 = 100_000;
+
 /// The result of one path.
 #[derive(Clone, Copy, Debug)]
 pub struct PathResult<const N: usize> {
@@ -175,7 +179,7 @@ impl<const N: usize> Paths<'_, N> {
         result: &mut PathResult<N>,
     ) {
         let (world, wavelengths) = (self.world, self.wavelengths);
-        for depth in from.. {
+        for depth in from..MOST_EVENTS {
             let met = self.meet(&mut leg, &mut passage, depth == 0, stream, result);
             let Leg {
                 ray,
@@ -340,13 +344,16 @@ impl<const N: usize> Paths<'_, N> {
         let set = self.set_of(depth);
         stream.seek(set);
         let numbers = stream.next4();
+        // Without what a leaf emits: whether a path branches depends on lamps alone.
+        let mut gathered = vertex.gathered;
         if vertex.is_lit {
             let [_, x, y, _] = numbers;
             let (light, rays) = sampled_light(self.world, vertex, self.wavelengths, [x, y], stream);
+            gathered += light;
             result.radiance += light;
             result.rays += rays;
         }
-        if depth == 0 && self.effort.branches > 1 && vertex.is_lit && result.radiance.is_zero() {
+        if depth == 0 && self.effort.branches > 1 && vertex.is_lit && gathered.is_zero() {
             for number in 0..self.effort.branches {
                 let mut stream = stream.part(number, self.effort.branches);
                 stream.seek(set);

@@ -289,10 +289,14 @@ fn key(from: Direction, to: Direction, nm: f64, is_isotropic: bool) -> Key {
 impl Table {
     /// Checks reciprocity and energy.
     pub fn check(&self) -> Check {
-        let first = self.samples[0].incident.phi;
-        let is_isotropic = self.samples.iter().all(|sample| {
-            let is_pole = sample.incident.theta == 0.0 || sample.incident.theta == 180.0;
-            is_pole || (sample.incident.phi - first).abs() < SAME_DEG
+        // At a pole the azimuth says nothing.
+        let mut azimuths = (self.samples.iter().map(|sample| sample.incident))
+            .filter(|own| own.theta > SAME_DEG && own.theta < 180.0 - SAME_DEG)
+            .map(|own| own.phi);
+        let first = azimuths.next();
+        let is_isotropic = azimuths.all(|phi| {
+            let off = (phi - first.unwrap_or(phi)).rem_euclid(360.0);
+            off.min(360.0 - off) < SAME_DEG
         });
         // Sum and number of the rows of each key: a pole may be there once for each azimuth.
         let mut known: BTreeMap<Key, (f64, u32)> = BTreeMap::new();

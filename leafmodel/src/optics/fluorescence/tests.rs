@@ -375,8 +375,12 @@ fn the_shape_follows_chlorophyll_as_published() {
     for (i, blue) in all[0].iter().enumerate().skip(2) {
         assert!(blue[0] > all[1][i][0] && blue[0] > all[2][i][0]);
     }
-    // Gitelson et al.: F735/F700 is linear in the content from 4.1 to 67.5 µg/cm², r² above 0.95.
-    for (shapes, excitation) in all.iter().zip([440.0, 550.0, 630.0]) {
+    // Gitelson et al.: F735/F700 is linear in the content from 4.1 to 67.5 µg/cm², r² above 0.95. At
+    // 440 nm ours is not quite: 0.935.
+    for (shapes, (excitation, least)) in
+        all.iter()
+            .zip([(440.0, 0.93), (550.0, 0.95), (630.0, 0.95)])
+    {
         let count = chlorophylls.len() as f64;
         let mean_x = chlorophylls.iter().sum::<f64>() / count;
         let mean_y = shapes.iter().map(|shape| shape[2]).sum::<f64>() / count;
@@ -389,6 +393,6 @@ fn the_shape_follows_chlorophyll_as_published() {
             });
         let determination = sums[1] * sums[1] / (sums[0] * sums[2]);
         eprintln!("{excitation} nm: r² of F735/F700 {determination:.3}");
-        assert!(determination > 0.9);
+        assert!(determination > least, "{determination}");
     }
 }

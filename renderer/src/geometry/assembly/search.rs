@@ -110,10 +110,9 @@ impl<F: Found> Task for Search<'_, F> {
         if geometry.carriers.len() == 1 {
             // No tree over one instance. What is not finite in the world is not so in the mesh's
             // frame either.
-            let task = in_mesh::<F>(geometry, ray, 0, ray.t_max);
-            if let Some(hit) = task
-                .filter(|_| ray.t_min <= ray.t_max)
-                .and_then(|task| task.run(e))
+            if ray.t_min <= ray.t_max
+                && let Some(task) = in_mesh::<F>(geometry, ray, 0, ray.t_max)
+                && let Some(hit) = task.run(e)
             {
                 found.hit(hit, ray.t_max);
             }
@@ -154,8 +153,10 @@ impl<E: Eight, F: Found> Visitor for Instances<'_, E, F> {
 
     #[inline(always)]
     fn visit(&mut self, leaf: u32, limit: f32) -> f32 {
-        let hit = in_mesh::<F>(self.geometry, self.ray, leaf, limit);
-        let Some(mut hit) = hit.and_then(|task| self.geometry.level.run(task)) else {
+        let Some(task) = in_mesh::<F>(self.geometry, self.ray, leaf, limit) else {
+            return limit;
+        };
+        let Some(mut hit) = self.geometry.level.run(task) else {
             return limit;
         };
         // Rounding may put a hit before the instance's own box, or beside it. The box decides, so

@@ -37,7 +37,7 @@ pub enum Arrangement {
         /// Width of a strip, m, at most the spacing.
         width: f64,
     },
-    /// In balls of one radius, as many leaves in each, but for one. A box repeats itself: what of a
+    /// In balls of one radius, as many leaves in each, but for one of each shape. A box repeats itself: what of a
     /// crown reaches beyond a side comes in at the opposite one.
     Crowns {
         /// Their radius, m.

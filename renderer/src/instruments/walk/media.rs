@@ -76,8 +76,18 @@ impl<'m, C: Course> Walk<'m, C> {
                     return (None, moved);
                 };
                 if leg.ray.t_max.is_infinite() {
-                    // No closed body is left without passing its boundary.
+                    // No closed body is left without passing its boundary, but by rounding.
                     leg.weight *= medium.passed(&before, f32::INFINITY);
+                    witness.event(&Event {
+                        object: stage.objects.object_of(body),
+                        instance: None,
+                        position: leg.ray.origin,
+                        uv: Vec2::ZERO,
+                        before,
+                        after: leg.weight,
+                        is_first: false,
+                        is_scattered: false,
+                    });
                     return (None, moved);
                 }
                 leg.passage.is_straight = false;

@@ -24,7 +24,7 @@ pub(in crate::integrator) struct Passage {
     /// The bodies around.
     pub(in crate::integrator) inside: Inside,
     /// Number of flights so far, each with random numbers of its own.
-    pub(super) flights: u32,
+    pub(in crate::integrator) flights: u32,
 }
 
 /// What a ray comes to.

@@ -17,6 +17,8 @@ use crate::spectrum::Lanes;
 /// Sets of random numbers for lights at the faces that light meets from inside, behind those of all
 /// vertices.
 const FACE_SETS: u32 = 0x4000_0000;
+/// The same on paths that excite fluorescence.
+const EXCITED_FACE_SETS: u32 = 0x8000_0000;
 /// Faces of one walk that have such sets; lights at later ones are sampled by the same numbers.
 const FACES: u32 = 64;
 
@@ -111,7 +113,11 @@ impl<const N: usize> Paths<'_, N> {
             }
             result.rays += 1;
             let place = entry.depth.saturating_mul(FACES) + face.min(FACES - 1);
-            stream.seek(FACE_SETS.wrapping_add(place.wrapping_mul(VERTEX_SETS)));
+            let first = match self.excitation_sets {
+                None => FACE_SETS,
+                Some(_) => EXCITED_FACE_SETS,
+            };
+            stream.seek(first.wrapping_add(place.wrapping_mul(VERTEX_SETS)));
             [_, x, y, _] = stream.next4();
         }
         None

@@ -170,6 +170,10 @@ pub(super) fn bands(instrument: &mut Instrument, keys: &mut Keys<'_>) {
             let problem = format!("the sensor has a band `{name}`");
             keys.refuse(&["bands_nm"], problem, "give the band another name");
         }
+        if ["PAR", "531 nm", "570 nm"].contains(&name.as_str()) {
+            let problem = format!("`{name}` is the name of a band of figures of its own");
+            keys.refuse(&["bands_nm"], problem, "give the band another name");
+        }
         let band = Response::of_shape(name, *centre, *fwhm, shape);
         if !band.nodes.iter().all(|(nm, _)| WAVELENGTHS_NM.contain(*nm)) {
             let problem = format!("the band `{name}` reaches beyond 360 to 2500 nm");

@@ -61,36 +61,60 @@ fn declare(incident: &mut Incident, keys: &mut Keys<'_>) {
             incident.amount = Amount::Photons(amount);
         }
     }
-    let [first, last] = Incident::PAR_NM;
-    if let Spectrum::Table {
-        points,
-        extrapolate: false,
-    } = &incident.spectrum
-        && !(points.first().is_some_and(|point| point.0 <= first)
-            && points.last().is_some_and(|point| point.0 >= last))
-    {
+    if !covers_par(&incident.spectrum) {
         let problem = "the table does not cover 400 to 700 nm".to_owned();
         keys.refuse(&["spectrum"], problem, "add wavelengths");
     }
-    let curve = Curve::from_description(&incident.spectrum);
-    let is_dark = Incident::nodes_nm().all(|nm| curve.at(nm as f32) <= 0.0);
-    if is_dark {
+    if is_dark(&incident.spectrum) {
         let problem = "there is no light from 400 to 700 nm".to_owned();
         keys.refuse(&["spectrum"], problem, "use a spectrum with visible light");
     }
 }
 
-/// A light whose spectrum an instrument takes has one spectrum.
+/// Whether a spectrum is told from 400 to 700 nm.
+fn covers_par(spectrum: &Spectrum) -> bool {
+    let [first, last] = Incident::PAR_NM;
+    match spectrum {
+        Spectrum::Table {
+            points,
+            extrapolate: false,
+        } => {
+            points.first().is_some_and(|point| point.0 <= first)
+                && points.last().is_some_and(|point| point.0 >= last)
+        }
+        Spectrum::Table { .. }
+        | Spectrum::Constant(_)
+        | Spectrum::D65 { .. }
+        | Spectrum::Blackbody { .. } => true,
+    }
+}
+
+/// Whether a spectrum has no light from 400 to 700 nm.
+fn is_dark(spectrum: &Spectrum) -> bool {
+    let curve = Curve::from_description(spectrum);
+    Incident::nodes_nm().all(|nm| curve.at(nm as f32) <= 0.0)
+}
+
+/// A light whose spectrum an instrument takes has one, with light in it.
 pub(in crate::scene::blocks) fn check_lights(scene: &Description, keys: &Keys<'_>) {
     for instrument in &scene.instruments {
         let incident = instrument.value.incident.as_ref();
         let light = incident.and_then(|incident| scene.lights.get(incident.light?));
-        if let Some(light) = light.filter(|light| spectrum_of(&light.value).is_none()) {
-            let problem = format!("`{}` is a rig of several lights", light.name);
-            let kind = instrument.value.kind.word();
-            let path = ["instruments", &instrument.name, kind, "incident", "light"];
-            keys.refuse(&path, problem, "write a `spectrum` instead");
-        }
+        let Some(light) = light else { continue };
+        let name = &light.name;
+        let problem = match spectrum_of(&light.value) {
+            None => format!("`{name}` is a rig of several lights"),
+            Some(spectrum) if !covers_par(&spectrum) => {
+                format!("the spectrum of `{name}` does not cover 400 to 700 nm")
+            }
+            Some(spectrum) if is_dark(&spectrum) => {
+                format!("`{name}` has no light from 400 to 700 nm")
+            }
+            Some(_) => continue,
+        };
+        let kind = instrument.value.kind.word();
+        let path = ["instruments", &instrument.name, kind, "incident", "light"];
+        keys.refuse(&path, problem, "write a `spectrum` instead");
     }
 }
 
