@@ -1,6 +1,6 @@
 //! Flux on its way through media and through boundaries that let it pass straight.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::super::LANES;
 use super::super::stage::Stage;
@@ -47,6 +47,24 @@ impl Passage {
     }
 }
 
+/// An event at which light of an object goes straight on; its weights before and after.
+fn passing(
+    object: usize,
+    (position, uv): (Vec3, Vec2),
+    [before, after]: [Lanes<LANES>; 2],
+) -> Event {
+    Event {
+        object,
+        instance: None,
+        position,
+        uv,
+        before,
+        after,
+        is_first: false,
+        is_scattered: false,
+    }
+}
+
 impl<'m, C: Course> Walk<'m, C> {
     /// Follows light until it meets a surface that scatters, as [`Course::next`] does; its weight is
     /// then what is left of it, and 0 if none is. Every event in a medium is told.
@@ -78,16 +96,11 @@ impl<'m, C: Course> Walk<'m, C> {
                 if leg.ray.t_max.is_infinite() {
                     // No closed body is left without passing its boundary, but by rounding.
                     leg.weight *= medium.passed(&before, f32::INFINITY);
-                    witness.event(&Event {
-                        object: stage.objects.object_of(body),
-                        instance: None,
-                        position: leg.ray.origin,
-                        uv: Vec2::ZERO,
-                        before,
-                        after: leg.weight,
-                        is_first: false,
-                        is_scattered: false,
-                    });
+                    witness.event(&passing(
+                        stage.objects.object_of(body),
+                        (leg.ray.origin, Vec2::ZERO),
+                        [before, leg.weight],
+                    ));
                     return (None, moved);
                 }
                 leg.passage.is_straight = false;
@@ -122,16 +135,11 @@ impl<'m, C: Course> Walk<'m, C> {
             let passed = object.body.filter(|body| body.is_matched);
             if around.is_some() || passed.is_some() {
                 let owner = around.map_or(object.object, |(body, _)| stage.objects.object_of(body));
-                witness.event(&Event {
-                    object: owner,
-                    instance: None,
-                    position: surface.position,
-                    uv: surface.uv,
-                    before,
-                    after: leg.weight,
-                    is_first: false,
-                    is_scattered: false,
-                });
+                witness.event(&passing(
+                    owner,
+                    (surface.position, surface.uv),
+                    [before, leg.weight],
+                ));
             }
             let Some(body) = passed.filter(|_| !leg.weight.is_zero()) else {
                 return (Some(hit), moved);
@@ -149,16 +157,11 @@ impl<'m, C: Course> Walk<'m, C> {
         }
         // What light that is caught still carries counts as absorbed where it is.
         if let Some((body, _)) = leg.passage.inside.innermost() {
-            witness.event(&Event {
-                object: stage.objects.object_of(body),
-                instance: None,
-                position: leg.ray.origin,
-                uv: Vec2::ZERO,
-                before: leg.weight,
-                after: Lanes::ZERO,
-                is_first: false,
-                is_scattered: false,
-            });
+            witness.event(&passing(
+                stage.objects.object_of(body),
+                (leg.ray.origin, Vec2::ZERO),
+                [leg.weight, Lanes::ZERO],
+            ));
             leg.weight = Lanes::ZERO;
         }
         (None, 0.0)
