@@ -242,10 +242,11 @@ fn the_factors_at_a_hit_are_the_matrices_of_the_leaf() {
                     &exact.backward
                 };
                 for (found, exact) in found.iter().zip(&exact[e]) {
-                    // PROSPECT in `f32` is off by 1e-6 of the light.
+                    // PROSPECT in `f32` is off by 1e-6 of the light, of which at most some 0.02 per
+                    // nanometre are emitted; 4.5e-9 was found.
                     let off = (found - exact).abs() / EFFICIENCY;
                     greatest = greatest.max(off);
-                    assert!(off < 1e-6, "{contents:?}: {found} for {exact}");
+                    assert!(off < 5e-8, "{contents:?}: {found} for {exact}");
                 }
             }
         }
