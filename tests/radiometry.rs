@@ -185,6 +185,56 @@ fn roulette_leaves_the_mean_as_it_is() {
     }
 }
 
+/// Half of a wide sun is hidden by an upright edge, and a wall beside shines by it: which half
+/// decides whether paths branch must not decide where the others go.
+#[test]
+fn branches_leave_the_mean_of_a_penumbra_as_it_is() {
+    let blocks = "
+[materials.white.diffuse]
+reflectance = 0.8
+[meshes.floor.rectangle]
+width_m = 4
+height_m = 4
+[meshes.screen.rectangle]
+width_m = 2
+height_m = 2
+[meshes.wall.rectangle]
+width_m = 2
+height_m = 0.4
+[objects.floor]
+mesh = \"floor\"
+material = \"white\"
+[objects.screen]
+mesh = \"screen\"
+material = \"white\"
+rotate_deg = [90, 0, 0]
+position_m = [1, 0.3, 0.9]
+[objects.wall]
+mesh = \"wall\"
+material = \"white\"
+rotate_deg = [90, 0, 90]
+position_m = [-0.1, 0, 0.2]
+[lights.sun.distant]
+irradiance_w_m2_nm = 1
+elevation_deg = 45
+azimuth_deg = 90
+angular_diameter_deg = 20
+";
+    let camera = "position_m = [0.3, -0.2, 1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 2";
+    let found = |branches: u32| {
+        let integrator = format!("branches = {branches}\nroulette_below = 0.1");
+        mean_and_error(&scene(camera, &integrator, blocks), 0, 32)
+    };
+    let (one, four) = (found(1), found(4));
+    let error = one.1.hypot(four.1);
+    eprintln!("{one:?} {four:?}");
+    assert!(error < 1e-3 * one.0, "the error {error} hides what is seen");
+    assert!(
+        (one.0 - four.0).abs() < 4.0 * error,
+        "{four:?} is not {one:?}"
+    );
+}
+
 #[test]
 fn branches_leave_the_mean_as_it_is() {
     // All is lossless under a sky of 1, so whatever way light takes between ball and floor, 1

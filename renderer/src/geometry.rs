@@ -2,15 +2,16 @@
 //!
 //! A [`TriangleMesh`] is cleaned when it is made, so later code never sees a vertex that is not
 //! finite or a face without area. [`Geometry`] holds one tree for each mesh, in a frame centred on
-//! the mesh, and one tree over the instances; it is immutable and shared by every thread.
+//! the mesh, and one tree over the instances; meshes that stand in one place each share one tree in
+//! the world where its precision is enough. It is immutable and shared by every thread.
 //!
 //! - **In**: meshes and affine instances, `f32`, metres.
 //! - **Out**: the nearest [`Hit`] of a [`Ray`], whether anything is hit, and the [`SurfacePoint`]
 //!   of a hit.
-//! - **Always true**: a hit is a function of the ray and the triangle alone. Trees only cull, boxes
-//!   are conservative, and equal distances go to the smaller (instance, triangle); so the layout of
-//!   a tree never reaches a picture. No ray slips between two triangles of a mesh that share an
-//!   edge.
+//! - **Always true**: a hit is a function of the ray, the triangle and the meshes that are traced in
+//!   the same frame. Trees only cull, boxes are conservative, and equal distances go to the smaller
+//!   (instance, triangle); so the layout of a tree never reaches a picture. No ray slips between two
+//!   triangles of a mesh that share an edge.
 //! - **Left out**: motion, curves, and watertight seams between *different* meshes, which are only
 //!   as tight as `f32` allows.
 //!
@@ -32,6 +33,7 @@
 mod binary_tree;
 mod bounds;
 mod bvh;
+mod error;
 mod hilbert;
 mod hit;
 mod median;

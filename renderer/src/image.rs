@@ -1,4 +1,4 @@
-//! Pictures and their files: `OpenEXR` for data, PNG and JPEG for looking at.
+//! Pictures and their files: `OpenEXR` for data, PNG and JPEG for looking at; Radiance HDR is read.
 //!
 //! - **In**: [`Picture`]s, layers of `f32` with names and attributes; or untrusted bytes.
 //! - **Out**: complete files, with the same bytes for the same picture; or a [`Picture`].
@@ -31,6 +31,7 @@ pub mod jpeg;
 pub mod openexr;
 pub mod pixels;
 pub mod portable_network;
+pub mod radiance;
 pub mod scan;
 pub mod tone;
 pub mod white;

@@ -105,30 +105,31 @@ impl SurfacePoint {
         let world = placement.linear * local + placement.offset;
 
         let cross = (b - a).cross(c - a);
-        let double_area = cross.length();
-        let normal_local = cross / double_area;
-        let normal_world = placement.normals * normal_local;
-        let stretch = normal_world.length();
-        let geometric = normal_world / stretch;
+        let normal_world = placement.normals * cross;
+        // Of a sheared mesh not the triangle's area in the world.
+        let per_length = 1.0 / normal_world.length();
+        let geometric = (normal_world * per_length).as_vec3();
+        let position = world.as_vec3();
 
         let edges = [b - a, c - b, a - c].map(glam::DVec3::length_squared);
         let longest2 = edges[0].max(edges[1]).max(edges[2]);
-        let longest = longest2.sqrt();
         let error = {
             // Rounding `world` to f32, and then the sum that moves off the surface.
-            let rounding = geometric.abs().dot(world.abs()) * (2.0 * ROUNDING);
-            // The next ray's origin carried into the mesh's frame in f32: five roundings a
-            // coordinate, one of them in the matrix.
-            let carried = placement.to_local_size(world) * (6.0 * ROUNDING);
-            // The triangle test: vertices relative to the origin, the shear, and edge functions
+            let rounding = geometric.abs().dot(position.abs()) * (2.0 * ROUNDING as f32);
+            // Across the triangle in its own frame, times twice its area: the next ray's origin
+            // carried into the mesh's frame in f32, with five roundings a coordinate, one of them
+            // in the matrix,
+            let carried = placement.to_local_size(position) * (6.0 * ROUNDING as f32);
+            let carried = cross.abs().dot(carried.as_dvec3());
+            // and the triangle test: vertices relative to the origin, the shear, and edge functions
             // whose error counts the more the thinner the triangle is.
-            let tested = 16.0 * ROUNDING * longest * (1.0 + longest2 / double_area);
-            rounding + (normal_local.abs().dot(carried) + tested) / stretch
+            let tested = 16.0 * ROUNDING * longest2.sqrt() * (cross.length() + longest2);
+            // The bound itself is rounded.
+            (f64::from(rounding) + (carried + tested) * per_length) * 1.000_01
         };
 
         // For directions and texture coordinates single precision is enough.
         let weights = weights.map(|weight| weight as f32);
-        let geometric = geometric.as_vec3();
         let mut normal = geometric;
         let vertices = || mesh.triangles()[hit.triangle as usize].map(|index| index as usize);
         if let Some(normals) = mesh.normals() {
@@ -153,7 +154,7 @@ impl SurfacePoint {
             tangent = along_v(edges, uvs, &placement.linear_f32, normal);
         }
         Self {
-            position: world.as_vec3(),
+            position,
             position_error: (error as f32).max(f32::MIN_POSITIVE),
             geometric_normal: geometric,
             shading_normal: normal,
@@ -194,10 +195,9 @@ impl TextureScale {
         }
         let derivative = (c - a) * (first.x / determinant) - (b - a) * (second.x / determinant);
         let length = (placement.linear * derivative.as_dvec3()).length() as f32;
-        let mirrors = placement.linear.determinant() < 0.0;
         (length > 0.0 && length.is_finite()).then_some(Self {
             metres_per_v: length,
-            is_mirrored: (determinant < 0.0) != mirrors,
+            is_mirrored: (determinant < 0.0) != placement.is_mirrored,
         })
     }
 }

@@ -106,6 +106,14 @@ impl LeafItems {
     pub(super) fn as_slice(&self) -> &[u32] {
         &self.items[..self.count as usize]
     }
+
+    /// The same boxes, numbered from `first` on.
+    fn numbered_from(mut self, first: u32) -> Self {
+        for item in &mut self.items[..self.count as usize] {
+            *item += first;
+        }
+        self
+    }
 }
 
 impl WideTree {

@@ -25,9 +25,11 @@ use crate::spectrum::{Lanes, Wavelengths};
 
 mod through_leaf;
 
-/// Number of sets of four random numbers before the first vertex: one for the places on film and
-/// lens, one for the wavelengths. Without a lens the first set holds both.
-pub const CAMERA_SETS: u32 = 2;
+/// Number of sets of four random numbers before those of the vertices: one for the places on film
+/// and lens, one for the wavelengths (without a lens the first set holds both), and one for suns.
+pub const CAMERA_SETS: u32 = 3;
+/// The set for suns at the first vertex, if paths may branch there.
+const FIRST_SUNS: u32 = 2;
 /// Number of sets of four random numbers that a vertex owns, used or not: one for the bounce, one
 /// for the chosen light.
 const VERTEX_SETS: u32 = 2;
@@ -347,7 +349,15 @@ impl<const N: usize> Paths<'_, N> {
         // Without what a leaf emits: whether a path branches depends on lamps alone.
         let mut gathered = vertex.gathered;
         if vertex.is_lit {
-            let [_, x, y, _] = numbers;
+            let [_, mut x, mut y, _] = numbers;
+            if depth == 0 && self.effort.branches > 1 && !self.world.selection.always.is_empty() {
+                // Whether the path branches depends on the suns. If they shared the numbers of the
+                // bounce, those of a lit vertex would be a choice among all, and the mean wrong in
+                // penumbras.
+                let mut first = stream.clone();
+                first.seek(self.excitation_sets.unwrap_or(0) + FIRST_SUNS);
+                [x, y, ..] = first.next4();
+            }
             let (light, rays) = sampled_light(self.world, vertex, self.wavelengths, [x, y], stream);
             gathered += light;
             result.radiance += light;
@@ -497,8 +507,9 @@ pub(super) fn sampled_light<const N: usize>(
     let (mut sum, mut rays) = (Lanes::ZERO, 0);
     for &number in &world.selection.always {
         let choice = Choice::certain(number);
-        // A sun shares the random numbers of the bounce. Both contributions are added, so only
-        // their covariance matters, and that is small for a disc of half a degree.
+        // A sun shares the random numbers of the bounce, where paths do not branch. Both
+        // contributions are added, so only their covariance matters, and that is small for a disc
+        // of half a degree.
         let (light, traced) = direct(world, &choice, vertex, wavelengths, [x, y], None);
         sum += light;
         rays += traced;

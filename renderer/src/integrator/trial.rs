@@ -15,7 +15,7 @@ use crate::integrator::effort::Effort;
 use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path;
-use crate::sampling::stream::Stream;
+use crate::sampling::stream::{Pixel, Stream};
 use crate::scene::world::World;
 
 /// Numbers of light samples that are tried, each with the pair of `WITHOUT_TRIAL`.
@@ -163,8 +163,9 @@ impl Trial<'_> {
             // Far from usual seeds, so that the picture itself uses other numbers.
             let seed = self.job.seed ^ (0x5eed_0000_0000_0000 + estimate as u64);
             let mut sums = vec![0.0_f64; channels];
+            let numbers = Pixel::new(seed, x, y, 0);
             for sample in 0..SAMPLES {
-                let mut stream = Stream::new(seed, x, y, sample);
+                let mut stream = numbers.stream(sample);
                 let (wavelengths, found) =
                     path::of_pixel::<N>(self.world, effort, x, y, &mut stream);
                 let values = &mut values[..channels];

@@ -43,10 +43,11 @@ pub fn cosine_hemisphere(u: Vec2) -> Vec3 {
 /// Takes `1 − cos_max`, because the cosine of a small angle, such as the sun's, is inaccurate in
 /// `f32`.
 pub fn cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
-    let one_minus_cos = u.x * one_minus_cos_max;
-    let sin = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
-    let (sin_phi, cos_phi) = libm::sincosf(2.0 * PI * u.y);
-    Vec3::new(sin * cos_phi, sin * sin_phi, 1.0 - one_minus_cos)
+    // The share of the solid angle within a circle is the square of its radius on the disc.
+    let point = disc(u);
+    let one_minus_cos = point.length_squared() * one_minus_cos_max;
+    let sin_over_radius = (one_minus_cos_max * (2.0 - one_minus_cos)).max(0.0).sqrt();
+    (point * sin_over_radius).extend(1.0 - one_minus_cos)
 }
 
 /// Barycentric coordinates of the second and third vertex, uniform over a triangle.

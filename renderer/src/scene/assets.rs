@@ -11,7 +11,7 @@ use leafmodel::document::assets::{Assets, Raster, Triangles};
 use leafmodel::optics::{Constituent, Texel};
 
 use crate::geometry;
-use crate::image::{ImageError, Picture, jpeg, openexr, portable_network};
+use crate::image::{ImageError, Picture, jpeg, openexr, portable_network, radiance};
 use crate::material::contents_texture::ContentsTexture;
 use crate::scene::model::{self, Container, Model, ModelError};
 
@@ -303,6 +303,7 @@ fn colours(file: &Path, allowed: &Allowed) -> Result<RgbPicture, AssetError> {
     let picture = match ending.as_str() {
         "png" => portable_network::read(file)?,
         "jpg" | "jpeg" => jpeg::read(file)?,
+        "hdr" => radiance::read(file)?,
         _ => openexr::read_texture(file)?,
     };
     let red = channel(file, &picture, "R", allowed)?;

@@ -427,7 +427,7 @@ pub enum Light {
     },
     /// A latitude–longitude picture at infinity, up is +z.
     Environment {
-        /// EXR, PNG or JPEG with RGB, resolved and inside the scene's folder.
+        /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
         file: PathBuf,
         /// Factor on the picture.
         scale: f64,
@@ -509,7 +509,7 @@ impl Light {
 pub struct AreaPattern {
     /// Radiance in the middle of the edges of the uv square over that in its middle, in (0, 1].
     pub edge: f64,
-    /// EXR, PNG or JPEG with RGB, resolved and inside the scene's folder.
+    /// EXR, Radiance HDR, PNG or JPEG with RGB, resolved and inside the scene's folder.
     pub picture: Option<PathBuf>,
 }
 

@@ -10,9 +10,10 @@ use glam::Vec3A;
 
 use super::super::ray::Ray;
 use super::super::slab::SlabRay;
-use super::super::triangle::{ShearRay, TriangleBlock};
+use super::super::triangle::ShearRay;
 use super::super::wide_tree::Visitor;
-use super::{Geometry, Hit, TracedMesh};
+use super::triangle_tree::TriangleTree;
+use super::{Geometry, Hit};
 use crate::simd::{Eight, LANES, Task};
 
 /// What a search is for.
@@ -184,7 +185,7 @@ fn in_mesh<'a, F: Found>(
         return None;
     }
     Some(InMesh {
-        mesh: &geometry.meshes[carrier.mesh as usize],
+        tree: &geometry.trees[carrier.tree as usize],
         instance: carrier.instance,
         origin,
         direction,
@@ -196,7 +197,8 @@ fn in_mesh<'a, F: Found>(
 
 /// The search in one mesh, a separate function so that more of the traversal stays in registers.
 struct InMesh<'a, F> {
-    mesh: &'a TracedMesh,
+    tree: &'a TriangleTree,
+    /// The instance, where the tree does not know it.
     instance: u32,
     /// The ray in the mesh's frame.
     origin: Vec3A,
@@ -214,71 +216,103 @@ impl<F: Found> Task for InMesh<'_, F> {
     #[inline(always)]
     fn run<E: Eight>(self, e: E) -> Option<Hit> {
         let (origin, direction, t_min) = (self.origin, self.direction, self.t_min);
-        let tree = &self.mesh.tree;
+        let tree = &self.tree.tree;
         let slab = SlabRay::new(origin, direction, t_min, tree.bounds());
         let shear = ShearRay::new(origin, direction, t_min);
         let mut triangles = Triangles::<E, F> {
             e,
-            blocks: &self.mesh.blocks,
-            instance: self.instance,
+            tree: self.tree,
             slab: &slab,
             shear: &shear,
             hit: None,
             found: PhantomData,
         };
+        let walls = self.tree.walls();
         if F::NEAREST_FIRST {
-            tree.walk_nearest(e, &slab, self.limit, &mut triangles);
+            let mut limit = self.limit;
+            for wall in walls {
+                limit = self.test_wall(e, wall, limit, &mut triangles);
+            }
+            tree.walk_nearest(e, &slab, limit, &mut triangles);
         } else {
             tree.walk_any(e, &slab, self.limit, &mut triangles);
+            for wall in walls {
+                if triangles.hit.is_none() {
+                    self.test_wall(e, wall, self.limit, &mut triangles);
+                }
+            }
         }
-        triangles.hit
+        let mut hit = triangles.hit?;
+        hit.instance = match self.tree.owner(hit.place) {
+            Some(owner) => owner,
+            None => self.instance,
+        };
+        Some(hit)
+    }
+}
+
+impl<F: Found> InMesh<'_, F> {
+    /// Tests the ray against a block that stands beside the tree.
+    #[inline(always)]
+    fn test_wall<E: Eight>(
+        &self,
+        e: E,
+        wall: u32,
+        limit: f32,
+        triangles: &mut Triangles<'_, E, F>,
+    ) -> f32 {
+        let block = &self.tree.blocks[wall as usize];
+        let candidates = block.candidates(e, triangles.shear, limit);
+        if candidates == 0 {
+            return limit;
+        }
+        let bounds = &self.tree.wall_bounds;
+        let slab = SlabRay::new(self.origin, self.direction, self.t_min, bounds);
+        triangles.test(wall, candidates, &slab, limit)
     }
 }
 
 /// Visitor of the leaves of a mesh's tree: tests the ray against eight triangles.
 struct Triangles<'a, E, F> {
     e: E,
-    blocks: &'a [TriangleBlock],
-    instance: u32,
+    tree: &'a TriangleTree,
     slab: &'a SlabRay,
     shear: &'a ShearRay,
-    /// What was found so far.
+    /// What was found so far; its instance is looked up at the end.
     hit: Option<Hit>,
     found: PhantomData<F>,
 }
 
-impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
+impl<E: Eight, F: Found> Triangles<'_, E, F> {
+    /// Tests some triangles of a block; returns the new limit.
     #[inline(always)]
-    fn fetch(&self, leaf: u32) {
-        self.e.prefetch(self.blocks, leaf as usize);
-    }
-
-    #[inline(always)]
-    fn visit(&mut self, leaf: u32, mut limit: f32) -> f32 {
-        let block = &self.blocks[leaf as usize];
-        let mut candidates = block.candidates(self.e, self.shear, limit);
+    fn test(&mut self, leaf: u32, mut candidates: u32, slab: &SlabRay, mut limit: f32) -> f32 {
+        let block = &self.tree.blocks[leaf as usize];
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize;
             candidates &= candidates - 1;
-            let Some(found) = block.hit(lane, self.shear, self.slab) else {
+            let Some(found) = block.hit(lane, self.shear, slab) else {
                 continue;
             };
-            let triangle = block.id(lane);
+            if found.t > limit {
+                continue;
+            }
+            let (triangle, place) = (block.id(lane), leaf * LANES as u32 + lane as u32);
             // At the limit there may be a hit of another instance, which the caller compares, or
-            // one of this mesh.
-            let first = self
-                .hit
-                .is_none_or(|best| found.t < best.t || triangle < best.triangle);
-            if found.t > limit || !first {
+            // one of this tree.
+            if let Some(best) = &self.hit
+                && found.t == best.t
+                && !self.is_before(place, triangle, best)
+            {
                 continue;
             }
             self.hit = Some(Hit {
                 t: found.t,
-                instance: self.instance,
+                instance: u32::MAX,
                 triangle,
                 b1: found.b1,
                 b2: found.b2,
-                place: leaf * LANES as u32 + lane as u32,
+                place,
             });
             if !F::NEAREST_FIRST {
                 return f32::NEG_INFINITY;
@@ -286,5 +320,26 @@ impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
             limit = found.t;
         }
         limit
+    }
+
+    /// Whether a triangle comes before the best one at the same distance.
+    #[inline(never)]
+    fn is_before(&self, place: u32, triangle: u32, best: &Hit) -> bool {
+        let owner = |place| self.tree.owner(place);
+        (owner(place), triangle) < (owner(best.place), best.triangle)
+    }
+}
+
+impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
+    #[inline(always)]
+    fn fetch(&self, leaf: u32) {
+        self.e.prefetch(&self.tree.blocks, leaf as usize);
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, leaf: u32, limit: f32) -> f32 {
+        let block = &self.tree.blocks[leaf as usize];
+        let candidates = block.candidates(self.e, self.shear, limit);
+        self.test(leaf, candidates, self.slab, limit)
     }
 }

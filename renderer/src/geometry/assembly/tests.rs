@@ -10,8 +10,10 @@ use crate::simd::Level;
 use crate::testing::fixed;
 use rayon::prelude::*;
 
-/// The nearest hit, found without trees by testing every triangle of every instance with the
-/// tracer's own test.
+mod joined;
+
+/// The nearest hit, found without walking trees by testing every triangle of every instance with
+/// the tracer's own test.
 fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
     let mut hits = Vec::new();
     let world = SlabRay::new(
@@ -20,32 +22,39 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
         ray.t_min,
         geometry.tree.bounds(),
     );
-    for (instance, placement) in (0_u32..).zip(&geometry.placements) {
-        let mesh = &geometry.meshes[placement.instance.mesh as usize];
-        let enter = if geometry.placements.len() == 1 {
+    for (carrier, bounds) in geometry.carriers.iter().zip(&geometry.boxes) {
+        let traced = &geometry.trees[carrier.tree as usize];
+        let enter = if geometry.carriers.len() == 1 {
             Some(0.0)
         } else {
-            world.one(&placement.world_bounds(mesh))
+            world.one(bounds)
         };
-        let (origin, direction) = placement.carrier.carry(ray);
-        let slab = SlabRay::new(origin, direction, ray.t_min, mesh.tree.bounds());
+        let (origin, direction) = carrier.carry(ray);
+        let slab = SlabRay::new(origin, direction, ray.t_min, traced.tree.bounds());
+        let for_walls = SlabRay::new(origin, direction, ray.t_min, &traced.wall_bounds);
         let shear = ShearRay::new(origin, direction, ray.t_min);
-        let mut in_mesh = Vec::new();
-        for (number, block) in (0..).zip(&mesh.blocks) {
+        let mut in_tree = Vec::new();
+        for (number, block) in (0..).zip(&traced.blocks) {
+            let slab = if traced.walls().contains(&number) {
+                &for_walls
+            } else {
+                &slab
+            };
             for lane in 0..8 {
-                if let Some(hit) = block.hit(lane, &shear, &slab) {
-                    in_mesh.push(Hit {
+                let place = number * 8 + lane as u32;
+                if let Some(hit) = block.hit(lane, &shear, slab) {
+                    in_tree.push(Hit {
                         t: hit.t,
-                        instance,
+                        instance: traced.owner(place).unwrap_or(carrier.instance),
                         triangle: block.id(lane),
                         b1: hit.b1,
                         b2: hit.b2,
-                        place: number * 8 + lane as u32,
+                        place,
                     });
                 }
             }
         }
-        if let (Some(mut hit), Some(enter)) = (nearest(in_mesh), enter) {
+        if let (Some(mut hit), Some(enter)) = (nearest(in_tree), enter) {
             hit.t = hit.t.max(enter);
             hits.extend((hit.t <= ray.t_max).then_some(hit));
         }
@@ -68,11 +77,18 @@ fn in_doubles(geometry: &Geometry, ray: &Ray) -> (Option<f64>, f64) {
     let (mut nearest, mut margin): (Option<f64>, f64) = (None, f64::INFINITY);
     for placement in &geometry.placements {
         let mesh = &geometry.meshes[placement.instance.mesh as usize];
-        for triangle in 0..mesh.mesh.triangles().len() as u32 {
-            let corners = mesh.mesh.corners(triangle);
-            let [a, b, c] = corners.map(|p| {
-                placement.linear * (p.as_dvec3() - mesh.center.as_dvec3()) + placement.offset
-            });
+        let to_world = placement.instance.to_world;
+        let linear = [
+            to_world.matrix3.x_axis,
+            to_world.matrix3.y_axis,
+            to_world.matrix3.z_axis,
+        ];
+        let linear =
+            glam::DMat3::from_cols_slice(&linear.map(|axis| axis.as_dvec3().to_array()).concat());
+        for triangle in 0..mesh.triangles().len() as u32 {
+            let corners = mesh.corners(triangle);
+            let [a, b, c] =
+                corners.map(|p| linear * p.as_dvec3() + to_world.translation.as_dvec3());
             let (e1, e2) = (b - a, c - a);
             let p = direction.cross(e2);
             let determinant = e1.dot(p);

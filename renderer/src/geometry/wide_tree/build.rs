@@ -1,6 +1,8 @@
 //! Building a wide tree: neighbouring boxes are packed into leaves, a binary tree is built over the
 //! leaves, and its nodes are combined into nodes of eight.
 
+use rayon::prelude::*;
+
 use super::super::bounds::Bounds;
 use super::super::{bvh, median, memory};
 use super::cut::{Cheapest, Cut, ThreeLevels};
@@ -13,6 +15,16 @@ impl WideTree {
     ///
     /// Boxes must be finite and fewer than 2³⁰, leaves of at most eight.
     pub(in super::super) fn build(boxes: &[Bounds], leaf_size: u32) -> (Self, Vec<LeafItems>) {
+        Self::build_parts(boxes, &[0, boxes.len()], leaf_size)
+    }
+
+    /// The same, with leaves of boxes of one part each. Part i has the boxes `borders[i]` up to
+    /// `borders[i + 1]`.
+    pub(in super::super) fn build_parts(
+        boxes: &[Bounds],
+        borders: &[usize],
+        leaf_size: u32,
+    ) -> (Self, Vec<LeafItems>) {
         if boxes.is_empty() {
             let tree = Self {
                 nodes: Vec::new(),
@@ -20,7 +32,16 @@ impl WideTree {
             };
             return (tree, Vec::new());
         }
-        let packed = pack::leaves(boxes, leaf_size);
+        let packed: Vec<_> = borders
+            .par_windows(2)
+            .flat_map_iter(|part| {
+                let first = part[0] as u32;
+                let leaves = pack::leaves(&boxes[part[0]..part[1]], leaf_size);
+                leaves
+                    .into_iter()
+                    .map(move |leaf| leaf.numbered_from(first))
+            })
+            .collect();
         let bounds: Vec<_> = packed
             .iter()
             .map(|leaf| leaf.as_slice().iter().map(|&item| boxes[item as usize]))

@@ -21,6 +21,9 @@ const STRETCH: usize = 1 << 14;
 /// The boxes are sorted along a space-filling curve. The curve is cut into leaves so that the sum
 /// of their areas, plus a constant for each leaf, is least.
 pub(super) fn leaves(boxes: &[Bounds], leaf_size: u32) -> Vec<LeafItems> {
+    if boxes.is_empty() {
+        return Vec::new();
+    }
     if leaf_size == 1 {
         return (0..boxes.len() as u32).map(|item| leaf(&[item])).collect();
     }

@@ -9,7 +9,7 @@ use crate::integrator::features::Sight;
 use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
 use crate::integrator::path;
-use crate::sampling::stream::Stream;
+use crate::sampling::stream::Pixel;
 use crate::scene::world::World;
 use crate::spectrum::Spectrum;
 
@@ -90,8 +90,9 @@ impl Samples<'_> {
         let mut rays = 0;
         let mut values = [0.0; MOST_CHANNELS];
         let values = &mut values[..self.layout.beauty];
+        let numbers = Pixel::new(self.job.seed, self.x, self.y, first);
         for sample in first..end {
-            let mut stream = Stream::new(self.job.seed, self.x, self.y, sample);
+            let mut stream = numbers.stream(sample);
             let (wavelengths, found) =
                 path::of_pixel::<N>(self.world, self.effort, self.x, self.y, &mut stream);
             rays += u64::from(found.rays);

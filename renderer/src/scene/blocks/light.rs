@@ -23,8 +23,8 @@ use crate::spectrum::rgb;
 
 /// A picture that shines, up to 4 GiB.
 const PICTURE: FilePath = FilePath::of(
-    "the path of an EXR, PNG or JPEG picture",
-    &["exr", "png", "jpg", "jpeg"],
+    "the path of an EXR, HDR, PNG or JPEG picture",
+    &["exr", "hdr", "png", "jpg", "jpeg"],
     4 << 30,
 );
 const DARK: Spectrum = Spectrum::Constant(0.0);

@@ -1,0 +1,126 @@
+//! Meshes that share one tree.
+
+use glam::{Affine3A, Vec3};
+
+use super::super::super::testing::{Numbers, blade, placed, ray_through, soup};
+use super::every_triangle;
+
+/// Meshes that stand once each above a wide floor, and one that stands twice: what is traced by one
+/// tree, beside it, and by trees of its own.
+#[test]
+fn joined_meshes_are_found_as_every_triangle_is() {
+    let mut walls = 0;
+    for (seed, scale) in (0..).zip([1e-4, 1.0, 1e3]) {
+        let mut numbers = Numbers::new(seed + 50);
+        let floor = blade(1, 1, 40.0 * scale, 40.0 * scale, Vec3::ZERO);
+        let meshes = vec![
+            floor,
+            soup(seed + 30, 40, scale, Vec3::ZERO),
+            blade(9, 7, scale, scale, Vec3::ZERO),
+            soup(seed + 40, 30, scale, Vec3::ZERO),
+            blade(5, 4, scale, scale, Vec3::ZERO),
+        ];
+        let mut instances = vec![(0, Affine3A::from_translation(Vec3::NEG_Z * scale))];
+        instances.extend((1..4).map(|mesh| (mesh, numbers.affine(scale))));
+        for twice in [false, true] {
+            // The floor and the leaf of two places are numbered between the others too.
+            instances.rotate_left(1);
+            if twice {
+                instances.extend((0..2).map(|_| (4, numbers.affine(scale))));
+            }
+            let geometry = placed(meshes.clone(), &instances);
+            assert_eq!(geometry.carriers.len(), if twice { 3 } else { 1 });
+            let joined = &geometry.trees[meshes.len()];
+            walls += joined.walls().count();
+            for _ in 0..1000 {
+                let mut ray = ray_through(&mut numbers, &geometry);
+                let number = numbers.below(instances.len());
+                let (mesh, to_world) = instances[number];
+                let mesh = &meshes[mesh as usize];
+                let corners = mesh.corners(numbers.below(mesh.triangles().len()) as u32);
+                let target = (corners[0] + corners[1] + corners[2]) / 3.0;
+                ray.direction = to_world.transform_point3(target) - ray.origin;
+                let hit = geometry.intersect(&ray);
+                assert_eq!(
+                    hit,
+                    every_triangle(&geometry, &ray),
+                    "scale {scale}, {ray:?}"
+                );
+                assert_eq!(hit.is_some(), geometry.occluded(&ray), "{ray:?}");
+                let hit = hit.expect("the ray points at a triangle");
+                let point = geometry.surface(&ray, &hit);
+                let off = (point.position - ray.at(hit.t)).dot(point.geometric_normal);
+                assert!(off.abs() < 1e-4 * scale, "{off} m off the plane");
+                let (least, most) = geometry.bounds_of(hit.instance);
+                let room = Vec3::splat(1e-4 * scale);
+                assert!(point.position.cmpge(least - room).all());
+                assert!(point.position.cmple(most + room).all());
+            }
+        }
+    }
+    assert_eq!(walls, 6, "the floor stands beside the tree");
+}
+
+/// Surfaces do not depend on whether their mesh is joined: places, sides, tangents and textures of
+/// mirrored and sheared instances.
+#[test]
+fn a_joined_surface_is_that_of_the_mesh_alone() {
+    let mut numbers = Numbers::new(77);
+    let meshes = vec![
+        blade(9, 7, 1.0, 1.0, Vec3::ZERO),
+        soup(3, 40, 1.0, Vec3::ZERO),
+    ];
+    for _ in 0..40 {
+        let places = [numbers.affine(1.0), numbers.affine(1.0)];
+        let both = placed(meshes.clone(), &[(0, places[0]), (1, places[1])]);
+        assert_eq!(both.carriers.len(), 1);
+        for _ in 0..40 {
+            let ray = ray_through(&mut numbers, &both);
+            let Some(hit) = both.intersect(&ray) else {
+                continue;
+            };
+            let of = both.instance(hit.instance);
+            let own = placed(meshes.clone(), &[(of.mesh, of.to_world)]);
+            let Some(mut same) = own
+                .intersect(&ray)
+                .filter(|own| own.triangle == hit.triangle)
+            else {
+                continue;
+            };
+            // A ray along the surface finds slightly different points of it.
+            (same.b1, same.b2) = (hit.b1, hit.b2);
+            let (a, b) = (both.surface(&ray, &hit), own.surface(&ray, &same));
+            assert!((a.position - b.position).length() < 1e-5);
+            for (a, b) in [
+                (a.geometric_normal, b.geometric_normal),
+                (a.shading_normal, b.shading_normal),
+                (a.tangent, b.tangent),
+            ] {
+                assert!((a - b).length() < 1e-3, "{a} is not {b}");
+            }
+            let scales = [both.texture_scale(&hit), own.texture_scale(&same)];
+            if let [Some(a), Some(b)] = scales {
+                assert_eq!(a.is_mirrored, b.is_mirrored);
+                assert!((a.metres_per_v / b.metres_per_v - 1.0).abs() < 1e-3);
+            } else {
+                assert_eq!(scales[0].is_some(), scales[1].is_some());
+            }
+        }
+    }
+}
+
+/// A leaf far from the middle of a wide scene keeps its own frame: there its vertices would be
+/// rounded to a hundredth of its triangles.
+#[test]
+fn a_small_leaf_far_away_is_not_joined() {
+    let leaf = blade(125, 80, 0.05, 0.03, Vec3::ZERO);
+    let far = |x: f32| (0, Affine3A::from_translation(Vec3::X * x));
+    let hill = soup(1, 40, 5.0, Vec3::ZERO);
+    for (x, trees) in [(0.1, 1), (100.0, 2)] {
+        let geometry = placed(
+            vec![leaf.clone(), hill.clone()],
+            &[far(x), (1, Affine3A::IDENTITY)],
+        );
+        assert_eq!(geometry.carriers.len(), trees, "at {x} m");
+    }
+}
