@@ -13,7 +13,7 @@ pub struct Hit {
     pub b1: f32,
     /// Weight of the triangle's third vertex.
     pub b2: f32,
-    /// Block and lane of the triangle in the mesh's tree, where its corners are likely still in the
-    /// cache.
+    /// Block and lane of the triangle in the tree by which it is traced, where its corners are
+    /// likely still in the cache.
     pub(super) place: u32,
 }

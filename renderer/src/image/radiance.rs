@@ -29,7 +29,8 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 }
 
 /// Reads the bytes of a Radiance file: layers R, G and B as the file has them, with its exposure
-/// taken out, so that they are the light of the place. Primaries are taken as Rec. 709.
+/// taken out, so that they are the light of the place. Primaries are taken as Rec. 709; a
+/// correction of colours (COLORCORR) is left out.
 ///
 /// # Errors
 ///
@@ -128,6 +129,10 @@ mod tests {
         }
         let text = String::from_utf8_lossy(&whole).replace("-Y 3 +X 2", "-Y 400000 +X 400000");
         assert!(decode(text.as_bytes()).is_err());
+        for other in ["+Y 3 +X 2", "-Y 3 -X 2", "+X 2 -Y 3"] {
+            let turned = String::from_utf8_lossy(&whole).replace("-Y 3 +X 2", other);
+            assert!(decode(turned.as_bytes()).is_err(), "{other}");
+        }
         assert!(decode(&whole[1..]).is_err());
         let short = [b"#?RGBE", &whole["#?RADIANCE".len()..]].concat();
         assert!(decode(&short).is_ok());
