@@ -134,10 +134,14 @@ impl SlabRay {
         let down = inverse.is_negative_bitmask() as usize;
         let shift = error.copysign(inverse);
         let wide = (error + (reach + origin.abs()) * ROUGHNESS).copysign(inverse);
-        let length = direction.to_array()[axis].abs();
         let coordinates = (origin.abs() + reach).max_element();
-        let most = less(MOST_INVERSE / length, MOST_PRODUCT / coordinates);
-        let (near_inverse, far) = if most * length >= LEAST_INVERSE {
+        // 1/d along the longest axis.
+        let least = inverse.abs().min_element();
+        let mut most = MOST_INVERSE * least;
+        if most * coordinates > MOST_PRODUCT {
+            most = MOST_PRODUCT / coordinates;
+        }
+        let (near_inverse, far) = if most >= LEAST_INVERSE * least {
             let most = Vec3A::splat(most);
             (inverse.min(most).max(-most), 0.0)
         } else {

@@ -28,7 +28,7 @@ enum Axis {
 pub(super) struct ShearRay {
     origin: [f32; 3],
     axes: [Axis; 3],
-    shear: [f32; 3],
+    shear: Vec3A,
     t_min: f32,
 }
 
@@ -43,13 +43,24 @@ impl ShearRay {
         Self {
             origin: origin.to_array(),
             axes,
-            shear: [
+            shear: Vec3A::new(
                 shear[axes[0] as usize],
                 shear[axes[1] as usize],
                 1.0 / along,
-            ],
+            ),
             t_min,
         }
+    }
+
+    /// A corner relative to the ray: across it twice, and along it.
+    #[inline(always)]
+    fn project(&self, corner: [f32; 3]) -> (f32, f32, f32) {
+        let [kx, ky, kz] = self.axes.map(|axis| axis as usize);
+        let [sx, sy, sz] = self.shear.to_array();
+        let z = corner[kz] - self.origin[kz];
+        let x = (corner[kx] - self.origin[kx]) - sx * z;
+        let y = (corner[ky] - self.origin[ky]) - sy * z;
+        (x, y, sz * z)
     }
 }
 
@@ -74,8 +85,8 @@ impl<E: Eight> ShearLanes<E> {
     fn new(e: E, ray: &ShearRay) -> Self {
         let [kx, ky, kz] = ray.axes;
         Self {
-            x: e.splat(ray.shear[0]),
-            y: e.splat(ray.shear[1]),
+            x: e.splat(ray.shear.x),
+            y: e.splat(ray.shear.y),
             origin: [
                 e.splat(ray.origin[kx as usize]),
                 e.splat(ray.origin[ky as usize]),
@@ -101,6 +112,18 @@ pub(super) struct TriangleHit {
     pub(super) t: f32,
     pub(super) b1: f32,
     pub(super) b2: f32,
+}
+
+/// What a ray has to do with eight triangles.
+pub(super) struct Candidates {
+    /// A bit for each lane in which there may be a hit no farther than the limit.
+    pub(super) lanes: u32,
+    /// A bit for each lane whose triangle is hit, if it is, inside its edges.
+    strictly: u32,
+    /// Of the three vertices, not yet divided by their sum.
+    weights: [Row; 3],
+    /// Distances along the ray.
+    t: Row,
 }
 
 impl TriangleBlock {
@@ -139,15 +162,18 @@ impl TriangleBlock {
         self.vertices[vertex].each_ref().map(|axis| axis.0[lane])
     }
 
-    /// A bit for each lane in which [`TriangleBlock::hit`] may find something no farther than
-    /// `limit`.
+    /// The lanes in which there may be a hit no farther than `limit`; `None` if there are none.
     ///
     /// The edge functions of \[woop2013\] on eight lanes. Rounding is monotonic, so the sign of a
     /// difference of two products is right or the difference is 0; zeros pass here and are decided
-    /// by `hit`. In the other lanes `t` has the same bits as in `hit`, so hits outside the ray's
-    /// interval are left out.
+    /// by [`TriangleBlock::hit`].
     #[inline(always)]
-    pub(super) fn candidates<E: Eight>(&self, e: E, ray: &ShearRay, limit: f32) -> u32 {
+    pub(super) fn candidates<E: Eight>(
+        &self,
+        e: E,
+        ray: &ShearRay,
+        limit: f32,
+    ) -> Option<Candidates> {
         let [a, b, c] = &self.vertices;
         let lanes = ShearLanes::new(e, ray);
         let [ax, ay, az] = lanes.project(e, ray, a);
@@ -162,59 +188,61 @@ impl TriangleBlock {
         let zero = e.splat(0.0);
         let inside = e.at_most(zero, least) | e.at_most(most, zero);
         if inside == 0 {
-            return 0;
+            return None;
         }
         let strictly = e.below(zero, least) | e.below(most, zero);
-        let sz = e.splat(ray.shear[2]);
+        let sz = e.splat(ray.shear.z);
         let sum = e.add(
             e.add(e.mul(u, e.mul(sz, az)), e.mul(v, e.mul(sz, bz))),
             e.mul(w, e.mul(sz, cz)),
         );
         let t = e.div(sum, e.add(e.add(u, v), w));
         let within = e.at_most(e.splat(ray.t_min), t) & e.at_most(t, e.splat(limit));
-        inside & (within | !strictly)
+        let lanes = inside & (within | !strictly);
+        if lanes == 0 {
+            return None;
+        }
+        Some(Candidates {
+            lanes,
+            strictly,
+            weights: [e.store(u), e.store(v), e.store(w)],
+            t: e.store(t),
+        })
     }
 
-    /// The hit in one lane, or `None`.
+    /// The hit in one lane of the candidates, or `None`.
     ///
     /// `t` is never less than the distance at which the ray enters the triangle's own box, and a
     /// ray that misses that box misses the triangle. Both depend on triangle and ray alone, and the
     /// boxes of the tree contain that box. So culling never changes a result, even where rounding
     /// moves `t` (a triangle seen edge-on).
     #[inline(always)]
-    pub(super) fn hit(&self, lane: usize, ray: &ShearRay, slab: &SlabRay) -> Option<TriangleHit> {
-        let [a, b, c] = [0, 1, 2].map(|vertex| self.corner(vertex, lane));
-        let [kx, ky, kz] = ray.axes.map(|axis| axis as usize);
-        let [sx, sy, sz] = ray.shear;
-        let project = |corner: [f32; 3]| {
-            let z = corner[kz] - ray.origin[kz];
-            let x = (corner[kx] - ray.origin[kx]) - sx * z;
-            let y = (corner[ky] - ray.origin[ky]) - sy * z;
-            (x, y, sz * z)
+    pub(super) fn hit(
+        &self,
+        lane: usize,
+        candidates: &Candidates,
+        ray: &ShearRay,
+        slab: &SlabRay,
+    ) -> Option<TriangleHit> {
+        let corners = [0, 1, 2].map(|vertex| self.corner(vertex, lane));
+        let found = if candidates.strictly >> lane & 1 == 1 {
+            let weights = candidates.weights.each_ref().map(|row| row.0[lane]);
+            (candidates.t.0[lane], weights)
+        } else {
+            Self::on_an_edge(corners, ray)?
         };
-        let (ax, ay, az) = project(a);
-        let (bx, by, bz) = project(b);
-        let (cx, cy, cz) = project(c);
-        let mut u = cx * by - cy * bx;
-        let mut v = ax * cy - ay * cx;
-        let mut w = bx * ay - by * ax;
-        if u == 0.0 || v == 0.0 || w == 0.0 {
-            // Products of two 24-bit numbers fit 53 bits: here the sign is exact.
-            let [ax, ay, bx, by, cx, cy] = [ax, ay, bx, by, cx, cy].map(f64::from);
-            u = (cx * by - cy * bx) as f32;
-            v = (ax * cy - ay * cx) as f32;
-            w = (bx * ay - by * ax) as f32;
-        }
-        let ahead = u >= 0.0 && v >= 0.0 && w >= 0.0;
-        let behind = u <= 0.0 && v <= 0.0 && w <= 0.0;
-        if !ahead && !behind {
-            return None;
-        }
-        let determinant = u + v + w;
-        if determinant == 0.0 {
-            return None;
-        }
-        let t = (u * az + v * bz + w * cz) / determinant;
+        Self::in_box(corners, found, ray, slab)
+    }
+
+    /// The hit at a distance and with these weights, if it is ahead and the ray meets the triangle's
+    /// box.
+    #[inline(always)]
+    fn in_box(
+        [a, b, c]: [[f32; 3]; 3],
+        (t, [u, v, w]): (f32, [f32; 3]),
+        ray: &ShearRay,
+        slab: &SlabRay,
+    ) -> Option<TriangleHit> {
         // Written so that NaN is a miss.
         if !(t >= ray.t_min && t < f32::INFINITY) {
             return None;
@@ -225,10 +253,54 @@ impl TriangleBlock {
             min: Vec3::new(low(0), low(1), low(2)),
             max: Vec3::new(high(0), high(1), high(2)),
         })?;
+        let determinant = u + v + w;
         Some(TriangleHit {
             t: t.max(enter),
             b1: v / determinant,
             b2: w / determinant,
         })
+    }
+
+    /// Distance and weights of a hit on an edge or a corner; `None` if it is beside the triangle.
+    #[cold]
+    #[inline(never)]
+    fn on_an_edge(corners: [[f32; 3]; 3], ray: &ShearRay) -> Option<(f32, [f32; 3])> {
+        let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = corners.map(|corner| ray.project(corner));
+        // Products of two 24-bit numbers fit 53 bits: here the sign is exact.
+        let [ax, ay, bx, by, cx, cy] = [ax, ay, bx, by, cx, cy].map(f64::from);
+        let u = (cx * by - cy * bx) as f32;
+        let v = (ax * cy - ay * cx) as f32;
+        let w = (bx * ay - by * ax) as f32;
+        let ahead = u >= 0.0 && v >= 0.0 && w >= 0.0;
+        let behind = u <= 0.0 && v <= 0.0 && w <= 0.0;
+        let determinant = u + v + w;
+        if !(ahead || behind) || determinant == 0.0 {
+            return None;
+        }
+        let t = (u * az + v * bz + w * cz) / determinant;
+        Some((t, [u, v, w]))
+    }
+
+    /// The hit in one lane, found without looking at the others: what a search must find.
+    #[cfg(test)]
+    pub(super) fn hit_alone(
+        &self,
+        lane: usize,
+        ray: &ShearRay,
+        slab: &SlabRay,
+    ) -> Option<TriangleHit> {
+        let corners = [0, 1, 2].map(|vertex| self.corner(vertex, lane));
+        let [(ax, ay, az), (bx, by, bz), (cx, cy, cz)] = corners.map(|corner| ray.project(corner));
+        let weights = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
+        let (t, weights) = if weights.contains(&0.0) {
+            Self::on_an_edge(corners, ray)?
+        } else {
+            let [u, v, w] = weights;
+            if weights.iter().any(|weight| (*weight > 0.0) != (u > 0.0)) {
+                return None;
+            }
+            ((u * az + v * bz + w * cz) / (u + v + w), weights)
+        };
+        Self::in_box(corners, (t, weights), ray, slab)
     }
 }

@@ -26,6 +26,7 @@ pub(super) struct Sse2;
 ///
 /// [`has_avx2`] is true.
 #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+#[inline(never)]
 pub(super) unsafe fn with_avx2<T: Task>(task: T) -> T::Output {
     task.run(Avx2(()))
 }

@@ -10,11 +10,11 @@ use glam::Vec3A;
 
 use super::super::ray::Ray;
 use super::super::slab::SlabRay;
-use super::super::triangle::ShearRay;
+use super::super::triangle::{Candidates, ShearRay};
 use super::super::wide_tree::Visitor;
 use super::triangle_tree::TriangleTree;
 use super::{Geometry, Hit};
-use crate::simd::{Eight, LANES, Task};
+use crate::simd::{Eight, LANES, Level, Task};
 
 /// What a search is for.
 pub(super) trait Found: Default {
@@ -186,6 +186,7 @@ fn in_mesh<'a, F: Found>(
     }
     Some(InMesh {
         tree: &geometry.trees[carrier.tree as usize],
+        level: geometry.level,
         instance: carrier.instance,
         origin,
         direction,
@@ -198,6 +199,7 @@ fn in_mesh<'a, F: Found>(
 /// The search in one mesh, a separate function so that more of the traversal stays in registers.
 struct InMesh<'a, F> {
     tree: &'a TriangleTree,
+    level: Level,
     /// The instance, where the tree does not know it.
     instance: u32,
     /// The ray in the mesh's frame.
@@ -227,19 +229,17 @@ impl<F: Found> Task for InMesh<'_, F> {
             hit: None,
             found: PhantomData,
         };
-        let walls = self.tree.walls();
         if F::NEAREST_FIRST {
             let mut limit = self.limit;
-            for wall in walls {
-                limit = self.test_wall(e, wall, limit, &mut triangles);
+            if self.tree.has_walls() {
+                triangles.hit = self.level.run(Walls(&self));
+                limit = triangles.hit.map_or(limit, |hit| hit.t);
             }
             tree.walk_nearest(e, &slab, limit, &mut triangles);
         } else {
             tree.walk_any(e, &slab, self.limit, &mut triangles);
-            for wall in walls {
-                if triangles.hit.is_none() {
-                    self.test_wall(e, wall, self.limit, &mut triangles);
-                }
+            if triangles.hit.is_none() && self.tree.has_walls() {
+                triangles.hit = self.level.run(Walls(&self));
             }
         }
         let mut hit = triangles.hit?;
@@ -251,24 +251,34 @@ impl<F: Found> Task for InMesh<'_, F> {
     }
 }
 
-impl<F: Found> InMesh<'_, F> {
-    /// Tests the ray against a block that stands beside the tree.
+/// The search in the blocks beside the tree: apart, so that the walk through the tree stays small.
+struct Walls<'a, 'b, F>(&'b InMesh<'a, F>);
+
+impl<F: Found> Task for Walls<'_, '_, F> {
+    type Output = Option<Hit>;
+
     #[inline(always)]
-    fn test_wall<E: Eight>(
-        &self,
-        e: E,
-        wall: u32,
-        limit: f32,
-        triangles: &mut Triangles<'_, E, F>,
-    ) -> f32 {
-        let block = &self.tree.blocks[wall as usize];
-        let candidates = block.candidates(e, triangles.shear, limit);
-        if candidates == 0 {
-            return limit;
+    fn run<E: Eight>(self, e: E) -> Option<Hit> {
+        let Self(search) = self;
+        let (origin, direction, t_min) = (search.origin, search.direction, search.t_min);
+        let slab = SlabRay::new(origin, direction, t_min, &search.tree.wall_bounds);
+        let shear = ShearRay::new(origin, direction, t_min);
+        let mut triangles = Triangles::<E, F> {
+            e,
+            tree: search.tree,
+            slab: &slab,
+            shear: &shear,
+            hit: None,
+            found: PhantomData,
+        };
+        let mut limit = search.limit;
+        for wall in search.tree.walls() {
+            limit = triangles.visit(wall, limit);
+            if limit == f32::NEG_INFINITY {
+                break;
+            }
         }
-        let bounds = &self.tree.wall_bounds;
-        let slab = SlabRay::new(self.origin, self.direction, self.t_min, bounds);
-        triangles.test(wall, candidates, &slab, limit)
+        triangles.hit
     }
 }
 
@@ -286,12 +296,13 @@ struct Triangles<'a, E, F> {
 impl<E: Eight, F: Found> Triangles<'_, E, F> {
     /// Tests some triangles of a block; returns the new limit.
     #[inline(always)]
-    fn test(&mut self, leaf: u32, mut candidates: u32, slab: &SlabRay, mut limit: f32) -> f32 {
+    fn test(&mut self, leaf: u32, candidates: &Candidates, mut limit: f32) -> f32 {
         let block = &self.tree.blocks[leaf as usize];
-        while candidates != 0 {
-            let lane = candidates.trailing_zeros() as usize;
-            candidates &= candidates - 1;
-            let Some(found) = block.hit(lane, self.shear, slab) else {
+        let mut lanes = candidates.lanes;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            lanes &= lanes - 1;
+            let Some(found) = block.hit(lane, candidates, self.shear, self.slab) else {
                 continue;
             };
             if found.t > limit {
@@ -339,7 +350,9 @@ impl<E: Eight, F: Found> Visitor for Triangles<'_, E, F> {
     #[inline(always)]
     fn visit(&mut self, leaf: u32, limit: f32) -> f32 {
         let block = &self.tree.blocks[leaf as usize];
-        let candidates = block.candidates(self.e, self.shear, limit);
-        self.test(leaf, candidates, self.slab, limit)
+        match block.candidates(self.e, self.shear, limit) {
+            Some(candidates) => self.test(leaf, &candidates, limit),
+            None => limit,
+        }
     }
 }

@@ -42,7 +42,7 @@ fn every_triangle(geometry: &Geometry, ray: &Ray) -> Option<Hit> {
             };
             for lane in 0..8 {
                 let place = number * 8 + lane as u32;
-                if let Some(hit) = block.hit(lane, &shear, slab) {
+                if let Some(hit) = block.hit_alone(lane, &shear, slab) {
                     in_tree.push(Hit {
                         t: hit.t,
                         instance: traced.owner(place).unwrap_or(carrier.instance),

@@ -170,6 +170,11 @@ impl TriangleTree {
         }
     }
 
+    #[inline]
+    pub(super) fn has_walls(&self) -> bool {
+        self.walls > 0
+    }
+
     /// The blocks beside the tree.
     #[inline]
     pub(super) fn walls(&self) -> Range<u32> {
