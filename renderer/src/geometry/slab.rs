@@ -102,9 +102,8 @@ pub(super) struct SlabRay {
     far_inverse: [f32; 3],
     near_offset: [f32; 3],
     far_offset: [f32; 3],
-    /// Planes that the ray meets first and last on each axis.
-    near_plane: [Plane; 3],
-    far_plane: [Plane; 3],
+    /// A bit for each axis along which the direction is negative.
+    down: u32,
     t_min: f32,
 }
 
@@ -131,7 +130,7 @@ impl SlabRay {
         let error = (reach + Vec3A::splat(along)) * SHEAR_ERROR;
         let inverse = direction.recip();
         // Decided by the sign of 1/d, so that a direction of −0 agrees with its −∞.
-        let down = inverse.is_negative_bitmask() as usize;
+        let down = inverse.is_negative_bitmask();
         let shift = error.copysign(inverse);
         let wide = (error + (reach + origin.abs()) * ROUGHNESS).copysign(inverse);
         let coordinates = (origin.abs() + reach).max_element();
@@ -156,8 +155,7 @@ impl SlabRay {
             far_inverse: far_inverse.to_array(),
             near_offset: (-(origin + wide) * near_inverse - far).to_array(),
             far_offset: (-(origin - wide) * far_inverse + far).to_array(),
-            near_plane: NEAR_PLANES[down & 7],
-            far_plane: NEAR_PLANES[!down & 7],
+            down,
             t_min: greater(t_min, 0.0),
         }
     }
@@ -171,11 +169,13 @@ impl SlabRay {
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
         let mut leave = e.splat(limit);
+        let [near_planes, far_planes] =
+            [self.down, !self.down].map(|down| &NEAR_PLANES[down as usize & 7]);
         for axis in 0..3 {
-            let near = e.load(&planes[self.near_plane[axis] as usize]);
+            let near = e.load(&planes[near_planes[axis] as usize]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
             let near = e.mul_add_roughly(near, e.splat(inverse), e.splat(offset));
-            let far = e.load(&planes[self.far_plane[axis] as usize]);
+            let far = e.load(&planes[far_planes[axis] as usize]);
             let (inverse, offset) = (self.far_inverse[axis], self.far_offset[axis]);
             let far = e.mul_add_roughly(far, e.splat(inverse), e.splat(offset));
             enter = e.greater(near, enter);
@@ -194,7 +194,7 @@ impl SlabRay {
         let mut enter = self.t_min;
         let mut leave = f32::INFINITY;
         for axis in 0..3 {
-            let (near, far) = if self.near_plane[axis] == PLANES[axis][0] {
+            let (near, far) = if self.down >> axis & 1 == 0 {
                 (min[axis], max[axis])
             } else {
                 (max[axis], min[axis])
