@@ -16,6 +16,7 @@ use super::ray::Ray;
 use super::surface::{self, SurfacePoint, TextureScale};
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
+use joining::Joined;
 use search::{AnyHit, NearestHit, Search};
 use triangle_tree::TriangleTree;
 
@@ -99,32 +100,15 @@ impl Geometry {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let joined = joining::choose(&meshes, &placements);
-        let joined = joined.map(|joined| {
-            let tree = TriangleTree::joined(&meshes, &placements, &joined);
-            (joined, tree)
-        });
-        let mut is_joined = vec![false; placements.len()];
-        for number in joined.iter().flat_map(|(joined, _)| joined.all()) {
-            is_joined[number as usize] = true;
-        }
-        let mut is_used = vec![false; meshes.len()];
-        for (placement, _) in placements
+        let mut trees = trees_of(&meshes, trees, &placements, joined.as_ref());
+        let is_joined = |number: u32| {
+            let joined = joined.as_ref();
+            joined.is_some_and(|joined| joined.contains(number))
+        };
+        let mut carriers: Vec<_> = placements
             .iter()
-            .zip(&is_joined)
-            .filter(|(_, joined)| !**joined)
-        {
-            is_used[placement.instance.mesh as usize] = true;
-        }
-        let mut trees: Vec<_> = (meshes.par_iter().zip(&is_used).enumerate())
-            .map(|(number, (mesh, is_used))| match trees.get(number) {
-                Some(tree) if !tree.blocks.is_empty() => Arc::clone(tree),
-                _ if *is_used => Arc::new(TriangleTree::of_mesh(mesh)),
-                _ => Arc::new(TriangleTree::none()),
-            })
-            .collect();
-        let mut carriers: Vec<_> = (placements.iter().zip(&is_joined))
-            .filter(|(_, is_joined)| !**is_joined)
-            .map(|(placement, _)| placement.carrier)
+            .map(|placement| placement.carrier)
+            .filter(|carrier| !is_joined(carrier.instance))
             .collect();
         let mut boxes: Vec<_> = carriers
             .par_iter()
@@ -133,7 +117,8 @@ impl Geometry {
                 placements[carrier.instance as usize].world_bounds(&tree.hull)
             })
             .collect();
-        if let Some((joined, tree)) = joined {
+        if let Some(joined) = &joined {
+            let tree = TriangleTree::joined(&meshes, &placements, joined);
             let first = joined.instances[0];
             let carrier = Carrier::of_joined(trees.len() as u32, first, joined.center);
             for number in joined.all() {
@@ -143,14 +128,7 @@ impl Geometry {
             carriers.push(carrier);
             trees.push(Arc::new(tree));
         }
-        for (bounds, carrier) in boxes.iter().zip(&carriers) {
-            if !bounds.min.is_finite() || !bounds.max.is_finite() {
-                return Err(GeometryError::Transform {
-                    instance: carrier.instance as usize,
-                    what: "takes the mesh beyond 32-bit numbers",
-                });
-            }
-        }
+        check_boxes(&boxes, &carriers)?;
         let (tree, leaves) = WideTree::build(&boxes, 1);
         let order = || leaves.iter().flat_map(LeafItems::as_slice);
         Ok(Self {
@@ -276,6 +254,42 @@ impl Geometry {
     pub fn instance(&self, i: u32) -> &Instance {
         &self.placements[i as usize].instance
     }
+}
+
+/// The trees of the meshes by which an instance is traced; of those that are there already, as they
+/// are.
+fn trees_of(
+    meshes: &[TriangleMesh],
+    trees: &[Arc<TriangleTree>],
+    placements: &[Placement],
+    joined: Option<&Joined>,
+) -> Vec<Arc<TriangleTree>> {
+    let mut is_used = vec![false; meshes.len()];
+    for (number, placement) in (0..).zip(placements) {
+        if joined.is_none_or(|joined| !joined.contains(number)) {
+            is_used[placement.instance.mesh as usize] = true;
+        }
+    }
+    (meshes.par_iter().zip(&is_used).enumerate())
+        .map(|(number, (mesh, is_used))| match trees.get(number) {
+            Some(tree) if !tree.blocks.is_empty() => Arc::clone(tree),
+            _ if *is_used => Arc::new(TriangleTree::of_mesh(mesh)),
+            _ => Arc::new(TriangleTree::none()),
+        })
+        .collect()
+}
+
+/// Refuses an instance that lies beyond the range of numbers.
+fn check_boxes(boxes: &[Bounds], carriers: &[Carrier]) -> Result<(), GeometryError> {
+    for (bounds, carrier) in boxes.iter().zip(carriers) {
+        if !bounds.min.is_finite() || !bounds.max.is_finite() {
+            return Err(GeometryError::Transform {
+                instance: carrier.instance as usize,
+                what: "takes the mesh beyond 32-bit numbers",
+            });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -8,9 +8,10 @@
 
 use leafmodel::optics::fluorescence::EXCITED_NM;
 
+use super::path::lamps::sampled_light;
 use super::path::media::Passage;
 use super::path::scatterer::Scatterer;
-use super::path::{PathResult, Paths, Vertex, sampled_light};
+use super::path::{PathResult, Paths, Vertex};
 use crate::bsdf::View;
 use crate::bsdf::fluorescence::FluorescenceView;
 use crate::geometry::surface::SurfacePoint;

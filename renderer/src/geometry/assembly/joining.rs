@@ -47,6 +47,11 @@ impl Joined {
     pub(super) fn all(&self) -> impl Iterator<Item = u32> + '_ {
         self.instances.iter().chain(&self.walls).copied()
     }
+
+    /// Whether an instance is among them.
+    pub(super) fn contains(&self, instance: u32) -> bool {
+        self.instances.binary_search(&instance).is_ok() || self.walls.contains(&instance)
+    }
 }
 
 /// The instances that are traced by one tree: those whose mesh stands once, as long as the world's

@@ -2,9 +2,10 @@
 
 use glam::Vec3;
 
+use super::lamps::sampled_light;
 use super::media::Passage;
 use super::scatterer::Scatterer;
-use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, VERTEX_SETS, Vertex, sampled_light};
+use super::{Bounce, Cone, Leg, PathResult, Paths, Receiver, VERTEX_SETS, Vertex};
 use crate::bsdf::View;
 use crate::geometry::Hit;
 use crate::geometry::frame::Frame;
