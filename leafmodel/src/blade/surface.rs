@@ -123,6 +123,7 @@ impl SurfaceMap {
         rows.for_each(|(row, texels)| {
             let covered = coverage.row(row);
             let carried = carried.as_ref().map(|carried| carried.row(row));
+            let mut near = Vec::new();
             for (column, out) in texels.iter_mut().enumerate().filter(|(c, _)| covered[*c]) {
                 let corner = frame.min + texel * DVec2::new(column as f64, row as f64);
                 let carried = |place: [usize; 2]| {
@@ -134,7 +135,13 @@ impl SurfaceMap {
                 // As the renderer has it, a variance σ² of slopes adds 3 σ² to the square of a
                 // roughness.
                 let rough = dead * plan.dead_roughness * plan.dead_roughness / 3.0;
-                *out = moments(&bulge, &mounds, (corner, texel), rough, &carried);
+                *out = moments(
+                    &bulge,
+                    (&mounds, &mut near),
+                    (corner, texel),
+                    rough,
+                    carried,
+                );
             }
         });
         Ok(Self {
@@ -168,11 +175,12 @@ fn cover(
     let rows = loads.par_chunks_mut(width).zip(away.par_chunks_mut(width));
     rows.enumerate().for_each(|(row, (loads, away))| {
         let covered = coverage.row(row);
+        let mut nearest = 0;
         for column in (0..width).filter(|column| covered[*column]) {
             let p = frame.min + texel * (DVec2::new(column as f64, row as f64) + 0.5);
             loads[column] = if has_dust { gathering.at(p) } else { 0.0 };
             if let Some(veins) = &veins {
-                away[column] = veins.at(p) as f32;
+                away[column] = veins.at_next(p, &mut nearest) as f32;
             }
         }
     });
@@ -184,13 +192,13 @@ fn cover(
 }
 
 /// The moments of both faces over the texel at a corner and of a size, mm, whose coats are `rough`
-/// by age; `carried` are the slopes of the mesh at each place in it.
+/// by age; `carried` are the slopes of the mesh at each place in it. `near` is room for a list.
 fn moments(
     bulge: &Bulge,
-    mounds: &Mounds,
+    (mounds, near): (&Mounds, &mut Vec<u32>),
     (corner, texel): (DVec2, DVec2),
     rough: f64,
-    carried: &dyn Fn([usize; 2]) -> DVec2,
+    carried: impl Fn([usize; 2]) -> DVec2,
 ) -> [SlopeMoments; 2] {
     let mut sums = [[0.0_f64; 4]; 2];
     let mut add = |slopes: [DVec2; 2], rough: f64, weight: f64| {
@@ -206,22 +214,22 @@ fn moments(
             }
         }
     };
-    let veins = mounds.near(corner + 0.5 * texel);
-    if veins.is_empty() {
-        let middle = [PLACES / 2; 2];
-        let slope = bulge.slope(corner + 0.5 * texel) - carried(middle);
-        add([slope; 2], rough, 1.0);
-    } else {
+    let centre = corner + 0.5 * texel;
+    if mounds.are_near(centre) {
+        mounds.reaching(centre, 0.5 * texel.length(), near);
         for number in 0..PLACES * PLACES {
             let place = [number % PLACES, number / PLACES];
             let share = DVec2::new(place[0] as f64, place[1] as f64);
             let p = corner + texel * (share + 0.5) / PLACES as f64;
             let slope = bulge.slope(p) - carried(place);
-            let vein = mounds.slopes(veins, p);
+            let vein = mounds.slopes(near, p);
             let faces = vein.slopes.map(|own| own + slope);
             let rough = rough + vein.roughness;
             add(faces, rough, 1.0 / (PLACES * PLACES) as f64);
         }
+    } else {
+        let slope = bulge.slope(centre) - carried([PLACES / 2; 2]);
+        add([slope; 2], rough, 1.0);
     }
     // Rounding to single precision must not bring a mean square below the square of the mean.
     sums.map(|sum| {

@@ -15,6 +15,7 @@
 //! - **Left out**: whence it comes: light flecks, age, supply.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::contents_map::ContentsMap;
 use super::distances::Distances;
@@ -102,9 +103,13 @@ impl Unevenness {
             width: map.width as usize,
             height: map.height as usize,
         };
+        let inside = grid.inside(outline);
         let mut factors = if self.fields > 0.0 {
-            let numbers = grid.field_numbers(outline, veins, seed ^ OTHER[0]);
-            numbers.iter().map(|f| 1.0 + self.fields * f).collect()
+            let mut numbers = grid.field_numbers(&inside, veins, seed ^ OTHER[0]);
+            for f in &mut numbers {
+                *f = 1.0 + self.fields * *f;
+            }
+            numbers
         } else {
             vec![1.0; map.texels.len()]
         };
@@ -115,26 +120,34 @@ impl Unevenness {
             .map(|vein| [vein.from, vein.to])
             .collect();
         let primaries = (!lines.is_empty()).then(|| Distances::new(lines));
-        let (mut before, mut after) = (0.0, 0.0);
-        for (i, factor) in factors.iter_mut().enumerate() {
-            let p = grid.place(i);
-            let patch = (noise.at(p) / NOISE_DEVIATION).clamp(-2.5, 2.5);
-            let paler = primaries
-                .as_ref()
-                .map_or(0.0, |distances| libm::exp(-distances.at(p) / self.reach_mm));
-            *factor *= (1.0 + self.patches * patch) * (1.0 - self.along_primaries * paler);
-            if outline.contains(p) {
-                let chlorophyll = f64::from(map.texels[i][Constituent::Chlorophyll]);
-                before += chlorophyll;
-                after += chlorophyll * *factor;
+        grid.each_row(&mut factors, |row, factors| {
+            let mut nearest = 0;
+            for (column, factor) in factors.iter_mut().enumerate() {
+                let p = grid.middle(column, row);
+                let patch = (noise.at(p) / NOISE_DEVIATION).clamp(-2.5, 2.5);
+                let paler = primaries.as_ref().map_or(0.0, |distances| {
+                    libm::exp(-distances.at_next(p, &mut nearest) / self.reach_mm)
+                });
+                *factor *= (1.0 + self.patches * patch) * (1.0 - self.along_primaries * paler);
             }
+        });
+        // One texel after the other, so that the sums do not depend on the number of threads.
+        let (mut before, mut after) = (0.0, 0.0);
+        for ((texel, factor), _) in (map.texels.iter().zip(&factors))
+            .zip(&inside)
+            .filter(|(_, inside)| **inside)
+        {
+            let chlorophyll = f64::from(texel[Constituent::Chlorophyll]);
+            before += chlorophyll;
+            after += chlorophyll * *factor;
         }
         let mean = if before > 0.0 { after / before } else { 1.0 };
-        for (texel, factor) in map.texels.iter_mut().zip(factors) {
+        let texels = map.texels.par_iter_mut().with_min_len(1 << 12);
+        texels.zip(factors).for_each(|(texel, factor)| {
             for pigment in [Constituent::Chlorophyll, Constituent::Carotenoids] {
                 texel[pigment] = (f64::from(texel[pigment]) * factor / mean) as f32;
             }
-        }
+        });
     }
 }
 
@@ -155,14 +168,37 @@ impl Grid<'_> {
     }
 
     /// The middle of a texel.
-    fn place(&self, i: usize) -> DVec2 {
-        let texel = DVec2::new((i % self.width) as f64, (i / self.width) as f64) + 0.5;
+    fn middle(&self, column: usize, row: usize) -> DVec2 {
+        let texel = DVec2::new(column as f64, row as f64) + 0.5;
         self.frame.point(texel / self.size())
     }
 
+    /// As [`Grid::middle`], of the texel with a number.
+    fn place(&self, i: usize) -> DVec2 {
+        self.middle(i % self.width, i / self.width)
+    }
+
+    /// Calls `work` with each row's number and values, on all threads.
+    fn each_row<T: Send>(&self, values: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+        let rows = values.par_chunks_mut(self.width).enumerate();
+        rows.with_min_len(8)
+            .for_each(|(row, values)| work(row, values));
+    }
+
+    /// For each texel whether its middle lies within the margin.
+    fn inside(&self, outline: &Outline) -> Vec<bool> {
+        let mut inside = vec![false; self.width * self.height];
+        self.each_row(&mut inside, |row, inside| {
+            for (column, inside) in inside.iter_mut().enumerate() {
+                *inside = outline.contains(self.middle(column, row));
+            }
+        });
+        inside
+    }
+
     /// A number of mean 0 and deviation 1 for each texel: that of its field.
-    fn field_numbers(&self, outline: &Outline, veins: &[VeinSegment], seed: u64) -> Vec<f64> {
-        let (fields, count) = self.fields(outline, veins);
+    fn field_numbers(&self, inside: &[bool], veins: &[VeinSegment], seed: u64) -> Vec<f64> {
+        let (fields, count) = self.fields(inside, veins);
         let mut middles = vec![(DVec2::ZERO, 0.0); count];
         for (i, &field) in fields.iter().enumerate() {
             if let Some((sum, area)) = middles.get_mut(field as usize) {
@@ -181,14 +217,10 @@ impl Grid<'_> {
     }
 
     /// The field of each texel, and how many there are. Texels of veins belong to the nearest.
-    fn fields(&self, outline: &Outline, veins: &[VeinSegment]) -> (Vec<u32>, usize) {
-        let texels = self.width * self.height;
-        let mut field = vec![OPEN; texels];
-        for (i, field) in field.iter_mut().enumerate() {
-            if !outline.contains(self.place(i)) {
-                *field = WALL;
-            }
-        }
+    fn fields(&self, inside: &[bool], veins: &[VeinSegment]) -> (Vec<u32>, usize) {
+        let texels = inside.len();
+        let is_open = |&inside: &bool| if inside { OPEN } else { WALL };
+        let mut field: Vec<u32> = inside.iter().map(is_open).collect();
         for vein in veins.iter().filter(|vein| vein.order <= ENCLOSING) {
             self.wall(vein, &mut field);
         }
@@ -261,11 +293,18 @@ impl Grid<'_> {
 
     /// Means over each texel and those beside it.
     fn softened(&self, values: &[f64]) -> Vec<f64> {
-        let mean = |i: usize| {
-            let beside: Vec<f64> = self.beside(i).map(|other| values[other]).collect();
-            (values[i] + beside.iter().sum::<f64>()) / (1.0 + beside.len() as f64)
-        };
-        (0..values.len()).map(mean).collect()
+        let mut means = vec![0.0; values.len()];
+        self.each_row(&mut means, |row, means| {
+            for (i, mean) in (row * self.width..).zip(means) {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for other in self.beside(i) {
+                    sum += values[other];
+                    count += 1.0;
+                }
+                *mean = (values[i] + sum) / (1.0 + count);
+            }
+        });
+        means
     }
 }
 

@@ -161,6 +161,12 @@ impl VeinGrid {
     pub(super) fn nearest(&self, number: u32, p: DVec2) -> NearVein {
         nearest(&self.segments[number as usize], p)
     }
+
+    /// The greatest radius of a vein, mm.
+    pub(super) fn widest(&self, number: u32) -> f64 {
+        let vein = &self.segments[number as usize];
+        vein.radius_from.max(vein.radius_to)
+    }
 }
 
 /// A [`VeinGrid`] whose cells list their veins by a key.

@@ -24,6 +24,8 @@ const STRENGTH: f64 = 20.0;
 const PLACES_WITHIN: f64 = 8.0;
 /// Sweeps of successive over-relaxation. Errors fall to 0.84 in each on the finest grid.
 const SWEEPS: usize = 48;
+/// Rows that a thread takes at a time.
+const ROWS: usize = 64;
 
 /// A sheet that veins hold down.
 #[derive(Clone, Copy, Debug)]
@@ -105,35 +107,63 @@ impl Bulge {
     }
 
     /// Red-black over-relaxation; `bed` is the square of the spacing over that of the width.
+    ///
+    /// Places of each colour have a list of their own, half a row after the other: a sweep reads
+    /// one and writes the other.
     fn relax(&mut self, held: &[f64], height: f64, bed: f64) {
-        let columns = self.columns;
         let jacobi = 4.0 / (4.0 + bed);
         let omega = 2.0 / (1.0 + (1.0 - jacobi * jacobi).sqrt());
-        let mut next = self.heights.clone();
+        let columns = self.columns;
+        let half = columns.div_ceil(2);
+        let [mut even, mut odd] = parted(&self.heights, columns);
+        let held = parted(held, columns);
         for sweep in 0..2 * SWEEPS {
-            let before = &self.heights;
-            let rows = next.par_chunks_mut(columns).enumerate();
-            rows.for_each(|(row, next)| {
-                let own = &before[row * columns..][..columns];
+            let colour = sweep % 2;
+            let (own, other) = if colour == 0 {
+                (&mut even, &odd)
+            } else {
+                (&mut odd, &even)
+            };
+            let rows = own.par_chunks_mut(half).enumerate().with_min_len(ROWS);
+            rows.for_each(|(row, own)| {
+                let at = |row: usize| other.get(row * half..(row + 1) * half);
+                let beside = &other[row * half..][..half];
+                let (below, above) = (row.checked_sub(1).and_then(at), at(row + 1));
+                let held = &held[colour][row * half..][..half];
+                // The column of the first place; the others are two apart.
+                let first = (row + colour) % 2;
                 // At the border of the grid, which lies beyond the margin, the sheet is level.
-                let at = |row: usize| before.get(row * columns..(row + 1) * columns);
-                let below = row.checked_sub(1).and_then(at).unwrap_or(own);
-                let above = at(row + 1).unwrap_or(own);
-                for column in 0..columns {
-                    let h = own[column];
-                    if (row + column + sweep) % 2 == 1 {
-                        next[column] = h;
-                        continue;
-                    }
-                    let left = own[column.saturating_sub(1)];
-                    let right = own[(column + 1).min(columns - 1)];
-                    let sum = left + right + below[column] + above[column];
-                    let pinned = held[row * columns + column];
-                    let target = (sum + bed * height) / (4.0 + bed + pinned);
-                    next[column] = h + omega * (target - h);
+                let risen = |i: usize, h: f64, [left, right]: [Option<f64>; 2]| {
+                    let [left, right] = [left, right].map(|side| side.unwrap_or(h));
+                    let [below, above] = [below, above].map(|row| row.map_or(h, |row| row[i]));
+                    let sum = left + right + below + above;
+                    let target = (sum + bed * height) / (4.0 + bed + held[i]);
+                    h + omega * (target - h)
+                };
+                let count = (columns - first).div_ceil(2);
+                // Places that have a neighbour on either side.
+                let inner = 1 - first..(columns - first) / 2;
+                let sides = |i: usize| {
+                    let left = (i + first).checked_sub(1).map(|left| beside[left]);
+                    [
+                        left,
+                        (2 * i + first + 1 < columns).then(|| beside[i + first]),
+                    ]
+                };
+                for i in (0..inner.start).chain(inner.end..count) {
+                    own[i] = risen(i, own[i], sides(i));
+                }
+                for (i, h) in inner.clone().zip(&mut own[inner]) {
+                    let sides = [beside[i + first - 1], beside[i + first]];
+                    *h = risen(i, *h, sides.map(Some));
                 }
             });
-            std::mem::swap(&mut self.heights, &mut next);
+        }
+        for (row, heights) in self.heights.chunks_mut(columns).enumerate() {
+            for (column, height) in heights.iter_mut().enumerate() {
+                let own = [&even, &odd][(row + column) % 2];
+                *height = own[row * half + column / 2];
+            }
         }
     }
 
@@ -178,4 +208,23 @@ impl Bulge {
         let mix = |row| self.at(column, row) * (1.0 - share.x) + self.at(column + 1, row) * share.x;
         mix(row) * (1.0 - share.y) + mix(row + 1) * share.y
     }
+}
+
+/// The places of a grid whose row and column have an even sum, and the others; each list has half
+/// of the columns, rounded up, for each row.
+fn parted(grid: &[f64], columns: usize) -> [Vec<f64>; 2] {
+    let half = columns.div_ceil(2);
+    let rows = grid.len() / columns;
+    [0, 1].map(|colour| {
+        let mut places = vec![0.0; half * rows];
+        for (row, places) in places.chunks_mut(half).enumerate() {
+            let own = grid[row * columns..][..columns].iter();
+            let own = own.skip((row + colour) % 2).step_by(2);
+            places
+                .iter_mut()
+                .zip(own)
+                .for_each(|(to, from)| *to = *from);
+        }
+        places
+    })
 }

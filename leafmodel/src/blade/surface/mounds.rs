@@ -47,9 +47,21 @@ impl Mounds {
         }
     }
 
-    /// The veins that may reach into the texel around a point.
-    pub(super) fn near(&self, centre: DVec2) -> &[u32] {
-        self.veins.members(centre)
+    /// Whether the cell of a texel's centre has any veins.
+    pub(super) fn are_near(&self, centre: DVec2) -> bool {
+        !self.veins.members(centre).is_empty()
+    }
+
+    /// Puts into `near` the veins whose mounds come within the distance `reach` of a point, the
+    /// centre of a texel and half its diagonal, in the order of their numbers.
+    pub(super) fn reaching(&self, centre: DVec2, reach: f64, near: &mut Vec<u32>) {
+        near.clear();
+        let members = self.veins.members(centre).iter().copied();
+        near.extend(members.filter(|&number| {
+            let width = HALF_WIDTH * self.veins.widest(number);
+            // A little more, for rounding.
+            self.veins.nearest(number, centre).distance <= (width + reach) * (1.0 + 1e-9)
+        }));
     }
 
     /// The slopes at `p` of the highest of these veins' mounds, `2r (1 + cos(π d / 1.5 r)) / 2` at
@@ -62,6 +74,10 @@ impl Mounds {
         };
         for &number in veins {
             let near = self.veins.nearest(number, p);
+            // The profile is at most 1, so that this mound cannot be higher.
+            if 2.0 * near.radius <= highest {
+                continue;
+            }
             let width = HALF_WIDTH * near.radius;
             let away = near.distance / width;
             if away >= 1.0 {
