@@ -16,3 +16,4 @@ mod radiometry;
 mod random_plans;
 mod scattering;
 mod solid_tissue;
+mod white_balance;

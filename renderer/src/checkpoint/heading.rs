@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::bytes::{Out, Rest};
 use super::view;
+use crate::image::light_colour::LightColour;
 use crate::image::pixels::Depth;
 use crate::image::tone::Tone;
 use crate::integrator::caption::Caption;
@@ -129,6 +130,11 @@ impl Heading {
         for name in &caption.objects {
             out.text(name);
         }
+        out.long(caption.lights.len() as u64);
+        for LightColour { name, colour } in &caption.lights {
+            out.text(name);
+            out.doubles(colour);
+        }
         match &caption.kind {
             FilmKind::Rgb { range_nm } => {
                 out.flag(false);
@@ -149,6 +155,7 @@ impl Heading {
             grey_object,
             white,
             white_object,
+            white_light,
             tone,
             depth,
             alpha,
@@ -162,6 +169,7 @@ impl Heading {
             White::Kelvin(kelvin) => *kelvin,
         });
         out.text(white_object.as_deref().unwrap_or_default());
+        out.text(white_light.as_deref().unwrap_or_default());
         let number = TONES.iter().position(|known| known == tone);
         out.word(number.map_or(u32::MAX, |number| number as u32));
         out.flag(*depth == Depth::Sixteen);
@@ -189,6 +197,11 @@ impl Heading {
             name: rest.text()?,
             source: rest.text()?,
             objects: rest.list(Rest::text)?,
+            lights: rest.list(|rest| {
+                let name = rest.text()?;
+                let colour = rest.doubles()?;
+                Some(LightColour { name, colour })
+            })?,
             kind: if rest.flag()? {
                 FilmKind::Spectral {
                     bands: rest.list(|rest| {
@@ -214,6 +227,7 @@ impl Heading {
                     kelvin => White::Kelvin(kelvin),
                 },
                 white_object: Some(rest.text()?).filter(|name| !name.is_empty()),
+                white_light: Some(rest.text()?).filter(|name| !name.is_empty()),
                 tone: *TONES.get(rest.word()? as usize)?,
                 depth: if rest.flag()? {
                     Depth::Sixteen

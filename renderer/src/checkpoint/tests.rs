@@ -55,7 +55,7 @@ impl Stage {
             job,
             whole: None,
             aim,
-            caption: Caption::of(&scene, &world.view),
+            caption: Caption::of(&scene, &world.view, &world.light_colours),
         };
         Self { world, heading }
     }

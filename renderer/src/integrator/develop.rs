@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::camera::view::{Projection, View};
 use crate::film::Film;
 use crate::image::openexr::spectral_attributes;
-use crate::image::{Attribute, Layer, Picture, REC709};
+use crate::image::{Attribute, Layer, Picture, REC709, light_colour};
 use crate::integrator::caption::Caption;
 use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Layout, Source};
@@ -35,7 +35,10 @@ pub fn seen(caption: &Caption, film: &Film, layout: Layout) -> Picture {
         layers: layers(caption, film, layout, |layer| {
             layer.name.is_empty() || layer.name == "id"
         }),
-        attributes: vec![names_of_objects(caption)],
+        attributes: vec![
+            names_of_objects(caption),
+            light_colour::attribute(&caption.lights),
+        ],
     }
 }
 
@@ -146,6 +149,7 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
             rendered.film.rejected().to_string(),
         ),
         names_of_objects(caption),
+        light_colour::attribute(&caption.lights),
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),
         ("worldToNDC".to_owned(), Attribute::Matrix4(to_ndc)),
     ];

@@ -1,6 +1,7 @@
 //! The finished scene, immutable and shared by all threads.
 
 mod bodies;
+mod light_colours;
 mod lights;
 mod materials;
 mod meshes;
@@ -23,6 +24,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::bodies::{around, build_media, set_bodies};
+use self::light_colours::{check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
@@ -36,6 +38,7 @@ use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
+use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
@@ -73,6 +76,8 @@ pub struct World {
     pub palettes: Palettes,
     /// Lights, in the scene's order; daylight is two, sun and sky.
     pub lights: Vec<Light>,
+    /// The colours of the lights' spectra on the film; none without a film.
+    pub light_colours: Vec<LightColour>,
     /// The selection of lights for sampling.
     pub selection: LightSelection,
     /// The camera.
@@ -189,6 +194,17 @@ pub enum WorldError {
         name: String,
         /// Why.
         source: VolumeError,
+    },
+    /// The picture cannot be balanced by its light.
+    #[error(
+        "picture.white_light: the light `{name}` {why}: name another one, or write `white` or \
+         `white_object` instead"
+    )]
+    WhiteLight {
+        /// Name of the light.
+        name: String,
+        /// Why not.
+        why: &'static str,
     },
     /// The camera cannot be focused on its object.
     #[error("camera.perspective.focus_object: {0}")]
@@ -319,6 +335,13 @@ impl World {
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
         let mut lights = all_lights(scene, &meshes, &instances, &first, &mut objects)?;
+        let light_colours = if options.wavelengths.is_none() {
+            let colours = light_colours(scene, &lights, &wavelengths);
+            check_white(scene, &colours)?;
+            colours
+        } else {
+            Vec::new()
+        };
         for material in &mut materials {
             material.tabulate(wavelengths.grid());
         }
@@ -342,6 +365,7 @@ impl World {
             palettes: known.palettes,
             selection: LightSelection::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
+            light_colours,
             camera: Camera::new(&view, scene.film.width, scene.film.height),
             view,
             filter: PixelFilter::new(scene.film.filter_radius as f32),

@@ -238,6 +238,47 @@ impl WavelengthSampler {
         }
     }
 
+    /// The film values of light of this spectrum, a function of nm, over all wavelengths that are
+    /// drawn: what samples of it converge to.
+    pub fn recorded(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+        match self.grid.lanes() {
+            4 => self.mean_over_rows::<4>(spectrum),
+            8 => self.mean_over_rows::<8>(spectrum),
+            16 => self.mean_over_rows::<16>(spectrum),
+            _ => self.mean_over_rows::<32>(spectrum),
+        }
+    }
+
+    fn mean_over_rows<const N: usize>(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+        let rows = self.grid.rows();
+        let mut sums = vec![0.0; self.channels()];
+        for row in 0..rows {
+            let wavelengths = self.grid.set::<N>(row);
+            let radiance = wavelengths.nm.map(spectrum);
+            for (channel, sum) in sums.iter_mut().enumerate() {
+                *sum += match &self.kind {
+                    Kind::Rgb { weights, .. } => {
+                        let weights = weights
+                            .row::<N, 3>(&wavelengths)
+                            .expect("a path's wavelengths are drawn from the grid");
+                        let seen = weights[channel].0.into_iter().zip(radiance);
+                        seen.map(|(weight, value)| f64::from(weight) * value).sum()
+                    }
+                    Kind::Bands(_) | Kind::Sets { .. } => radiance[channel],
+                };
+            }
+        }
+        sums.into_iter().map(|sum| sum / rows as f64).collect()
+    }
+
+    /// The bands, if the film records them.
+    pub fn as_bands(&self) -> Option<&[Band]> {
+        match &self.kind {
+            Kind::Bands(bands) => Some(bands),
+            Kind::Rgb { .. } | Kind::Sets { .. } => None,
+        }
+    }
+
     /// The share of light that reaches the film with this throughput at drawn wavelengths; about 1
     /// if all lanes are 1. For a colour film it is the greatest of the shares of x̄, ȳ and z̄, for
     /// bands the greatest lane.

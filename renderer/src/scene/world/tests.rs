@@ -186,7 +186,11 @@ fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
         };
         let go = AtomicBool::new(false);
         let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
-        develop(&Caption::of(&scene, &world.view), &job, &rendered)
+        develop(
+            &Caption::of(&scene, &world.view, &world.light_colours),
+            &job,
+            &rendered,
+        )
     };
     let off = 999_000.0;
     let (near, far) = (picture(0.0), picture(off));
