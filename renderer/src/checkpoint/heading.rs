@@ -1,5 +1,6 @@
 //! What a checkpoint tells of its render, and whether two are of the same one.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::bytes::{Out, Rest};
@@ -14,6 +15,7 @@ use crate::scene::description::{Picture, White};
 
 /// Tones by the numbers that stand for them.
 const TONES: [Tone; 4] = [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear];
+use crate::spectrum::observer::{Camera, Observer};
 use crate::spectrum::recorded::{Band, FilmKind};
 
 /// The version of the program, without which bits are not promised.
@@ -136,9 +138,10 @@ impl Heading {
             out.doubles(colour);
         }
         match &caption.kind {
-            FilmKind::Rgb { range_nm } => {
+            FilmKind::Rgb { range_nm, observer } => {
                 out.flag(false);
                 out.doubles(range_nm);
+                put_observer(observer, &mut out);
             }
             FilmKind::Spectral { bands } => {
                 out.flag(true);
@@ -215,6 +218,7 @@ impl Heading {
             } else {
                 FilmKind::Rgb {
                     range_nm: rest.doubles()?,
+                    observer: take_observer(rest)?,
                 }
             },
             camera: view::take(rest)?,
@@ -265,9 +269,35 @@ impl Heading {
             && drawn[0] <= drawn[1]
             && u64::from(first) + u64::from(drawn[1]) <= u64::from(spp);
         let has_bands = match &heading.caption.kind {
-            FilmKind::Rgb { range_nm } => 0.0 < range_nm[0] && range_nm[0] < range_nm[1],
+            FilmKind::Rgb { range_nm, .. } => 0.0 < range_nm[0] && range_nm[0] < range_nm[1],
             FilmKind::Spectral { bands } => (1..=32).contains(&bands.len()),
         };
         (is_sound && has_bands).then_some((heading, progress))
     }
+}
+
+fn put_observer(observer: &Observer, out: &mut Out) {
+    match observer {
+        Observer::Cie1931 => out.flag(false),
+        Observer::Camera(camera) => {
+            out.flag(true);
+            out.text(camera.name());
+            out.long(camera.rows().len() as u64);
+            for (nm, values) in camera.rows() {
+                out.double(*nm);
+                out.doubles(values);
+            }
+        }
+    }
+}
+
+/// The matrix of a camera follows from its table.
+fn take_observer(rest: &mut Rest<'_>) -> Option<Observer> {
+    if !rest.flag()? {
+        return Some(Observer::Cie1931);
+    }
+    let name = rest.text()?;
+    let rows = rest.list(|rest| Some((rest.double()?, rest.doubles()?)))?;
+    let camera = Camera::new(&name, rows).ok()?;
+    Some(Observer::Camera(Arc::new(camera)))
 }

@@ -15,7 +15,7 @@ use super::tone::Tone;
 use super::white::{White, neutralised};
 use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, luminance, portable_network};
 use crate::spectrum::WavelengthSampler;
-use crate::spectrum::wavelengths::seen_at;
+use crate::spectrum::observer::Observer;
 
 /// Settings of `[picture]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -268,7 +268,10 @@ fn colours_of_bands(bands: &[(f64, &[f32])]) -> Vec<[f32; 3]> {
     let mut weights = vec![[0.0_f32; 3]; bands.len()];
     if bands.iter().any(|band| (400.0..=780.0).contains(&band.0)) {
         for nm in (400..780).map(|nm| f64::from(nm) + 0.5) {
-            for (sum, value) in weights[nearest(nm)].iter_mut().zip(seen_at(nm)) {
+            for (sum, value) in weights[nearest(nm)]
+                .iter_mut()
+                .zip(Observer::Cie1931.srgb_at(nm))
+            {
                 *sum += value as f32;
             }
         }

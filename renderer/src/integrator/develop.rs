@@ -13,6 +13,7 @@ use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::FilmKind;
 use crate::scene::fingerprint::fnv1a;
 use crate::spectrum::WavelengthSampler;
+use crate::spectrum::observer::Observer;
 
 /// The picture with all its [layers](crate::integrator::layers::LAYERS) and attributes, computed on
 /// the current thread pool.
@@ -156,15 +157,21 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
     if let Some(noise) = rendered.noise {
         attributes.push(text("lamina:noise", noise.aim.to_string()));
     }
-    match caption.kind {
-        FilmKind::Rgb { .. } => {
+    match &caption.kind {
+        FilmKind::Rgb { observer, .. } => {
             attributes.push(("chromaticities".to_owned(), REC709));
-            attributes.push(text(
-                "lamina:colour",
-                "linear Rec. 709 primaries, D65 white; XYZ by CIE 1931 2° from W m^-2 sr^-1 nm^-1, \
-                 equal energy of 1 has Y = 1"
-                    .into(),
-            ));
+            let colour = match observer {
+                Observer::Cie1931 => {
+                    "linear Rec. 709 primaries, D65 white; XYZ by CIE 1931 2° from W m^-2 sr^-1 \
+                     nm^-1, equal energy of 1 has Y = 1"
+                }
+                Observer::Camera(_) => {
+                    "linear Rec. 709 primaries, D65 white; by a camera and its matrix from W m^-2 \
+                     sr^-1 nm^-1, D65 as by CIE 1931 2°"
+                }
+            };
+            attributes.push(text("lamina:colour", colour.into()));
+            attributes.push(text("lamina:observer", observer.told()));
         }
         FilmKind::Spectral { .. } => {
             attributes.extend(spectral_attributes());
