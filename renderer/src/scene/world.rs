@@ -50,7 +50,7 @@ use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
-use crate::spectrum::WavelengthSampler;
+use crate::spectrum::{WavelengthGrid, WavelengthSampler};
 
 /// Everything that paths need.
 #[derive(Debug)]
@@ -334,20 +334,10 @@ impl World {
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
-        let mut lights = all_lights(scene, &meshes, &instances, &first, &mut objects)?;
-        let light_colours = if options.wavelengths.is_none() {
-            let colours = light_colours(scene, &lights, &wavelengths);
-            check_white(scene, &colours)?;
-            colours
-        } else {
-            Vec::new()
-        };
-        for material in &mut materials {
-            material.tabulate(wavelengths.grid());
-        }
-        for light in &mut lights {
-            light.tabulate(wavelengths.grid());
-        }
+        let placed = (&meshes[..], &instances[..], &first[..]);
+        let mut lights = all_lights(scene, placed, &mut objects, &mut notes)?;
+        let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
+        tabulate(&mut materials, &mut lights, wavelengths.grid());
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
         let geometry = Geometry::build(meshes, instances)?;
         if media.are_present {
@@ -391,13 +381,37 @@ fn lit_range([first, last]: [f64; 2], fluoresces: bool) -> [f64; 2] {
     }
 }
 
+/// The colours of the lights on the film, if there is one: instruments have wavelengths of their own.
+fn colours_on_film(
+    scene: &Description,
+    lights: &[Light],
+    wavelengths: &WavelengthSampler,
+    options: &BuildOptions<'_>,
+) -> Result<Vec<LightColour>, WorldError> {
+    if options.wavelengths.is_some() {
+        return Ok(Vec::new());
+    }
+    let colours = light_colours(scene, lights, wavelengths);
+    check_white(scene, &colours)?;
+    Ok(colours)
+}
+
+/// Evaluates all spectra at the wavelengths of paths.
+fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthGrid) {
+    for material in materials {
+        material.tabulate(grid);
+    }
+    for light in lights {
+        light.tabulate(grid);
+    }
+}
+
 /// The scene's lights; objects that emit light are told so.
 fn all_lights(
     scene: &Description,
-    meshes: &[TriangleMesh],
-    instances: &[Instance],
-    first: &[usize],
+    (meshes, instances, first): (&[TriangleMesh], &[Instance], &[usize]),
     objects: &mut WorldObjects,
+    notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
     let mut lights = Vec::new();
     for light in &scene.lights {
@@ -410,6 +424,7 @@ fn all_lights(
             &light.value,
             meshes,
             instance_of,
+            notes,
         )?);
     }
     Ok(lights)
