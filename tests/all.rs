@@ -15,4 +15,6 @@ mod presets;
 mod radiometry;
 mod random_plans;
 mod scattering;
+mod sensitivities;
 mod solid_tissue;
+mod white_balance;

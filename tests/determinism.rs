@@ -67,7 +67,7 @@ fn rendered(threads: usize, spp: u32, halt: Halt) -> (Rendered, Vec<u8>) {
         let rendered = render_until(&world, &job, &halt, &go_on, &|_| ()).expect("it fits");
         let folder = tempfile::tempdir().expect("a place for temporary files");
         let path = folder.path().join("picture.exr");
-        let caption = Caption::of(&scene, &world.view);
+        let caption = Caption::of(&scene, &world.view, &world.light_colours);
         openexr::write(&develop(&caption, &job, &rendered), &path).expect("it is written");
         let bytes = std::fs::read(&path).expect("it was just written");
         (rendered, bytes)

@@ -44,6 +44,10 @@ fn folder() -> TempDir {
     ] {
         write(name, "");
     }
+    write(
+        "camera.csv",
+        "wavelength_nm,r,g,b\n400,0,0.1,0.8\n410,0,-0.02,0.9\n420,0,0.2,1\n",
+    );
     write("paper.csv", "wavelength_nm,percent\n380,70\n800,90\n");
     write(
         "margin.svg",

@@ -28,6 +28,7 @@ pub mod card;
 pub mod compare;
 pub mod display;
 pub mod jpeg;
+pub mod light_colour;
 pub mod openexr;
 pub mod pixels;
 pub mod portable_network;
@@ -110,6 +111,12 @@ pub enum Attribute {
 /// Rec. 709 primaries and D65: what linear sRGB means.
 pub const REC709: Attribute =
     Attribute::Chromaticities([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]]);
+
+/// Luminance of linear sRGB.
+pub fn luminance(colour: [f64; 3]) -> f64 {
+    let channels = colour.into_iter().zip([0.2126, 0.7152, 0.0722]);
+    channels.map(|(value, weight)| value * weight).sum()
+}
 
 /// Why a picture could not be read or written.
 #[derive(Debug, Error)]

@@ -55,7 +55,7 @@
 //! let rendered = render(&world, &job, &never_stop, &|_progress| ())?;
 //!
 //! // Layers of a picture: radiance, its variance, positions, normals, albedo and more.
-//! let picture = develop(&Caption::of(&scene, &world.view), &job, &rendered);
+//! let picture = develop(&Caption::of(&scene, &world.view, &world.light_colours), &job, &rendered);
 //! let middle = (job.height / 2 * job.width + job.width / 2) as usize;
 //! let [red, green, blue] = ["R", "G", "B"].map(|name| picture.layer(name).expect("a film of colours").data[middle]);
 //! assert!(green > red && red > blue, "a leaf is green: {red}, {green}, {blue}");

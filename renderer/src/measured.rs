@@ -20,6 +20,7 @@
 
 pub mod bsdf;
 mod columns;
+pub mod sensitivities;
 pub mod series;
 pub mod spectra;
 pub mod units;

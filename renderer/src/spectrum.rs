@@ -19,8 +19,11 @@
 
 pub mod cie;
 pub mod curve;
+pub mod delta_e;
+mod density;
 pub mod grid;
 pub mod lanes;
+pub mod observer;
 pub mod planck;
 pub mod recorded;
 pub mod rgb;

@@ -55,7 +55,9 @@ fn what_is_left_out_has_the_defaults_of_the_book() {
     );
     assert_near(scene.film.filter_radius, 1.5);
     assert_eq!(scene.film.noise, None);
-    assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [400.0, 780.0]));
+    assert!(
+        matches!(scene.film.kind, FilmKind::Rgb { range_nm, .. } if range_nm == [400.0, 780.0])
+    );
     assert_eq!(
         (scene.picture.exposure_ev, scene.picture.tone),
         (0.0, Tone::Standard)
@@ -77,7 +79,9 @@ fn film_and_camera_are_in_si_units() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     assert_eq!(scene.name, "whole-scene");
     assert_eq!((scene.film.seed, scene.film.noise), (u64::MAX, Some(0.02)));
-    assert!(matches!(scene.film.kind, FilmKind::Rgb { range_nm } if range_nm == [380.0, 800.0]));
+    assert!(
+        matches!(scene.film.kind, FilmKind::Rgb { range_nm, .. } if range_nm == [380.0, 800.0])
+    );
     assert_eq!(
         (scene.picture.exposure_ev, scene.picture.tone),
         (-1.5, Tone::Filmic)

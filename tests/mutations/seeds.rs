@@ -77,7 +77,7 @@ pub(super) fn checkpoints() -> Vec<Vec<u8>> {
             job,
             whole: None,
             aim,
-            caption: Caption::of(&description, &world.view),
+            caption: Caption::of(&description, &world.view, &world.light_colours),
         };
         let go_on = AtomicBool::new(false);
         let begun = if aim.is_some() {

@@ -1,9 +1,11 @@
 //! What a checkpoint tells of its render, and whether two are of the same one.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::bytes::{Out, Rest};
 use super::view;
+use crate::image::light_colour::LightColour;
 use crate::image::pixels::Depth;
 use crate::image::tone::Tone;
 use crate::integrator::caption::Caption;
@@ -13,6 +15,7 @@ use crate::scene::description::{Picture, White};
 
 /// Tones by the numbers that stand for them.
 const TONES: [Tone; 4] = [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear];
+use crate::spectrum::observer::{Camera, Observer};
 use crate::spectrum::recorded::{Band, FilmKind};
 
 /// The version of the program, without which bits are not promised.
@@ -129,10 +132,16 @@ impl Heading {
         for name in &caption.objects {
             out.text(name);
         }
+        out.long(caption.lights.len() as u64);
+        for LightColour { name, colour } in &caption.lights {
+            out.text(name);
+            out.doubles(colour);
+        }
         match &caption.kind {
-            FilmKind::Rgb { range_nm } => {
+            FilmKind::Rgb { range_nm, observer } => {
                 out.flag(false);
                 out.doubles(range_nm);
+                put_observer(observer, &mut out);
             }
             FilmKind::Spectral { bands } => {
                 out.flag(true);
@@ -149,6 +158,7 @@ impl Heading {
             grey_object,
             white,
             white_object,
+            white_light,
             tone,
             depth,
             alpha,
@@ -162,6 +172,7 @@ impl Heading {
             White::Kelvin(kelvin) => *kelvin,
         });
         out.text(white_object.as_deref().unwrap_or_default());
+        out.text(white_light.as_deref().unwrap_or_default());
         let number = TONES.iter().position(|known| known == tone);
         out.word(number.map_or(u32::MAX, |number| number as u32));
         out.flag(*depth == Depth::Sixteen);
@@ -189,6 +200,11 @@ impl Heading {
             name: rest.text()?,
             source: rest.text()?,
             objects: rest.list(Rest::text)?,
+            lights: rest.list(|rest| {
+                let name = rest.text()?;
+                let colour = rest.doubles()?;
+                Some(LightColour { name, colour })
+            })?,
             kind: if rest.flag()? {
                 FilmKind::Spectral {
                     bands: rest.list(|rest| {
@@ -202,6 +218,7 @@ impl Heading {
             } else {
                 FilmKind::Rgb {
                     range_nm: rest.doubles()?,
+                    observer: take_observer(rest)?,
                 }
             },
             camera: view::take(rest)?,
@@ -214,6 +231,7 @@ impl Heading {
                     kelvin => White::Kelvin(kelvin),
                 },
                 white_object: Some(rest.text()?).filter(|name| !name.is_empty()),
+                white_light: Some(rest.text()?).filter(|name| !name.is_empty()),
                 tone: *TONES.get(rest.word()? as usize)?,
                 depth: if rest.flag()? {
                     Depth::Sixteen
@@ -251,9 +269,35 @@ impl Heading {
             && drawn[0] <= drawn[1]
             && u64::from(first) + u64::from(drawn[1]) <= u64::from(spp);
         let has_bands = match &heading.caption.kind {
-            FilmKind::Rgb { range_nm } => 0.0 < range_nm[0] && range_nm[0] < range_nm[1],
+            FilmKind::Rgb { range_nm, .. } => 0.0 < range_nm[0] && range_nm[0] < range_nm[1],
             FilmKind::Spectral { bands } => (1..=32).contains(&bands.len()),
         };
         (is_sound && has_bands).then_some((heading, progress))
     }
+}
+
+fn put_observer(observer: &Observer, out: &mut Out) {
+    match observer {
+        Observer::Cie1931 => out.flag(false),
+        Observer::Camera(camera) => {
+            out.flag(true);
+            out.text(camera.name());
+            out.long(camera.rows().len() as u64);
+            for (nm, values) in camera.rows() {
+                out.double(*nm);
+                out.doubles(values);
+            }
+        }
+    }
+}
+
+/// The matrix of a camera follows from its table.
+fn take_observer(rest: &mut Rest<'_>) -> Option<Observer> {
+    if !rest.flag()? {
+        return Some(Observer::Cie1931);
+    }
+    let name = rest.text()?;
+    let rows = rest.list(|rest| Some((rest.double()?, rest.doubles()?)))?;
+    let camera = Camera::new(&name, rows).ok()?;
+    Some(Observer::Camera(Arc::new(camera)))
 }

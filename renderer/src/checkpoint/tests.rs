@@ -7,12 +7,16 @@ use crate::integrator::noise::NoiseWatch;
 use crate::integrator::render::{Contact, Ended, Job, begin, go_on};
 use crate::scene::load::parse;
 use crate::scene::world::World;
+use crate::spectrum::recorded::FilmKind;
 
 const SCENE: &str = "
     format = 1
     [film.rgb]
     size = [43, 21]
     spp = 8
+    sensitivities = \"sony-a7r-iii\"
+    [picture]
+    white_light = \"sun\"
     [camera.perspective]
     position_m = [0, -3, 1]
     look_at_m = [0, 0, 0]
@@ -55,7 +59,7 @@ impl Stage {
             job,
             whole: None,
             aim,
-            caption: Caption::of(&scene, &world.view),
+            caption: Caption::of(&scene, &world.view, &world.light_colours),
         };
         Self { world, heading }
     }
@@ -144,6 +148,25 @@ fn a_render_that_is_interrupted_again_and_again_ends_with_the_same_sums() {
         let words = |begun: &Begun| begun.watch.as_ref().map(NoiseWatch::words);
         assert_eq!(words(&begun), words(&whole));
     }
+}
+
+#[test]
+fn the_film_and_the_lights_are_told_as_they_were() {
+    let folder = folder();
+    let stage = Stage::new(8, None);
+    let file = folder.path().join("a.checkpoint");
+    write(&file, &stage.heading, &stage.begin()).expect("the folder can be written");
+    let (heading, _) = read(&file).expect("it was just written");
+    let (kept, own) = (&heading.caption, &stage.heading.caption);
+    assert_eq!(kept.lights, own.lights);
+    assert_eq!(kept.lights.len(), 2);
+    assert_eq!(kept.picture, own.picture);
+    let observer = |kind: &FilmKind| match kind {
+        FilmKind::Rgb { observer, .. } => observer.clone(),
+        FilmKind::Spectral { .. } => panic!("a film of colour"),
+    };
+    assert_eq!(observer(&kept.kind), observer(&own.kind));
+    assert_eq!(observer(&kept.kind).name(), "sony-a7r-iii");
 }
 
 #[test]

@@ -22,6 +22,7 @@ use crate::cli::progress::{Patience, Reporter};
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, load_scene, needs, say, stats};
 use crate::image::ImageError;
+use crate::integrator::caption::Caption;
 use crate::integrator::layers::Layout;
 use crate::integrator::render::{Begun, Contact, Ended, Rendered, begin, go_on};
 use crate::scene::description::Description;
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let patience = Patience::building(scene.leaves.len());
     let world = pool.install(|| build_world(&scene, arguments, &patience))?;
     drop(patience);
-    plan.heading.caption.camera = world.view.clone();
+    plan.heading.caption = Caption::of(&scene, &world.view, &world.light_colours);
     for note in &world.notes {
         eprintln!("note: {note}");
     }

@@ -294,7 +294,7 @@ fn relief_picture(relief: &Relief) -> Picture {
 fn bands(scene: &Description) -> Vec<Band> {
     match &scene.film.kind {
         FilmKind::Spectral { bands } => bands.clone(),
-        FilmKind::Rgb { range_nm } => vec![Band {
+        FilmKind::Rgb { range_nm, .. } => vec![Band {
             center_nm: 0.5 * (range_nm[0] + range_nm[1]),
             width_nm: range_nm[1] - range_nm[0],
         }],

@@ -8,12 +8,14 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::card::colour_of;
+use super::card;
+use super::light_colour;
 use super::pixels::{Depth, Pixels};
 use super::tone::Tone;
 use super::white::{White, neutralised};
-use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, portable_network};
-use crate::spectrum::wavelengths::seen_at;
+use super::{Attribute, ImageError, Picture, REC709, atomic, jpeg, luminance, portable_network};
+use crate::spectrum::WavelengthSampler;
+use crate::spectrum::observer::Observer;
 
 /// Settings of `[picture]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,8 @@ pub struct Display {
     pub white: White,
     /// An object that comes out without colour, instead.
     pub white_object: Option<String>,
+    /// A light of the scene whose spectrum comes out white, instead.
+    pub white_light: Option<String>,
     /// How light becomes what a display shows.
     pub tone: Tone,
     /// Depth of a PNG.
@@ -44,6 +48,7 @@ impl Default for Display {
             grey_object: None,
             white: White::D65,
             white_object: None,
+            white_light: None,
             tone: Tone::Standard,
             depth: Depth::Eight,
             alpha: false,
@@ -107,8 +112,9 @@ impl Display {
     /// # Errors
     ///
     /// [`ImageError::Inconsistent`] if it has neither colours nor bands, colours of other
-    /// primaries than those of Rec. 709, no layer `A` where alpha is wanted, or does not show an
-    /// object by which it is balanced or exposed.
+    /// primaries than those of Rec. 709, no layer `A` where alpha is wanted, does not show an
+    /// object by which it is balanced or exposed, or does not tell the light by which it is
+    /// balanced.
     pub fn pixels(&self, picture: &Picture) -> Result<Pixels, ImageError> {
         let mut colours = colours(picture)?;
         let alpha = if self.alpha {
@@ -123,13 +129,18 @@ impl Display {
         if self.auto_exposure {
             exposure *= meter(&colours);
         }
-        let adaptation = match &self.white_object {
-            Some(object) => Some(neutralised(colour_of(picture, &colours, object)?)),
+        let neutral = match (&self.white_object, &self.white_light) {
+            (Some(object), _) => Some(card::colour_of(picture, &colours, object)?),
+            (None, Some(light)) => Some(light_colour::colour_of(picture, light)?),
+            (None, None) => None,
+        };
+        let adaptation = match neutral {
+            Some(colour) => Some(neutralised(colour)),
             None if self.white == White::D65 => None,
             None => Some(self.white.adaptation()),
         };
         if let Some(object) = &self.grey_object {
-            let card = DVec3::from_array(colour_of(picture, &colours, object)?);
+            let card = DVec3::from_array(card::colour_of(picture, &colours, object)?);
             let shown = adaptation.map_or(card, |adaptation| adaptation * card);
             exposure *= MIDDLE_GREY / luminance(shown.to_array());
         }
@@ -159,12 +170,6 @@ impl Display {
 
 /// Luminance of middle grey, on a scale where that of white is 1.
 const MIDDLE_GREY: f64 = 0.18;
-
-/// Luminance of linear sRGB.
-fn luminance(colour: [f64; 3]) -> f64 {
-    let channels = colour.into_iter().zip([0.2126, 0.7152, 0.0722]);
-    channels.map(|(value, weight)| value * weight).sum()
-}
 
 /// The factor that brings the mean logarithm of luminance to that of middle grey. Pixels without
 /// light do not count; a picture without any keeps its exposure.
@@ -222,6 +227,28 @@ pub fn colours(picture: &Picture) -> Result<Vec<[f32; 3]>, ImageError> {
     Ok(colours_of_bands(&bands))
 }
 
+/// Linear sRGB in which a film's picture of light of this spectrum, a function of nm, is shown.
+pub fn recorded_colour(film: &WavelengthSampler, spectrum: &dyn Fn(f32) -> f64) -> [f64; 3] {
+    let recorded = film.recorded(spectrum);
+    let Some(bands) = film.as_bands() else {
+        return std::array::from_fn(|channel| recorded[channel]);
+    };
+    // Values beyond the range of floats are those of lights in an unusual unit.
+    let most = recorded
+        .iter()
+        .fold(f64::MIN_POSITIVE, |most, value| most.max(*value));
+    let values: Vec<[f32; 1]> = recorded
+        .iter()
+        .map(|value| [(value / most) as f32])
+        .collect();
+    let bands: Vec<(f64, &[f32])> = bands
+        .iter()
+        .zip(&values)
+        .map(|(band, value)| (band.center_nm, &value[..]))
+        .collect();
+    colours_of_bands(&bands)[0].map(f64::from)
+}
+
 /// The wavelength, nm, in the name of a spectral channel: `S0.550,000000nm`.
 fn wavelength(name: &str) -> Option<f64> {
     let nm = name.strip_prefix("S0.")?.strip_suffix("nm")?;
@@ -241,7 +268,10 @@ fn colours_of_bands(bands: &[(f64, &[f32])]) -> Vec<[f32; 3]> {
     let mut weights = vec![[0.0_f32; 3]; bands.len()];
     if bands.iter().any(|band| (400.0..=780.0).contains(&band.0)) {
         for nm in (400..780).map(|nm| f64::from(nm) + 0.5) {
-            for (sum, value) in weights[nearest(nm)].iter_mut().zip(seen_at(nm)) {
+            for (sum, value) in weights[nearest(nm)]
+                .iter_mut()
+                .zip(Observer::Cie1931.srgb_at(nm))
+            {
                 *sum += value as f32;
             }
         }

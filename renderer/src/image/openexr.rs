@@ -261,6 +261,16 @@ fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
         guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
     let (mut total, mut claimed) = (0_u64, 0_u64);
     for header in &meta.headers {
+        if matches!(
+            header.compression,
+            Compression::HTJ2K32 | Compression::HTJ2K256
+        ) {
+            return Err(malformed(
+                "its compression is HTJ2K, which is not read: save it with ZIP, PIZ or DWAA, for \
+                 example by `oiiotool IN.exr --compression zip -o OUT.exr`"
+                    .to_owned(),
+            ));
+        }
         let size = header.layer_size;
         let channels = header.channels.list.len() as u64;
         // Memory of the file's values plus that of ours.

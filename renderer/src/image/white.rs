@@ -44,20 +44,32 @@ pub fn neutralised([r, g, b]: [f64; 3]) -> DMat3 {
     adaptation_to(xyz / xyz.y)
 }
 
+/// Least response of a cone to light that can come out white, as a share of its luminance. A black
+/// body of [`White::LEAST`] has 0.045, light of a sodium lamp less than nothing.
+const LEAST_RESPONSE: f64 = 0.01;
+
+/// Whether a colour of linear sRGB can be made neutral: each cone responds to it.
+pub fn is_balanceable([r, g, b]: [f64; 3]) -> bool {
+    let xyz = from_rows(XYZ_TO_SRGB).inverse() * DVec3::new(r, g, b);
+    let seen = from_rows(TO_CONES) * xyz;
+    xyz.y > 0.0 && seen.is_finite() && seen.min_element() >= LEAST_RESPONSE * xyz.y
+}
+
+/// Responses of cones to XYZ by the Bradford transform.
+const TO_CONES: [[f64; 3]; 3] = [
+    [0.8951, 0.2664, -0.1614],
+    [-0.7502, 1.7135, 0.0367],
+    [0.0389, -0.0685, 1.0296],
+];
+
 /// The linear map of linear sRGB that makes light of this XYZ white; see [`White::adaptation`].
 fn adaptation_to(white: DVec3) -> DMat3 {
-    {
-        let to_cones = from_rows([
-            [0.8951, 0.2664, -0.1614],
-            [-0.7502, 1.7135, 0.0367],
-            [0.0389, -0.0685, 1.0296],
-        ]);
-        let to_xyz = from_rows(XYZ_TO_SRGB).inverse();
-        let seen = to_cones * white;
-        let shown = to_cones * to_xyz * DVec3::ONE;
-        let adapted = to_cones.inverse() * DMat3::from_diagonal(shown / seen) * to_cones;
-        to_xyz.inverse() * adapted * to_xyz
-    }
+    let to_cones = from_rows(TO_CONES);
+    let to_xyz = from_rows(XYZ_TO_SRGB).inverse();
+    let seen = to_cones * white;
+    let shown = to_cones * to_xyz * DVec3::ONE;
+    let adapted = to_cones.inverse() * DMat3::from_diagonal(shown / seen) * to_cones;
+    to_xyz.inverse() * adapted * to_xyz
 }
 
 fn from_rows(rows: [[f64; 3]; 3]) -> DMat3 {
@@ -117,6 +129,20 @@ mod tests {
             let found = neutralised(colour) * DVec3::from_array(colour);
             let expected = luminance.dot(DVec3::from_array(colour));
             close(found / expected, [1.0; 3], 1e-3);
+        }
+    }
+
+    #[test]
+    fn every_temperature_can_be_white_and_light_of_a_sodium_lamp_cannot() {
+        let to_srgb = from_rows(XYZ_TO_SRGB);
+        let response = (from_rows(TO_CONES) * white_of(White::LEAST)).z;
+        assert!((response - 0.045).abs() < 1e-3, "{response}");
+        for kelvin in [White::LEAST, 3000.0, 6500.0, White::MOST] {
+            assert!(is_balanceable((to_srgb * white_of(kelvin)).to_array()));
+        }
+        for nm in [450.0, 560.0, 589.0, 650.0] {
+            let light = to_srgb * DVec3::from_array(crate::spectrum::cie::observer(nm));
+            assert!(!is_balanceable(light.to_array()), "{nm} nm");
         }
     }
 

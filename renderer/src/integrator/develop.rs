@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::camera::view::{Projection, View};
 use crate::film::Film;
 use crate::image::openexr::spectral_attributes;
-use crate::image::{Attribute, Layer, Picture, REC709};
+use crate::image::{Attribute, Layer, Picture, REC709, light_colour};
 use crate::integrator::caption::Caption;
 use crate::integrator::features::Quantity;
 use crate::integrator::layers::{FilmLayer, Layout, Source};
@@ -13,6 +13,7 @@ use crate::integrator::render::{Job, Rendered};
 use crate::scene::description::FilmKind;
 use crate::scene::fingerprint::fnv1a;
 use crate::spectrum::WavelengthSampler;
+use crate::spectrum::observer::Observer;
 
 /// The picture with all its [layers](crate::integrator::layers::LAYERS) and attributes, computed on
 /// the current thread pool.
@@ -35,7 +36,10 @@ pub fn seen(caption: &Caption, film: &Film, layout: Layout) -> Picture {
         layers: layers(caption, film, layout, |layer| {
             layer.name.is_empty() || layer.name == "id"
         }),
-        attributes: vec![names_of_objects(caption)],
+        attributes: vec![
+            names_of_objects(caption),
+            light_colour::attribute(&caption.lights),
+        ],
     }
 }
 
@@ -146,21 +150,28 @@ fn attributes(caption: &Caption, job: &Job, rendered: &Rendered) -> Vec<(String,
             rendered.film.rejected().to_string(),
         ),
         names_of_objects(caption),
+        light_colour::attribute(&caption.lights),
         ("worldToCamera".to_owned(), Attribute::Matrix4(to_camera)),
         ("worldToNDC".to_owned(), Attribute::Matrix4(to_ndc)),
     ];
     if let Some(noise) = rendered.noise {
         attributes.push(text("lamina:noise", noise.aim.to_string()));
     }
-    match caption.kind {
-        FilmKind::Rgb { .. } => {
+    match &caption.kind {
+        FilmKind::Rgb { observer, .. } => {
             attributes.push(("chromaticities".to_owned(), REC709));
-            attributes.push(text(
-                "lamina:colour",
-                "linear Rec. 709 primaries, D65 white; XYZ by CIE 1931 2° from W m^-2 sr^-1 nm^-1, \
-                 equal energy of 1 has Y = 1"
-                    .into(),
-            ));
+            let colour = match observer {
+                Observer::Cie1931 => {
+                    "linear Rec. 709 primaries, D65 white; XYZ by CIE 1931 2° from W m^-2 sr^-1 \
+                     nm^-1, equal energy of 1 has Y = 1"
+                }
+                Observer::Camera(_) => {
+                    "linear Rec. 709 primaries, D65 white; by a camera and its matrix from W m^-2 \
+                     sr^-1 nm^-1, D65 as by CIE 1931 2°"
+                }
+            };
+            attributes.push(text("lamina:colour", colour.into()));
+            attributes.push(text("lamina:observer", observer.told()));
         }
         FilmKind::Spectral { .. } => {
             attributes.extend(spectral_attributes());

@@ -96,6 +96,30 @@ impl AreaLight {
         self.radiance.curve()
     }
 
+    /// Mean of the pattern over the surface, linear sRGB, to be multiplied by the radiance; `None`
+    /// without a pattern.
+    pub fn mean_colour(&self) -> Option<[f64; 3]> {
+        /// Points over the whole surface, roughly, and fewest along a side of a patch.
+        const POINTS: [usize; 2] = [1 << 18, 4];
+        let patterned = self.patterned.as_ref()?;
+        let each = (POINTS[0] / self.patches.len().max(1))
+            .isqrt()
+            .max(POINTS[1]);
+        let mut sum = [0.0; 3];
+        let mut area = 0.0;
+        for (patch, plane) in self.patches.iter().zip(&patterned.planes) {
+            for point in 0..each * each {
+                let u = Vec2::new((point % each) as f32, (point / each) as f32);
+                let uv = plane.at(patch.at((u + 0.5) / each as f32));
+                for (sum, value) in sum.iter_mut().zip(patterned.pattern.at(uv)) {
+                    *sum += f64::from(patch.area() * value) / (each * each) as f64;
+                }
+            }
+            area += f64::from(patch.area());
+        }
+        Some(sum.map(|sum| sum / area))
+    }
+
     /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.radiance.tabulate(grid);

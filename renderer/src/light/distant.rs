@@ -37,6 +37,11 @@ impl DistantLight {
         }
     }
 
+    /// Radiance curve, W m⁻² sr⁻¹ nm⁻¹.
+    pub fn radiance(&self) -> &Curve {
+        self.radiance.curve()
+    }
+
     /// Evaluates its radiance at every wavelength of a grid.
     pub fn tabulate(&mut self, grid: &WavelengthGrid) {
         self.radiance.tabulate(grid);

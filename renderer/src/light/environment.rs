@@ -66,6 +66,25 @@ impl EnvironmentLight {
         sum / weight
     }
 
+    /// Mean of the texels over the sphere, linear sRGB, to be multiplied by `white`.
+    pub fn mean_colour(&self) -> [f64; 3] {
+        let [width, height] = self.picture.size();
+        let mut sum = [0.0; 3];
+        let mut weight = 0.0;
+        for (row, texels) in self.picture.texels().chunks(width).enumerate() {
+            // A row's share of the sphere.
+            let [upper, lower] = [row, row + 1]
+                .map(|row| libm::cos(std::f64::consts::PI * row as f64 / height as f64));
+            for texel in texels {
+                for (sum, value) in sum.iter_mut().zip(texel) {
+                    *sum += (upper - lower) * f64::from(*value);
+                }
+            }
+            weight += (upper - lower) * width as f64;
+        }
+        sum.map(|sum| sum / weight)
+    }
+
     /// Spectrum of RGB 1 1 1.
     pub fn white(&self) -> &Curve {
         self.primaries.white()

@@ -228,7 +228,7 @@ fn wrong_columns(span: Range<usize>, found: usize, wanted: usize) -> Fault {
     Fault::at(span, problem, help)
 }
 
-fn number((field, span): &(&str, Range<usize>)) -> Result<f64, Fault> {
+pub(super) fn number((field, span): &(&str, Range<usize>)) -> Result<f64, Fault> {
     match field.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => Err(Fault {
@@ -246,7 +246,7 @@ fn number((field, span): &(&str, Range<usize>)) -> Result<f64, Fault> {
 }
 
 /// The columns of a line before its comment, each with its bytes.
-fn fields(line: &str, start: usize) -> Vec<(&str, Range<usize>)> {
+pub(super) fn fields(line: &str, start: usize) -> Vec<(&str, Range<usize>)> {
     let line = line.split('#').next().unwrap_or("");
     let separator =
         |character: char| character == ',' || character == ';' || character.is_whitespace();

@@ -87,6 +87,8 @@ pub struct RgbPicture {
     pub width: usize,
     /// Row by row from the top.
     pub texels: Vec<[f32; 3]>,
+    /// Share of the pixels of which a channel was below 0 in the file and is 0 here.
+    pub below: f64,
 }
 
 /// The bytes of a regular file.
@@ -118,6 +120,11 @@ struct Allowed {
 
 const LIGHT: Allowed = Allowed {
     of: 0.0..=f32::MAX,
+    range: "0 and above",
+};
+
+const FINITE: Allowed = Allowed {
+    of: f32::MIN..=f32::MAX,
     range: "0 and above",
 };
 
@@ -271,15 +278,41 @@ impl AssetError {
     }
 }
 
+/// Greatest share of pixels below 0 that a picture may have which shines. Skies that were scaled
+/// have one or two in a hundred; more look like a picture that is not light.
+const MOST_BELOW: f64 = 0.05;
+
+/// Greatest share of a picture's light that may be missing below 0.
+const MOST_MISSING: f64 = 0.01;
+
 /// A picture that shines: EXR with R, G, B, or PNG or JPEG (their values are converted to linear
 /// ones).
 ///
+/// Scaling with a sharp filter leaves values below 0 beside bright edges, which no light has. They
+/// are 0 here, if they are few, and [`RgbPicture::below`] tells their share.
+///
 /// # Errors
 ///
-/// [`AssetError`] if it is not such a picture, holds negative or non-finite values, or is dark
-/// everywhere.
+/// [`AssetError`] if it is not such a picture, holds values that are not finite or many negative
+/// ones, or is dark everywhere.
 pub fn shining(file: &Path) -> Result<RgbPicture, AssetError> {
-    let picture = colours(file, &LIGHT)?;
+    let mut picture = colours(file, &FINITE)?;
+    let texels = || picture.texels.iter();
+    let below = texels().filter(|texel| texel.iter().any(|value| *value < 0.0));
+    let share = below.count() as f64 / picture.texels.len().max(1) as f64;
+    if share > 0.0 {
+        let values = || texels().flatten().map(|value| f64::from(*value));
+        let missing: f64 = values().filter(|value| *value < 0.0).map(f64::abs).sum();
+        let light: f64 = values().map(f64::abs).sum();
+        if share > MOST_BELOW || missing > MOST_MISSING * light {
+            // The error names the first of them.
+            colours(file, &LIGHT)?;
+        }
+        for value in picture.texels.iter_mut().flatten() {
+            *value = value.max(0.0);
+        }
+        picture.below = share;
+    }
     if picture.texels.iter().flatten().all(|value| *value == 0.0) {
         return Err(AssetError::Dark {
             file: file.to_owned(),
@@ -318,6 +351,7 @@ fn colours(file: &Path, allowed: &Allowed) -> Result<RgbPicture, AssetError> {
     Ok(RgbPicture {
         width: picture.width as usize,
         texels,
+        below: 0.0,
     })
 }
 

@@ -29,6 +29,7 @@ mod references;
 mod reflectance;
 mod rig;
 mod scatter;
+mod sensitivities;
 mod solid;
 mod spectrum;
 mod table_file;

@@ -210,6 +210,11 @@ impl Stage {
     }
 }
 
+/// The name of the rig that a light of this name is a part of: names in a file have no points.
+pub(in crate::scene) fn of_part(light: &str) -> Option<&str> {
+    light.split_once('.').map(|(rig, _)| rig)
+}
+
 /// Replaces the rigs of a scene by their lights and objects.
 pub(in crate::scene) fn set_up(scene: &mut Description) {
     let written = std::mem::take(&mut scene.lights);

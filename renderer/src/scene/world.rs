@@ -1,6 +1,7 @@
 //! The finished scene, immutable and shared by all threads.
 
 mod bodies;
+mod light_colours;
 mod lights;
 mod materials;
 mod meshes;
@@ -23,6 +24,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::bodies::{around, build_media, set_bodies};
+use self::light_colours::{check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
 use self::meshes::build_mesh;
@@ -36,6 +38,7 @@ use crate::camera::thin_lens::LensError;
 use crate::camera::view::View;
 use crate::geometry::scatter::{ScatterError, VolumeError};
 use crate::geometry::{Geometry, GeometryError, ImportError, Instance, MeshError, TriangleMesh};
+use crate::image::light_colour::LightColour;
 use crate::light::Light;
 use crate::light::selection::LightSelection;
 use crate::material::Material;
@@ -47,7 +50,7 @@ use crate::scene::assets::AssetError;
 use crate::scene::description::{self, Description, Named, Object};
 use crate::scene::plant_cache::PlantCache;
 use crate::scene::plants::{self, Piece, PlantError, SolidError};
-use crate::spectrum::WavelengthSampler;
+use crate::spectrum::{WavelengthGrid, WavelengthSampler};
 
 /// Everything that paths need.
 #[derive(Debug)]
@@ -73,6 +76,8 @@ pub struct World {
     pub palettes: Palettes,
     /// Lights, in the scene's order; daylight is two, sun and sky.
     pub lights: Vec<Light>,
+    /// The colours of the lights' spectra on the film; none without a film.
+    pub light_colours: Vec<LightColour>,
     /// The selection of lights for sampling.
     pub selection: LightSelection,
     /// The camera.
@@ -189,6 +194,17 @@ pub enum WorldError {
         name: String,
         /// Why.
         source: VolumeError,
+    },
+    /// The picture cannot be balanced by its light.
+    #[error(
+        "picture.white_light: the light `{name}` {why}: name another one, or write `white` or \
+         `white_object` instead"
+    )]
+    WhiteLight {
+        /// Name of the light.
+        name: String,
+        /// Why not.
+        why: &'static str,
     },
     /// The camera cannot be focused on its object.
     #[error("camera.perspective.focus_object: {0}")]
@@ -318,13 +334,10 @@ impl World {
             .camera
             .view_on(|object| middle::of_object(object, &meshes, &instances, &objects))
             .map_err(WorldError::Focus)?;
-        let mut lights = all_lights(scene, &meshes, &instances, &first, &mut objects)?;
-        for material in &mut materials {
-            material.tabulate(wavelengths.grid());
-        }
-        for light in &mut lights {
-            light.tabulate(wavelengths.grid());
-        }
+        let placed = (&meshes[..], &instances[..], &first[..]);
+        let mut lights = all_lights(scene, placed, &mut objects, &mut notes)?;
+        let light_colours = colours_on_film(scene, &lights, &wavelengths, options)?;
+        tabulate(&mut materials, &mut lights, wavelengths.grid());
         let fluoresces = materials.iter().any(|own| own.fluorescing().is_some());
         let geometry = Geometry::build(meshes, instances)?;
         if media.are_present {
@@ -342,6 +355,7 @@ impl World {
             palettes: known.palettes,
             selection: LightSelection::new(&lights, lit_range(range_nm, fluoresces)),
             lights,
+            light_colours,
             camera: Camera::new(&view, scene.film.width, scene.film.height),
             view,
             filter: PixelFilter::new(scene.film.filter_radius as f32),
@@ -367,13 +381,37 @@ fn lit_range([first, last]: [f64; 2], fluoresces: bool) -> [f64; 2] {
     }
 }
 
+/// The colours of the lights on the film, if there is one: instruments have wavelengths of their own.
+fn colours_on_film(
+    scene: &Description,
+    lights: &[Light],
+    wavelengths: &WavelengthSampler,
+    options: &BuildOptions<'_>,
+) -> Result<Vec<LightColour>, WorldError> {
+    if options.wavelengths.is_some() {
+        return Ok(Vec::new());
+    }
+    let colours = light_colours(scene, lights, wavelengths);
+    check_white(scene, &colours)?;
+    Ok(colours)
+}
+
+/// Evaluates all spectra at the wavelengths of paths.
+fn tabulate(materials: &mut [Material], lights: &mut [Light], grid: &WavelengthGrid) {
+    for material in materials {
+        material.tabulate(grid);
+    }
+    for light in lights {
+        light.tabulate(grid);
+    }
+}
+
 /// The scene's lights; objects that emit light are told so.
 fn all_lights(
     scene: &Description,
-    meshes: &[TriangleMesh],
-    instances: &[Instance],
-    first: &[usize],
+    (meshes, instances, first): (&[TriangleMesh], &[Instance], &[usize]),
     objects: &mut WorldObjects,
+    notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
     let mut lights = Vec::new();
     for light in &scene.lights {
@@ -386,6 +424,7 @@ fn all_lights(
             &light.value,
             meshes,
             instance_of,
+            notes,
         )?);
     }
     Ok(lights)

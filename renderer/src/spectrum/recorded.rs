@@ -1,12 +1,16 @@
 //! What a film records: colour or bands.
 
+use super::observer::Observer;
+
 /// Colour or bands.
 #[derive(Clone, Debug)]
 pub enum FilmKind {
-    /// Linear sRGB through CIE 1931 2°, from wavelengths in this range (nm).
+    /// Linear sRGB as an observer sees it, from wavelengths in this range (nm).
     Rgb {
         /// First and last wavelength, nm.
         range_nm: [f64; 2],
+        /// The observer: the eye or a camera.
+        observer: Observer,
     },
     /// Mean spectral radiance over each band.
     Spectral {

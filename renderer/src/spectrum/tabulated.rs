@@ -104,6 +104,7 @@ mod tests {
     fn a_tabulated_spectrum_has_the_values_of_its_curve() {
         let sampler = WavelengthSampler::new(&FilmKind::Rgb {
             range_nm: [360.0, 830.0],
+            observer: crate::spectrum::observer::Observer::Cie1931,
         });
         let curve = Curve::from_points(&[(400.0, 0.0), (500.0, 1.0), (520.0, 0.5)]);
         let mut spectrum = Spectrum::from(curve.clone());

@@ -4,10 +4,11 @@
 //! shares of the distribution, so some 0.2 nm apart in a colour picture. Everything that depends on
 //! wavelength alone is tabulated for them ([`Table`]) and never computed along a path.
 
+use super::density::{Distribution, LANES, Shares};
 use super::recorded::{Band, FilmKind};
-use crate::spectrum::cie;
 pub use crate::spectrum::grid::{ROWS, WavelengthGrid, Wavelengths};
 use crate::spectrum::lanes::Lanes;
+use crate::spectrum::observer::Observer;
 use crate::spectrum::tabulated::Table;
 
 /// Draws wavelengths and turns the radiance found at them into film values.
@@ -24,7 +25,7 @@ enum Kind {
         range_nm: [f64; 2],
         /// Linear sRGB that radiance 1 at each wavelength contributes, times the number of rows.
         weights: Table,
-        /// Shares of x̄, ȳ and z̄ that each wavelength represents, times the number of rows, so
+        /// Shares of each channel of the observer that each wavelength represents, times the number of rows, so
         /// that a throughput of 1 gives 1 on average.
         seen: Table,
     },
@@ -32,42 +33,6 @@ enum Kind {
     Bands(Vec<Band>),
     /// Sets of given wavelengths, which no film records.
     Sets { range_nm: [f64; 2] },
-}
-
-/// The density proportional to sech²(a (λ − λ₀)) over a range of wavelengths, sampled by inversion.
-///
-/// The form is from \[radziszewski2009\]. Its constants minimise the variance of the colours of
-/// leaves with eight wavelengths: R, T, R T and T² of nineteen presets under four lights. A density
-/// that follows the observer (x̄ + ȳ + z̄) gives thirty times the variance.
-#[derive(Clone, Debug)]
-struct WideDistribution {
-    /// tanh(a (λ − λ₀)) at both ends of the range.
-    ends: [f64; 2],
-}
-
-/// Linear sRGB of radiance 1 nm wide at a wavelength, divided by the ȳ integral.
-pub fn seen_at(nm: f64) -> [f64; 3] {
-    cie::srgb_from_xyz(cie::observer(nm).map(|c| c / cie::luminance_integral()))
-}
-
-impl WideDistribution {
-    /// a, nm⁻¹.
-    const SLOPE: f64 = 0.0045;
-    /// λ₀, nm.
-    const CENTRE: f64 = 520.0;
-
-    /// The distribution over a range in nm, rising.
-    fn new(range_nm: [f64; 2]) -> Self {
-        Self {
-            ends: range_nm.map(|nm| libm::tanh(Self::SLOPE * (nm - Self::CENTRE))),
-        }
-    }
-
-    /// The wavelength, nm, below which a share `u` of the distribution lies, in [0, 1].
-    fn draw(&self, u: f64) -> f64 {
-        let [first, last] = self.ends;
-        Self::CENTRE + libm::atanh(first + u * (last - first)) / Self::SLOPE
-    }
 }
 
 /// Number of lanes for this many bands.
@@ -84,50 +49,32 @@ impl WavelengthSampler {
     /// The sampler for a kind of film.
     pub fn new(film: &FilmKind) -> Self {
         match film {
-            FilmKind::Rgb { range_nm } => Self::rgb(*range_nm),
+            FilmKind::Rgb { range_nm, observer } => Self::rgb(*range_nm, observer),
             FilmKind::Spectral { bands } => Self::bands(bands.clone()),
         }
     }
 
-    fn rgb(range_nm: [f64; 2]) -> Self {
-        /// Number of places within a share at which the observer is evaluated.
-        const STEPS: usize = 8;
-        // 4 lanes are noisier; 16 give no improvement.
-        let lanes = 8;
-        let distribution = WideDistribution::new(range_nm);
+    fn rgb(range_nm: [f64; 2], observer: &Observer) -> Self {
         // The distribution is divided among the lanes, and each lane's share among the rows. So
         // samples of a pixel are stratified over the rows, and the eight wavelengths of each sample
         // over the whole range.
-        let drawn = |row: f64, lane: usize| {
-            distribution.draw((lane as f64 + row / ROWS as f64) / lanes as f64)
-        };
-        let grid = WavelengthGrid::new(lanes, |row, lane| drawn(row as f64 + 0.5, lane) as f32);
-        // A wavelength represents its whole share: the observer is integrated over it. The factor
-        // of the number of rows allows for only one row being drawn.
-        let integrated = |row: usize, lane: usize, seen_at: fn(f64) -> [f64; 3]| {
-            let first = drawn(row as f64, lane);
-            let width = (drawn(row as f64 + 1.0, lane) - first) / STEPS as f64;
-            let mut sum = [0.0; 3];
-            for step in 0..STEPS {
-                let seen = seen_at(first + (step as f64 + 0.5) * width);
-                for (sum, seen) in sum.iter_mut().zip(seen) {
-                    *sum += seen * width;
-                }
-            }
-            sum.map(|seen| seen * ROWS as f64)
-        };
+        let shares = Shares(Distribution::of(range_nm, observer));
+        let grid = WavelengthGrid::new(LANES, |row, lane| shares.middle(row, lane) as f32);
+        let srgb_at = |nm: f64| observer.srgb_at(nm);
+        let channels_at = |nm: f64| observer.channels_at(nm);
         let weights = Table::by_place(&grid, |row, lane| {
-            integrated(row, lane, seen_at).map(|seen| seen as f32)
+            let seen = shares.integrated(row, lane, &srgb_at);
+            seen.map(|seen| seen as f32)
         });
         let mut totals = [0.0; 3];
-        for place in 0..ROWS * lanes {
-            let seen = integrated(place / lanes, place % lanes, cie::observer);
+        for place in 0..ROWS * LANES {
+            let seen = shares.integrated(place / LANES, place % LANES, &channels_at);
             for (total, seen) in totals.iter_mut().zip(seen) {
                 *total += seen / ROWS as f64;
             }
         }
         let seen = Table::by_place(&grid, |row, lane| {
-            let seen = integrated(row, lane, cie::observer);
+            let seen = shares.integrated(row, lane, &channels_at);
             // The observer sees nothing of a purely infrared range.
             std::array::from_fn::<_, 3, _>(|c| (seen[c] / totals[c].max(1e-30)) as f32)
         });
@@ -238,8 +185,49 @@ impl WavelengthSampler {
         }
     }
 
+    /// The film values of light of this spectrum, a function of nm, over all wavelengths that are
+    /// drawn: what samples of it converge to.
+    pub fn recorded(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+        match self.grid.lanes() {
+            4 => self.mean_over_rows::<4>(spectrum),
+            8 => self.mean_over_rows::<8>(spectrum),
+            16 => self.mean_over_rows::<16>(spectrum),
+            _ => self.mean_over_rows::<32>(spectrum),
+        }
+    }
+
+    fn mean_over_rows<const N: usize>(&self, spectrum: &dyn Fn(f32) -> f64) -> Vec<f64> {
+        let rows = self.grid.rows();
+        let mut sums = vec![0.0; self.channels()];
+        for row in 0..rows {
+            let wavelengths = self.grid.set::<N>(row);
+            let radiance = wavelengths.nm.map(spectrum);
+            for (channel, sum) in sums.iter_mut().enumerate() {
+                *sum += match &self.kind {
+                    Kind::Rgb { weights, .. } => {
+                        let weights = weights
+                            .row::<N, 3>(&wavelengths)
+                            .expect("a path's wavelengths are drawn from the grid");
+                        let seen = weights[channel].0.into_iter().zip(radiance);
+                        seen.map(|(weight, value)| f64::from(weight) * value).sum()
+                    }
+                    Kind::Bands(_) | Kind::Sets { .. } => radiance[channel],
+                };
+            }
+        }
+        sums.into_iter().map(|sum| sum / rows as f64).collect()
+    }
+
+    /// The bands, if the film records them.
+    pub fn as_bands(&self) -> Option<&[Band]> {
+        match &self.kind {
+            Kind::Bands(bands) => Some(bands),
+            Kind::Rgb { .. } | Kind::Sets { .. } => None,
+        }
+    }
+
     /// The share of light that reaches the film with this throughput at drawn wavelengths; about 1
-    /// if all lanes are 1. For a colour film it is the greatest of the shares of x̄, ȳ and z̄, for
+    /// if all lanes are 1. For a colour film it is the greatest of the shares of the observer's channels, for
     /// bands the greatest lane.
     #[inline]
     pub fn brightness<const N: usize>(
@@ -278,10 +266,11 @@ mod tests {
     use leafmodel::optics::{ProspectD, presets};
 
     use super::*;
+    use crate::spectrum::cie;
 
     #[test]
     fn the_mean_over_drawn_wavelengths_is_the_colour_of_the_spectrum() {
-        let sampler = WavelengthSampler::rgb([360.0, 830.0]);
+        let sampler = WavelengthSampler::rgb([360.0, 830.0], &Observer::Cie1931);
         let spectrum = |nm: f32| 0.2 + (nm - 360.0) / 400.0;
         let mut mean = [0.0_f64; 3];
         let draws = ROWS;
@@ -305,7 +294,7 @@ mod tests {
 
     #[test]
     fn what_the_film_sees_of_a_share_is_that_share_and_nothing_of_what_the_eye_does_not_see() {
-        let sampler = WavelengthSampler::rgb([400.0, 2500.0]);
+        let sampler = WavelengthSampler::rgb([400.0, 2500.0], &Observer::Cie1931);
         let (mut even, mut infrared) = (0.0, 0.0);
         for row in 0..ROWS {
             let wavelengths = sampler.draw::<8>((row as f32 + 0.5) / ROWS as f32);
@@ -320,7 +309,7 @@ mod tests {
 
     #[test]
     fn every_set_of_wavelengths_sees_nearly_the_colour_of_light_that_passed_two_green_leaves() {
-        let sampler = WavelengthSampler::rgb([400.0, 780.0]);
+        let sampler = WavelengthSampler::rgb([400.0, 780.0], &Observer::Cie1931);
         let green = presets::by_name("sun-green")
             .expect("there is one")
             .contents;
@@ -361,7 +350,14 @@ mod tests {
         let range_nm = [400.0, 780.0];
         // Three bands are three channels, as colour is, and need half its lanes.
         for (kind, channels, lanes) in [
-            (FilmKind::Rgb { range_nm }, 3, 8),
+            (
+                FilmKind::Rgb {
+                    range_nm,
+                    observer: Observer::Cie1931,
+                },
+                3,
+                8,
+            ),
             (bands(1), 1, 4),
             (bands(3), 3, 4),
             (bands(4), 4, 4),

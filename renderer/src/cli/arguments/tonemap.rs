@@ -25,6 +25,9 @@ pub struct TonemapArguments {
     /// An object that comes out without colour, such as a grey card
     #[arg(long, value_name = "OBJECT")]
     white_object: Option<String>,
+    /// A light of the scene whose spectrum comes out white
+    #[arg(long, value_name = "LIGHT")]
+    white_light: Option<String>,
     /// The light that comes out white: d65, or a colour temperature in K
     #[arg(long, value_name = "WHITE")]
     white: Option<String>,
@@ -40,23 +43,74 @@ pub struct TonemapArguments {
 }
 
 impl TonemapArguments {
-    /// The flags as overrides of the scene.
+    /// The flags as overrides of the scene. A flag that says what is white takes the place of
+    /// whatever the scene said of that.
     pub fn overrides(&self) -> Vec<String> {
         let flags = [
             ("exposure_ev", &self.exposure_ev),
             ("auto_exposure", &self.auto_exposure),
             ("grey_object", &self.grey_object),
-            ("white_object", &self.white_object),
-            ("white", &self.white),
             ("tone", &self.tone),
             ("sixteen_bits", &self.sixteen_bits),
             ("alpha", &self.alpha),
         ];
+        let whites = [
+            ("white", &self.white, "d65"),
+            ("white_object", &self.white_object, ""),
+            ("white_light", &self.white_light, ""),
+        ];
+        let is_said = whites
+            .iter()
+            .any(|(_, flag, _)| flag.as_ref().is_some_and(|value| !value.is_empty()));
+        let whites = whites.into_iter().filter_map(|(key, flag, none)| {
+            let value = flag.as_deref().or(is_said.then_some(none))?;
+            Some((key, value))
+        });
         let given = flags
             .into_iter()
-            .filter_map(|(key, value)| Some((key, value.as_ref()?)));
+            .filter_map(|(key, value)| Some((key, value.as_deref()?)));
         given
+            .chain(whites)
+            // Values are typed as in a file, where nothing is no value.
+            .map(|(key, value)| (key, if value.is_empty() { "\"\"" } else { value }))
             .map(|(key, value)| format!("picture.{key}={value}"))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::TonemapArguments;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: TonemapArguments,
+    }
+
+    fn overrides(flags: &[&str]) -> Vec<String> {
+        let line = ["tonemap", "in.exr", "--out", "out.png"];
+        let line = Line::try_parse_from(line.iter().chain(flags));
+        line.expect("the flags are right").arguments.overrides()
+    }
+
+    #[test]
+    fn what_is_told_of_white_takes_the_place_of_the_scenes() {
+        assert_eq!(overrides(&[]), [""; 0]);
+        assert_eq!(overrides(&["--tone", "agx"]), ["picture.tone=agx"]);
+        let white = overrides(&["--white-light", "lamp"]);
+        let expected = [
+            "picture.white=d65",
+            "picture.white_object=\"\"",
+            "picture.white_light=lamp",
+        ];
+        assert_eq!(white, expected);
+        // An empty name takes only that name away.
+        assert_eq!(
+            overrides(&["--white-object", ""]),
+            ["picture.white_object=\"\""]
+        );
     }
 }

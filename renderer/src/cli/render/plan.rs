@@ -157,8 +157,9 @@ impl Plan {
             },
             whole: arguments.samples.and(arguments.spp),
             aim,
-            // The focus on an object is known when that has grown.
-            caption: Caption::of(&loaded.description, &loaded.description.camera.view),
+            // The focus on an object is known when that has grown, the colours of lights when their
+            // pictures are read.
+            caption: Caption::of(&loaded.description, &loaded.description.camera.view, &[]),
         };
         check_part(arguments, &heading)?;
         if let Some((kept, begun)) = &before {

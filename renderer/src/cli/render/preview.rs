@@ -211,7 +211,7 @@ radiance_w_m2_sr_nm = 0.4
                 },
                 whole: None,
                 aim: None,
-                caption: Caption::of(&scene, &world.view),
+                caption: Caption::of(&scene, &world.view, &world.light_colours),
             };
             let layout = Layout::new(&world.wavelengths);
             Self {

@@ -301,3 +301,44 @@ fn damaged_files_give_a_picture_or_an_error() {
         "{read} read, {refused} refused"
     );
 }
+
+#[test]
+fn pictures_compressed_by_dwaa_and_dwab_are_read() {
+    // Written by OpenImageIO 3.2 as halves, 40 × 24 pixels.
+    for bytes in [
+        &include_bytes!("dwaa.exr")[..],
+        &include_bytes!("dwab.exr")[..],
+    ] {
+        let picture = decode(bytes).expect("it is a picture");
+        assert_eq!((picture.width, picture.height), (40, 24));
+        for (name, first, across, down) in [
+            ("R", 1.0, 0.02, 0.0),
+            ("G", 0.5, 0.0, 0.01),
+            ("B", 2.0, -0.03, 0.02),
+        ] {
+            let layer = picture.layer(name).expect("it has three channels");
+            for (place, value) in layer.data.iter().enumerate() {
+                let (x, y) = ((place % 40) as f32, (place / 40) as f32);
+                let expected = first + across * x + down * y;
+                // OpenImageIO reads its own file as far off.
+                assert!((value - expected).abs() < 0.008, "{name} {x} {y}: {value}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_compression_that_is_not_read_is_told_with_what_to_do() {
+    let mut bytes = include_bytes!("dwaa.exr").to_vec();
+    let name = b"compression\0compression\0";
+    let at = bytes.windows(name.len()).position(|window| window == name);
+    // Behind the name come four bytes of size, then the kind.
+    let kind = at.expect("each file tells its compression") + name.len() + 4;
+    assert_eq!(bytes[kind], 8, "DWAA");
+    bytes[kind] = 10;
+    let error = decode(&bytes).expect_err("HTJ2K is not read").to_string();
+    assert!(
+        error.contains("HTJ2K") && error.contains("oiiotool"),
+        "{error}"
+    );
+}

@@ -10,7 +10,13 @@ fn kinds() -> [FilmKind; 2] {
         width_nm: 10.0,
     });
     let bands = bands.to_vec();
-    [FilmKind::Rgb { range_nm }, FilmKind::Spectral { bands }]
+    [
+        FilmKind::Rgb {
+            range_nm,
+            observer: crate::spectrum::observer::Observer::Cie1931,
+        },
+        FilmKind::Spectral { bands },
+    ]
 }
 
 fn layouts() -> [(FilmKind, Layout); 2] {

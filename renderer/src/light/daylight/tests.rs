@@ -135,6 +135,7 @@ fn even_directions_find_the_same_sky_as_its_samples_and_its_density_integrates_t
         // A tabulated sky is the same.
         let film = crate::spectrum::recorded::FilmKind::Rgb {
             range_nm: [400.0, 780.0],
+            observer: crate::spectrum::observer::Observer::Cie1931,
         };
         let sampler = crate::spectrum::WavelengthSampler::new(&film);
         let drawn = sampler.draw::<8>(0.4);

@@ -60,6 +60,7 @@ fn tabulated_leaves_are_what_they_are_at_any_wavelength() {
     let red = Contents::new(1.6, 5.0, 5.0, 20.0, 0.1, 0.011, 0.006).expect("a leaf");
     let sampler = WavelengthSampler::new(&FilmKind::Rgb {
         range_nm: [400.0, 780.0],
+        observer: crate::spectrum::observer::Observer::Cie1931,
     });
     let mut known = Palettes::on(sampler.grid());
     let texel = red.to_texel();

@@ -11,7 +11,9 @@ use leafmodel::document::values::{
     integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
 };
 
+use super::sensitivities::Sensitivities;
 use crate::scene::description::{Band, Film, FilmKind};
+use crate::spectrum::observer::Observer;
 
 /// Range of wavelengths of the renderer, nm.
 pub(super) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
@@ -32,10 +34,16 @@ const KINDS: [Variant<Film>; 2] = [
         is: |film| matches!(film.kind, FilmKind::Rgb { .. }),
         declare: |film, keys| {
             sampling(film, keys);
-            if let FilmKind::Rgb { range_nm } = &mut film.kind {
+            if let FilmKind::Rgb { range_nm, observer } = &mut film.kind {
                 let about = "Wavelengths that paths carry, first and last. The default is where \
                     PROSPECT-D has data and the observer sees nearly everything.";
                 keys.key("range_nm", range_nm, Range, about);
+                let about = "What sees the light: the CIE's observer, a camera by name, or a table \
+                    of a camera's sensitivities to red, green and blue by wavelength in nm.";
+                let kind = Sensitivities {
+                    range_nm: *range_nm,
+                };
+                keys.key("sensitivities", observer, kind, about);
             }
             tell_range(film, keys);
         },
@@ -77,6 +85,7 @@ impl Film {
             filter_radius: 1.5,
             kind: FilmKind::Rgb {
                 range_nm: [400.0, 780.0],
+                observer: Observer::Cie1931,
             },
         }
     }
@@ -120,7 +129,7 @@ fn tell_range(film: &Film, keys: &Keys<'_>) {
         return;
     };
     let range = match &film.kind {
-        FilmKind::Rgb { range_nm } => Some(*range_nm),
+        FilmKind::Rgb { range_nm, .. } => Some(*range_nm),
         FilmKind::Spectral { bands } if bands.is_empty() => None,
         FilmKind::Spectral { bands } => {
             let ends = bands.iter().map(|band| {

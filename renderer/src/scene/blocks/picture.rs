@@ -14,6 +14,8 @@ use crate::scene::description::{Depth, Picture, Tone, White};
 /// the names of its objects with it.
 const OBJECT: Text = Text("the name of an object in the picture");
 
+const LIGHT: Text = Text("the name of a light");
+
 /// A word or a temperature.
 struct WhiteKind;
 
@@ -74,6 +76,16 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
     keys.optional("white_object", &mut picture.white_object, OBJECT, about);
     let other = ("white", picture.white != White::D65);
     one_alone(&mut picture.white_object, "white_object", other, keys);
+    let about = "A light whose spectrum comes out white, instead of `white`: the mean of all that \
+        it sends out. Of `daylight` it is sun and sky on level ground; `NAME.sun` and `NAME.sky` \
+        are one of them.";
+    keys.optional("white_light", &mut picture.white_light, LIGHT, about);
+    for other in [
+        ("white", picture.white != White::D65),
+        ("white_object", picture.white_object.is_some()),
+    ] {
+        one_alone(&mut picture.white_light, "white_light", other, keys);
+    }
     let words = [
         ("agx", Tone::Agx),
         ("standard", Tone::Standard),
@@ -102,15 +114,15 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
 /// An empty name is none, so that a flag can take away what the scene said; with a name the other
 /// key has no effect, if it is set.
 fn one_alone(
-    object: &mut Option<String>,
+    name: &mut Option<String>,
     key: &'static str,
     (other, is_set): (&'static str, bool),
     keys: &Keys<'_>,
 ) {
-    if object.as_ref().is_some_and(String::is_empty) {
-        *object = None;
+    if name.as_ref().is_some_and(String::is_empty) {
+        *name = None;
     }
-    if object.is_some() && is_set && keys.reader().is_some() {
+    if name.is_some() && is_set && keys.reader().is_some() {
         let problem = format!("`{other}` has no effect beside `{key}`");
         keys.refuse(&[other], problem, "leave one of them out");
     }

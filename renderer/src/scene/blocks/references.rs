@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use leafmodel::document::context::QUOTED;
+use leafmodel::document::context::{ENOUGH, QUOTED};
 use leafmodel::document::error::DocumentError;
 use leafmodel::document::keys::Keys;
+use leafmodel::document::nearest::nearest;
 use leafmodel::document::sections::{Names, singular};
 use leafmodel::document::source::escaped;
+use leafmodel::document::values::listed;
 
 use super::Purpose;
 use crate::scene::description::{
@@ -39,6 +41,7 @@ pub(super) fn check(scene: &Description, keys: &Keys<'_>, purpose: Purpose) {
         cx.error_of_the_file(DocumentError::NoObject);
     }
     check_cards(scene, keys);
+    check_white_light(scene, keys);
     check_shining(scene, keys);
     check_strewn(scene, keys);
     check_colours(scene, keys);
@@ -63,6 +66,32 @@ fn check_cards(scene: &Description, keys: &Keys<'_>) {
             keys.refuse(&["picture", key], problem, help);
         }
     }
+}
+
+/// The light by which the picture is balanced is there.
+fn check_white_light(scene: &Description, keys: &Keys<'_>) {
+    let Some(name) = &scene.picture.white_light else {
+        return;
+    };
+    let mut known = Vec::new();
+    for light in &scene.lights {
+        known.push(light.name.clone());
+        if matches!(light.value, Light::Daylight(_)) {
+            known.extend(["sun", "sky"].map(|part| format!("{}.{part}", light.name)));
+        }
+    }
+    // That there is no light at all, is told already.
+    if known.is_empty() || known.contains(name) {
+        return;
+    }
+    let names = || known.iter().map(String::as_str);
+    let error = DocumentError::UnknownName {
+        kind: "light",
+        name: escaped(name, QUOTED),
+        nearest: nearest(name, names().take(ENOUGH)).map(|name| escaped(name, QUOTED)),
+        known: listed(names()),
+    };
+    keys.report(&["picture", "white_light"], error);
 }
 
 /// An area light needs a mesh object, and an object has at most one area light.

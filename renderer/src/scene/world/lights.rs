@@ -17,11 +17,13 @@ use crate::scene::description;
 use crate::spectrum::Curve;
 
 /// The lights of a block of the scene; `instance_of` gives the only instance of an emitting object.
+/// What was changed of its picture is noted.
 pub(super) fn build_lights<'i>(
     name: &str,
     light: &description::Light,
     meshes: &[TriangleMesh],
     instance_of: impl Fn(usize) -> &'i Instance,
+    notes: &mut Vec<String>,
 ) -> Result<Vec<Light>, WorldError> {
     Ok(vec![match light {
         description::Light::Distant {
@@ -42,7 +44,7 @@ pub(super) fn build_lights<'i>(
             rotation,
             white,
         } => {
-            let picture = picture(name, file)?;
+            let picture = picture(name, file, notes)?;
             Light::Environment(EnvironmentLight::new(
                 picture.texels,
                 picture.width,
@@ -71,7 +73,7 @@ pub(super) fn build_lights<'i>(
                         });
                     };
                     let uvs = corners(mesh, mirrored, |vertex| uvs[vertex]);
-                    let pattern = build_pattern(name, pattern)?;
+                    let pattern = build_pattern(name, pattern, notes)?;
                     AreaLight::with_pattern(&triangles, &uvs, radiance, pattern)
                 }
             })
@@ -106,18 +108,30 @@ pub(super) fn build_lights<'i>(
 }
 
 /// The picture of a light.
-fn picture(light: &str, file: &Path) -> Result<RgbPicture, WorldError> {
-    assets::shining(file).map_err(|source| WorldError::Asset {
+fn picture(light: &str, file: &Path, notes: &mut Vec<String>) -> Result<RgbPicture, WorldError> {
+    let picture = assets::shining(file).map_err(|source| WorldError::Asset {
         place: format!("lights.{light}"),
         source,
-    })
+    })?;
+    if picture.below > 0.0 {
+        notes.push(format!(
+            "lights.{light}: {}: {:.2} % of its pixels have a channel below 0, which is taken for 0",
+            file.display(),
+            100.0 * picture.below
+        ));
+    }
+    Ok(picture)
 }
 
-fn build_pattern(light: &str, pattern: &description::AreaPattern) -> Result<Pattern, WorldError> {
+fn build_pattern(
+    light: &str,
+    pattern: &description::AreaPattern,
+    notes: &mut Vec<String>,
+) -> Result<Pattern, WorldError> {
     let picture = match &pattern.picture {
         None => None,
         Some(file) => {
-            let picture = picture(light, file)?;
+            let picture = picture(light, file, notes)?;
             Some(Texels::new(picture.texels, picture.width))
         }
     };

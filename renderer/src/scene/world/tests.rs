@@ -3,7 +3,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::World;
 use crate::camera::view::Projection;
-use crate::image::Picture;
+use crate::image::{Layer, Picture, openexr};
 use crate::integrator::caption::Caption;
 use crate::integrator::develop::develop;
 use crate::integrator::render::{Job, render};
@@ -186,7 +186,11 @@ fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
         };
         let go = AtomicBool::new(false);
         let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
-        develop(&Caption::of(&scene, &world.view), &job, &rendered)
+        develop(
+            &Caption::of(&scene, &world.view, &world.light_colours),
+            &job,
+            &rendered,
+        )
     };
     let off = 999_000.0;
     let (near, far) = (picture(0.0), picture(off));
@@ -395,4 +399,59 @@ radiance_w_m2_sr_nm = 1
         error.to_string().starts_with("lights.lamp.area: "),
         "{error}"
     );
+}
+
+/// What is built below a sky with this number of 400 pixels below 0, each by this much.
+fn below_a_sky(dark: usize, value: f32) -> Result<World, String> {
+    let folder = tempfile::tempdir().expect("a place for temporary files");
+    let layers = ["R", "G", "B"].map(|name| {
+        let mut data = vec![0.5; 400];
+        // Red is right everywhere.
+        if name != "R" {
+            data[7..7 + dark].fill(value);
+        }
+        Layer {
+            name: name.to_owned(),
+            data,
+        }
+    });
+    let sky = Picture {
+        width: 20,
+        height: 20,
+        layers: layers.into(),
+        attributes: Vec::new(),
+    };
+    openexr::write(&sky, &folder.path().join("sky.exr")).expect("it can be written");
+    let constant = "[lights.sky.constant]\nradiance_w_m2_sr_nm = 1";
+    let text = STREWN.replace(constant, "[lights.sky.environment]\npath = \"sky.exr\"");
+    let loaded = parse(&text, "scene.toml", folder.path(), &[]);
+    let scene = loaded
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .description;
+    World::build(&scene).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_sky_with_few_values_below_0_shines_and_one_with_many_does_not() {
+    let note = |world: &World| {
+        let notes = world.notes.iter();
+        notes
+            .filter(|note| note.starts_with("lights.sky"))
+            .cloned()
+            .collect::<Vec<_>>()
+    };
+    assert!(note(&below_a_sky(0, 0.0).expect("it shines")).is_empty());
+    let told = note(&below_a_sky(5, -0.01).expect("it shines"));
+    assert!(told.len() == 1 && told[0].contains("1.25 %"), "{told:?}");
+    // Too many, and too deep.
+    for (dark, value) in [(21, -0.01), (5, -2.0)] {
+        let error = below_a_sky(dark, value).expect_err("it is refused");
+        assert!(
+            error.contains("lights.sky") && error.contains("pixel (7, 0)"),
+            "{error}"
+        );
+        assert!(error.contains(&value.to_string()), "{error}");
+    }
+    let error = below_a_sky(5, f32::NEG_INFINITY).expect_err("it is refused");
+    assert!(error.contains("pixel (7, 0)"), "{error}");
 }

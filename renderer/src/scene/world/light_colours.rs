@@ -1,0 +1,106 @@
+//! What colours the lights of a scene have on its film.
+//!
+//! - **In**: the lights as described and as built, the film's wavelengths.
+//! - **Out**: the colour of the mean spectrum of each, as the film records it: with the same
+//!   wavelengths and the same weights, so that a grey surface that one light illuminates is neutral
+//!   when that light is.
+//! - **Left out**: from where light comes. The mean of a picture is that over the sphere or the
+//!   shining surface, daylight is that on level ground in the open.
+
+use std::collections::BTreeSet;
+
+use super::WorldError;
+use crate::image::display::recorded_colour;
+use crate::image::light_colour::LightColour;
+use crate::light::Light;
+use crate::scene::description::{self, Description};
+use crate::scene::rigs;
+use crate::spectrum::rgb::basis_at;
+use crate::spectrum::{Curve, WavelengthSampler};
+
+/// The colours of the scene's lights, in its order. Daylight comes with its parts `NAME.sun` and
+/// `NAME.sky`; the lights of a rig, which have one spectrum, are together called as it is.
+pub(super) fn light_colours(
+    scene: &Description,
+    built: &[Light],
+    wavelengths: &WavelengthSampler,
+) -> Vec<LightColour> {
+    let mut rest = built;
+    let mut colours: Vec<LightColour> = Vec::new();
+    let mut add = |name: &str, spectrum: &dyn Fn(f32) -> f64| {
+        let colour = recorded_colour(wavelengths, spectrum);
+        colours.push(LightColour::new(name.to_owned(), colour));
+    };
+    let mut rigs_told = BTreeSet::new();
+    for named in &scene.lights {
+        let (own, others) = rest.split_at(named.value.parts());
+        rest = others;
+        let rig = rigs::of_part(&named.name);
+        if rig.is_some_and(|rig| !rigs_told.insert(rig)) {
+            continue;
+        }
+        let name = rig.unwrap_or(&named.name);
+        match (&named.value, own) {
+            (description::Light::Daylight(day), [Light::Sun(sun), Light::Sky(sky)]) => {
+                let up = libm::sin(day.elevation);
+                let direct = |nm: f32| up * f64::from(sun.irradiance().at(nm));
+                let diffuse = |nm: f32| f64::from(sky.diffuse().at(nm));
+                add(name, &|nm| direct(nm) + diffuse(nm));
+                if rig.is_none() {
+                    add(&format!("{name}.sun"), &direct);
+                    add(&format!("{name}.sky"), &diffuse);
+                }
+            }
+            // What else there is, is one light.
+            (_, own) => {
+                for light in own {
+                    add(name, &mean_spectrum(light));
+                }
+            }
+        }
+    }
+    colours
+}
+
+/// Refuses a picture that is to be balanced by a light that cannot come out white.
+pub(super) fn check_white(scene: &Description, colours: &[LightColour]) -> Result<(), WorldError> {
+    let Some(name) = &scene.picture.white_light else {
+        return Ok(());
+    };
+    let mut known = colours.iter();
+    let light = known.find(|light| light.name == *name);
+    let why = light.map_or(Err("is not there"), LightColour::balanceable);
+    why.map(|_| ()).map_err(|why| WorldError::WhiteLight {
+        name: name.clone(),
+        why,
+    })
+}
+
+/// What a light sends out by wavelength in nm, relative to other wavelengths.
+fn mean_spectrum(light: &Light) -> Box<dyn Fn(f32) -> f64 + '_> {
+    let of_curve = |curve| -> Box<dyn Fn(f32) -> f64 + '_> {
+        let curve: &Curve = curve;
+        Box::new(|nm| curve.at(nm).into())
+    };
+    match light {
+        Light::Distant(light) => of_curve(light.radiance()),
+        Light::Constant(radiance) => of_curve(radiance.curve()),
+        Light::Environment(light) => coloured(light.mean_colour(), light.white()),
+        Light::Sun(light) => of_curve(light.irradiance()),
+        Light::Sky(light) => of_curve(light.diffuse()),
+        Light::Area(light) => match light.mean_colour() {
+            Some(mean) => coloured(mean, light.radiance()),
+            None => of_curve(light.radiance()),
+        },
+        Light::Spot(light) => of_curve(light.intensity()),
+    }
+}
+
+/// The spectrum of linear sRGB where 1 1 1 is `white`.
+fn coloured(mean: [f64; 3], white: &Curve) -> Box<dyn Fn(f32) -> f64 + '_> {
+    Box::new(move |nm| {
+        let basis = mean.into_iter().zip(basis_at(nm));
+        let share: f64 = basis.map(|(mean, basis)| mean * f64::from(basis)).sum();
+        share * f64::from(white.at(nm))
+    })
+}
