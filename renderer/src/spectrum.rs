@@ -21,6 +21,7 @@ pub mod cie;
 pub mod curve;
 pub mod grid;
 pub mod lanes;
+pub mod library;
 pub mod planck;
 pub mod recorded;
 pub mod rgb;

@@ -3,7 +3,7 @@
 mod bodies;
 mod lights;
 mod materials;
-mod meshes;
+pub(in crate::scene) mod meshes;
 mod middle;
 mod notes;
 mod placing;
