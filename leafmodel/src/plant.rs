@@ -1,32 +1,43 @@
-//! Boughs and shoots: axes with nodes, and the place of each leaf, bud and branch.
+//! Boughs and shoots: axes with nodes, and the place of each leaf, bud, branch and flower; pots, and
+//! walls to climb on.
 //!
 //! An axis grows node by node. Each node bears one leaf or several, turned against those of the
 //! node before (phyllotaxis). In its axil there may be a bud, in its place a branch, or a short shoot
 //! with a cluster of leaves. A petiole, which is part of the leaf, twists and bends until the blade
 //! faces the light, as far as it may.
 //!
-//! - **In**: a plan ([`PlantPlan`]) and how each leaf is held ([`Foot`]).
-//! - **Out**: the axes as closed tubes, and a transform for each leaf ([`Plant`]).
+//! - **In**: a plan ([`PlantPlan`]), how each leaf is held ([`Foot`]), and the [`Wall`] on which
+//!   the plant climbs.
+//! - **Out**: the axes as closed tubes, a transform for each leaf, the bodies of a flower, a pot with
+//!   soil and crumbs ([`Plant`]).
 //! - **Always true**: the foot of each petiole lies within its axis; neighbours on an axis are
-//!   different individuals; same plan and seed, same plant, bit for bit.
+//!   different individuals; axes that climb lie on the wall; same plan and seed, same plant, bit for
+//!   bit.
 //! - **Left out**: leaves may touch one another; wood does not bend under the weight of leaves.
 //!
 //! The plant's frame: the foot of its main axis is the origin, z is up. Lengths are millimetres.
 
 mod axis;
 mod bearing;
+mod check;
+mod climbing;
+mod flower;
 mod foot;
 mod posture;
+mod pot;
 pub mod presets;
+mod stems;
 #[cfg(test)]
 mod tests;
-
-use std::f64::consts::PI;
+mod turned;
 
 use glam::{DAffine3, DVec3};
 use thiserror::Error;
 
+pub use self::climbing::{Climbing, Wall};
+pub use self::flower::FlowerPlan;
 pub use self::foot::{Foot, NotBorne};
+pub use self::pot::{Crumb, PotPlan};
 use crate::blade::stalk::{StalkError, StalkMesh};
 
 /// Most leaves of a plant.
@@ -49,6 +60,37 @@ pub struct PlantPlan {
     pub posture: Posture,
     /// The buds; none if none are seen.
     pub buds: Option<Buds>,
+    /// The stems that rise from its foot.
+    pub stems: Stems,
+    /// Whether axes are green and soft instead of bark.
+    pub is_green: bool,
+    /// The flower at the tip of each stem.
+    pub flower: Option<FlowerPlan>,
+    /// How it climbs; none if its axes stand free.
+    pub climbing: Option<Climbing>,
+    /// The pot in which it stands.
+    pub pot: Option<PotPlan>,
+}
+
+/// The stems that rise from the foot of a plant. The first is the main axis, the others are
+/// shorter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stems {
+    /// How many, 1 to 100.
+    pub count: u32,
+    /// Radius of the disc within which they rise; along a wall, half the width. mm, 0 to 10000.
+    pub spread_mm: f64,
+    /// Angle by which the outermost lean outwards, 0 to 1.4.
+    pub fan: f64,
+}
+
+impl Stems {
+    /// One.
+    pub const ONE: Self = Self {
+        count: 1,
+        spread_mm: 0.0,
+        fan: 0.0,
+    };
 }
 
 /// How the leaves of one node stand to those of the node before.
@@ -169,13 +211,34 @@ pub struct BorneLeaf {
     pub node: DVec3,
 }
 
+/// What a body of a plant is, which decides what it is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Organ {
+    /// The peduncle of a flower.
+    Peduncle,
+    /// Filaments of stamens.
+    Filaments,
+    /// Anthers.
+    Anthers,
+    /// Ovary and stigmas.
+    Pistil,
+    /// A pot and its dish.
+    Pot,
+    /// The surface of the soil in the pot.
+    Soil,
+}
+
 /// A grown plant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plant {
-    /// Axes, short shoots and buds.
+    /// Axes, short shoots, buds and rootlets.
     pub axes: StalkMesh,
-    /// The leaves.
+    /// The leaves. With a flower, its sepals and petals are the last two kinds.
     pub leaves: Vec<BorneLeaf>,
+    /// Bodies besides the axes.
+    pub organs: Vec<(Organ, StalkMesh)>,
+    /// Crumbs on the soil of its pot.
+    pub crumbs: Vec<Crumb>,
 }
 
 /// Why a plant cannot be grown.
@@ -214,118 +277,45 @@ pub enum PlantError {
     /// An axis bends so sharply that it is no tube.
     #[error("an axis cannot be built: {0}")]
     Bent(#[from] StalkError),
-    /// No leaf is given.
-    #[error("a plant bears one leaf at least")]
+    /// No leaf is given, or with a flower no sepal or no petal.
+    #[error("a plant bears one leaf at least, and with a flower a sepal and a petal")]
     NoLeaf,
+    /// A pot has no inside.
+    #[error("the walls of the pot leave no room for soil")]
+    NoPot,
     /// A leaf cannot be borne.
     #[error(transparent)]
     NotBorne(#[from] NotBorne),
 }
 
-impl PlantPlan {
-    /// Checks every number.
-    ///
-    /// # Errors
-    ///
-    /// [`PlantError::OutOfRange`] for the first field out of range, [`PlantError::NoRoom`].
-    pub fn validate(&self) -> Result<(), PlantError> {
-        let (axis, posture) = (&self.axis, &self.posture);
-        let within = |field, value: f64, [least, most]: [f64; 2], range| {
-            let is_good = (least..=most).contains(&value);
-            is_good.then_some(()).ok_or(PlantError::OutOfRange {
-                field,
-                value,
-                range,
-            })
-        };
-        let each = |field, values: &[f64], limits, range| {
-            values
-                .iter()
-                .try_for_each(|&value| within(field, value, limits, range))
-        };
-        let many = f64::from(self.individuals);
-        within("individuals", many, [1.0, 1000.0], "1 to 1000")?;
-        within("length_mm", axis.length_mm, [1.0, 1e5], "1 to 100000")?;
-        within("nodes", f64::from(axis.nodes), [1.0, 1000.0], "1 to 1000")?;
-        within("bare", axis.bare, [0.0, 0.99], "0 to 0.99")?;
-        within("shortening", axis.shortening, [0.5, 1.5], "0.5 to 1.5")?;
-        each("radius_mm", &axis.radius_mm, [0.05, 1000.0], "0.05 to 1000")?;
-        within("swelling", axis.swelling, [0.0, 1.0], "0 to 1")?;
-        let leaves = axis.phyllotaxis;
-        within(
-            "per_node",
-            f64::from(leaves.per_node),
-            [1.0, 12.0],
-            "1 to 12",
-        )?;
-        within(
-            "divergence_deg",
-            leaves.divergence,
-            [-PI, PI],
-            "-180° to 180°",
-        )?;
-        within("zigzag_deg", axis.zigzag, [0.0, 0.6], "0 to 34°")?;
-        within("inclination_deg", axis.inclination, [0.0, PI], "0 to 180°")?;
-        within("upward_deg", axis.upward, [-3.0, 3.0], "-171° to 171°")?;
-        within("stray_deg", axis.stray, [0.0, 0.5], "0 to 28°")?;
-        each(
-            "posture.angle_deg",
-            &posture.angle,
-            [0.05, 3.0],
-            "3° to 171°",
-        )?;
-        each("posture.size", &posture.size, [0.02, 2.0], "0.02 to 2")?;
-        within("posture.to_light", posture.to_light, [0.0, 1.0], "0 to 1")?;
-        let length = posture.light.length();
-        within("posture.light", length, [0.999, 1.001], "a unit vector")?;
-        within("posture.stray_deg", posture.stray, [0.0, 0.7], "0 to 40°")?;
-        let cluster = f64::from(posture.cluster);
-        within("posture.cluster", cluster, [1.0, 12.0], "1 to 12")?;
-        within(
-            "posture.spur_mm",
-            posture.spur_mm,
-            [0.5, 200.0],
-            "0.5 to 200",
-        )?;
-        if let Some(branches) = &self.branching {
-            let order = f64::from(branches.order);
-            within("branches.order", order, [1.0, 4.0], "1 to 4")?;
-            each("branches.between", &branches.between, [0.0, 1.0], "0 to 1")?;
-            each(
-                "branches.length",
-                &branches.length,
-                [0.02, 1.0],
-                "0.02 to 1",
-            )?;
-            within(
-                "branches.angle_deg",
-                branches.angle,
-                [0.1, 2.0],
-                "6° to 114°",
-            )?;
-            let thickness = branches.thickness;
-            within("branches.thickness", thickness, [0.1, 1.0], "0.1 to 1")?;
-            within("branches.share", branches.share, [0.0, 1.0], "0 to 1")?;
-        }
-        if let Some(buds) = &self.buds {
-            within("buds.length_mm", buds.length_mm, [0.2, 50.0], "0.2 to 50")?;
-            within("buds.radius_mm", buds.radius_mm, [0.1, 20.0], "0.1 to 20")?;
-        }
-        axis.has_room()
-    }
-}
-
 impl Plant {
-    /// Grows a plant; `feet` tells how each individual of each kind of leaf is held.
+    /// Grows a plant; `feet` tells how each individual of each kind of leaf is held. With a flower
+    /// the last two kinds are its sepals and petals. What climbs does so on an even wall.
     ///
     /// # Errors
     ///
     /// [`PlantError`].
     pub fn grow(plan: &PlantPlan, feet: &[Vec<Foot>]) -> Result<Self, PlantError> {
+        let wall = plan.climbing.map(|climbing| Wall::flat(climbing.away));
+        Self::grow_on(plan, feet, wall.as_ref())
+    }
+
+    /// As [`Plant::grow`], of a plant that climbs on a wall of this shape. A plant that does not
+    /// climb leaves it alone.
+    ///
+    /// # Errors
+    ///
+    /// [`PlantError`].
+    pub fn grow_on(
+        plan: &PlantPlan,
+        feet: &[Vec<Foot>],
+        wall: Option<&Wall>,
+    ) -> Result<Self, PlantError> {
         plan.validate()?;
-        if feet.is_empty() || feet.iter().any(Vec::is_empty) {
+        let least = if plan.flower.is_some() { 3 } else { 1 };
+        if feet.len() < least || feet.iter().any(Vec::is_empty) {
             return Err(PlantError::NoLeaf);
         }
-        bearing::grow(plan, feet)
+        bearing::grow(plan, feet, wall.filter(|_| plan.climbing.is_some()))
     }
 }

@@ -23,6 +23,7 @@ pub mod delta_e;
 mod density;
 pub mod grid;
 pub mod lanes;
+pub mod library;
 pub mod observer;
 pub mod planck;
 pub mod recorded;

@@ -3,9 +3,14 @@
 use super::presets::Chosen;
 use crate::document::keys::Keys;
 use crate::document::limits::Limits;
-use crate::document::value_kind::{Degrees, DegreesList, Integer, Number, Numbers, Vector, Word};
+use crate::document::value_kind::{
+    Degrees, DegreesList, Flag, Integer, Number, Numbers, Vector, Word,
+};
 use crate::plant::presets::PRESETS;
-use crate::plant::{AxisPlan, Branching, Buds, Phyllotaxis, PlantError, PlantPlan, Posture};
+use crate::plant::{
+    AxisPlan, Branching, Buds, Climbing, FlowerPlan, Phyllotaxis, PlantError, PlantPlan, Posture,
+    PotPlan, Stems,
+};
 
 const SHARE: Limits = Limits::closed(0.0, 1.0);
 
@@ -63,22 +68,158 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
         let limits = Number(Limits::closed(0.1, 20.0));
         keys.key("radius_mm", &mut buds.radius_mm, limits, "Greatest radius.");
     });
+    let about = "The stems that rise from its foot.";
+    keys.block("stems", about, |keys| stems(&mut plan.stems, keys));
+    let about = "Whether its axes are green and soft instead of bark.";
+    keys.key("green", &mut plan.is_green, Flag, about);
+    let about = "A flower at the tip of each stem.";
+    keys.optional_block(
+        "flower",
+        &mut plan.flower,
+        || FlowerPlan::USUAL,
+        about,
+        flower,
+    );
+    let about = "How it climbs on a wall; left out, its axes stand free.";
+    keys.optional_block(
+        "climbing",
+        &mut plan.climbing,
+        || Climbing::USUAL,
+        about,
+        climbing,
+    );
+    let about = "A pot with soil, in which it stands.";
+    keys.optional_block("pot", &mut plan.pot, || PotPlan::USUAL, about, pot);
     if keys.is_sound()
         && let Err(error) = plan.validate()
     {
-        let help = match error {
-            PlantError::NoRoom { .. } => {
+        let (path, help): (&[&str], _) = match error {
+            PlantError::NoRoom { .. } => (
+                &["nodes"],
                 "use fewer nodes, a longer or thinner axis, or a \
-                `shortening` nearer to 1"
-            }
+                `shortening` nearer to 1",
+            ),
+            PlantError::NoPot => (
+                &["pot"],
+                "make the pot wider or higher, its wall thinner, its rim lower or the soil deeper",
+            ),
             PlantError::OutOfRange { .. }
             | PlantError::TooLarge
             | PlantError::NoLeaf
             | PlantError::Bent(_)
-            | PlantError::NotBorne(_) => "choose another",
+            | PlantError::NotBorne(_) => (&["nodes"], "choose another"),
         };
-        keys.refuse(&["nodes"], error.to_string(), help);
+        keys.refuse(path, error.to_string(), help);
     }
+}
+
+fn stems(stems: &mut Stems, keys: &mut Keys<'_>) {
+    let about = "How many; the first is the main axis, the others are shorter.";
+    keys.key("count", &mut stems.count, Integer::within(1, 100), about);
+    let about = "Radius of the disc within which they rise; along a wall, half the width.";
+    let limits = Number(Limits::closed(0.0, 1e4));
+    keys.key("spread_mm", &mut stems.spread_mm, limits, about);
+    let limits = Degrees(Limits::closed(0.0, 80.0));
+    let about = "Angle by which the outermost lean outwards.";
+    keys.key("fan_deg", &mut stems.fan, limits, about);
+}
+
+fn flower(flower: &mut FlowerPlan, keys: &mut Keys<'_>) {
+    let about = "Sepals, petals, stamens of either whorl, stigmas: so many of each.";
+    keys.key("parts", &mut flower.parts, Integer::within(2, 12), about);
+    let limits = Number(Limits::closed(1.0, 1000.0));
+    let about = "Length of the peduncle.";
+    keys.key("peduncle_mm", &mut flower.peduncle_mm, limits, about);
+    let limits = Number(Limits::closed(0.1, 20.0));
+    let about = "Radius of the peduncle.";
+    keys.key(
+        "peduncle_radius_mm",
+        &mut flower.peduncle_radius_mm,
+        limits,
+        about,
+    );
+    let limits = Degrees(Limits::closed(0.0, 143.0));
+    let about = "Angle by which it leans away from the axis that bears it.";
+    keys.key("nod_deg", &mut flower.nod, limits, about);
+    let limits = DegreesList::<2>(Limits::closed(3.0, 170.0));
+    let about = "Angles of the feet of sepals and of petals from the flower's axis.";
+    keys.key("angles_deg", &mut flower.angles, limits, about);
+    let lengths = || Numbers::<2>(Limits::closed(0.2, 100.0));
+    let about = "Lengths of filament and anther.";
+    keys.key("stamens_mm", &mut flower.stamens_mm, lengths(), about);
+    let about = "Lengths of ovary and stigmas.";
+    keys.key("pistil_mm", &mut flower.pistil_mm, lengths(), about);
+}
+
+fn climbing(climbing: &mut Climbing, keys: &mut Keys<'_>) {
+    let about = "Away from the wall, in the plant's frame; any length but 0. The wall goes through \
+        the plant's foot.";
+    let limits = Vector(Limits::closed(-1e6, 1e6));
+    keys.key("away", &mut climbing.away, limits, about);
+    match climbing.away.try_normalize() {
+        Some(away) => climbing.away = away,
+        None => keys.refuse(
+            &["away"],
+            "a direction of length 0 is none".to_owned(),
+            "write the direction in which the wall faces, such as `[1, 0, 0]`",
+        ),
+    }
+    let limits = Degrees(Limits::closed(0.0, 85.0));
+    let about = "Angle by which petioles stand off the wall.";
+    keys.key("lift_deg", &mut climbing.lift, limits, about);
+    let limits = Number(Limits::closed(0.0, 1000.0));
+    let about = "Least distance between blades, taken flat, and the wall.";
+    keys.key("clearance_mm", &mut climbing.clearance_mm, limits, about);
+    let limits = Number(Limits::closed(0.0, 20.0));
+    let about = "Adventitious roots by which axes hold on, for each millimetre of them.";
+    keys.key(
+        "rootlets_per_mm",
+        &mut climbing.rootlets_per_mm,
+        limits,
+        about,
+    );
+}
+
+fn pot(pot: &mut PotPlan, keys: &mut Keys<'_>) {
+    let extent = || Number(Limits::closed(20.0, 2000.0));
+    let about = "Outer diameter at the rim.";
+    keys.key("diameter_mm", &mut pot.diameter_mm, extent(), about);
+    let about = "Height, without the dish.";
+    keys.key("height_mm", &mut pot.height_mm, extent(), about);
+    let about = "Diameter of the foot over that at the top of the body, without the rim.";
+    keys.key(
+        "taper",
+        &mut pot.taper,
+        Number(Limits::closed(0.3, 1.0)),
+        about,
+    );
+    let limits = Number(Limits::closed(1.0, 100.0));
+    keys.key(
+        "wall_mm",
+        &mut pot.wall_mm,
+        limits,
+        "Thickness of the wall.",
+    );
+    let limits = Numbers::<2>(Limits::closed(0.0, 500.0));
+    let about = "Height of the rim, and how far it stands out; with a 0 there is none.";
+    keys.key("rim_mm", &mut pot.rim_mm, limits, about);
+    let about = "Whether it stands in a dish.";
+    keys.key("dish", &mut pot.dish, Flag, about);
+    let about = "Height of the soil over that of the pot.";
+    keys.key(
+        "fill",
+        &mut pot.fill,
+        Number(Limits::closed(0.2, 1.0)),
+        about,
+    );
+    let limits = Number(Limits::closed(0.0, 100.0));
+    let about = "Crumbs for each square centimetre of soil.";
+    keys.key("crumbs_per_cm2", &mut pot.crumbs_per_cm2, limits, about);
+    let limits = Number(Limits::closed(0.1, 50.0));
+    let about = "Radius of the largest crumbs; most are much smaller.";
+    keys.key("crumb_mm", &mut pot.crumb_mm, limits, about);
+    let about = "Moisture of the soil, from 0 dry to 1 wet.";
+    keys.key("moisture", &mut pot.moisture, Number(SHARE), about);
 }
 
 fn axis(axis: &mut AxisPlan, keys: &mut Keys<'_>) {

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::climbing::Wall;
 use super::{AxisPlan, PlantError};
 use crate::rotation::about;
 use crate::shape::chance::{Use, bell};
@@ -38,12 +39,14 @@ pub(super) struct Axis {
 
 /// Where an axis starts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
+pub(super) struct Start<'a> {
     pub(super) at: DVec3,
     pub(super) along: DVec3,
     /// Number of the axis within the plant, for its random numbers.
     pub(super) number: u64,
     pub(super) seed: u64,
+    /// The wall on which it climbs.
+    pub(super) wall: Option<&'a Wall>,
 }
 
 impl AxisPlan {
@@ -88,7 +91,7 @@ impl AxisPlan {
     }
 
     /// The axis from its foot on.
-    pub(super) fn grown(&self, start: &Start) -> Axis {
+    pub(super) fn grown(&self, start: &Start<'_>) -> Axis {
         let nodes = self.nodes_along();
         let length = self.length_mm;
         let chance = |number: u64| {
@@ -101,7 +104,7 @@ impl AxisPlan {
         };
         let (mut at, mut along) = (start.at, start.along);
         // Leaves of two ranks lie level on a level axis.
-        let mut reference = level(along);
+        let mut reference = start.wall.map_or(level(along), |wall| wall.beside(along));
         let mut way = 0.0;
         let mut ways = vec![0.0];
         for (number, &node) in (0_u64..).zip(&nodes) {
@@ -117,7 +120,10 @@ impl AxisPlan {
                 let up = DVec3::Z - along * along.z;
                 let turn = up * (self.upward * piece / length)
                     + (reference * bend[0] + side * bend[1]) / pieces as f64;
-                let turned = (along + turn).normalize();
+                let mut turned = (along + turn).normalize();
+                if let Some(wall) = start.wall {
+                    turned = wall.within(turned);
+                }
                 reference = carried(reference, along, turned);
                 at += (along + turned).normalize() * piece;
                 along = turned;
@@ -126,7 +132,11 @@ impl AxisPlan {
                 ways.push(way);
             }
             let turned = number as f64 * self.phyllotaxis.divergence;
-            let radial = about(along, turned) * reference;
+            let mut radial = about(along, turned) * reference;
+            if start.wall.is_some() {
+                // No leaf stands out of the wall or into it: those of a spiral stand in two rows.
+                radial = reference * radial.dot(reference).signum();
+            }
             axis.nodes.push(Node {
                 at,
                 along,
@@ -141,6 +151,9 @@ impl AxisPlan {
             }
         }
         axis.thicken(self, &nodes, &ways);
+        if let Some(wall) = start.wall {
+            wall.lay(&mut axis);
+        }
         axis
     }
 }

@@ -3,10 +3,12 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::axis::{Axis, Node, Start};
+use super::climbing::Wall;
 use super::posture::Stand;
+use super::stems::stem_of;
 use super::{
-    AxisPlan, BorneLeaf, Branching, Buds, Foot, MOST_LEAVES, MOST_VERTICES, Phyllotaxis, Plant,
-    PlantError, PlantPlan,
+    AxisPlan, BorneLeaf, Branching, Buds, FlowerPlan, Foot, MOST_LEAVES, MOST_VERTICES, Organ,
+    Phyllotaxis, Plant, PlantError, PlantPlan,
 };
 use crate::blade::stalk::StalkMesh;
 use crate::rotation::about;
@@ -31,10 +33,19 @@ const SPUR_THICKNESS: f64 = 0.7;
 /// Angle of the leaves of a short shoot from it: the first and the last.
 const CLUSTER_ANGLES: [f64; 2] = [1.25, 0.6];
 
+/// Share of an axis from which on it has no rootlets yet.
+const ROOTED: f64 = 0.88;
+/// Radii of a rootlet at its foot and its end, mm.
+const ROOTLET_MM: [f64; 2] = [0.2, 0.1];
+
 /// A plant under construction.
 struct Builder<'a> {
     plan: &'a PlantPlan,
+    /// How leaves are held, then sepals and petals.
     feet: &'a [Vec<Foot>],
+    /// Number of kinds of leaves.
+    kinds: usize,
+    wall: Option<&'a Wall>,
     plant: Plant,
     /// Number of axes so far.
     axes: u64,
@@ -43,24 +54,36 @@ struct Builder<'a> {
 }
 
 /// Grows a checked plan.
-pub(super) fn grow(plan: &PlantPlan, feet: &[Vec<Foot>]) -> Result<Plant, PlantError> {
+pub(super) fn grow(
+    plan: &PlantPlan,
+    feet: &[Vec<Foot>],
+    wall: Option<&Wall>,
+) -> Result<Plant, PlantError> {
     let mut builder = Builder {
         plan,
         feet,
+        kinds: feet.len() - if plan.flower.is_some() { 2 } else { 0 },
+        wall,
         plant: Plant {
             axes: StalkMesh::default(),
             leaves: Vec::new(),
+            organs: Vec::new(),
+            crumbs: Vec::new(),
         },
         axes: 0,
         next: 0,
     };
-    let (sin, cos) = (
-        libm::sin(plan.axis.inclination),
-        libm::cos(plan.axis.inclination),
-    );
-    let along = DVec3::new(0.0, sin, cos);
-    builder.axis(&plan.axis, DVec3::ZERO, along, 0)?;
-    Ok(builder.plant)
+    for stem in 0..plan.stems.count {
+        let (axis, at, along) = stem_of(plan, stem, wall);
+        builder.axis(&axis, at, along, 0)?;
+    }
+    let mut plant = builder.plant;
+    if let Some(pot) = &plan.pot {
+        plant.organs.push((Organ::Pot, pot.vessel()));
+        plant.organs.push((Organ::Soil, pot.soil(plan.seed)));
+        plant.crumbs = pot.crumbs(plan.seed);
+    }
+    Ok(plant)
 }
 
 impl Builder<'_> {
@@ -77,10 +100,12 @@ impl Builder<'_> {
             along,
             number: self.axes,
             seed: self.plan.seed,
+            wall: self.wall,
         };
         self.axes += 1;
         let axis = plan.grown(&start);
         self.tube(&axis.points, &axis.radii)?;
+        self.rootlets(&axis, start.number)?;
         // Neighbours on an axis are different individuals, whatever its branches bear.
         let on_parent = std::mem::replace(&mut self.next, start.number as usize);
         let branching = self
@@ -106,7 +131,92 @@ impl Builder<'_> {
             }
         }
         self.next = on_parent;
-        self.terminal_bud(&axis)
+        match (self.plan.flower, order) {
+            (Some(flower), 0) => self.flower(&flower, &axis),
+            (Some(_) | None, _) => self.terminal_bud(&axis),
+        }
+    }
+
+    /// The flower at the tip of an axis.
+    fn flower(&mut self, flower: &FlowerPlan, axis: &Axis) -> Result<(), PlantError> {
+        let [.., before, end] = axis.points.as_slice() else {
+            return Ok(());
+        };
+        let seed = self.plan.seed.wrapping_add(self.axes);
+        let grown = flower.grown(*end, (*end - *before).normalize(), seed)?;
+        for (whorl, seats) in grown.seats.iter().enumerate() {
+            let kind = self.kinds + whorl;
+            for (number, seat) in seats.iter().enumerate() {
+                let stand = Stand {
+                    along: seat.along,
+                    radial: seat.radial,
+                    angle: seat.angle,
+                    number: 0,
+                };
+                let individual = number % self.feet[kind].len();
+                let foot = &self.feet[kind][individual];
+                let turn = stand.facing_tip(foot);
+                self.plant.leaves.push(BorneLeaf {
+                    kind,
+                    individual: individual as u32,
+                    to_plant: DAffine3::from_mat3_translation(turn, seat.at - turn * foot.at),
+                    node: seat.at,
+                });
+            }
+        }
+        let bodies = grown.bodies;
+        self.plant.organs.extend([
+            (Organ::Peduncle, bodies.peduncle),
+            (Organ::Filaments, bodies.filaments),
+            (Organ::Anthers, bodies.anthers),
+            (Organ::Pistil, bodies.pistil),
+        ]);
+        Ok(())
+    }
+
+    /// Adventitious roots of an axis that climbs: from its underside to the wall, on both sides.
+    fn rootlets(&mut self, axis: &Axis, number: u64) -> Result<(), PlantError> {
+        let (Some(wall), Some(climbing)) = (self.wall, self.plan.climbing) else {
+            return Ok(());
+        };
+        if climbing.rootlets_per_mm <= 0.0 {
+            return Ok(());
+        }
+        let apart = 1.0 / climbing.rootlets_per_mm;
+        let whole: f64 = axis.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let (mut way, mut next, mut count) = (0.0, apart, 0_u64);
+        for (piece, pair) in axis.points.windows(2).enumerate() {
+            let length = pair[0].distance(pair[1]);
+            while next < way + length && next < ROOTED * whole {
+                let chance = |what: u64| {
+                    uniform(
+                        self.plan.seed,
+                        Use::Rootlet,
+                        (number << 40) + 4 * count + what,
+                    )
+                };
+                let at = pair[0].lerp(pair[1], (next - way) / length);
+                let along = (pair[1] - pair[0]) / length;
+                let radius = axis.radii[piece];
+                let side =
+                    along.cross(wall.away()).normalize() * if count % 2 == 0 { 1.0 } else { -1.0 };
+                let out = side * (radius * (0.9 + 0.9 * chance(0)));
+                let drift = along * (2.0 * radius * (chance(1) - 0.5));
+                let end = at + out + drift;
+                let end = wall.below(end) + wall.away() * (wall.height(end) - 0.2);
+                let foot = at + side * (0.55 * radius) - wall.away() * (0.6 * radius);
+                let middle = foot.lerp(end, 0.5) + out * 0.15;
+                let [thick, thin] = ROOTLET_MM.map(|mm| mm * (0.7 + 0.6 * chance(2)));
+                // One that would turn back is left out.
+                if (middle - foot).dot(end - middle) > 0.0 {
+                    self.tube(&[foot, middle, end], &[thick, 0.5 * (thick + thin), thin])?;
+                }
+                count += 1;
+                next += apart;
+            }
+            way += length;
+        }
+        Ok(())
     }
 
     /// A branch in the axil of a leaf that has fallen.
@@ -141,13 +251,23 @@ impl Builder<'_> {
             .map(|nodes| AxisPlan { nodes, ..plan })
             .find(|plan| plan.has_room().is_ok());
         match plan {
-            Some(plan) => self.axis(&plan, node.at, along.normalize(), order + 1),
+            Some(plan) => {
+                let (at, along) = match self.wall {
+                    Some(wall) => (wall.below(node.at), wall.within(along)),
+                    None => (node.at, along.normalize()),
+                };
+                self.axis(&plan, at, along, order + 1)
+            }
             None => self.leaf_and_bud(node, radial),
         }
     }
 
     fn leaf_and_bud(&mut self, node: &Node, radial: DVec3) -> Result<(), PlantError> {
         let [foot, tip] = self.plan.posture.angle;
+        let radial = match self.plan.climbing {
+            Some(climbing) => climbing.lifted(radial, node.along),
+            None => radial,
+        };
         let stand = Stand {
             along: node.along,
             radial,
@@ -211,13 +331,18 @@ impl Builder<'_> {
         if leaves.len() >= MOST_LEAVES {
             return Err(PlantError::TooLarge);
         }
-        let kinds = self.feet.len();
+        let kinds = self.kinds;
         let kind = ((share * kinds as f64) as usize).min(kinds - 1);
         let individual = self.next % self.feet[kind].len();
         self.next += 1;
         let foot = &self.feet[kind][individual];
         let turn = self.plan.posture.turned(stand, foot, self.plan.seed);
-        let linear = turn * DMat3::from_diagonal(DVec3::splat(self.plan.posture.size_at(share)));
+        let mut linear =
+            turn * DMat3::from_diagonal(DVec3::splat(self.plan.posture.size_at(share)));
+        if let (Some(wall), Some(climbing)) = (self.wall, self.plan.climbing) {
+            let blade = foot.blade().map(|point| linear * point);
+            linear = climbing.cleared(wall, at, &blade) * linear;
+        }
         leaves.push(BorneLeaf {
             kind,
             individual: individual as u32,

@@ -13,6 +13,8 @@ pub struct Foot {
     pub at: DVec3,
     /// Directions across the petiole, along it towards the blade, and to its adaxial side.
     pub frame: DMat3,
+    /// Length of the blade, mm.
+    pub length_mm: f64,
 }
 
 /// Why no plant can bear a leaf.
@@ -29,7 +31,24 @@ pub enum NotBorne {
     Peltate,
 }
 
+/// Places of a blade, across it and along it, over its length: base, tip, sides.
+const PLACES: [[f64; 2]; 8] = [
+    [0.0, 0.0],
+    [0.0, 1.0],
+    [0.5, 0.4],
+    [-0.5, 0.4],
+    [0.4, -0.1],
+    [-0.4, -0.1],
+    [0.3, 0.75],
+    [-0.3, 0.75],
+];
+
 impl Foot {
+    /// Places of the flat blade, about as wide as it is long, from the petiole's foot, mm.
+    pub(super) fn blade(&self) -> [DVec3; 8] {
+        PLACES.map(|[x, y]| DVec3::new(x, y, 0.0) * self.length_mm - self.at)
+    }
+
     /// The foot of the leaf of this plan.
     ///
     /// # Errors
@@ -50,6 +69,10 @@ impl Foot {
         let (at, frame) = held.map_or((DVec3::ZERO, DMat3::IDENTITY), |petiole| {
             petiole.foot(plan.length_mm, plan.seed)
         });
-        Ok(Self { at, frame })
+        Ok(Self {
+            at,
+            frame,
+            length_mm: plan.length_mm,
+        })
     }
 }

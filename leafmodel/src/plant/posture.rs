@@ -30,6 +30,15 @@ impl Stand {
     pub(super) fn petiole(&self) -> DVec3 {
         self.along * libm::cos(self.angle) + self.radial * libm::sin(self.angle)
     }
+
+    /// From the leaf's frame to the plant's, of a leaf whose adaxial side faces the tip of its axis.
+    pub(super) fn facing_tip(&self, foot: &Foot) -> DMat3 {
+        let petiole = self.petiole();
+        let adaxial = self.along - petiole * self.along.dot(petiole);
+        let adaxial = adaxial.try_normalize().unwrap_or(-self.radial);
+        let frame = DMat3::from_cols(petiole.cross(adaxial), petiole, adaxial);
+        frame * foot.frame.transpose()
+    }
 }
 
 impl Posture {
@@ -40,10 +49,7 @@ impl Posture {
     /// axis.
     pub(super) fn turned(&self, stand: &Stand, foot: &Foot, seed: u64) -> DMat3 {
         let petiole = stand.petiole();
-        let adaxial = stand.along - petiole * stand.along.dot(petiole);
-        let adaxial = adaxial.try_normalize().unwrap_or(-stand.radial);
-        let frame = DMat3::from_cols(petiole.cross(adaxial), petiole, adaxial);
-        let mut turn = frame * foot.frame.transpose();
+        let mut turn = stand.facing_tip(foot);
         let facing = |turn: &DMat3| turn.z_axis;
         let flat = |v: DVec3| v - petiole * v.dot(petiole);
         let (from, to) = (flat(facing(&turn)), flat(self.light));

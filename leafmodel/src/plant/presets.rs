@@ -3,9 +3,11 @@
 //! Phyllotaxis is that of floras (in two rows: birch, elm; in pairs: maples; by the golden angle:
 //! poplar, cherry, oak; on short shoots: ginkgo). Lengths and angles are by eye.
 
+mod whole;
+
 use glam::DVec3;
 
-use super::{AxisPlan, Branching, Buds, Phyllotaxis, PlantPlan, Posture};
+use super::{AxisPlan, Branching, Buds, Phyllotaxis, PlantPlan, Posture, Stems};
 
 /// A bough by name.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +39,11 @@ pub const PRESETS: &[PlantPreset] = &[
         plan: cherry,
     },
     PlantPreset {
+        name: "croton-in-pot",
+        about: "A croton of three stems in a clay pot with a dish: leaves by the golden angle.",
+        plan: whole::croton_in_pot,
+    },
+    PlantPreset {
         name: "croton-shoot",
         about: "A shoot of croton: leathery leaves by the golden angle, close together.",
         plan: croton,
@@ -50,6 +57,11 @@ pub const PRESETS: &[PlantPreset] = &[
         name: "grass-tuft",
         about: "A tuft of grass: upright blades from one foot, the outer ones leaning out.",
         plan: grass,
+    },
+    PlantPreset {
+        name: "ivy-on-wall",
+        about: "Stems of ivy that climb a wall (its normal is +x): leaves in two rows, off the wall.",
+        plan: whole::ivy_on_wall,
     },
     PlantPreset {
         name: "ivy-shoot",
@@ -70,6 +82,11 @@ pub const PRESETS: &[PlantPreset] = &[
         name: "poplar-branch",
         about: "A branch of poplar: long petioles by the golden angle, side branches.",
         plan: poplar,
+    },
+    PlantPreset {
+        name: "trillium",
+        about: "White trillium in flower: a whorl of three leaves, three sepals, three petals.",
+        plan: whole::trillium,
     },
 ];
 
@@ -108,6 +125,11 @@ impl PlantPlan {
                 spur_mm: 5.0,
             },
             buds: None,
+            stems: Stems::ONE,
+            is_green: false,
+            flower: None,
+            climbing: None,
+            pot: None,
         }
     }
 }

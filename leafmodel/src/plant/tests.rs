@@ -1,5 +1,7 @@
 //! Boughs: places of leaves, closed axes, refusals.
 
+mod whole;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DMat3;
@@ -11,6 +13,7 @@ use crate::species;
 const SESSILE: Foot = Foot {
     at: DVec3::ZERO,
     frame: DMat3::IDENTITY,
+    length_mm: 60.0,
 };
 
 /// An upright straight shoot whose leaves stand out level and do not turn.

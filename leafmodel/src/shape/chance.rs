@@ -28,6 +28,14 @@ pub(crate) enum Use {
     Branch = 11,
     /// How each leaf of a plant is turned.
     BorneLeaf = 12,
+    /// How the stems of a plant differ.
+    Stem = 13,
+    /// How the parts of a flower stray.
+    Flower = 14,
+    /// Waves and crumbs of soil.
+    Soil = 15,
+    /// Adventitious roots.
+    Rootlet = 16,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.

@@ -10,6 +10,9 @@ use super::specimens;
 use super::trees::{dense, leaf};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
+use crate::optics::Constituent::{
+    Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
+};
 use crate::venation::architecture::Architecture;
 use crate::venation::plan::{AuxinPlan, Growth};
 
@@ -94,6 +97,46 @@ pub(super) fn trillium() -> LeafPlan {
         ..dense(traits, architectures::trillium(), 1.2)
     };
     leaf(traits, 1, specimens::entire(contours::petal()), venation)
+}
+
+/// A green organ of trillium with the petal's kind of veins: its length, mm, thickness, mm, and
+/// contents, by eye.
+fn green_trillium(outline: OutlinePlan, length_mm: f64, thickness_mm: f64) -> LeafPlan {
+    let mut plan = trillium();
+    plan.outline = specimens::entire(outline);
+    plan.length_mm = length_mm;
+    plan.form.thickness_mm = thickness_mm;
+    plan.form.max_edge_mm = length_mm / 80.0;
+    let lamina = &mut plan.tissue.lamina;
+    lamina[Structure] = 1.6;
+    lamina[Chlorophyll] = 34.0;
+    lamina[Carotenoids] = 8.0;
+    lamina[Anthocyanins] = 0.3;
+    lamina[Water] = 0.016;
+    lamina[DryMatter] = 0.003;
+    let veins = &mut plan.tissue.vein_factors;
+    veins[Chlorophyll] = 0.35;
+    veins[Carotenoids] = 0.42;
+    plan
+}
+
+/// One of the three leaves of the whorl, which floras call bracts.
+pub(super) fn trillium_bract() -> LeafPlan {
+    let mut plan = green_trillium(contours::bract(), 110.0, 0.3);
+    plan.form.fold = 10.0_f64.to_radians();
+    plan.form.curl = 24.0_f64.to_radians();
+    plan.form.ruffle = 0.02;
+    plan
+}
+
+pub(super) fn trillium_sepal() -> LeafPlan {
+    let mut plan = green_trillium(contours::sepal(), 40.0, 0.3);
+    plan.tissue.lamina[Chlorophyll] = 26.0;
+    plan.tissue.lamina[Carotenoids] = 6.5;
+    plan.form.fold = 18.0_f64.to_radians();
+    plan.form.curl = 25.0_f64.to_radians();
+    plan.form.ruffle = 0.01;
+    plan
 }
 
 /// Finest veins of this radius, mm: a segment says nothing of it where there is no net.

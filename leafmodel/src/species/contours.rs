@@ -308,6 +308,36 @@ pub(super) fn petal() -> OutlinePlan {
     .into()
 }
 
+/// A trillium's green leaf: broadly ovate to rhombic, short-acuminate, narrowed to the base.
+pub(super) fn bract() -> OutlinePlan {
+    pointed(&[
+        (0.0, 0.0),
+        (0.09, 0.06),
+        (0.26, 0.21),
+        (0.36, 0.37),
+        (0.355, 0.52),
+        (0.25, 0.71),
+        (0.1, 0.87),
+        (0.03, 0.95),
+        (0.0, 1.0),
+    ])
+    .into()
+}
+
+/// A trillium's sepal: lanceolate.
+pub(super) fn sepal() -> OutlinePlan {
+    pointed(&[
+        (0.0, 0.0),
+        (0.11, 0.03),
+        (0.155, 0.22),
+        (0.16, 0.42),
+        (0.12, 0.68),
+        (0.05, 0.9),
+        (0.0, 1.0),
+    ])
+    .into()
+}
+
 /// Nearly circular: the leaf that grows out of a narrow one in Fig. 5.
 pub(super) fn circular() -> OutlinePlan {
     curve(

@@ -61,6 +61,7 @@ fn of_geometry(scene: &Description) -> Result<Vec<(f64, &'static str)>, Failure>
             let [across, along] = terrain.squares();
             2.0 * across * along * OF_A_TRIANGLE
         }
+        Mesh::Masonry(ref wall) => 2.0 * wall.squares() * OF_A_TRIANGLE,
         Mesh::Disc { segments, .. } => f64::from(segments) * OF_A_TRIANGLE,
         Mesh::Axes(ref axes) => axes.triangles.len() as f64 * OF_A_TRIANGLE,
         Mesh::Rectangle { .. } | Mesh::Box { .. } | Mesh::File { .. } | Mesh::Gltf { .. } => 0.0,
@@ -119,6 +120,7 @@ fn leaves_afloat(scene: &Description, object: &Object, volume: &Volume) -> f64 {
         | Mesh::Drop(_)
         | Mesh::Lump(_)
         | Mesh::Terrain(_)
+        | Mesh::Masonry(_)
         | Mesh::File { .. }
         | Mesh::Gltf { .. }
         | Mesh::Axes(_) => 0.0,
@@ -143,6 +145,7 @@ fn area(scene: &Description, strewn: &StrewnOn) -> f64 {
         | Mesh::Disc { .. }
         | Mesh::Drop(_)
         | Mesh::Lump(_)
+        | Mesh::Masonry(_)
         | Mesh::File { .. }
         | Mesh::Gltf { .. }
         | Mesh::Axes(_) => {

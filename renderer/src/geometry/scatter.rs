@@ -13,6 +13,7 @@
 //! programme in three unknowns (`rest.rs`), which is solved again after each turn.
 
 mod body;
+mod drops;
 mod inclination;
 mod pile;
 mod points;
@@ -24,6 +25,7 @@ mod volume;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use thiserror::Error;
 
+use self::drops::{Nearby, Standing, merged};
 use self::pile::Pile;
 use self::points::Spaced;
 use super::scramble::scramble;
@@ -64,6 +66,12 @@ pub struct Scatter {
     pub upright: bool,
     /// How a thing lies once it is there.
     pub rest: Rest,
+    /// Share of things that stand in hollows of the surface, such as furrows above veins; without
+    /// effect on what comes to rest.
+    pub furrows: f64,
+    /// Whether things that touch run together into one of their summed volume, as drops do; without
+    /// effect on what comes to rest.
+    pub merge: bool,
     /// Same plan and seed, same places.
     pub seed: u64,
 }
@@ -89,6 +97,9 @@ pub const MOST_THINGS: usize = 1 << 24;
 pub const MOST_AT_REST: usize = 100_000;
 /// Points that are tried for each thing before a surface counts as full.
 const TRIES: usize = 30;
+
+/// Points among which a thing that stands in a hollow has the most hollow one.
+const CHOICES: u64 = 24;
 
 /// Failures in a row after which a surface counts as full, for things that settle (each takes long
 /// to find out) and for others.
@@ -191,6 +202,7 @@ enum Use {
     TiltTowards,
     Turn,
     Flip,
+    Furrow,
 }
 
 impl Scatter {
@@ -241,6 +253,12 @@ impl Scatter {
                 .for_each(|triangle| below.add(triangle));
         }
         let mut spaced = Spaced::new(self.least_distance);
+        let widths: Vec<f64> = bodies.iter().map(Body::width).collect();
+        // Hollows are looked for as wide as things are.
+        let reach = widths.iter().copied().fold(0.0, f64::max) * self.scale[1];
+        let prefers = !rests && (self.furrows > 0.0 || self.merge) && reach > 0.0;
+        let nearby = prefers.then(|| Nearby::of(measure.triangles(), reach));
+        let mut standing = Vec::new();
         let mut found = Vec::with_capacity(wanted);
         let mut failures = [0; NoPlace::ALL.len()];
         let mut in_a_row = 0;
@@ -250,8 +268,21 @@ impl Scatter {
             }
             in_a_row += 1;
             let random = |what: Use| self.random(number, what);
-            let (point, normal) =
-                measure.point([Use::Triangle, Use::Across, Use::Along].map(random));
+            let places = [Use::Triangle, Use::Across, Use::Along];
+            let (mut point, mut normal) = measure.point(places.map(random));
+            if let Some(nearby) = &nearby
+                && random(Use::Furrow) < self.furrows
+            {
+                let mut most = nearby.hollowness(point, normal);
+                for choice in 1..CHOICES {
+                    let other = |what: Use| self.random(number | (choice << 40), what);
+                    let (place, up) = measure.point(places.map(other));
+                    let hollow = nearby.hollowness(place, up);
+                    if hollow > most {
+                        (point, normal, most) = (place, up, hollow);
+                    }
+                }
+            }
             if !spaced.has_room(point) {
                 failures[NoPlace::Near as usize] += 1;
                 continue;
@@ -285,6 +316,13 @@ impl Scatter {
             };
             in_a_row = 0;
             spaced.take(point);
+            standing.push(Standing {
+                body: shape as u32,
+                point,
+                up,
+                turn,
+                scale,
+            });
             found.push(Strewn {
                 body: shape as u32,
                 to_world,
@@ -299,6 +337,25 @@ impl Scatter {
                 wanted,
                 why: why.unwrap_or(NoPlace::Near),
             });
+        }
+        if let (Some(nearby), Rest::Fixed { sink }, true) = (&nearby, self.rest, self.merge) {
+            let turned = |from: DVec3, to: DVec3, turn: DMat3| {
+                if self.upright {
+                    turn
+                } else {
+                    from_z(to) * from_z(from).transpose() * turn
+                }
+            };
+            let drops = merged(standing, &widths, nearby, turned).into_iter();
+            let drops = drops.map(|drop| {
+                let up = if self.upright { DVec3::Z } else { drop.up };
+                let at = drop.point - up * sink;
+                Strewn {
+                    body: drop.body,
+                    to_world: DAffine3::from_mat3_translation(drop.turn * drop.scale, at),
+                }
+            });
+            return Ok(drops.collect());
         }
         Ok(found)
     }

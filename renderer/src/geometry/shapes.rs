@@ -5,6 +5,7 @@ mod disc;
 mod drop;
 mod globe;
 mod lump;
+mod masonry;
 mod terrain;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ pub use self::disc::disc;
 pub use self::drop::Drop;
 pub use self::globe::sphere;
 pub use self::lump::Lump;
+pub use self::masonry::{Masonry, MasonryPart};
 pub use self::terrain::Terrain;
 
 /// Number `number` of a sequence of random numbers in [0, 1).

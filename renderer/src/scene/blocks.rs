@@ -256,6 +256,9 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         plan: plan_file::usual_plant(),
         leaves: Vec::new(),
         bark: None,
+        perianth: [None; 2],
+        potting: [None; 2],
+        wall: None,
     };
     section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     if purpose == Purpose::Instruments

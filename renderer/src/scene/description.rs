@@ -28,7 +28,7 @@ pub use self::instrument::{
 pub use self::medium::{Medium, MediumPhase};
 pub use self::object::{InstancePlace, Object, ObjectShape, StrewnOn};
 pub use self::reflectance::Reflectance;
-pub use crate::geometry::shapes::{Drop, Lump, Terrain};
+pub use crate::geometry::shapes::{Drop, Lump, Masonry, MasonryPart, Terrain};
 pub use crate::image::display::Display as Picture;
 pub use crate::image::pixels::Depth;
 pub use crate::image::tone::Tone;
@@ -350,6 +350,8 @@ pub enum Mesh {
     Lump(Lump),
     /// Uneven ground around the origin.
     Terrain(Terrain),
+    /// A wall of bricks.
+    Masonry(Masonry),
     /// A PLY or OBJ file, resolved and inside the scene's folder.
     File {
         /// The file.
@@ -366,7 +368,7 @@ pub enum Mesh {
         /// Metres per unit of the file.
         scale: f64,
     },
-    /// The axes of a plant, mm.
+    /// The axes of a plant, or other bodies of it, mm.
     Axes(Arc<StalkMesh>),
 }
 
@@ -404,8 +406,17 @@ pub struct Plant {
     /// The leaves that it bears, from the foot of each axis to its tip: indices into
     /// [`Description::leaves`].
     pub leaves: Vec<usize>,
-    /// What its axes are made of: index into [`Description::materials`]; `None` is young bark.
+    /// What its axes are made of: index into [`Description::materials`]; `None` is young bark, or
+    /// green tissue.
     pub bark: Option<usize>,
+    /// The leaves that are the sepals and the petals of its flower: indices into
+    /// [`Description::leaves`].
+    pub perianth: [Option<usize>; 2],
+    /// The materials of its pot and of the soil in it: indices into [`Description::materials`];
+    /// `None` is fired clay, and soil of the pot's moisture.
+    pub potting: [Option<usize>; 2],
+    /// The object on which it climbs: index into [`Description::objects`].
+    pub wall: Option<usize>,
 }
 
 /// A light.

@@ -4,6 +4,7 @@
 pub(super) mod boughs;
 pub(super) mod individuals;
 pub(super) mod parts;
+mod walls;
 
 use std::sync::Arc;
 

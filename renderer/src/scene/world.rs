@@ -4,7 +4,7 @@ mod bodies;
 mod light_colours;
 mod lights;
 mod materials;
-mod meshes;
+pub(in crate::scene) mod meshes;
 mod middle;
 mod notes;
 mod placing;

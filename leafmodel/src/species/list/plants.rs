@@ -144,6 +144,20 @@ pub(super) static PLANTS: &[Preset] = &[
         plan: PlanOf::Function(as_grown::trillium),
     },
     Preset {
+        name: "trillium-bract",
+        about: "One of the three green leaves of white trillium, which floras call bracts",
+        source: "length and outline as Gleason and Cronquist 1991 give them (8–12 cm, ovate or rhombic, short-acuminate); veins as those of trillium-petal; contents and lie by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::trillium_bract),
+    },
+    Preset {
+        name: "trillium-sepal",
+        about: "A sepal of white trillium: lanceolate, green",
+        source: "length and outline as Gleason and Cronquist 1991 give them (3–5 cm, lanceolate); veins as those of trillium-petal; contents and lie by eye",
+        row: None,
+        plan: PlanOf::Function(as_grown::trillium_sepal),
+    },
+    Preset {
         name: "nasturtium",
         about: "Garden nasturtium: a round shield on a petiole from its middle, nine primary veins",
         source: "size, number of primary veins and place of the petiole as floras give them; the rest by eye",

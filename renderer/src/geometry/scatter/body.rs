@@ -69,6 +69,13 @@ impl Body {
         self.radius
     }
 
+    /// Distance of its farthest corner from the upright axis through the origin of its shape.
+    pub fn width(&self) -> f64 {
+        let corners = self.corners.iter();
+        let far = corners.map(|corner| (*corner + self.middle).truncate().length());
+        far.fold(0.0, f64::max)
+    }
+
     /// Some of its corners, from the centre of mass.
     pub(super) fn probes(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.corners.iter().step_by(self.stride).copied()

@@ -118,6 +118,11 @@ impl Measure {
         }
     }
 
+    /// Its triangles.
+    pub(super) fn triangles(&self) -> &[[DVec3; 3]] {
+        &self.triangles
+    }
+
     /// The whole area, m².
     pub(super) fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)

@@ -1,11 +1,11 @@
-//! `[meshes.NAME.…]`: rectangle, sphere, box, disc, drop, lump, terrain, file, gltf.
+//! `[meshes.NAME.…]`: rectangle, sphere, box, disc, drop, lump, terrain, masonry, file, gltf.
 
 use leafmodel::document::keys::{Keys, Variant};
 use leafmodel::document::limits::Limits;
-use leafmodel::document::value_kind::{Degrees, FilePath, Integer, Number, Numbers};
+use leafmodel::document::value_kind::{Degrees, FilePath, Integer, Number, Numbers, Word};
 
 use super::gltf::gltf;
-use crate::scene::description::{Drop, Lump, Mesh, Terrain};
+use crate::scene::description::{Drop, Lump, Masonry, MasonryPart, Mesh, Terrain};
 
 /// Range of the extents of shapes, m.
 const EXTENTS_M: Number = Number(Limits::above(0.0, 1e6));
@@ -17,7 +17,7 @@ pub(super) fn mesh(mesh: &mut Mesh, keys: &mut Keys<'_>) {
     keys.kind(mesh, &KINDS);
 }
 
-const KINDS: [Variant<Mesh>; 9] = [
+const KINDS: [Variant<Mesh>; 10] = [
     Variant {
         name: "rectangle",
         about: "A rectangle in the xy plane around the origin, its normal along +z.",
@@ -130,6 +130,28 @@ const KINDS: [Variant<Mesh>; 9] = [
         declare: |mesh, keys| {
             if let Mesh::Terrain(terrain) = mesh {
                 declare_terrain(terrain, keys);
+            }
+        },
+    },
+    Variant {
+        name: "masonry",
+        about: "A wall of bricks, or the mortar between them, that stands on z = 0 and faces +x.",
+        new: || {
+            Mesh::Masonry(Masonry {
+                size: [1.0, 1.0],
+                part: MasonryPart::Bricks,
+                brick: [0.215, 0.065],
+                joint: 0.01,
+                recess: 0.006,
+                roughness: 0.6,
+                kind: [1, 1],
+                seed: 0,
+            })
+        },
+        is: |mesh| matches!(mesh, Mesh::Masonry(_)),
+        declare: |mesh, keys| {
+            if let Mesh::Masonry(wall) = mesh {
+                declare_masonry(wall, keys);
             }
         },
     },
@@ -261,6 +283,61 @@ fn declare_terrain(terrain: &mut Terrain, keys: &mut Keys<'_>) {
         );
         let help = "make it smaller, or its shortest wave longer";
         keys.refuse(&["waves_mm"], problem, help);
+    }
+}
+
+fn declare_masonry(wall: &mut Masonry, keys: &mut Keys<'_>) {
+    let [width, height] = &mut wall.size;
+    keys.required("width_m", width, EXTENTS_M, "Extent along y.");
+    keys.required("height_m", height, EXTENTS_M, "Height.");
+    let parts = [
+        ("bricks", MasonryPart::Bricks),
+        ("mortar", MasonryPart::Mortar),
+    ];
+    let about = "Which part of it the mesh is.";
+    keys.key("part", &mut wall.part, Word(&parts), about);
+    let mut brick_mm = wall.brick.map(|extent| 1e3 * extent);
+    let limits = Numbers::<2>(Limits::closed(30.0, 1e4));
+    let about = "Length and height of a brick.";
+    keys.key("brick_mm", &mut brick_mm, limits, about);
+    wall.brick = brick_mm.map(|extent| 1e-3 * extent);
+    let mut joint_mm = 1e3 * wall.joint;
+    let limits = Number(Limits::closed(0.0, 1000.0));
+    keys.key("joint_mm", &mut joint_mm, limits, "Width of the joints.");
+    wall.joint = 1e-3 * joint_mm;
+    let mut recess_mm = 1e3 * wall.recess;
+    let limits = Number(Limits::closed(0.0, 1000.0));
+    let about = "How far the mortar lies behind the faces of the bricks.";
+    keys.key("recess_mm", &mut recess_mm, limits, about);
+    wall.recess = 1e-3 * recess_mm;
+    let about = "How uneven, displaced and chipped bricks are: 0 new, 1 old.";
+    let limits = Number(Limits::closed(0.0, 1.0));
+    keys.key("roughness", &mut wall.roughness, limits, about);
+    let about = "Bricks are sorted at random into so many kinds; these are the ones of one kind: its \
+        number from 1, and how many kinds there are.";
+    let mut kind = wall.kind.map(f64::from);
+    let limits = Numbers::<2>(Limits::closed(1.0, 16.0));
+    keys.key("kind", &mut kind, limits, about);
+    if kind[0] > kind[1] || kind.iter().any(|number| number.fract() != 0.0) {
+        let problem = format!("there is no kind {} of {}", kind[0], kind[1]);
+        let help = "write two whole numbers, such as `[1, 2]`, the first at most the second";
+        keys.refuse(&["kind"], problem, help);
+    }
+    wall.kind = kind.map(|number| number as u32);
+    let seed = Integer::within(0, u64::MAX);
+    keys.key(
+        "seed",
+        &mut wall.seed,
+        seed,
+        "Same numbers and seed, same wall.",
+    );
+    if wall.squares() > MOST_SQUARES {
+        let problem = format!(
+            "the wall would have {:.0} million squares, more than {:.0}",
+            1e-6 * wall.squares(),
+            1e-6 * MOST_SQUARES
+        );
+        keys.refuse(&["width_m"], problem, "make it smaller");
     }
 }
 

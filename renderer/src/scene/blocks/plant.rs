@@ -18,5 +18,30 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
     let kind = NameIn("materials", "the name of a material");
     let about = "What its axes and buds are made of; left out, young brown bark.";
     keys.optional("bark", &mut plant.bark, kind, about);
+    let kind = NameIn("objects", "the name of an object");
+    let about = "The object on which it climbs, a mesh in one place; left out, an even wall.";
+    keys.optional("wall", &mut plant.wall, kind, about);
+    let [sepal, petal] = &mut plant.perianth;
+    let about = "The leaf that is a sepal of its flower.";
+    let kind = || NameIn("leaves", "the name of a leaf");
+    keys.optional("sepal", sepal, kind(), about);
+    let about = "The leaf that is a petal of its flower.";
+    keys.optional("petal", petal, kind(), about);
+    let [pot, soil] = &mut plant.potting;
+    let kind = || NameIn("materials", "the name of a material");
+    let about = "What its pot and dish are made of; left out, fired clay.";
+    keys.optional("pot_material", pot, kind(), about);
+    let about = "What the soil in its pot is made of; left out, measured soil of its moisture.";
+    keys.optional("soil_material", soil, kind(), about);
     plan_file::plant(&mut plant.plan, keys);
+    let is_there = |what: &Option<usize>| what.is_some();
+    if plant.plan.flower.is_some() && !plant.perianth.iter().all(is_there) {
+        let help = "name a leaf as `sepal` and one as `petal`, such as of the presets \
+            `trillium-sepal` and `trillium-petal`";
+        keys.refuse(&[], "its flower lacks sepals or petals".to_owned(), help);
+    }
+    if plant.wall.is_some() && plant.plan.climbing.is_none() {
+        let help = "give it a block `climbing`, or leave `wall` out";
+        keys.refuse(&["wall"], "the plant does not climb".to_owned(), help);
+    }
 }

@@ -220,11 +220,19 @@ fn check_colours(scene: &Description, keys: &Keys<'_>) {
         }
     }
     for plant in &scene.plants {
-        let bark = plant.value.bark.and_then(|bark| scene.materials.get(bark));
-        if let Some(bark) = bark.filter(|bark| taken(bark).is_some()) {
-            let problem = format!("the material `{}` has the colours of a mesh", bark.name);
-            let help = "use a material with a reflectance of its own for bark";
-            keys.refuse(&["plants", &plant.name, "bark"], problem, help);
+        let [pot, soil] = plant.value.potting;
+        let own = [
+            ("bark", plant.value.bark),
+            ("pot_material", pot),
+            ("soil_material", soil),
+        ];
+        for (key, material) in own {
+            let material = material.and_then(|material| scene.materials.get(material));
+            if let Some(material) = material.filter(|material| taken(material).is_some()) {
+                let problem = format!("the material `{}` has the colours of a mesh", material.name);
+                let help = "use a material with a reflectance of its own";
+                keys.refuse(&["plants", &plant.name, key], problem, help);
+            }
         }
     }
     for object in &scene.objects {
@@ -282,7 +290,9 @@ fn warn_of_the_unused(scene: &Description, keys: &Keys<'_>) {
     let plants: BTreeSet<usize> = objects.filter_map(|object| object.value.plant).collect();
     for plant in plants.iter().filter_map(|&plant| scene.plants.get(plant)) {
         leaves.extend(&plant.value.leaves);
+        leaves.extend(plant.value.perianth.iter().flatten());
         materials.extend(plant.value.bark);
+        materials.extend(plant.value.potting.iter().flatten());
     }
     let media = scene.materials.iter();
     let media = media.filter_map(|named| match named.value {

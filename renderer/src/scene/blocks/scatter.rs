@@ -28,6 +28,8 @@ impl StrewnOn {
                 flipped: 0.0,
                 upright: false,
                 rest: Rest::Fixed { sink: 0.0 },
+                furrows: 0.0,
+                merge: false,
                 seed: 0,
             },
             individuals: 1,
@@ -112,12 +114,21 @@ fn strewn_on(strewn: &mut StrewnOn, keys: &mut Keys<'_>) {
     let about = "Whether they stand upright instead of along the surface's normal.";
     keys.key("upright", &mut plan.upright, Flag, about);
     rest(plan, keys);
+    let about = "Share of what does not settle that stands in hollows of the surface, such as the \
+        furrows above veins.";
+    let share = Number(Limits::closed(0.0, 1.0));
+    keys.key("furrows", &mut plan.furrows, share, about);
+    let about = "Whether what touches runs together into one of the summed volume, as drops do; \
+        there are fewer then.";
+    keys.key("merge", &mut plan.merge, Flag, about);
     let settles = matches!(plan.rest, Rest::Settled { .. });
     let amount = plan.amount;
     for (key, needs_rest) in [
         ("over", true),
         ("gap_mm", true),
         ("sink_mm", false),
+        ("furrows", false),
+        ("merge", false),
         ("upright", false),
     ] {
         if keys.reader().is_some() && keys.has(key) && needs_rest != settles {

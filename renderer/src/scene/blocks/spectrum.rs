@@ -9,12 +9,13 @@ use leafmodel::document::reader::Block;
 use leafmodel::document::schema::{EntrySchema, Group, Is, Type};
 use leafmodel::document::source::Place;
 use leafmodel::document::tree::{Entry, Node, Table, Value};
-use leafmodel::document::value_kind::{Kind, Number};
+use leafmodel::document::value_kind::{Kind, Number, Word};
 use leafmodel::document::values::{finite_at, list, number, number_at, wrong_length, wrong_type};
 
 use super::table_file::{self, Rows};
 use crate::measured::units;
 use crate::scene::description::Spectrum;
+use crate::spectrum::library;
 
 /// A spectrum with its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +45,11 @@ impl SpectrumOf {
 
     fn forms(self) -> &'static str {
         match self {
-            Self::Share | Self::Ratio | Self::PerMillimetre | Self::PerMetre => {
+            Self::Share => {
+                "a number, `{ table = [[nm, value], …] }`, `{ file = \"….csv\" }`, `{ measured = \
+                 \"slate\" }` or `{ soil_moisture = 0.3 }`"
+            }
+            Self::Ratio | Self::PerMillimetre | Self::PerMetre => {
                 "a number, `{ table = [[nm, value], …] }` or `{ file = \"….csv\" }`"
             }
             Self::Emission => {
@@ -56,7 +61,8 @@ impl SpectrumOf {
 
     fn keys(self) -> &'static [&'static str] {
         match self {
-            Self::Share | Self::Ratio | Self::PerMillimetre | Self::PerMetre => &["table", "file"],
+            Self::Share => &["table", "file", "measured", "soil_moisture"],
+            Self::Ratio | Self::PerMillimetre | Self::PerMetre => &["table", "file"],
             Self::Emission => &["table", "file", "d65", "blackbody_k"],
         }
     }
@@ -123,6 +129,14 @@ impl Kind for SpectrumOf {
                     "Such a table in a file, ASCII export of an ASD, or a `.sig` file of an SVC.",
                     Type::Text("the path of a CSV file"),
                 ),
+                "measured" => {
+                    let about = "A measured surface by its name.";
+                    (about, Word(&SURFACES).describe())
+                }
+                "soil_moisture" => {
+                    let about = "Bare soil of this moisture, 0 dry to 1 wet.";
+                    (about, Type::Number(MOISTURE))
+                }
                 "d65" => {
                     let about = "CIE standard illuminant D65, with this value at 560 nm.";
                     (about, Type::Number(FACTORS))
@@ -154,6 +168,21 @@ impl Kind for SpectrumOf {
 pub(super) const TABLE_WAVELENGTHS_NM: Limits = Limits::closed(1.0, 1e7);
 /// Where CIE standard illuminant D65 is defined, nm.
 pub(super) const D65_NM: [f64; 2] = [300.0, 830.0];
+/// Moisture of soil.
+const MOISTURE: Limits = Limits::closed(0.0, 1.0);
+/// Names of the measured surfaces, with their numbers.
+static SURFACES: [(&str, usize); library::SURFACES.len()] = numbered();
+
+const fn numbered() -> [(&'static str, usize); library::SURFACES.len()] {
+    let mut numbered = [("", 0); library::SURFACES.len()];
+    let mut number = 0;
+    while number < numbered.len() {
+        numbered[number] = (library::SURFACES[number], number);
+        number += 1;
+    }
+    numbered
+}
+
 const FACTORS: Limits = Limits::above(0.0, 1e12);
 /// Range of temperatures of black bodies, K.
 const KELVIN: Limits = Limits::closed(100.0, 1e6);
@@ -188,6 +217,17 @@ fn read_form(form: &Block<'_>, key: &str, role: SpectrumOf) -> Option<Spectrum> 
             let scale = form.number_or("scale", FACTORS, 1.0);
             kelvin.map(|kelvin| Spectrum::Blackbody { kelvin, scale })
         }
+        Some("measured") => {
+            let scale = form.number_or("scale", FACTORS, 1.0);
+            form.node("measured")
+                .and_then(|node| Word(&SURFACES).read(form.cx, node, "measured"))
+                .and_then(|number| shipped(form, library::surface(number), scale, key, role))
+        }
+        Some("soil_moisture") => {
+            let scale = form.number_or("scale", FACTORS, 1.0);
+            form.number("soil_moisture", MOISTURE)
+                .and_then(|moisture| shipped(form, library::soil(moisture), scale, key, role))
+        }
         Some("table") => {
             let scale = form.number_or("scale", FACTORS, 1.0);
             form.node("table")
@@ -210,6 +250,23 @@ fn read_form(form: &Block<'_>, key: &str, role: SpectrumOf) -> Option<Spectrum> 
     };
     form.finish();
     spectrum
+}
+
+/// A spectrum of the library.
+fn shipped(
+    form: &Block<'_>,
+    points: Vec<(f64, f64)>,
+    scale: f64,
+    key: &str,
+    role: SpectrumOf,
+) -> Option<Spectrum> {
+    let places = vec![[form.at.clone(), form.at.clone()]; points.len()];
+    let rows = Rows {
+        points,
+        places,
+        ..Rows::default()
+    };
+    checked_table(form, &rows, scale, key, role)
 }
 
 /// The rows `[[nm, value], …]` of a table in the scene file.

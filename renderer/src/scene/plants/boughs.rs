@@ -7,16 +7,21 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
+use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
-use leafmodel::plant::{Foot, Plant as Grown, PlantError};
+use leafmodel::plant::{Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::individuals;
+use super::walls;
+use crate::geometry::shapes::Lump;
 use crate::scene::description::{
-    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Plant, SolidOptics,
+    Coat, Description, Held, InstancePlace, Leaf, Material, Mesh, ObjectShape, Plant, Reflectance,
+    SolidOptics, Spectrum,
 };
+use crate::spectrum::library;
 
 /// Most places of the leaves of one object's plants.
 const MOST_PLACES: usize = 1 << 24;
@@ -26,6 +31,18 @@ const MOST_PLACES: usize = 1 << 24;
 const BARK: Contents = Contents::prospect_d([1.5, 10.0, 3.0, 6.0, 1.6, 0.02, 0.03]);
 /// GGX roughness of bark.
 const BARK_ALPHA: f64 = 0.5;
+/// What a green stem holds; by eye.
+const GREEN: Contents = Contents::prospect_d([1.5, 16.0, 4.5, 1.5, 0.05, 0.06, 0.008]);
+/// What white filaments hold, and what pale yellow anthers and a greenish white pistil do; by eye.
+const FILAMENT: Contents = Contents::prospect_d([1.5, 0.4, 0.2, 0.0, 0.0, 0.05, 0.004]);
+const ANTHER: Contents = Contents::prospect_d([1.5, 0.0, 3.2, 0.0, 0.02, 0.03, 0.008]);
+const PISTIL: Contents = Contents::prospect_d([1.5, 1.2, 0.5, 0.0, 0.0, 0.06, 0.004]);
+/// GGX roughness of soft tissue.
+const SOFT_ALPHA: f64 = 0.35;
+/// The measured surface of fired clay.
+const CLAY: &str = "brick-light-red";
+/// Shapes of crumbs of soil.
+const CRUMB_SHAPES: u32 = 5;
 
 /// A plant's parts with the scene's numbers, and their places in the plant's frame, m.
 struct Parts {
@@ -36,16 +53,30 @@ struct Parts {
 /// Replaces the plants of all objects; `keys` are those at the top of the file, to which what is
 /// wrong is reported.
 pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
-    let mut known: BTreeMap<usize, Parts> = BTreeMap::new();
+    // What climbs on an object has a shape of its own in each place.
+    let mut known: BTreeMap<(usize, Option<usize>), Parts> = BTreeMap::new();
     for number in 0..scene.objects.len() {
         let Some(plant) = scene.objects[number].value.plant else {
             continue;
         };
-        let parts = match known.entry(plant) {
+        let climbs = scene.plants[plant].value.wall.is_some();
+        let parts = match known.entry((plant, climbs.then_some(number))) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => {
                 let Named { name, value } = scene.plants[plant].clone();
-                match parts(scene, &name, &value) {
+                let wall = match walls::of(scene, &value, number) {
+                    Ok(wall) => wall,
+                    Err((key, problem, help)) => {
+                        keys.refuse(&["plants", &name, key], problem, help);
+                        return;
+                    }
+                };
+                let own = if climbs {
+                    format!("{name}.{}", scene.objects[number].name)
+                } else {
+                    name.clone()
+                };
+                match parts(scene, &own, &value, wall.as_ref()) {
                     Ok(parts) => place.insert(parts),
                     Err(error) => {
                         let (key, help) = match error {
@@ -53,6 +84,7 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
                                 ("leaf", "let it bear another leaf")
                             }
                             PlantError::Bent(_) => ("length_mm", "let its axes bend less"),
+                            PlantError::NoPot => ("pot", "make the pot wider"),
                             PlantError::OutOfRange { .. }
                             | PlantError::NoRoom { .. }
                             | PlantError::TooLarge => ("nodes", "use fewer nodes or branches"),
@@ -92,9 +124,17 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
 }
 
 /// Grows a plant and adds its leaves, its axes and their bark to the scene.
-fn parts(scene: &mut Description, name: &str, plant: &Plant) -> Result<Parts, PlantError> {
-    let individuals: Vec<Vec<Leaf>> = plant
-        .leaves
+fn parts(
+    scene: &mut Description,
+    name: &str,
+    plant: &Plant,
+    wall: Option<&Wall>,
+) -> Result<Parts, PlantError> {
+    let mut kinds = plant.leaves.clone();
+    if plant.plan.flower.is_some() {
+        kinds.extend(plant.perianth.iter().flatten());
+    }
+    let individuals: Vec<Vec<Leaf>> = kinds
         .iter()
         .map(|&leaf| individuals(&scene.leaves[leaf].value, plant.plan.individuals))
         .collect();
@@ -103,35 +143,95 @@ fn parts(scene: &mut Description, name: &str, plant: &Plant) -> Result<Parts, Pl
         .iter()
         .map(|leaves| leaves.iter().map(foot).collect::<Result<Vec<_>, _>>());
     let feet = feet.collect::<Result<Vec<_>, _>>()?;
-    let grown = Grown::grow(&plant.plan, &feet)?;
-    let extrapolate = plant
-        .leaves
+    let grown = match wall {
+        Some(wall) => Grown::grow_on(&plant.plan, &feet, Some(wall))?,
+        None => Grown::grow(&plant.plan, &feet)?,
+    };
+    let extrapolate = kinds
         .iter()
         .any(|&leaf| scene.leaves[leaf].value.extrapolate);
-    let material = plant.bark.unwrap_or_else(|| {
-        scene.materials.push(Named {
-            name: format!("{name}.bark"),
-            value: bark(extrapolate),
-        });
-        scene.materials.len() - 1
-    });
-    scene.meshes.push(Named {
-        name: format!("{name}.axes"),
-        value: Mesh::Axes(Arc::new(grown.axes)),
-    });
     let mut parts = Parts {
-        shapes: vec![ObjectShape::Mesh {
-            mesh: scene.meshes.len() - 1,
-            material,
-        }],
-        places: vec![(0, DAffine3::IDENTITY)],
+        shapes: Vec::new(),
+        places: Vec::new(),
     };
+    let stem = || tissue(GREEN, SOFT_ALPHA, extrapolate);
+    let bark = || {
+        if plant.plan.is_green {
+            stem()
+        } else {
+            tissue(BARK, BARK_ALPHA, extrapolate)
+        }
+    };
+    let own = (plant.bark, "bark");
+    let material = material_of(scene, name, own, bark);
+    add_body(
+        scene,
+        &mut parts,
+        format!("{name}.axes"),
+        grown.axes,
+        material,
+    );
+    let mut of_soil = None;
+    for (organ, body) in grown.organs {
+        let [pot, soil] = plant.potting;
+        let (own, what) = match organ {
+            Organ::Peduncle => ((plant.bark, "stem"), stem()),
+            Organ::Filaments => (
+                (None, "filaments"),
+                tissue(FILAMENT, SOFT_ALPHA, extrapolate),
+            ),
+            Organ::Anthers => ((None, "anthers"), tissue(ANTHER, BARK_ALPHA, extrapolate)),
+            Organ::Pistil => ((None, "pistil"), tissue(PISTIL, SOFT_ALPHA, extrapolate)),
+            Organ::Pot => ((pot, "pot"), clay(extrapolate)),
+            Organ::Soil => {
+                let moisture = plant.plan.pot.map_or(0.5, |pot| pot.moisture);
+                ((soil, "soil"), even(library::soil(moisture), extrapolate))
+            }
+        };
+        let material = material_of(scene, name, own, || what);
+        if organ == Organ::Soil {
+            of_soil = Some(material);
+        }
+        let number = scene.meshes.len();
+        add_body(
+            scene,
+            &mut parts,
+            format!("{name}.{}.{number}", own.1),
+            body,
+            material,
+        );
+    }
+    if let Some(material) = of_soil.filter(|_| !grown.crumbs.is_empty()) {
+        let first = parts.shapes.len() as u32;
+        for shape in 0..CRUMB_SHAPES {
+            scene.meshes.push(Named {
+                name: format!("{name}.crumb.{shape}"),
+                value: Mesh::Lump(Lump {
+                    radius: 1e-3,
+                    angularity: 0.35,
+                    irregularity: 0.5,
+                    segments: 18,
+                    seed: u64::from(shape),
+                }),
+            });
+            let mesh = scene.meshes.len() - 1;
+            parts.shapes.push(ObjectShape::Mesh { mesh, material });
+        }
+        parts.places.extend(grown.crumbs.iter().map(|crumb| {
+            let place = DAffine3::from_scale_rotation_translation(
+                DVec3::splat(crumb.radius_mm),
+                crumb.turn,
+                crumb.at * 1e-3,
+            );
+            (first + crumb.shape % CRUMB_SHAPES, place)
+        }));
+    }
     let mut shapes: BTreeMap<(usize, u32), u32> = BTreeMap::new();
     for leaf in &grown.leaves {
         let shape = *shapes
-            .entry((plant.leaves[leaf.kind], leaf.individual))
+            .entry((kinds[leaf.kind], leaf.individual))
             .or_insert_with(|| {
-                let kind = plant.leaves[leaf.kind];
+                let kind = kinds[leaf.kind];
                 // The first individual is the leaf itself.
                 let number = if leaf.individual == 0 {
                     kind
@@ -155,18 +255,71 @@ fn parts(scene: &mut Description, name: &str, plant: &Plant) -> Result<Parts, Pl
     Ok(parts)
 }
 
-fn bark(extrapolate: bool) -> Material {
+/// The number of a material that the file names, or of a new one.
+fn material_of(
+    scene: &mut Description,
+    name: &str,
+    (named, what): (Option<usize>, &str),
+    usual: impl FnOnce() -> Material,
+) -> usize {
+    named.unwrap_or_else(|| {
+        scene.materials.push(Named {
+            name: format!("{name}.{what}"),
+            value: usual(),
+        });
+        scene.materials.len() - 1
+    })
+}
+
+/// Adds a body of the plant in its own frame.
+fn add_body(
+    scene: &mut Description,
+    parts: &mut Parts,
+    name: String,
+    body: StalkMesh,
+    material: usize,
+) {
+    scene.meshes.push(Named {
+        name,
+        value: Mesh::Axes(Arc::new(body)),
+    });
+    let mesh = scene.meshes.len() - 1;
+    let shape = parts.shapes.len() as u32;
+    parts.shapes.push(ObjectShape::Mesh { mesh, material });
+    parts.places.push((shape, DAffine3::IDENTITY));
+}
+
+/// A matt surface of a measured spectrum.
+fn even(points: Vec<(f64, f64)>, extrapolate: bool) -> Material {
+    Material::Diffuse {
+        reflectance: Reflectance::Even(Spectrum::Table {
+            points,
+            extrapolate,
+        }),
+    }
+}
+
+fn clay(extrapolate: bool) -> Material {
+    let number = library::SURFACES.iter().position(|name| *name == CLAY);
+    even(
+        library::surface(number.expect("it is one of them")),
+        extrapolate,
+    )
+}
+
+/// Solid tissue with these contents.
+fn tissue(contents: Contents, alpha: f64, extrapolate: bool) -> Material {
     let usual = SolidOptics::usual();
     Material::Solid {
         held: Held::Contents {
-            contents: BARK,
+            contents,
             extrapolate,
         },
         pigments: Box::new(Pigments::default()),
         optics: SolidOptics {
             coat: Coat {
-                alpha_across: BARK_ALPHA,
-                alpha_along: BARK_ALPHA,
+                alpha_across: alpha,
+                alpha_along: alpha,
                 ..usual.coat
             },
             ..usual

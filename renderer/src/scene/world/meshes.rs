@@ -11,8 +11,8 @@ use crate::scene::description;
 use crate::scene::plants::tube;
 
 /// A mesh that was built.
-pub(super) struct Built {
-    pub(super) mesh: TriangleMesh,
+pub(in crate::scene) struct Built {
+    pub(in crate::scene) mesh: TriangleMesh,
     /// Its own colours, if it has some and they are wanted.
     pub(super) colours: Option<ColourMap>,
     /// What of its file was left out.
@@ -20,7 +20,7 @@ pub(super) struct Built {
 }
 
 /// Reads or makes a mesh; `colours` says whether a material wants its own.
-pub(super) fn build_mesh(
+pub(in crate::scene) fn build_mesh(
     name: &str,
     mesh: &description::Mesh,
     colours: bool,
@@ -72,6 +72,7 @@ fn plain_mesh(name: &str, mesh: &description::Mesh) -> Result<TriangleMesh, Worl
         description::Mesh::Drop(drop) => drop.mesh().map_err(named),
         description::Mesh::Lump(lump) => lump.mesh().map_err(named),
         description::Mesh::Terrain(terrain) => terrain.mesh().map_err(named),
+        description::Mesh::Masonry(wall) => wall.mesh().map_err(named),
         description::Mesh::Gltf { .. } => unreachable!("it has colours and was built before"),
         description::Mesh::Axes(axes) => {
             let (positions, normals) = tube(axes);
