@@ -7,6 +7,9 @@ use super::{AxisPlan, PlantError};
 use crate::rotation::about;
 use crate::shape::chance::{Use, bell};
 
+/// Radius of the tightest bend by which an axis follows a wall, mm: it bridges narrow joints.
+const STIFFNESS_MM: f64 = 60.0;
+
 /// Pieces of an internode.
 const PIECES: usize = 6;
 /// Width of a node's swelling, in radii of the axis.
@@ -152,13 +155,53 @@ impl AxisPlan {
         }
         axis.thicken(self, &nodes, &ways);
         if let Some(wall) = start.wall {
-            wall.lay(&mut axis);
+            axis.lie_on(wall);
         }
         axis
     }
 }
 
 impl Axis {
+    /// Lays an axis that was grown in the plane onto the wall: each point lies as high as the axis is
+    /// thick, or higher, where it is too stiff to follow.
+    fn lie_on(&mut self, wall: &Wall) {
+        let needed: Vec<f64> = (self.points.iter().zip(&self.radii))
+            .map(|(point, radius)| wall.needed(*point, *radius))
+            .collect();
+        let mut ways = vec![0.0];
+        for pair in self.points.windows(2) {
+            ways.push(ways[ways.len() - 1] + pair[0].distance(pair[1]));
+        }
+        let lifted: Vec<f64> = (0..needed.len())
+            .map(|here| {
+                let bridge = |there: usize| {
+                    let away = ways[there] - ways[here];
+                    needed[there] - away * away / (2.0 * STIFFNESS_MM)
+                };
+                (0..needed.len()).map(bridge).fold(needed[here], f64::max)
+            })
+            .collect();
+        let flat = self.points.clone();
+        for (point, lift) in self.points.iter_mut().zip(&lifted) {
+            *point += wall.away() * lift;
+        }
+        for node in &mut self.nodes {
+            // The point of the middle line that is nearest in the plane.
+            let near = (0..flat.len())
+                .min_by(|a, b| {
+                    let far = |number: &usize| flat[*number].distance_squared(node.at);
+                    far(a).total_cmp(&far(b))
+                })
+                .unwrap_or(0);
+            node.at += wall.away() * lifted[near];
+            let [from, to] = [near.saturating_sub(1), (near + 1).min(flat.len() - 1)];
+            let along = self.points[to] - self.points[from];
+            node.along = along.try_normalize().unwrap_or(node.along);
+            let radial = node.radial - node.along * node.radial.dot(node.along);
+            node.radial = radial.normalize();
+        }
+    }
+
     /// Adds points where nodes swell, and gives every point its radius.
     fn thicken(&mut self, plan: &AxisPlan, nodes: &[f64], ways: &[f64]) {
         let length = plan.length_mm;

@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::axis::Axis;
 use crate::rotation::about;
 
 /// How a plant climbs. Angles are radians.
@@ -28,8 +27,6 @@ impl Climbing {
     };
 }
 
-/// Radius of the tightest bend by which an axis follows the wall, mm: it bridges narrow joints.
-const STIFFNESS_MM: f64 = 60.0;
 /// Turns by which a blade that is too near is raised, and how far each goes beyond what is missing.
 const RAISES: u32 = 6;
 /// Most cells of a wall.
@@ -167,53 +164,13 @@ impl Wall {
         self.away
     }
 
-    /// Lays an axis that was grown in the plane onto the wall: each point lies as high as the axis is
-    /// thick, or higher, where it is too stiff to follow.
-    pub(super) fn lay(&self, axis: &mut Axis) {
-        let needed: Vec<f64> = axis
-            .points
-            .iter()
-            .zip(&axis.radii)
-            .map(|(point, radius)| {
-                // The axis is as wide as it is thick.
-                let side = self.axes.map(|axis| axis * (0.7 * radius));
-                let around = [DVec3::ZERO, side[0], -side[0], side[1], -side[1]];
-                let heights = around.map(|offset| self.height(*point + offset));
-                heights.into_iter().fold(f64::MIN, f64::max) + 0.95 * radius
-            })
-            .collect();
-        let mut ways = vec![0.0];
-        for pair in axis.points.windows(2) {
-            ways.push(ways[ways.len() - 1] + pair[0].distance(pair[1]));
-        }
-        let lifted: Vec<f64> = (0..needed.len())
-            .map(|here| {
-                let bridge = |there: usize| {
-                    let away = ways[there] - ways[here];
-                    needed[there] - away * away / (2.0 * STIFFNESS_MM)
-                };
-                (0..needed.len()).map(bridge).fold(needed[here], f64::max)
-            })
-            .collect();
-        let flat = axis.points.clone();
-        for (point, lift) in axis.points.iter_mut().zip(&lifted) {
-            *point += self.away * lift;
-        }
-        for node in &mut axis.nodes {
-            // The point of the middle line that is nearest in the plane.
-            let near = (0..flat.len())
-                .min_by(|a, b| {
-                    let far = |number: &usize| flat[*number].distance_squared(node.at);
-                    far(a).total_cmp(&far(b))
-                })
-                .unwrap_or(0);
-            node.at += self.away * lifted[near];
-            let [from, to] = [near.saturating_sub(1), (near + 1).min(flat.len() - 1)];
-            let along = axis.points[to] - axis.points[from];
-            node.along = along.try_normalize().unwrap_or(node.along);
-            let radial = node.radial - node.along * node.radial.dot(node.along);
-            node.radial = radial.normalize();
-        }
+    /// How high the middle line of an axis of this radius must lie at a point of the plane, mm.
+    pub(super) fn needed(&self, point: DVec3, radius: f64) -> f64 {
+        // The axis is as wide as it is thick.
+        let side = self.axes.map(|axis| axis * (0.7 * radius));
+        let around = [DVec3::ZERO, side[0], -side[0], side[1], -side[1]];
+        let heights = around.map(|offset| self.height(point + offset));
+        heights.into_iter().fold(f64::MIN, f64::max) + 0.95 * radius
     }
 }
 

@@ -32,12 +32,12 @@ pub(super) fn stem_of(
         if let Some(wall) = wall {
             let across = wall.beside(DVec3::Z);
             // Left and right by turns, so that the first stands in the middle.
-            let side = if stem % 2 == 0 { 1.0 } else { -1.0 };
+            let side = if stem.is_multiple_of(2) { 1.0 } else { -1.0 };
             let out = side * (f64::from(stem.div_ceil(2)) + 0.4 * (chance(0) - 0.5))
                 / f64::from(stems.count / 2).max(1.0);
             at = wall.below(across * (out * stems.spread_mm));
             let lean = stems.fan * (out + 0.3 * (chance(1) - 0.5));
-            along = about(wall.away(), lean * -1.0) * along;
+            along = about(wall.away(), -lean) * along;
         } else {
             let turned = f64::from(stem) * Phyllotaxis::SPIRAL.divergence + chance(0);
             let (sin, cos) = libm::sincos(turned);

@@ -136,6 +136,12 @@ pub(super) fn trillium_sepal() -> LeafPlan {
     plan.form.fold = 18.0_f64.to_radians();
     plan.form.curl = 25.0_f64.to_radians();
     plan.form.ruffle = 0.01;
+    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation
+        && let Some(architecture) = &mut auxin.architecture
+    {
+        // Half as wide as a petal: there is room for fewer, also on a narrow individual.
+        architecture.primaries.laterals = 2;
+    }
     plan
 }
 

@@ -27,7 +27,7 @@ use thiserror::Error;
 
 use self::drops::{Nearby, Standing, merged};
 use self::pile::Pile;
-use self::points::Spaced;
+use self::points::{Measure, Spaced};
 use super::scramble::scramble;
 
 pub use self::body::Body;
@@ -228,19 +228,7 @@ impl Scatter {
         if measure.total() <= 0.0 {
             return Err(ScatterError::NoSurface { rests });
         }
-        let wanted = match self.amount {
-            Amount::Count(count) => f64::from(count),
-            Amount::PerSquareMetre(density) => (density * measure.total()).round(),
-        };
-        let most = if rests { MOST_AT_REST } else { MOST_THINGS };
-        if wanted > most as f64 {
-            return Err(ScatterError::TooMany { wanted, most });
-        }
-        if wanted < 1.0 {
-            let area = measure.total();
-            return Err(ScatterError::None { area });
-        }
-        let wanted = wanted as usize;
+        let wanted = self.wanted(measure.total(), rests)?;
         let mut pile = None;
         if rests {
             let radii = || bodies.iter().map(Body::radius);
@@ -268,21 +256,7 @@ impl Scatter {
             }
             in_a_row += 1;
             let random = |what: Use| self.random(number, what);
-            let places = [Use::Triangle, Use::Across, Use::Along];
-            let (mut point, mut normal) = measure.point(places.map(random));
-            if let Some(nearby) = &nearby
-                && random(Use::Furrow) < self.furrows
-            {
-                let mut most = nearby.hollowness(point, normal);
-                for choice in 1..CHOICES {
-                    let other = |what: Use| self.random(number | (choice << 40), what);
-                    let (place, up) = measure.point(places.map(other));
-                    let hollow = nearby.hollowness(place, up);
-                    if hollow > most {
-                        (point, normal, most) = (place, up, hollow);
-                    }
-                }
-            }
+            let (point, normal) = self.point(number, &measure, nearby.as_ref());
             if !spaced.has_room(point) {
                 failures[NoPlace::Near as usize] += 1;
                 continue;
@@ -338,26 +312,76 @@ impl Scatter {
                 why: why.unwrap_or(NoPlace::Near),
             });
         }
-        if let (Some(nearby), Rest::Fixed { sink }, true) = (&nearby, self.rest, self.merge) {
-            let turned = |from: DVec3, to: DVec3, turn: DMat3| {
-                if self.upright {
-                    turn
-                } else {
-                    from_z(to) * from_z(from).transpose() * turn
-                }
-            };
-            let drops = merged(standing, &widths, nearby, turned).into_iter();
-            let drops = drops.map(|drop| {
-                let up = if self.upright { DVec3::Z } else { drop.up };
-                let at = drop.point - up * sink;
-                Strewn {
-                    body: drop.body,
-                    to_world: DAffine3::from_mat3_translation(drop.turn * drop.scale, at),
-                }
-            });
-            return Ok(drops.collect());
+        match (&nearby, self.rest) {
+            (Some(nearby), Rest::Fixed { sink }) if self.merge => {
+                Ok(self.run_together(standing, &widths, nearby, sink))
+            }
+            _ => Ok(found),
         }
-        Ok(found)
+    }
+
+    /// How many things are wanted on a surface of this area, m².
+    fn wanted(&self, area: f64, rests: bool) -> Result<usize, ScatterError> {
+        let wanted = match self.amount {
+            Amount::Count(count) => f64::from(count),
+            Amount::PerSquareMetre(density) => (density * area).round(),
+        };
+        let most = if rests { MOST_AT_REST } else { MOST_THINGS };
+        if wanted > most as f64 {
+            return Err(ScatterError::TooMany { wanted, most });
+        }
+        if wanted < 1.0 {
+            return Err(ScatterError::None { area });
+        }
+        Ok(wanted as usize)
+    }
+
+    /// Where a thing with this number comes to stand, and the surface's normal there: with the share
+    /// `furrows` the deepest hollow of some random places.
+    fn point(&self, number: u64, measure: &Measure, nearby: Option<&Nearby>) -> (DVec3, DVec3) {
+        let places = [Use::Triangle, Use::Across, Use::Along];
+        let (mut point, mut normal) = measure.point(places.map(|what| self.random(number, what)));
+        if let Some(nearby) = nearby
+            && self.random(number, Use::Furrow) < self.furrows
+        {
+            let mut most = nearby.hollowness(point, normal);
+            for choice in 1..CHOICES {
+                let other = |what: Use| self.random(number | (choice << 40), what);
+                let (place, up) = measure.point(places.map(other));
+                let hollow = nearby.hollowness(place, up);
+                if hollow > most {
+                    (point, normal, most) = (place, up, hollow);
+                }
+            }
+        }
+        (point, normal)
+    }
+
+    /// Things of which those that touch have run together, `sink` below the surface.
+    fn run_together(
+        &self,
+        standing: Vec<Standing>,
+        widths: &[f64],
+        nearby: &Nearby,
+        sink: f64,
+    ) -> Vec<Strewn> {
+        let turned = |from: DVec3, to: DVec3, turn: DMat3| {
+            if self.upright {
+                turn
+            } else {
+                from_z(to) * from_z(from).transpose() * turn
+            }
+        };
+        let drops = merged(standing, widths, nearby, turned).into_iter();
+        let drops = drops.map(|drop| {
+            let up = if self.upright { DVec3::Z } else { drop.up };
+            let at = drop.point - up * sink;
+            Strewn {
+                body: drop.body,
+                to_world: DAffine3::from_mat3_translation(drop.turn * drop.scale, at),
+            }
+        });
+        drops.collect()
     }
 
     /// The turn of a thing about its own axes, before the surface turns it.

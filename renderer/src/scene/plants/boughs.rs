@@ -12,7 +12,7 @@ use leafmodel::blade::stalk::StalkMesh;
 use leafmodel::document::keys::Keys;
 use leafmodel::document::names::Named;
 use leafmodel::optics::{Contents, Pigments};
-use leafmodel::plant::{Foot, Organ, Plant as Grown, PlantError, Wall};
+use leafmodel::plant::{Crumb, Foot, Organ, Plant as Grown, PlantError, Wall};
 
 use super::individuals::individuals;
 use super::walls;
@@ -143,7 +143,7 @@ fn parts(
         .iter()
         .map(|leaves| leaves.iter().map(foot).collect::<Result<Vec<_>, _>>());
     let feet = feet.collect::<Result<Vec<_>, _>>()?;
-    let grown = match wall {
+    let mut grown = match wall {
         Some(wall) => Grown::grow_on(&plant.plan, &feet, Some(wall))?,
         None => Grown::grow(&plant.plan, &feet)?,
     };
@@ -154,6 +154,21 @@ fn parts(
         shapes: Vec::new(),
         places: Vec::new(),
     };
+    let soil = add_organs(scene, &mut parts, (name, plant, extrapolate), &mut grown);
+    if let Some(soil) = soil {
+        add_crumbs(scene, &mut parts, (name, soil), &grown.crumbs);
+    }
+    add_leaves(scene, &mut parts, name, (&kinds, &individuals), &grown);
+    Ok(parts)
+}
+
+/// Adds axes and organs of a plant, with their materials; the material of its soil.
+fn add_organs(
+    scene: &mut Description,
+    parts: &mut Parts,
+    (name, plant, extrapolate): (&str, &Plant, bool),
+    grown: &mut Grown,
+) -> Option<usize> {
     let stem = || tissue(GREEN, SOFT_ALPHA, extrapolate);
     let bark = || {
         if plant.plan.is_green {
@@ -162,17 +177,11 @@ fn parts(
             tissue(BARK, BARK_ALPHA, extrapolate)
         }
     };
-    let own = (plant.bark, "bark");
-    let material = material_of(scene, name, own, bark);
-    add_body(
-        scene,
-        &mut parts,
-        format!("{name}.axes"),
-        grown.axes,
-        material,
-    );
+    let material = material_of(scene, name, (plant.bark, "bark"), bark);
+    let axes = std::mem::take(&mut grown.axes);
+    add_body(scene, parts, format!("{name}.axes"), axes, material);
     let mut of_soil = None;
-    for (organ, body) in grown.organs {
+    for (organ, body) in std::mem::take(&mut grown.organs) {
         let [pot, soil] = plant.potting;
         let (own, what) = match organ {
             Organ::Peduncle => ((plant.bark, "stem"), stem()),
@@ -193,66 +202,79 @@ fn parts(
             of_soil = Some(material);
         }
         let number = scene.meshes.len();
-        add_body(
-            scene,
-            &mut parts,
-            format!("{name}.{}.{number}", own.1),
-            body,
-            material,
+        let named = format!("{name}.{}.{number}", own.1);
+        add_body(scene, parts, named, body, material);
+    }
+    of_soil
+}
+
+/// Adds crumbs of soil, which has this material.
+fn add_crumbs(
+    scene: &mut Description,
+    parts: &mut Parts,
+    (name, material): (&str, usize),
+    crumbs: &[Crumb],
+) {
+    if crumbs.is_empty() {
+        return;
+    }
+    let first = parts.shapes.len() as u32;
+    for shape in 0..CRUMB_SHAPES {
+        scene.meshes.push(Named {
+            name: format!("{name}.crumb.{shape}"),
+            value: Mesh::Lump(Lump {
+                radius: 1e-3,
+                angularity: 0.35,
+                irregularity: 0.5,
+                segments: 18,
+                seed: u64::from(shape),
+            }),
+        });
+        let mesh = scene.meshes.len() - 1;
+        parts.shapes.push(ObjectShape::Mesh { mesh, material });
+    }
+    parts.places.extend(crumbs.iter().map(|crumb| {
+        let place = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(crumb.radius_mm),
+            crumb.turn,
+            crumb.at * 1e-3,
         );
-    }
-    if let Some(material) = of_soil.filter(|_| !grown.crumbs.is_empty()) {
-        let first = parts.shapes.len() as u32;
-        for shape in 0..CRUMB_SHAPES {
-            scene.meshes.push(Named {
-                name: format!("{name}.crumb.{shape}"),
-                value: Mesh::Lump(Lump {
-                    radius: 1e-3,
-                    angularity: 0.35,
-                    irregularity: 0.5,
-                    segments: 18,
-                    seed: u64::from(shape),
-                }),
-            });
-            let mesh = scene.meshes.len() - 1;
-            parts.shapes.push(ObjectShape::Mesh { mesh, material });
-        }
-        parts.places.extend(grown.crumbs.iter().map(|crumb| {
-            let place = DAffine3::from_scale_rotation_translation(
-                DVec3::splat(crumb.radius_mm),
-                crumb.turn,
-                crumb.at * 1e-3,
-            );
-            (first + crumb.shape % CRUMB_SHAPES, place)
-        }));
-    }
+        (first + crumb.shape % CRUMB_SHAPES, place)
+    }));
+}
+
+/// Adds the leaves of a plant, each individual once.
+fn add_leaves(
+    scene: &mut Description,
+    parts: &mut Parts,
+    name: &str,
+    (kinds, individuals): (&[usize], &[Vec<Leaf>]),
+    grown: &Grown,
+) {
     let mut shapes: BTreeMap<(usize, u32), u32> = BTreeMap::new();
     for leaf in &grown.leaves {
-        let shape = *shapes
-            .entry((kinds[leaf.kind], leaf.individual))
-            .or_insert_with(|| {
-                let kind = kinds[leaf.kind];
-                // The first individual is the leaf itself.
-                let number = if leaf.individual == 0 {
-                    kind
-                } else {
-                    let of = &scene.leaves[kind].name;
-                    scene.leaves.push(Named {
-                        name: format!("{of}.{name}.{}", leaf.individual + 1),
-                        value: individuals[leaf.kind][leaf.individual as usize].clone(),
-                    });
-                    scene.leaves.len() - 1
-                };
-                parts.shapes.push(ObjectShape::Leaf { leaf: number });
-                parts.shapes.len() as u32 - 1
-            });
+        let kind = kinds[leaf.kind];
+        let shape = *shapes.entry((kind, leaf.individual)).or_insert_with(|| {
+            // The first individual is the leaf itself.
+            let number = if leaf.individual == 0 {
+                kind
+            } else {
+                let of = &scene.leaves[kind].name;
+                scene.leaves.push(Named {
+                    name: format!("{of}.{name}.{}", leaf.individual + 1),
+                    value: individuals[leaf.kind][leaf.individual as usize].clone(),
+                });
+                scene.leaves.len() - 1
+            };
+            parts.shapes.push(ObjectShape::Leaf { leaf: number });
+            parts.shapes.len() as u32 - 1
+        });
         let to_plant = DAffine3 {
             translation: leaf.to_plant.translation * 1e-3,
             ..leaf.to_plant
         };
         parts.places.push((shape, to_plant));
     }
-    Ok(parts)
 }
 
 /// The number of a material that the file names, or of a new one.
