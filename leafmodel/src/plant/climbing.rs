@@ -204,7 +204,9 @@ impl Climbing {
     /// The direction in which a petiole stands out from an axis on the wall, of which `radial` is
     /// the part along the wall.
     pub(super) fn lifted(&self, radial: DVec3, along: DVec3) -> DVec3 {
-        let away = (self.away - along * self.away.dot(along)).normalize();
+        // At right angles to both, also where the axis bends over the wall's relief.
+        let across = self.away - along * self.away.dot(along);
+        let away = (across - radial * across.dot(radial)).normalize();
         radial * libm::cos(self.lift) + away * libm::sin(self.lift)
     }
 
