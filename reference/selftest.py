@@ -598,7 +598,13 @@ BEYOND_A_SCHEMA = """
     venation_agrophic venation_cells venation_craspedodromous venation_origin venation_origins_meet
     venation_pairs venation_quaternaries venation_sinus venation_transport_fine venation_young
     wilting_on_ground wrong_file
-""".split()
+""".split(
+    "plant_climbs_on_many",
+    "plant_flower",
+    "plant_pot",
+    "plant_wall",
+    "sensitivities_file",
+    "white_light",)
 
 
 def scene_schema() -> jsonschema_rs.Validator:
