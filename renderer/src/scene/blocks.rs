@@ -258,7 +258,7 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         bark: None,
         perianth: [None; 2],
         potting: [None; 2],
-        wall: None,
+        walls: Vec::new(),
     };
     section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     if purpose == Purpose::Instruments

@@ -415,8 +415,8 @@ pub struct Plant {
     /// The materials of its pot and of the soil in it: indices into [`Description::materials`];
     /// `None` is fired clay, and soil of the pot's moisture.
     pub potting: [Option<usize>; 2],
-    /// The object on which it climbs: index into [`Description::objects`].
-    pub wall: Option<usize>,
+    /// The objects on which it climbs: indices into [`Description::objects`].
+    pub walls: Vec<usize>,
 }
 
 /// A light.

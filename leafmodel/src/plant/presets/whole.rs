@@ -13,18 +13,18 @@ pub(super) fn croton_in_pot() -> PlantPlan {
     PlantPlan {
         individuals: 8,
         axis: AxisPlan {
-            length_mm: 300.0,
-            nodes: 26,
-            bare: 0.24,
-            shortening: 0.95,
-            radius_mm: [5.0, 2.2],
+            length_mm: 280.0,
+            nodes: 27,
+            bare: 0.22,
+            shortening: 0.94,
+            radius_mm: [5.0, 1.8],
             stray: 0.03,
             ..shoot.axis
         },
         posture: Posture {
-            angle: [1.35, 0.35],
-            size: [0.95, 1.0, 0.5],
-            to_light: 0.35,
+            angle: [1.3, 0.16],
+            size: [0.95, 1.0, 0.42],
+            to_light: 0.12,
             stray: 0.14,
             ..shoot.posture
         },

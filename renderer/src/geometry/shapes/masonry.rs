@@ -319,7 +319,8 @@ fn waves(seed: u64, longest: f64, shortest: f64) -> Vec<impl Fn(DVec2) -> f64> {
             let relative = libm::pow(shortest / longest, share);
             let (sin, cos) = libm::sincos(TAU * at(1));
             let vector = DVec2::new(cos, sin) * (TAU / (longest * relative));
-            let (height, phase) = (0.5 * libm::pow(relative, 0.8), TAU * at(2));
+            // Short waves are much lower, or a brick would be rippled.
+            let (height, phase) = (0.5 * libm::pow(relative, 1.3), TAU * at(2));
             move |place: DVec2| height * libm::cos(vector.dot(place) + phase)
         })
         .collect()

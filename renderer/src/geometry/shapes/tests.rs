@@ -117,3 +117,55 @@ fn ground_is_as_uneven_as_it_should_be() {
         "{least} {most}"
     );
 }
+
+fn wall() -> Masonry {
+    Masonry {
+        size: [0.9, 0.45],
+        part: MasonryPart::Bricks,
+        brick: [0.215, 0.065],
+        joint: 0.01,
+        recess: 0.006,
+        roughness: 0.6,
+        kind: [1, 1],
+        seed: 3,
+    }
+}
+
+#[test]
+fn bricks_stand_before_their_mortar_and_within_the_wall() {
+    let bricks = wall().mesh().expect("a good wall");
+    let mortar = Masonry {
+        part: MasonryPart::Mortar,
+        ..wall()
+    };
+    let mortar = mortar.mesh().expect("a good wall");
+    let (least, most) = bricks.bounds();
+    // Faces at x = 0 within their unevenness, backs behind the mortar.
+    assert!(most.x > -0.001 && most.x < 0.006, "{most}");
+    assert!(least.x < mortar.bounds().0.x, "{least}");
+    assert!(mortar.bounds().1.x < -0.003);
+    // Displaced by up to 1.2 mm.
+    assert!(least.y > -0.452 && most.y < 0.452 && least.z > -0.002 && most.z < 0.452);
+    // The joints take a sixth of the wall.
+    let front: f64 = bricks
+        .triangles()
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(|corner| bricks.positions()[corner as usize].as_dvec3());
+            0.5 * (b - a).cross(c - a).x.max(0.0)
+        })
+        .sum();
+    assert!((0.78..0.9).contains(&(front / (0.9 * 0.45))), "{front}");
+    assert_eq!(bricks.dropped().total(), 0);
+}
+
+#[test]
+fn the_kinds_of_bricks_are_together_the_wall() {
+    let count = |kind: [u32; 2]| {
+        let wall = Masonry { kind, ..wall() };
+        wall.mesh().map_or(0, |mesh| mesh.triangles().len())
+    };
+    let kinds = [1, 2, 3].map(|kind| count([kind, 3]));
+    assert_eq!(kinds.iter().sum::<usize>(), count([1, 1]));
+    assert!(kinds.iter().all(|kind| *kind > 0), "{kinds:?}");
+}

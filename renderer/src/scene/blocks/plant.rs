@@ -18,9 +18,11 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
     let kind = NameIn("materials", "the name of a material");
     let about = "What its axes and buds are made of; left out, young brown bark.";
     keys.optional("bark", &mut plant.bark, kind, about);
-    let kind = NameIn("objects", "the name of an object");
-    let about = "The object on which it climbs, a mesh in one place; left out, an even wall.";
-    keys.optional("wall", &mut plant.wall, kind, about);
+    let mut walls = Vec::new();
+    let kind = NamesIn("objects", "the name of an object");
+    let about = "The objects on which it climbs, each a mesh in one place; left out, an even wall.";
+    keys.key("wall", &mut walls, kind, about);
+    plant.walls = walls.into_iter().map(|(object, _)| object).collect();
     let [sepal, petal] = &mut plant.perianth;
     let about = "The leaf that is a sepal of its flower.";
     let kind = || NameIn("leaves", "the name of a leaf");
@@ -40,7 +42,7 @@ pub(super) fn plant(plant: &mut Plant, keys: &mut Keys<'_>) {
             `trillium-sepal` and `trillium-petal`";
         keys.refuse(&[], "its flower lacks sepals or petals".to_owned(), help);
     }
-    if plant.wall.is_some() && plant.plan.climbing.is_none() {
+    if !plant.walls.is_empty() && plant.plan.climbing.is_none() {
         let help = "give it a block `climbing`, or leave `wall` out";
         keys.refuse(&["wall"], "the plant does not climb".to_owned(), help);
     }

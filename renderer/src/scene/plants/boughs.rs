@@ -35,7 +35,7 @@ const BARK_ALPHA: f64 = 0.5;
 const GREEN: Contents = Contents::prospect_d([1.5, 16.0, 4.5, 1.5, 0.05, 0.06, 0.008]);
 /// What white filaments hold, and what pale yellow anthers and a greenish white pistil do; by eye.
 const FILAMENT: Contents = Contents::prospect_d([1.5, 0.4, 0.2, 0.0, 0.0, 0.05, 0.004]);
-const ANTHER: Contents = Contents::prospect_d([1.5, 0.0, 3.2, 0.0, 0.02, 0.03, 0.008]);
+const ANTHER: Contents = Contents::prospect_d([1.5, 0.0, 1.0, 0.0, 0.0, 0.03, 0.008]);
 const PISTIL: Contents = Contents::prospect_d([1.5, 1.2, 0.5, 0.0, 0.0, 0.06, 0.004]);
 /// GGX roughness of soft tissue.
 const SOFT_ALPHA: f64 = 0.35;
@@ -59,7 +59,7 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
         let Some(plant) = scene.objects[number].value.plant else {
             continue;
         };
-        let climbs = scene.plants[plant].value.wall.is_some();
+        let climbs = !scene.plants[plant].value.walls.is_empty();
         let parts = match known.entry((plant, climbs.then_some(number))) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => {

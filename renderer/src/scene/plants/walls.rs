@@ -1,6 +1,6 @@
-//! The walls on which plants climb: a mesh of the scene in the plant's frame.
+//! The walls on which plants climb: meshes of the scene in the plant's frame.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use leafmodel::plant::Wall;
 
 use crate::scene::description::{Description, ObjectShape, Plant};
@@ -11,18 +11,29 @@ type Fault = (&'static str, String, &'static str);
 
 /// The wall of the plant that is this object; none if it climbs on none that is given.
 pub(super) fn of(scene: &Description, plant: &Plant, object: usize) -> Result<Option<Wall>, Fault> {
-    let (Some(on), Some(climbing)) = (plant.wall, plant.plan.climbing) else {
+    let Some(climbing) = plant.plan.climbing.filter(|_| !plant.walls.is_empty()) else {
         return Ok(None);
     };
-    let fault = |problem: String, help| Err(("wall", problem, help));
-    let (stands, wall) = (&scene.objects[object], &scene.objects[on]);
+    let stands = &scene.objects[object];
     if stands.value.instances.is_some() || stands.value.is_spread() {
         let problem = format!(
             "the plant climbs on a wall, and `{}` has many places",
             stands.name
         );
-        return fault(problem, "write an object for each place");
+        return Err(("wall", problem, "write an object for each place"));
     }
+    let to_plant = stands.value.to_world.inverse();
+    let mut triangles = Vec::new();
+    for &wall in &plant.walls {
+        triangles.extend(surface(scene, wall, to_plant)?);
+    }
+    Ok(Some(Wall::of(&triangles, climbing.away)))
+}
+
+/// The triangles of an object that is a mesh in one place, in the plant's frame, mm.
+fn surface(scene: &Description, object: usize, to_plant: DMat4) -> Result<Vec<[DVec3; 3]>, Fault> {
+    let fault = |problem: String, help| Err(("wall", problem, help));
+    let wall = &scene.objects[object];
     let (&[ObjectShape::Mesh { mesh, .. }], None, None, false) = (
         wall.value.shapes.as_slice(),
         wall.value.plant,
@@ -35,7 +46,6 @@ pub(super) fn of(scene: &Description, plant: &Plant, object: usize) -> Result<Op
             "name an object with a `mesh`, such as a wall of `masonry`",
         );
     };
-    let to_plant = stands.value.to_world.inverse() * wall.value.to_world;
     let shape = &scene.meshes[mesh];
     let built = match build_mesh(&shape.name, &shape.value, false) {
         Ok(built) => built.mesh,
@@ -44,14 +54,11 @@ pub(super) fn of(scene: &Description, plant: &Plant, object: usize) -> Result<Op
             return fault(error.to_string(), help);
         }
     };
+    let to_plant = to_plant * wall.value.to_world;
     let place = |corner: u32| -> DVec3 {
         let at = built.positions()[corner as usize].as_dvec3();
         to_plant.transform_point3(at) * 1e3
     };
-    let triangles: Vec<[DVec3; 3]> = built
-        .triangles()
-        .iter()
-        .map(|triangle| triangle.map(place))
-        .collect();
-    Ok(Some(Wall::of(&triangles, climbing.away)))
+    let triangles = built.triangles().iter();
+    Ok(triangles.map(|triangle| triangle.map(place)).collect())
 }
