@@ -169,8 +169,8 @@ impl SlabRay {
     pub(super) fn eight<E: Eight>(&self, e: E, planes: &BoxPlanes, limit: f32) -> (E::F, u32) {
         let mut enter = e.splat(self.t_min);
         let mut leave = e.splat(limit);
-        let [near_planes, far_planes] =
-            [self.down, !self.down].map(|down| &NEAR_PLANES[down as usize & 7]);
+        let near_planes = &NEAR_PLANES[self.down as usize & 7];
+        let far_planes = &NEAR_PLANES[!self.down as usize & 7];
         for axis in 0..3 {
             let near = e.load(&planes[near_planes[axis] as usize]);
             let (inverse, offset) = (self.near_inverse[axis], self.near_offset[axis]);
