@@ -13,7 +13,7 @@ use crate::leaf::outline_plan::OutlinePlan;
 use crate::optics::Constituent::{
     Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
 };
-use crate::venation::architecture::{Architecture, PrimaryPattern};
+use crate::venation::architecture::Architecture;
 use crate::venation::plan::{AuxinPlan, Growth};
 
 /// No source appears: only what is laid out.
@@ -91,20 +91,19 @@ pub(super) fn grass() -> LeafPlan {
 }
 
 pub(super) fn trillium() -> LeafPlan {
-    trillium_organ(contours::petal(), architectures::trillium())
-}
-
-fn trillium_organ(outline: OutlinePlan, architecture: Architecture) -> LeafPlan {
     let traits = &leaf_traits::TRILLIUM;
     let venation = AuxinPlan {
         final_length: 400.0,
-        ..dense(traits, architecture, 1.2)
+        ..dense(traits, architectures::trillium(), 1.2)
     };
-    leaf(traits, 1, specimens::entire(outline), venation)
+    leaf(traits, 1, specimens::entire(contours::petal()), venation)
 }
 
-/// A green organ of trillium of this length and thickness, mm; contents are by eye.
-fn green_trillium(mut plan: LeafPlan, length_mm: f64, thickness_mm: f64) -> LeafPlan {
+/// A green organ of trillium with the petal's kind of veins: its length, mm, thickness, mm, and
+/// contents, by eye.
+fn green_trillium(outline: OutlinePlan, length_mm: f64, thickness_mm: f64) -> LeafPlan {
+    let mut plan = trillium();
+    plan.outline = specimens::entire(outline);
     plan.length_mm = length_mm;
     plan.form.thickness_mm = thickness_mm;
     plan.form.max_edge_mm = length_mm / 80.0;
@@ -123,8 +122,7 @@ fn green_trillium(mut plan: LeafPlan, length_mm: f64, thickness_mm: f64) -> Leaf
 
 /// One of the three leaves of the whorl, which floras call bracts.
 pub(super) fn trillium_bract() -> LeafPlan {
-    let organ = trillium_organ(contours::bract(), architectures::trillium());
-    let mut plan = green_trillium(organ, 110.0, 0.3);
+    let mut plan = green_trillium(contours::bract(), 110.0, 0.3);
     plan.form.fold = 10.0_f64.to_radians();
     plan.form.curl = 24.0_f64.to_radians();
     plan.form.ruffle = 0.02;
@@ -132,17 +130,18 @@ pub(super) fn trillium_bract() -> LeafPlan {
 }
 
 pub(super) fn trillium_sepal() -> LeafPlan {
-    // Narrower than a petal: there is room for fewer primaries, which meet towards the tip.
-    let mut architecture = architectures::trillium();
-    architecture.primaries.pattern = PrimaryPattern::Acrodromous;
-    architecture.primaries.laterals = 2;
-    let organ = trillium_organ(contours::sepal(), architecture);
-    let mut plan = green_trillium(organ, 40.0, 0.3);
+    let mut plan = green_trillium(contours::sepal(), 40.0, 0.3);
     plan.tissue.lamina[Chlorophyll] = 26.0;
     plan.tissue.lamina[Carotenoids] = 6.5;
     plan.form.fold = 18.0_f64.to_radians();
     plan.form.curl = 25.0_f64.to_radians();
     plan.form.ruffle = 0.01;
+    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation
+        && let Some(architecture) = &mut auxin.architecture
+    {
+        // Half as wide as a petal: there is room for fewer, also on a narrow individual.
+        architecture.primaries.laterals = 2;
+    }
     plan
 }
 
