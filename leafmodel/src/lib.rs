@@ -81,6 +81,7 @@ pub mod mosaic;
 pub mod optics;
 pub mod plan_file;
 pub mod plant;
+pub mod rest;
 mod rotation;
 pub mod shape;
 mod shell;

@@ -92,4 +92,15 @@ impl CompoundForm {
             tilt: 0.0,
         }
     }
+
+    /// The same form, all in one plane.
+    #[must_use]
+    pub(super) fn flattened(&self) -> Self {
+        Self {
+            curl: 0.0,
+            fold: 0.0,
+            tilt: 0.0,
+            ..self.clone()
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! A whole leaf in space: blades, stalks and the place of each blade.
 
+mod ground;
+
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{
@@ -98,8 +100,10 @@ impl WholeLeaf {
         flat: CompoundLeaf,
         blades: Vec<Leaf>,
     ) -> Self {
+        let lying = plan.stance.on_ground.then(|| form.flattened());
+        let form = lying.as_ref().unwrap_or(form);
         let bend = Bend::new(form, plan.length_mm);
-        let placements = (0_u64..)
+        let mut placements: Vec<_> = (0_u64..)
             .zip(&flat.leaflets)
             .map(|(number, leaflet)| {
                 let tilt = [0, 1].map(|which| {
@@ -116,12 +120,25 @@ impl WholeLeaf {
         for (points, radii) in joined_stalks(&flat) {
             axes.append(bend.tube(&points, &radii));
         }
-        Self {
+        if lying.is_some() {
+            for (placement, leaflet) in placements.iter_mut().zip(&flat.leaflets) {
+                ground::join(
+                    placement,
+                    &blades[placement.blade],
+                    bend.place(leaflet.foot),
+                );
+            }
+        }
+        let mut whole = Self {
             blades,
             placements,
             axes: (!axes.triangles.is_empty()).then_some(axes),
             flat: Some(flat),
+        };
+        if lying.is_some() {
+            whole.put_on_ground();
         }
+        whole
     }
 }
 

@@ -12,7 +12,8 @@ const SHARE: Number = Number(Limits::closed(0.0, 1.0));
 pub(super) fn stance(stance: &mut Stance, keys: &mut Keys<'_>) {
     let rest = [("held", false), ("ground", true)];
     let about = "Whether the leaf is held by its stalk, or lies on the ground, z = 0, under its \
-        weight.";
+        weight. A compound leaf lies on three points, its axes straight whatever its own `curl_deg`, \
+        `fold_deg` and `tilt_deg`.";
     keys.key("rest", &mut stance.on_ground, Word(&rest), about);
     let usual = || MarginGrowth {
         excess: 0.1,

@@ -10,14 +10,13 @@
 //! - **Left out**: forces, friction, bending. Bodies fall straight down, one after the other.
 //!
 //! A body comes to rest where its centre of mass is lowest; for small turns that is a linear
-//! programme in three unknowns (`rest.rs`), which is solved again after each turn.
+//! programme in three unknowns ([`leafmodel::rest`]), which is solved again after each turn.
 
 mod body;
 mod drops;
 mod inclination;
 mod pile;
 mod points;
-mod rest;
 #[cfg(test)]
 mod tests;
 mod volume;

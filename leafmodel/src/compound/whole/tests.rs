@@ -190,3 +190,53 @@ fn a_single_pair_is_at_the_end_of_its_rachis() {
     let axes = whole.axes.expect("it has stalks");
     assert_eq!(axes.validate(), Ok(()));
 }
+
+#[test]
+fn a_leaf_on_the_ground_lies_on_it_flat_and_holds_together() {
+    let arrangements = [Arrangement::Pinnate(feather()), palmate()];
+    for (arrangement, curl) in arrangements.into_iter().zip([2.0, -0.8]) {
+        let mut plan = plan(arrangement, |form| {
+            (form.curl, form.fold, form.tilt) = (curl, 0.5, 0.3);
+        });
+        plan.form.curl = 0.4;
+        let held = WholeLeaf::grow(&plan).expect("a good plan");
+        plan.stance.on_ground = true;
+        let lying = WholeLeaf::grow(&plan).expect("a good plan");
+        let heights = |leaf: &WholeLeaf| {
+            let mut heights: Vec<f64> = leaf
+                .placements
+                .iter()
+                .flat_map(|placement| {
+                    let blade = &leaf.blades[placement.blade];
+                    let stalk = blade.petiole.iter().flat_map(|stalk| &stalk.positions);
+                    let points = blade.mesh.positions.iter().chain(stalk);
+                    points.map(|&p| placement.to_leaf.transform_point3(p).z)
+                })
+                .chain(
+                    leaf.axes
+                        .iter()
+                        .flat_map(|axes| &axes.positions)
+                        .map(|p| p.z),
+                )
+                .collect();
+            heights.sort_by(f64::total_cmp);
+            heights
+        };
+        let (above, before) = (heights(&lying), heights(&held));
+        assert!(before[0] < -1.0, "held it reaches below the plane");
+        assert!(above[0] > -1e-9, "{} mm deep", above[0]);
+        // Of a leaf 150 mm long: it neither stands nor floats.
+        let highest = above[above.len() - 1];
+        assert!(highest < 15.0 && above[2] < 0.5, "{highest} {}", above[2]);
+        // Each petiolule begins inside of the axis.
+        let axes = lying.axes.as_ref().expect("it has axes");
+        for placement in &lying.placements {
+            let stalk = lying.blades[placement.blade].petiole.as_ref();
+            let foot = stalk.expect("leaflets have stalks").positions[0];
+            let foot = placement.to_leaf.transform_point3(foot);
+            let gap = axes.positions.iter().map(|p| p.distance(foot));
+            assert!(gap.fold(f64::INFINITY, f64::min) < 3.0, "{foot}");
+        }
+        assert_eq!(axes.validate(), Ok(()));
+    }
+}

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::body::Body;
-use super::rest::{Contact, support};
 use super::{NoPlace, ScatterError};
+use leafmodel::rest::{Contact, support};
 
 /// Cells along the radius of the smallest body.
 const CELLS_PER_RADIUS: f64 = 100.0;

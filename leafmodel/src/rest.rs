@@ -13,28 +13,44 @@
 //! three corners on which the body lies, with the centre of mass over the triangle between them.
 //! It is found by the dual simplex method: a triple whose triangle holds the origin exchanges one
 //! corner for the one that lies deepest, until none lies deeper than the plane.
+//!
+//! - **In**: corners of a body, and what lies below each.
+//! - **Out**: the slopes over which it turns to lie on three of them.
+//! - **Always true**: the same corners in the same order give the same bits.
+//! - **Left out**: bodies that slide, roll over or bend.
+//!
+//! ```
+//! use glam::DVec2;
+//! use leafmodel::rest::{Contact, support};
+//!
+//! // Three feet on level ground, of which one is shorter: it must go down, the others not.
+//! let feet = [(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (0.0, 2.0, -0.3)];
+//! let feet = feet.map(|(x, y, lift)| Contact { at: DVec2::new(x, y), lift, height: 0.0 });
+//! let support = support(&feet).expect("its centre is between them");
+//! assert!(support.slope.distance(DVec2::new(0.0, -0.1)) < 1e-12);
+//! ```
 
 use glam::{DVec2, DVec3};
 
 /// A corner of a body.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
-    /// Its place in the plan, from the centre of mass, m.
-    pub(super) at: DVec2,
-    /// How far it must be lifted to touch what lies below, m.
-    pub(super) lift: f64,
-    /// Height of what lies below, m.
-    pub(super) height: f64,
+pub struct Contact {
+    /// Its place in the plan, from the centre of mass. All lengths have the same unit.
+    pub at: DVec2,
+    /// How far it must be lifted to touch what lies below.
+    pub lift: f64,
+    /// Height of what lies below.
+    pub height: f64,
 }
 
 /// How a body lies.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Support {
+pub struct Support {
     /// The slopes (a, b) over which it wants to turn.
-    pub(super) slope: DVec2,
+    pub slope: DVec2,
     /// Slope of the plane through the three points on which it lies then; infinite if they are in
     /// line.
-    pub(super) steepness: f64,
+    pub steepness: f64,
 }
 
 /// Exchanges after which the plane is taken as it is.
@@ -42,7 +58,7 @@ const EXCHANGES: usize = 300;
 
 /// The plane on which a body with these corners lies; `None` if the corners that have something
 /// below them all lie to one side of its centre of mass.
-pub(super) fn support(contacts: &[Contact]) -> Option<Support> {
+pub fn support(contacts: &[Contact]) -> Option<Support> {
     let reach = contacts.iter().map(|c| c.at.length()).fold(0.0, f64::max);
     let (least, most) = contacts
         .iter()
