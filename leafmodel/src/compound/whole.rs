@@ -93,7 +93,11 @@ impl WholeLeaf {
     }
 
     /// A compound leaf from its different leaflets, grown from [`leaflet_plans`], and its
-    /// arrangement.
+    /// arrangement. On the ground it lies on three of its points, its axes straight.
+    ///
+    /// # Panics
+    ///
+    /// If a leaflet of a leaf on the ground has no petiolule, as those of [`leaflet_plans`] have.
     pub fn assembled(
         plan: &LeafPlan,
         form: &CompoundForm,

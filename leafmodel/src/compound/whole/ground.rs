@@ -10,23 +10,13 @@ use crate::leaf::Leaf;
 use crate::rest::{Contact, support};
 use crate::rotation::about;
 
-/// Moves a leaflet so that its petiolule, or its base if it has none, begins at a place on the axis.
+/// Moves a leaflet so that its petiolule begins at a place on the axis.
 pub(super) fn join(placement: &mut Placement, leaf: &Leaf, axis: DVec3) {
+    let stalk = leaf.petiole.as_ref().expect("a leaflet has a petiolule");
     // The pole of a stalk's foot is its first vertex.
-    let foot = match &leaf.petiole {
-        Some(stalk) => stalk.positions[0],
-        None => base(leaf),
-    };
+    let foot = stalk.positions[0];
     let moved = axis - placement.to_leaf.transform_point3(foot);
     placement.to_leaf = DAffine3::from_translation(moved) * placement.to_leaf;
-}
-
-/// The vertex of a blade that is nearest to the origin of its plan.
-fn base(leaf: &Leaf) -> DVec3 {
-    let near = |p: &&DVec3| p.truncate().length_squared();
-    let vertices = leaf.mesh.positions.iter();
-    let first = vertices.min_by(|a, b| near(a).total_cmp(&near(b)));
-    *first.expect("a blade has vertices")
 }
 
 impl WholeLeaf {
@@ -78,7 +68,7 @@ impl WholeLeaf {
             let (leaf, to_leaf) = (&self.blades[placement.blade], placement.to_leaf);
             let mesh = &leaf.mesh;
             for (number, &p) in mesh.positions.iter().enumerate() {
-                // What is across the blade is so before it is turned and scaled.
+                // The leaflet's own direction across the blade is turned and scaled with it.
                 let half = match mesh.across.get(number) {
                     Some(&across) => {
                         let across = to_leaf.transform_vector3(across);

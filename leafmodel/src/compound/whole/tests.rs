@@ -228,15 +228,19 @@ fn a_leaf_on_the_ground_lies_on_it_flat_and_holds_together() {
         // Of a leaf 150 mm long: it neither stands nor floats.
         let highest = above[above.len() - 1];
         assert!(highest < 15.0 && above[2] < 0.5, "{highest} {}", above[2]);
-        // Each petiolule begins inside of the axis.
-        let axes = lying.axes.as_ref().expect("it has axes");
-        for placement in &lying.placements {
+        // Petiolules begin on the axis, which is turned as a whole.
+        let flat = lying.flat.as_ref().expect("it is compound");
+        let foot = |number: usize| {
+            let placement = &lying.placements[number];
             let stalk = lying.blades[placement.blade].petiole.as_ref();
             let foot = stalk.expect("leaflets have stalks").positions[0];
-            let foot = placement.to_leaf.transform_point3(foot);
-            let gap = axes.positions.iter().map(|p| p.distance(foot));
-            assert!(gap.fold(f64::INFINITY, f64::min) < 3.0, "{foot}");
+            placement.to_leaf.transform_point3(foot)
+        };
+        for number in 1..flat.leaflets.len() {
+            let expected = flat.leaflets[number].foot.distance(flat.leaflets[0].foot);
+            let found = foot(number).distance(foot(0));
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
-        assert_eq!(axes.validate(), Ok(()));
+        assert_eq!(lying.axes.expect("it has axes").validate(), Ok(()));
     }
 }

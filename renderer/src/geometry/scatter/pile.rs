@@ -1,10 +1,10 @@
 //! What lies on the ground, as the greatest height over each cell of a grid.
 
 use glam::{DMat3, DVec2, DVec3};
+use leafmodel::rest::{Contact, support};
 
 use super::body::Body;
 use super::{NoPlace, ScatterError};
-use leafmodel::rest::{Contact, support};
 
 /// Cells along the radius of the smallest body.
 const CELLS_PER_RADIUS: f64 = 100.0;
