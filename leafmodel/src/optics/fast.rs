@@ -3,7 +3,7 @@
 //! The formulae are those of [`super::plate`] and [`super::pile`], in `f32` and in a form without
 //! branches, so that several wavelengths go side by side through the processor's vector units. The
 //! transmissivity of a layer comes from a table of its optical depth, exponentials and logarithms
-//! from polynomials.
+//! from polynomials. Functions are inlined into those that are compiled for the units of a machine.
 //!
 //! - **In**: [`PileLanes`], made once for some wavelengths; what a leaf holds.
 //! - **Out**: `(R, T)` in `f32`, within 1e-6 of the exact model.
@@ -70,7 +70,7 @@ impl<const L: usize> PileLanes<L> {
 
     /// What contents absorb in all at each of the wavelengths, `Σ C K`; the structure does not
     /// count.
-    #[inline]
+    #[inline(always)]
     pub fn absorption(&self, contents: &Texel) -> [f32; L] {
         let mut sum = [0.0; L];
         for (row, content) in self.constants[FACES..]
@@ -85,7 +85,7 @@ impl<const L: usize> PileLanes<L> {
     }
 
     /// `(R, T)` of a leaf with these contents at each of the wavelengths.
-    #[inline]
+    #[inline(always)]
     pub fn reflectance_transmittance(&self, contents: &Texel) -> ([f32; L], [f32; L]) {
         let structure = contents[Constituent::Structure];
         let per_plate = 1.0 / structure;
@@ -103,21 +103,25 @@ impl<const L: usize> PileLanes<L> {
     }
 
     /// `T` of a leaf with its own contents at each of the wavelengths.
-    #[inline]
+    #[inline(always)]
     pub fn transmittance_of_each(&self, contents: &[&Texel; L]) -> [f32; L] {
         let table = DepthTable::get();
         let [t_lit, t_in, t_out, ..] = &self.constants;
-        let mut t = [0.0; L];
-        let mut depths = [0.0; L];
+        // First what lies about in memory, lane by lane; what follows goes side by side.
+        let (mut structure, mut depths) = ([0.0; L], [0.0; L]);
         for lane in 0..L {
-            let [structure, held @ ..] = contents[lane].as_array();
-            let rows = self.constants[FACES..].iter();
-            let absorbed = rows.zip(held).map(|(row, content)| row[lane] * content);
-            depths[lane] = table.optical_depth(absorbed.sum::<f32>() / structure);
+            let [plates, held @ ..] = contents[lane].as_array();
+            structure[lane] = *plates;
+            for (row, content) in self.constants[FACES..].iter().zip(held) {
+                depths[lane] += row[lane] * content;
+            }
         }
+        for lane in 0..L {
+            depths[lane] = table.optical_depth(depths[lane] / structure[lane]);
+        }
+        let mut t = [0.0; L];
         for i in 0..L {
-            let structure = contents[i][Constituent::Structure];
-            (_, t[i]) = pile(t_lit[i], t_in[i], t_out[i], depths[i], structure);
+            (_, t[i]) = pile(t_lit[i], t_in[i], t_out[i], depths[i], structure[i]);
         }
         t
     }

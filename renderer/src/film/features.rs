@@ -10,11 +10,11 @@
 use super::fixed::nearest;
 
 /// Number of samples of a pixel, from the first, that record features. Features converge fast, and
-/// the bound keeps their sums small: 256 samples of 54 bits fit into 64 bits, of 23 bits into 32.
+/// the bound keeps their sums small: 256 samples of 50 bits fit into 64 bits, of 23 bits into 32.
 pub const FEATURE_SAMPLES: u32 = 256;
 
 /// Greatest contribution of one sample to a wide sum, in its units.
-const MOST_WIDE: f64 = (1_i64 << 54) as f64;
+const MOST_WIDE: f64 = (1_i64 << 50) as f64;
 /// Greatest contribution of one sample to a narrow sum, in its units.
 const MOST_NARROW: f64 = ((1_i64 << 23) - 1) as f64;
 /// Greatest number of fraction bits.
@@ -24,7 +24,7 @@ const MOST_FRACTION_BITS: i32 = 24;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sum {
     /// As a sum of 64 bits in units of 2^−`fraction_bits`, each number rounded to the nearest and
-    /// at most ±2⁵⁴ units: with 24 bits up to ±2³⁰.
+    /// at most ±2⁵⁰ units: with 24 bits up to ±2²⁶.
     Wide {
         /// Number of fraction bits, 0 to 24.
         fraction_bits: i32,

@@ -1,7 +1,8 @@
 //! The surface point of a hit, and rays that leave it.
 
-use glam::{Mat3, Vec2, Vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3};
 
+use super::frame::Frame;
 use super::hit::Hit;
 use super::mesh::TriangleMesh;
 use super::placement::Placement;
@@ -31,7 +32,7 @@ pub struct SurfacePoint {
     /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that
     /// normal itself where the mesh has none.
     pub shading_normal: Vec3,
-    /// Unit, at right angles to the shading normal: the direction in which v grows, or some fixed
+    /// Unit, at right angles to the shading normal up to rounding: the direction in which v grows, or some fixed
     /// direction where the mesh has no uvs or they do not span the triangle.
     pub tangent: Vec3,
     /// Interpolated; the weights of the second and third vertex if the mesh has none.
@@ -43,6 +44,17 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// The frame of the shading normal and the tangent.
+    #[inline]
+    pub fn frame(&self) -> Frame {
+        let (normal, along) = (self.shading_normal, self.tangent);
+        Frame {
+            across: along.cross(normal),
+            along,
+            normal,
+        }
+    }
+
     /// The ray that leaves this point in `direction` (any length), `t` from 0 to infinity. It
     /// starts beside the surface, on the side to which it goes, and never hits its own triangle.
     pub fn spawn(&self, direction: Vec3) -> Ray {
@@ -111,7 +123,8 @@ impl SurfacePoint {
         let geometric = (normal_world * per_length).as_vec3();
         let position = world.as_vec3();
 
-        let edges = [b - a, c - b, a - c].map(glam::DVec3::length_squared);
+        let [e1, e2] = [b - a, c - a].map(DVec3::as_vec3);
+        let edges = [e1, e2, e2 - e1].map(Vec3::length_squared);
         let longest2 = edges[0].max(edges[1]).max(edges[2]);
         let error = {
             // Rounding `world` to f32, and then the sum that moves off the surface.
@@ -120,12 +133,14 @@ impl SurfacePoint {
             // carried into the mesh's frame in f32, with five roundings a coordinate, one of them
             // in the matrix,
             let carried = placement.to_local_size(position) * (6.0 * ROUNDING as f32);
-            let carried = cross.abs().dot(carried.as_dvec3());
+            let carried = (cross * per_length).abs().as_vec3().dot(carried);
             // and the triangle test: vertices relative to the origin, the shear, and edge functions
-            // whose error counts the more the thinner the triangle is.
-            let tested = 16.0 * ROUNDING * longest2.sqrt() * (cross.length() + longest2);
+            // whose error counts the more the thinner the triangle is. (Twice the area is at most
+            // the square of the longest edge.)
+            let thinness = longest2 * per_length as f32;
+            let tested = 32.0 * ROUNDING as f32 * longest2.sqrt() * thinness;
             // The bound itself is rounded.
-            (f64::from(rounding) + (carried + tested) * per_length) * 1.000_01
+            (rounding + carried + tested) * 1.000_01
         };
 
         // For directions and texture coordinates single precision is enough.
@@ -150,12 +165,11 @@ impl SurfacePoint {
         if let Some(uvs) = mesh.uvs() {
             let uvs = vertices().map(|vertex| uvs[vertex]);
             uv = uvs[0] * weights[0] + uvs[1] * weights[1] + uvs[2] * weights[2];
-            let edges = [(b - a).as_vec3(), (c - a).as_vec3()];
-            tangent = along_v(edges, uvs, &placement.linear_f32, normal);
+            tangent = along_v([e1, e2], uvs, &placement.linear_f32, normal);
         }
         Self {
             position,
-            position_error: (error as f32).max(f32::MIN_POSITIVE),
+            position_error: error.max(f32::MIN_POSITIVE),
             geometric_normal: geometric,
             shading_normal: normal,
             tangent: tangent.unwrap_or_else(|| any_tangent(normal)),
@@ -240,15 +254,16 @@ fn along_v(edges: [Vec3; 2], uvs: [Vec2; 3], linear: &Mat3, normal: Vec3) -> Opt
     let (first, second) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
     let determinant = first.perp_dot(second);
     // Below this the uvs' own rounding decides the direction.
-    if determinant.abs() <= first.length() * second.length() * 1e-6 {
+    let lengths2 = first.length_squared() * second.length_squared();
+    if determinant.abs() <= lengths2.sqrt() * 1e-6 {
         return None;
     }
-    let derivative = edges[1] * (first.x / determinant) - edges[0] * (second.x / determinant);
-    let direction = (*linear * derivative).try_normalize()?;
+    let derivative = (edges[1] * first.x - edges[0] * second.x) * (1.0 / determinant);
+    let direction = *linear * derivative;
     let flat = direction - normal * normal.dot(direction);
     let length2 = flat.length_squared();
     // If it is nearly parallel to the normal, only rounding is left.
-    (length2 > 1e-12).then(|| flat / length2.sqrt())
+    (length2 > 1e-12 * direction.length_squared()).then(|| flat / length2.sqrt())
 }
 
 /// Some unit vector at right angles to a unit vector, without a branch that flips between

@@ -39,24 +39,28 @@ impl<'m, const N: usize> Encounter<'m, N> {
         wavelengths: &Wavelengths<N>,
     ) -> Self {
         let surface = geometry.surface(ray, hit);
-        let mut bsdf = material.bsdf(surface.uv, wavelengths);
-        let width = cone.width_at(hit.t);
+        let frame = surface.frame();
         let relief = material.relief();
+        let width = cone.width_at(hit.t);
+        // Made where it stays: a BSDF is large.
+        let mut encounter = Self {
+            bsdf: material.bsdf(surface.uv, wavelengths),
+            wo: frame.to_local(-ray.direction),
+            width,
+            has_relief: relief.is_some(),
+            frame,
+            surface,
+        };
         if let Some(relief) = relief {
+            let surface = &encounter.surface;
             let scale = geometry.texture_scale(hit);
             let facing = ray.direction.dot(surface.shading_normal);
             let footprint = cone::footprint(width, facing);
             let faces = relief.at(surface.uv, scale, footprint);
-            bsdf = bsdf.with_relief(faces, relief.grains(wavelengths));
+            encounter.bsdf = encounter
+                .bsdf
+                .with_relief(faces, relief.grains(wavelengths));
         }
-        let frame = Frame::new(surface.shading_normal, surface.tangent);
-        Self {
-            wo: frame.to_local(-ray.direction),
-            has_relief: relief.is_some(),
-            surface,
-            frame,
-            bsdf,
-            width,
-        }
+        encounter
     }
 }

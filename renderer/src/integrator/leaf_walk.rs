@@ -189,6 +189,6 @@ impl<'a, const N: usize> LeafWalk<'a, N> {
             return (self.entry, self.frame);
         };
         let surface = self.geometry.surface(&probe, &hit);
-        (surface, Frame::new(surface.shading_normal, surface.tangent))
+        (surface, surface.frame())
     }
 }

@@ -48,6 +48,15 @@ pub struct PathResult<const N: usize> {
     pub rays: u32,
 }
 
+impl<const N: usize> PathResult<N> {
+    /// No light, of a path that has not begun.
+    pub const NOTHING: Self = Self {
+        radiance: Lanes::ZERO,
+        first: None,
+        rays: 0,
+    };
+}
+
 /// The first hit of the camera ray.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstHit<const N: usize> {
@@ -80,15 +89,15 @@ impl<const N: usize> FirstHit<N> {
     }
 }
 
-/// A path through a random place in a pixel, and its wavelengths; `stream` gives the random
-/// numbers.
+/// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
+/// numbers. Returns its wavelengths.
 pub fn of_pixel<const N: usize>(
     world: &World,
     effort: Effort,
-    x: u32,
-    y: u32,
+    [x, y]: [u32; 2],
     stream: &mut Stream,
-) -> (Wavelengths<N>, PathResult<N>) {
+    result: &mut PathResult<N>,
+) -> Wavelengths<N> {
     // Place and lens are stratified together, since blur is in both; without a lens one set does.
     let [film_x, film_y, third, lens_y] = stream.next4();
     let wavelength = if world.camera.has_lens() {
@@ -101,11 +110,11 @@ pub fn of_pixel<const N: usize>(
     let offset = world.filter.sample(Vec2::new(film_x, film_y));
     let place = Vec2::new(x as f32, y as f32) + offset;
     let seen = world.camera.ray(place, Vec2::new(lens_x, lens_y));
-    let found = trace(world, effort, seen, &wavelengths, stream);
-    (wavelengths, found)
+    trace(world, effort, seen, &wavelengths, stream, result);
+    wavelengths
 }
 
-/// Radiance that arrives along a ray. Of one of weight 0 only the first hit is found, for features.
+/// Adds to `result` the radiance that arrives along a ray. Of one of weight 0 only the first hit is found, for features.
 ///
 /// At every vertex each sun and one other light are sampled and weighted against the bounce by the
 /// power heuristic; at the first vertex the number of other lights is set by the effort. Russian
@@ -119,12 +128,8 @@ pub fn trace<const N: usize>(
     FilmRay { ray, weight }: FilmRay,
     wavelengths: &Wavelengths<N>,
     stream: &mut Stream,
-) -> PathResult<N> {
-    let mut result = PathResult {
-        radiance: Lanes::ZERO,
-        first: None,
-        rays: 0,
-    };
+    result: &mut PathResult<N>,
+) {
     let from_camera = Leg {
         throughput: Lanes::ONE * weight,
         bounce: Bounce {
@@ -145,8 +150,7 @@ pub fn trace<const N: usize>(
         excitation_sets: None,
     };
     let passage = Passage::of_camera(world);
-    paths.follow(from_camera, passage, 0, stream, &mut result);
-    result
+    paths.follow(from_camera, passage, 0, stream, result);
 }
 
 /// A ray of a path and its origin.
@@ -237,7 +241,9 @@ impl<const N: usize> Paths<'_, N> {
                 leg = next;
                 continue;
             }
-            let Some(view) = bsdf.seen_from(wo) else {
+            // By reference: a view is large, and would be moved out of the option.
+            let view = bsdf.seen_from(wo);
+            let Some(view) = &view else {
                 return;
             };
             let vertex = Vertex {
@@ -245,7 +251,7 @@ impl<const N: usize> Paths<'_, N> {
                 scatterer: Scatterer::Surface {
                     surface,
                     frame,
-                    view: &view,
+                    view,
                 },
                 receiver: Receiver {
                     position: surface.position,

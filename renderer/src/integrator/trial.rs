@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::integrator::effort::Effort;
 use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
-use crate::integrator::path;
+use crate::integrator::path::{self, PathResult};
 use crate::sampling::stream::{Pixel, Stream};
 use crate::scene::world::World;
 
@@ -166,8 +166,9 @@ impl Trial<'_> {
             let numbers = Pixel::new(seed, x, y, 0);
             for sample in 0..SAMPLES {
                 let mut stream = numbers.stream(sample);
-                let (wavelengths, found) =
-                    path::of_pixel::<N>(self.world, effort, x, y, &mut stream);
+                let mut found = PathResult::<N>::NOTHING;
+                let wavelengths =
+                    path::of_pixel(self.world, effort, [x, y], &mut stream, &mut found);
                 let values = &mut values[..channels];
                 let sampler = &self.world.wavelengths;
                 sampler.film_values(&wavelengths, &found.radiance, values);

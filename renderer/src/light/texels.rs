@@ -48,18 +48,20 @@ impl Texels {
         let y = (down * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
         let (x0, y0) = (x.floor(), y.floor());
         let (share_x, share_y) = (x - x0, y - y0);
-        let column = |offset: i64| {
+        let columns = [0, 1].map(|offset| {
             let (column, width) = (x0 as i64 + offset, self.width as i64);
             match beyond {
+                // A division is slow, and hardly a place lies beyond.
+                _ if (0..width).contains(&column) => column as usize,
                 Beyond::Opposite => column.rem_euclid(width) as usize,
                 Beyond::Same => column.clamp(0, width - 1) as usize,
             }
-        };
+        });
         let row = |offset: usize| (y0 as usize + offset).min(self.height - 1);
         let mut colour = [0.0; 3];
         for (dy, weight_y) in [(0, 1.0 - share_y), (1, share_y)] {
-            for (dx, weight_x) in [(0, 1.0 - share_x), (1, share_x)] {
-                let texel = self.colours[row(dy) * self.width + column(dx)];
+            for (column, weight_x) in columns.into_iter().zip([1.0 - share_x, share_x]) {
+                let texel = self.colours[row(dy) * self.width + column];
                 for (sum, value) in colour.iter_mut().zip(texel) {
                     *sum += weight_x * weight_y * value;
                 }

@@ -3,7 +3,7 @@
 pub mod fluorescence;
 
 use glam::Vec2;
-use leafmodel::optics::{ProspectD, Texel};
+use leafmodel::optics::ProspectD;
 
 use crate::bsdf::leaf::{Coat, LeafBsdf, Tissue, usual_abaxial_ratio};
 use crate::material::coarse;
@@ -12,7 +12,7 @@ use crate::material::leaf_layers::LeafLayers;
 use crate::material::light_spread::LightSpread;
 use crate::material::palette::Palette;
 use crate::material::relief::{Relief, ReliefMap};
-use crate::spectrum::{Curve, Lanes, Spectrum, Table, WavelengthGrid, Wavelengths};
+use crate::spectrum::{Curve, Spectrum, Table, WavelengthGrid, Wavelengths};
 
 /// A leaf's material.
 #[derive(Clone, Debug)]
@@ -221,13 +221,10 @@ impl LeafMaterial {
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
     ) -> Tissue<N> {
-        let optics = |contents: &Texel| {
-            let pile = self.palette.lanes(wavelengths);
-            let (reflectance, transmittance) = pile.reflectance_transmittance(contents);
-            (Lanes(reflectance), Lanes(transmittance))
-        };
         let (reflectance, transmittance) = match &self.tissue {
-            LeafTissue::Held(held) => optics(&held.at(uv)),
+            LeafTissue::Held(held) => {
+                (self.palette).reflectance_transmittance(wavelengths, &held.at(uv))
+            }
             LeafTissue::Measured {
                 reflectance,
                 transmittance,
@@ -242,8 +239,7 @@ impl LeafMaterial {
         };
         let mut tissue = Tissue::new(&self.coats, reflectance, transmittance, ratio);
         if let (Some(spread), LeafTissue::Held(Held::Map(map))) = (&self.spread, &self.tissue) {
-            let pile = self.palette.lanes(wavelengths);
-            let through = spread.transmittance(map, &pile, uv, wavelengths);
+            let through = spread.transmittance(map, &self.palette, uv, wavelengths);
             tissue = tissue.passing(&self.coats, through);
         }
         match &self.half {

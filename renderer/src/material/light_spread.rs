@@ -6,7 +6,6 @@
 use std::f32::consts::TAU;
 
 use glam::Vec2;
-use leafmodel::optics::fast::PileLanes;
 use leafmodel::optics::{Constituent, Contents, Texel};
 
 use super::contents_texture::ContentsTexture;
@@ -73,7 +72,7 @@ impl LightSpread {
     pub fn transmittance<const N: usize>(
         &self,
         map: &ContentsTexture,
-        pile: &PileLanes<N>,
+        palette: &Palette,
         uv: Vec2,
         wavelengths: &Wavelengths<N>,
     ) -> Lanes<N> {
@@ -90,7 +89,7 @@ impl LightSpread {
             let mut texels = places.map(|place| map.drawn(place, within));
             texels.find(|texel| is_tissue(texel)).unwrap_or(here)
         });
-        Lanes(pile.transmittance_of_each(&entered))
+        palette.transmittance_of_each(wavelengths, &entered)
     }
 }
 

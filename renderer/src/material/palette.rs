@@ -6,9 +6,10 @@
 use std::sync::{Arc, OnceLock};
 
 use leafmodel::optics::fast::{self, PileLanes};
-use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD};
+use leafmodel::optics::{Coefficients, Interface, Pigments, ProspectD, Texel};
 
-use crate::spectrum::{Table, WavelengthGrid, Wavelengths};
+use crate::simd::{Eight, Level, Task};
+use crate::spectrum::{Lanes, Table, WavelengthGrid, Wavelengths};
 
 /// First and last whole nanometre of PROSPECT's table.
 const TABLE_NM: [usize; 2] = [400, 2500];
@@ -22,6 +23,8 @@ pub struct Palette {
     table: Arc<[Coefficients]>,
     /// Constants at the wavelengths of the picture's paths.
     tabulated: Option<Arc<Table>>,
+    /// The vector instructions with which R and T are computed.
+    level: Level,
 }
 
 /// PROSPECT-D's own columns, number 0.
@@ -43,6 +46,7 @@ impl Palette {
             pigments,
             table,
             tabulated: None,
+            level: Level::best(),
         }
     }
 
@@ -54,15 +58,49 @@ impl Palette {
     }
 
     /// PROSPECT's constants at a path's wavelengths.
-    #[inline]
+    #[inline(always)]
     pub fn lanes<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
         let table = self.tabulated.as_ref();
         let Some(row) = table.and_then(|table| table.row(wavelengths)) else {
-            return PileLanes::new(&wavelengths.nm.map(|nm| self.coefficients(f64::from(nm))));
+            return self.lanes_anew(wavelengths);
         };
         PileLanes {
             constants: row.map(|lanes| lanes.0),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn lanes_anew<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> PileLanes<N> {
+        PileLanes::new(&wavelengths.nm.map(|nm| self.coefficients(f64::from(nm))))
+    }
+
+    /// `(R, T)` of a leaf with these contents at a path's wavelengths.
+    #[inline]
+    pub fn reflectance_transmittance<const N: usize>(
+        &self,
+        wavelengths: &Wavelengths<N>,
+        contents: &Texel,
+    ) -> (Lanes<N>, Lanes<N>) {
+        self.level.run(OfContents {
+            palette: self,
+            wavelengths,
+            contents,
+        })
+    }
+
+    /// `T` of a leaf with its own contents at each of a path's wavelengths.
+    #[inline]
+    pub fn transmittance_of_each<const N: usize>(
+        &self,
+        wavelengths: &Wavelengths<N>,
+        contents: &[&Texel; N],
+    ) -> Lanes<N> {
+        self.level.run(OfEach {
+            palette: self,
+            wavelengths,
+            contents,
+        })
     }
 
     /// Its number among the palettes of the scene; 0 is PROSPECT-D's own.
@@ -99,6 +137,41 @@ impl Palette {
             },
             absorption: a.absorption.zip_with(b.absorption, between),
         }
+    }
+}
+
+/// R and T of the same contents at all wavelengths.
+struct OfContents<'a, const N: usize> {
+    palette: &'a Palette,
+    wavelengths: &'a Wavelengths<N>,
+    contents: &'a Texel,
+}
+
+impl<const N: usize> Task for OfContents<'_, N> {
+    type Output = (Lanes<N>, Lanes<N>);
+
+    #[inline(always)]
+    fn run<E: Eight>(self, _: E) -> Self::Output {
+        let pile = self.palette.lanes(self.wavelengths);
+        let (reflectance, transmittance) = pile.reflectance_transmittance(self.contents);
+        (Lanes(reflectance), Lanes(transmittance))
+    }
+}
+
+/// T of other contents at each wavelength.
+struct OfEach<'a, const N: usize> {
+    palette: &'a Palette,
+    wavelengths: &'a Wavelengths<N>,
+    contents: &'a [&'a Texel; N],
+}
+
+impl<const N: usize> Task for OfEach<'_, N> {
+    type Output = Lanes<N>;
+
+    #[inline(always)]
+    fn run<E: Eight>(self, _: E) -> Self::Output {
+        let pile = self.palette.lanes(self.wavelengths);
+        Lanes(pile.transmittance_of_each(self.contents))
     }
 }
 
@@ -153,9 +226,13 @@ impl Palettes {
 
 #[cfg(test)]
 mod tests {
+    use leafmodel::optics::Constituent;
     use leafmodel::optics::pigments::{CarotenoidMix, ChlorophyllMix};
 
     use super::*;
+    use crate::spectrum::WavelengthSampler;
+    use crate::spectrum::observer::Observer;
+    use crate::spectrum::recorded::FilmKind;
 
     fn low_b() -> Pigments {
         Pigments {
@@ -174,6 +251,49 @@ mod tests {
         assert!(Arc::ptr_eq(&first.table, &again.table));
         assert!(Arc::ptr_eq(&own.table, &Palette::default().table));
         assert_eq!(palettes.iter().count(), 2);
+    }
+
+    #[test]
+    fn optics_have_the_same_bits_at_every_level() {
+        let grid = WavelengthSampler::new(&FilmKind::Rgb {
+            range_nm: [400.0, 2500.0],
+            observer: Observer::Cie1931,
+        });
+        let wavelengths = grid.draw::<8>(0.3);
+        let mut palettes = Palettes::on(grid.grid());
+        let palette = palettes.of(&Pigments::default());
+        let leaves: [Texel; 8] = std::array::from_fn(|number| {
+            let share = number as f32 / 7.0;
+            Texel::splat(0.0).with(&[
+                (Constituent::Structure, 1.0 + 2.0 * share),
+                (Constituent::Chlorophyll, 80.0 * share),
+                (Constituent::Water, 0.04 * (1.0 - share)),
+                (Constituent::DryMatter, 0.01 * share),
+            ])
+        });
+        let of = |level| {
+            let palette = Palette {
+                level,
+                ..palette.clone()
+            };
+            let one = leaves.each_ref().map(|leaf| {
+                let (r, t) = palette.reflectance_transmittance(&wavelengths, leaf);
+                [r.0.map(f32::to_bits), t.0.map(f32::to_bits)]
+            });
+            let each = palette.transmittance_of_each(&wavelengths, &leaves.each_ref());
+            (one, each.0.map(f32::to_bits))
+        };
+        let [first, others @ ..] = &Level::all()[..] else {
+            panic!("one level runs everywhere");
+        };
+        for level in others {
+            assert_eq!(of(*level), of(*first), "{}", level.name());
+        }
+        // Each lane of the second is what the first gives there for its leaf.
+        let (one, each) = of(*first);
+        for lane in 0..8 {
+            assert_eq!(each[lane], one[lane][1][lane], "lane {lane}");
+        }
     }
 
     #[test]

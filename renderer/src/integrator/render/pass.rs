@@ -8,7 +8,7 @@ use crate::integrator::effort::Effort;
 use crate::integrator::features::Sight;
 use crate::integrator::job::Job;
 use crate::integrator::layers::{Layout, MOST_CHANNELS};
-use crate::integrator::path;
+use crate::integrator::path::{self, PathResult};
 use crate::sampling::stream::Pixel;
 use crate::scene::world::World;
 use crate::spectrum::Spectrum;
@@ -93,8 +93,9 @@ impl Samples<'_> {
         let numbers = Pixel::new(self.job.seed, self.x, self.y, first);
         for sample in first..end {
             let mut stream = numbers.stream(sample);
-            let (wavelengths, found) =
-                path::of_pixel::<N>(self.world, self.effort, self.x, self.y, &mut stream);
+            let (pixel_at, mut found) = ([self.x, self.y], PathResult::<N>::NOTHING);
+            let wavelengths =
+                path::of_pixel(self.world, self.effort, pixel_at, &mut stream, &mut found);
             rays += u64::from(found.rays);
             let sampler = &self.world.wavelengths;
             sampler.film_values(&wavelengths, &found.radiance, values);

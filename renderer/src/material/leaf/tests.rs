@@ -6,6 +6,7 @@ use super::*;
 use crate::material::contents_texture::ContentsTexture;
 use crate::material::palette::Palettes;
 use crate::scene::description::FilmKind;
+use crate::spectrum::Lanes;
 use crate::spectrum::WavelengthSampler;
 use glam::Vec3;
 

@@ -32,12 +32,12 @@ fn at(nm: f32) -> Wavelengths<4> {
 /// Mean transmittance of the columns, each looked up at many places within the middle rows.
 fn columns(map: &ContentsTexture, spread: &LightSpread, nm: f32) -> Vec<f64> {
     const TRIES: usize = 4000;
-    let pile = Palette::default().lanes(&at(nm));
+    let palette = Palette::default();
     let column = |x: usize| {
         let one = |i: usize| {
             let share = (i as f32 + 0.5) / TRIES as f32;
             let uv = Vec2::new((x as f32 + 0.5) / SIZE as f32, 0.3 + 0.4 * share);
-            f64::from(spread.transmittance(map, &pile, uv, &at(nm)).0[0])
+            f64::from(spread.transmittance(map, &palette, uv, &at(nm)).0[0])
         };
         (0..TRIES).map(one).sum::<f64>() / TRIES as f64
     };
@@ -61,11 +61,12 @@ fn light_spreads_less_far_where_tissue_absorbs_or_scatters_more() {
 #[test]
 fn a_uniform_leaf_stays_as_it_is() {
     let map = veined(0);
-    let pile = Palette::default().lanes(&at(550.0));
+    let palette = Palette::default();
+    let pile = palette.lanes(&at(550.0));
     let own = pile.reflectance_transmittance(&green().to_texel()).1[0];
     for i in 0..100 {
         let uv = Vec2::new(0.01 * i as f32, 0.37);
-        let through = spread(5.0, &map).transmittance(&map, &pile, uv, &at(550.0));
+        let through = spread(5.0, &map).transmittance(&map, &palette, uv, &at(550.0));
         assert!((through.0[0] - own).abs() < 1e-6);
     }
 }
@@ -131,11 +132,12 @@ fn no_light_comes_from_texels_outside_the_blade() {
     });
     let map = ContentsTexture::new(SIZE, SIZE, texels.collect());
     let spread = LightSpread::new(Vec2::splat(0.1), &green(), &Palette::default());
-    let pile = Palette::default().lanes(&at(550.0));
+    let palette = Palette::default();
+    let pile = palette.lanes(&at(550.0));
     let own = pile.reflectance_transmittance(&green().to_texel()).1[0];
     for i in 0..1000 {
         let uv = Vec2::new(0.001 * i as f32, 0.49);
-        let through = spread.transmittance(&map, &pile, uv, &at(550.0)).0[0];
+        let through = spread.transmittance(&map, &palette, uv, &at(550.0)).0[0];
         assert!((through - own).abs() < 1e-6, "{through} {own}");
     }
 }
