@@ -4,6 +4,7 @@
 //! - **Out**: a mesh with texture coordinates, and a map of contents over them.
 //! - **Always true**: contents are per area of the surface. They are those of the tissue down to
 //!   the depth that the optics use.
+//!   Tissue of some cells may stand out from the shape.
 //! - **Left out**: the inside.
 //!
 //! ```
@@ -16,6 +17,7 @@
 //!     seed: 1,
 //!     contents: presets::by_name("sun-green").ok_or("it is a preset")?.contents,
 //!     mosaic: None,
+//!     raised: None,
 //!     pigments: Pigments::default(),
 //!     map_size: 16,
 //! };
@@ -25,12 +27,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod raised;
 mod shape;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
+use self::raised::Relief;
+pub use self::raised::{Raised, RaisedError};
 pub use self::shape::{SolidMesh, SolidShape, creased, smooth_normals};
 use crate::blade::contents_map::ContentsMap;
 use crate::mosaic::atlas::{Atlas, AtlasError};
@@ -65,6 +70,8 @@ pub struct SolidPlan {
     pub contents: Contents,
     /// Cells with contents of their own.
     pub mosaic: Option<MosaicPattern>,
+    /// Cells of the mosaic whose tissue stands out.
+    pub raised: Option<Raised>,
     /// The kinds of pigments of its contents.
     pub pigments: Pigments,
     /// Texels of the map of contents along a side, 16 to 8192.
@@ -94,9 +101,10 @@ pub enum SolidError {
     /// Its shape.
     #[error("shape: {0}")]
     Shape(#[source] ShapeError),
-    /// The body is too slender, or has too many cells, for the allowed number of triangles.
+    /// The body is too slender, or has too many cells or too narrow slopes, for the allowed number of
+    /// triangles.
     #[error(
-        "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, or give its mosaic fewer cells"
+        "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, give its mosaic fewer cells, or raised tissue a wider slope"
     )]
     TooFine {
         /// How many it would take.
@@ -108,6 +116,9 @@ pub enum SolidError {
     /// Its mosaic.
     #[error("mosaic: {0}")]
     Mosaic(#[from] PatternError),
+    /// Its raised tissue.
+    #[error("raised: {0}")]
+    Raised(#[from] RaisedError),
     /// Its map.
     #[error("map_size: {0}")]
     Atlas(#[from] AtlasError),
@@ -143,6 +154,18 @@ impl SolidPlan {
         })
     }
 
+    /// Checks the numbers of mosaic and raised tissue.
+    fn validate(&self) -> Result<(), SolidError> {
+        if let Some(pattern) = &self.mosaic {
+            pattern.validate()?;
+        }
+        match (&self.raised, &self.mosaic) {
+            (None, _) => Ok(()),
+            (Some(raised), Some(pattern)) => Ok(raised.validate(pattern.plan.types.len())?),
+            (Some(_), None) => Err(RaisedError::NoMosaic.into()),
+        }
+    }
+
     /// Estimates the memory that the body takes, bytes, and refuses what [`Solid::grow`] would
     /// refuse for its size.
     ///
@@ -150,11 +173,11 @@ impl SolidPlan {
     ///
     /// [`SolidError::TooFine`], and errors of the numbers of shape and mosaic.
     pub fn memory_bytes(&self) -> Result<f64, SolidError> {
-        if let Some(pattern) = &self.mosaic {
-            pattern.validate()?;
-        }
+        self.validate()?;
         let area = self.shape.area()?;
-        let triangles = self.shape.count_of_triangles(self.edge_mm(area), area)?;
+        let slopes_mm = self.raised.as_ref().map_or(f64::INFINITY, Raised::edge_mm);
+        let edge_mm = self.edge_mm(area).min(slopes_mm);
+        let triangles = self.shape.count_of_triangles(edge_mm, area)?;
         let texels = f64::from(self.map_size) * f64::from(self.map_size);
         let painted = self.mosaic.as_ref().map_or(0.0, |pattern| {
             pattern.plan.memory_bytes() + texels * OF_A_TEXEL
@@ -170,9 +193,7 @@ impl Solid {
     ///
     /// [`SolidError`] for the first stage whose numbers are out of range.
     pub fn grow(plan: &SolidPlan, is_stopped: &dyn Fn() -> bool) -> Result<Self, SolidError> {
-        if let Some(pattern) = &plan.mosaic {
-            pattern.validate()?;
-        }
+        plan.validate()?;
         let area = plan.shape.area()?;
         let edge_mm = plan.edge_mm(area);
         let shape = plan.shape.triangles(edge_mm)?;
@@ -201,26 +222,34 @@ impl Solid {
             let painted = field.paint(shown, &pattern.contents);
             contents.texels.extend(painted.into_iter().map(texel));
         }
-        let normal = |face: u32, corner: usize| {
-            let mut barycentric = [0.0; 3];
-            barycentric[corner] = 1.0;
-            let within = ancestry.carry_back(&SurfacePoint { face, barycentric });
+        let (fine, within_surface) = raised::fine(&surface, plan.raised.as_ref())?;
+        let relief = plan.raised.as_ref().map(|raised| {
+            let field = pattern.field(&mosaic, 2.0 * raised.over_mm);
+            Relief::new(raised, &field, (&fine, &within_surface))
+        });
+        let normal = |place: &SurfacePoint| {
+            let within = ancestry.carry_back(place);
             let of_corners = shape.faces[within.face as usize];
             let [a, b, c] = of_corners.map(|vertex| shape.normals[vertex as usize]);
             let [u, v, w] = within.barycentric;
             let between = a * u + b * v + c * w;
-            between.try_normalize().unwrap_or(surface.normal(face))
+            let flat = || surface.normal(place.face);
+            between.try_normalize().unwrap_or_else(flat)
+        };
+        let uv = |place: &SurfacePoint| {
+            let [a, b, c] = atlas.uvs()[place.face as usize];
+            let [u, v, w] = place.barycentric;
+            a * u + b * v + c * w
         };
         let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut triangles = Vec::with_capacity(surface.faces().len());
+        let mut triangles = Vec::with_capacity(fine.faces().len());
         // A point has one vertex for each combination of chart and normal that meets in it.
-        let mut vertices: Vec<Vec<(DVec2, DVec3, u32)>> =
-            vec![Vec::new(); surface.positions().len()];
-        for (face, (points, corners)) in (0..).zip(surface.faces().iter().zip(atlas.uvs())) {
+        let mut vertices: Vec<Vec<(DVec2, DVec3, u32)>> = vec![Vec::new(); fine.positions().len()];
+        for (face, points) in (0..).zip(fine.faces()) {
             let mut triangle = [0; 3];
             for corner in 0..3 {
-                let (point, uv) = (points[corner] as usize, corners[corner]);
-                let normal = normal(face, corner);
+                let place = within_surface.carry_back(&SurfacePoint::corner(face, corner));
+                let (point, uv, normal) = (points[corner] as usize, uv(&place), normal(&place));
                 let known = &mut vertices[point];
                 let found = known
                     .iter()
@@ -229,7 +258,7 @@ impl Solid {
                     vertex
                 } else {
                     let vertex = positions.len() as u32;
-                    positions.push(surface.positions()[point]);
+                    positions.push(fine.positions()[point]);
                     normals.push(normal);
                     uvs.push(uv);
                     known.push((uv, normal, vertex));
@@ -237,6 +266,18 @@ impl Solid {
                 };
             }
             triangles.push(triangle);
+        }
+        if let Some(relief) = &relief {
+            for (point, vertices) in (0..).zip(&vertices) {
+                // All vertices of a point move to one place, so that the body stays closed.
+                let all: DVec3 = vertices.iter().map(|(_, normal, _)| *normal).sum();
+                let mean = all.normalize_or_zero();
+                for &(_, normal, vertex) in vertices {
+                    let position = &mut positions[vertex as usize];
+                    *position = relief.moved(point, *position, mean);
+                    normals[vertex as usize] = relief.turned(point, normal);
+                }
+            }
         }
         Ok(Self {
             positions,

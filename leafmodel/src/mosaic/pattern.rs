@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::control::Controls;
 use super::paint::{SheetField, TypeField};
 use super::shapes::{ShapeError, sheet};
-use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError, SurfacePoint};
+use super::{Mosaic, MosaicError, MosaicPlan, Surface, SurfaceError};
 use crate::optics::Contents;
 use crate::shape::outline::Outline;
 
@@ -113,12 +113,14 @@ impl MosaicPattern {
         self.validate()?;
         let days = [self.plan.days];
         let mosaic = Mosaic::grow_until(surface, &self.plan, seed, &days, is_stopped)?.remove(0);
-        let sites: Vec<SurfacePoint> = mosaic.cells.iter().map(|cell| cell.at).collect();
-        let kinds: Vec<u16> = mosaic.cells.iter().map(|cell| cell.kind).collect();
-        let types = self.plan.types.len();
-        let field = TypeField::new(&mosaic.surface, &sites, &kinds, types, self.blend_mm);
-        let field = field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls);
+        let field = self.field(&mosaic, self.blend_mm);
         Ok((mosaic, field))
+    }
+
+    /// The types of a mosaic of this plan at every point, blended over another width, mm.
+    pub fn field(&self, mosaic: &Mosaic, blend_mm: f64) -> TypeField {
+        let field = TypeField::of_mosaic(mosaic, self.plan.types.len(), blend_mm);
+        field.heeding(Arc::clone(&mosaic.surface), &self.plan.controls)
     }
 
     /// Grows the mosaic on a leaf's lamina.

@@ -167,6 +167,15 @@ pub struct SurfacePoint {
     pub barycentric: [f64; 3],
 }
 
+impl SurfacePoint {
+    /// A corner of a face, 0 to 2.
+    pub fn corner(face: u32, corner: usize) -> Self {
+        let mut barycentric = [0.0; 3];
+        barycentric[corner] = 1.0;
+        Self { face, barycentric }
+    }
+}
+
 /// A triangle mesh with the neighbours of each face. Lengths are in millimetres.
 #[derive(Clone, Debug)]
 pub struct Surface {

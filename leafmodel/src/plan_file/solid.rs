@@ -12,17 +12,19 @@ use super::pigments::pigments;
 use crate::document::assets::Triangles;
 use crate::document::keys::{Keys, Variant};
 use crate::document::limits::Limits;
-use crate::document::value_kind::{Integer, ListOf, Number, Numbers, Text, Vector};
+use crate::document::value_kind::{Integer, ListOf, MapOf, Number, Numbers, Text, Vector};
 use crate::mosaic::Surface;
 use crate::mosaic::pattern::MosaicPattern;
 use crate::mosaic::shapes::Shape;
 use crate::optics::{Contents, Pigments};
-use crate::solid::{SolidMesh, SolidPlan, SolidShape, creased, smooth_normals};
+use crate::solid::{Raised, SolidMesh, SolidPlan, SolidShape, creased, smooth_normals};
 
 /// Extents of bodies.
 const EXTENTS_MM: Limits = Limits::closed(0.01, 1e5);
 /// Texels of maps where nothing is said.
 pub(super) const MAP_SIZE: u32 = 1024;
+/// Width of the slopes of raised tissue where nothing is said, mm.
+const OVER_MM: f64 = 1.0;
 
 /// A body of which nothing is said.
 pub fn usual_solid() -> SolidPlan {
@@ -31,6 +33,7 @@ pub fn usual_solid() -> SolidPlan {
         seed: 0,
         contents: Contents::NOTHING,
         mosaic: None,
+        raised: None,
         pigments: Pigments::default(),
         map_size: MAP_SIZE,
     }
@@ -80,11 +83,47 @@ pub fn solid(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
             "leave `faces` out",
         );
     }
+    raised(plan, keys);
     let about = "Which substances its pigments are.";
     keys.block("pigments", about, |keys| pigments(&mut plan.pigments, keys));
     if keys.is_sound() {
         warn_of_mixed_cells(plan, keys);
     }
+}
+
+/// The keys of `raised`.
+fn raised(plan: &mut SolidPlan, keys: &mut Keys<'_>) {
+    let types = plan.mosaic.iter().flat_map(|mosaic| &mosaic.plan.types);
+    let names: Vec<String> = types.map(|one| one.name.clone()).collect();
+    let about = "Cells whose tissue stands out from the shape, as warts do, or lies below it.";
+    let new = || Raised {
+        heights_mm: Vec::new(),
+        over_mm: OVER_MM,
+    };
+    keys.optional_block("raised", &mut plan.raised, new, about, |raised, keys| {
+        let of_types = names.iter().cloned().zip(raised.heights_mm.iter().copied());
+        let mut heights: Vec<(String, f64)> = of_types.filter(|(_, mm)| *mm != 0.0).collect();
+        let limits = Number(Limits::closed(-1000.0, 1000.0));
+        let about = "A table from types of cells to how high their tissue stands; others have 0.";
+        keys.required("heights_mm", &mut heights, MapOf(limits), about);
+        let limits = Number(Limits::above(0.0, 1000.0));
+        let about = "Width over which it rises, from the border of the tissue inwards.";
+        keys.key("over_mm", &mut raised.over_mm, limits, about);
+        raised.heights_mm = vec![0.0; names.len()];
+        for (name, mm) in heights {
+            if let Some(kind) = names.iter().position(|one| *one == name) {
+                raised.heights_mm[kind] = mm;
+                continue;
+            }
+            let problem = format!("`{name}` is no type of cell of the mosaic");
+            let help = if names.is_empty() {
+                "give the body a `mosaic`".to_owned()
+            } else {
+                format!("write one of {}", names.join(", "))
+            };
+            keys.refuse(&["heights_mm", &name], problem, &help);
+        }
+    });
 }
 
 /// The keys of what solid tissue holds; a key that is left out means none.

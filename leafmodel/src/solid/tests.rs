@@ -7,6 +7,8 @@ use crate::mosaic::shapes::ellipsoid;
 use crate::mosaic::shapes::rounded_cube;
 use crate::optics::{Constituent, Contents};
 
+mod raised;
+
 fn holding(chlorophyll: f64) -> Contents {
     Contents::of(&[(Constituent::Chlorophyll, chlorophyll)])
 }
@@ -39,6 +41,7 @@ fn plan(shape: SolidShape, mosaic: Option<MosaicPattern>) -> SolidPlan {
         seed: 7,
         contents: holding(20.0),
         mosaic,
+        raised: None,
         pigments: crate::optics::Pigments::default(),
         map_size: 256,
     }

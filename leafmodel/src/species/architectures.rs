@@ -5,7 +5,9 @@
 
 mod table_1;
 
-pub(super) use self::table_1::{alchemilla, cherry, ginkgo, grass, orchid, sweetgum, trillium};
+pub(super) use self::table_1::{
+    alchemilla, cherry, ginkgo, grass, orchid, sweetgum, trillium, trillium_green,
+};
 use crate::venation::architecture::{
     Agrophic, Architecture, Arrangement, Attachment, Primaries, PrimaryPattern, Secondaries,
     SecondaryCourse, SecondaryEnding, SecondarySpacing, Tertiaries, TertiaryCourse,

@@ -10,6 +10,7 @@ use super::specimens;
 use super::trees::{dense, leaf};
 use crate::leaf::LeafPlan;
 use crate::leaf::outline_plan::OutlinePlan;
+use crate::leaf::venation_plan::VenationPlan;
 use crate::optics::Constituent::{
     Anthocyanins, Carotenoids, Chlorophyll, DryMatter, Structure, Water,
 };
@@ -99,11 +100,19 @@ pub(super) fn trillium() -> LeafPlan {
     leaf(traits, 1, specimens::entire(contours::petal()), venation)
 }
 
-/// A green organ of trillium with the petal's kind of veins: its length, mm, thickness, mm, and
-/// contents, by eye.
-fn green_trillium(outline: OutlinePlan, length_mm: f64, thickness_mm: f64) -> LeafPlan {
+/// A green organ of trillium: primaries that part from the midrib at these angles, degrees, and arch
+/// to the tip; its length, mm; its thickness, mm, and contents, by eye.
+fn green_trillium(
+    outline: OutlinePlan,
+    lateral_angles_deg: &[f64],
+    length_mm: f64,
+    thickness_mm: f64,
+) -> LeafPlan {
     let mut plan = trillium();
     plan.outline = specimens::entire(outline);
+    if let VenationPlan::Auxin(auxin) = &mut plan.venation {
+        auxin.architecture = Some(architectures::trillium_green(lateral_angles_deg));
+    }
     plan.length_mm = length_mm;
     plan.form.thickness_mm = thickness_mm;
     plan.form.max_edge_mm = length_mm / 80.0;
@@ -122,7 +131,7 @@ fn green_trillium(outline: OutlinePlan, length_mm: f64, thickness_mm: f64) -> Le
 
 /// One of the three leaves of the whorl, which floras call bracts.
 pub(super) fn trillium_bract() -> LeafPlan {
-    let mut plan = green_trillium(contours::bract(), 110.0, 0.3);
+    let mut plan = green_trillium(contours::bract(), &[22.0, 46.0], 110.0, 0.3);
     plan.form.fold = 10.0_f64.to_radians();
     plan.form.curl = 24.0_f64.to_radians();
     plan.form.ruffle = 0.02;
@@ -130,24 +139,18 @@ pub(super) fn trillium_bract() -> LeafPlan {
 }
 
 pub(super) fn trillium_sepal() -> LeafPlan {
-    let mut plan = green_trillium(contours::sepal(), 40.0, 0.3);
+    let mut plan = green_trillium(contours::sepal(), &[20.0], 40.0, 0.3);
     plan.tissue.lamina[Chlorophyll] = 26.0;
     plan.tissue.lamina[Carotenoids] = 6.5;
     plan.form.fold = 18.0_f64.to_radians();
     plan.form.curl = 25.0_f64.to_radians();
     plan.form.ruffle = 0.01;
-    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation
-        && let Some(architecture) = &mut auxin.architecture
-    {
-        // Half as wide as a petal: there is room for fewer, also on a narrow individual.
-        architecture.primaries.laterals = 2;
-    }
     plan
 }
 
 /// Finest veins of this radius, mm: a segment says nothing of it where there is no net.
 fn widen(plan: &mut LeafPlan, radius_mm: f64) {
-    if let crate::leaf::venation_plan::VenationPlan::Auxin(auxin) = &mut plan.venation {
+    if let VenationPlan::Auxin(auxin) = &mut plan.venation {
         auxin.veinlet_radius_mm = radius_mm;
     }
 }

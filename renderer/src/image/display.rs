@@ -258,6 +258,10 @@ fn wavelength(name: &str) -> Option<f64> {
         .filter(|nm: &f64| nm.is_finite())
 }
 
+/// The light that is seen, nm. Beyond it the eye has some thousandths of its sensitivity left, which
+/// would tint a picture of the near infrared in red.
+const SEEN_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
+
 /// Bands stand for the wavelengths around them; without any in sight they are shown in grey.
 fn colours_of_bands(bands: &[(f64, &[f32])]) -> Vec<[f32; 3]> {
     let nearest = |nm: f64| {
@@ -266,7 +270,7 @@ fn colours_of_bands(bands: &[(f64, &[f32])]) -> Vec<[f32; 3]> {
         nearest.unwrap_or(0)
     };
     let mut weights = vec![[0.0_f32; 3]; bands.len()];
-    if bands.iter().any(|band| (400.0..=780.0).contains(&band.0)) {
+    if bands.iter().any(|band| SEEN_NM.contains(&band.0)) {
         for nm in (400..780).map(|nm| f64::from(nm) + 0.5) {
             for (sum, value) in weights[nearest(nm)]
                 .iter_mut()
@@ -508,6 +512,7 @@ mod tests {
             assert!((one - other).abs() < 1e-4, "{all:?} {green:?}");
         }
         assert_eq!(bands(&["S0.900,000000nm", "S0.1600,000000nm"]), [1.0; 3]);
+        assert_eq!(bands(&["S0.725,000000nm", "S0.875,000000nm"]), [1.0; 3]);
     }
 
     #[test]

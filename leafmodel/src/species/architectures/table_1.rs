@@ -119,3 +119,15 @@ pub(in crate::species) fn trillium() -> Architecture {
         ..Architecture::default()
     }
 }
+
+/// A trillium's bract or sepal: primaries that arch from the base to the tip, a net between them.
+pub(in crate::species) fn trillium_green(lateral_angles_deg: &[f64]) -> Architecture {
+    Architecture {
+        primaries: Primaries {
+            pattern: PrimaryPattern::Acrodromous,
+            lateral_angles_deg: lateral_angles_deg.to_vec(),
+            ..pinnate()
+        },
+        ..trillium()
+    }
+}

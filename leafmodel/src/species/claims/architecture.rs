@@ -131,10 +131,6 @@ fn each_species_is_what_its_architecture_says() {
         if crate::species::colours::coloured(preset.name).is_some() {
             continue;
         }
-        // Of trillium's green organs only the outlines are looked up.
-        if ["trillium-bract", "trillium-sepal"].contains(&preset.name) {
-            continue;
-        }
         let leaf = Grown::preset(preset.name);
         let found = describe(&leaf.outline, &leaf.network);
         let mut all = disagreements(&asked, &found);
@@ -148,7 +144,7 @@ fn each_species_is_what_its_architecture_says() {
             ("areole_elongation_median", 1.54..1.69),
             ("areole_area_cv", 0.9..1.5),
         ];
-        // Ginkgo and grass have no net, a trillium a loose one: its green organs have the petal's veins.
+        // Ginkgo and grass have no net, a trillium a loose one.
         let has_net = !["ginkgo-leaf", "grass-blade"].contains(&preset.name)
             && !preset.name.starts_with("trillium-");
         let ranges = if has_net {

@@ -48,10 +48,6 @@ fn junctions_of_species_are_balanced_and_simple_and_widths_follow_murray_by_orde
     let mut seen = 0;
     let mut wrong = Vec::new();
     for preset in PRESETS {
-        // Of trillium's green organs only the outlines are looked up.
-        if ["trillium-bract", "trillium-sepal"].contains(&preset.name) {
-            continue;
-        }
         let plan = preset.plan();
         let architecture = plan
             .venation

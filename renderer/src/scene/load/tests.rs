@@ -11,7 +11,7 @@ use leafmodel::mosaic::plan::{CellType, MosaicPlan};
 use leafmodel::optics::solid::{SCATTERING_PER_MM, Solid as Tissue};
 use leafmodel::optics::{Constituent, Contents, PerConstituent, Pigments, Texel};
 use leafmodel::plan_file::leaf_to_toml;
-use leafmodel::solid::{SolidPlan, SolidShape};
+use leafmodel::solid::{Raised, SolidPlan, SolidShape};
 use proptest::prelude::*;
 
 use super::*;
@@ -118,6 +118,10 @@ proptest! {
                 seed,
                 contents,
                 mosaic: patterned.then(|| pattern(contents)),
+                raised: (patterned && seed % 2 == 0).then(|| Raised {
+                    heights_mm: vec![0.0, packaging],
+                    over_mm: 2.0 * packaging,
+                }),
                 pigments: Pigments {
                     betalain_packaging: packaging,
                     ..Pigments::default()

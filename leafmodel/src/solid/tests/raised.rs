@@ -1,0 +1,124 @@
+//! Tissue that stands out.
+
+use super::*;
+use crate::solid::{Raised, RaisedError};
+
+const RADIUS_MM: f64 = 10.0;
+const HEIGHT_MM: f64 = 0.8;
+
+/// A ball of pale and dark cells, of which some stand out.
+fn ball(raised: Option<Raised>) -> SolidPlan {
+    let semi_axes_mm = DVec3::splat(RADIUS_MM);
+    SolidPlan {
+        raised,
+        map_size: 512,
+        ..plan(SolidShape::Ellipsoid { semi_axes_mm }, Some(pattern(0.0)))
+    }
+}
+
+fn warts() -> Raised {
+    Raised {
+        heights_mm: vec![0.0, HEIGHT_MM],
+        over_mm: 1.0,
+    }
+}
+
+#[test]
+fn tissue_stands_as_high_as_it_is_said_to_and_the_rest_stays() {
+    // Triangles cut the sphere; how deep, one shows on which no tissue is raised.
+    let lies = |body: &Solid| {
+        let within = body.positions.iter().map(|position| position.length());
+        within.fold(f64::INFINITY, f64::min)
+    };
+    let level = Raised {
+        heights_mm: vec![0.0; 2],
+        ..warts()
+    };
+    let chord = RADIUS_MM - lies(&grow(&ball(Some(level))));
+    assert!(chord < 0.05, "{chord}");
+    let body = grow(&ball(Some(warts())));
+    let mut seen = [0; 2];
+    for (position, &uv) in body.positions.iter().zip(&body.uvs) {
+        let high = position.length() - RADIUS_MM;
+        assert!((-chord - 1e-9..=HEIGHT_MM + 1e-9).contains(&high), "{high}");
+        let holds = chlorophyll(&body.contents, uv);
+        if high > 0.05 {
+            assert!(holds > 10.0, "pale tissue stands {high} mm out");
+        }
+        seen[0] += usize::from(holds == 10.0);
+        seen[1] += usize::from(high > HEIGHT_MM - chord - 1e-9);
+    }
+    let count = body.positions.len();
+    assert!(
+        seen.iter().all(|&of| 10 * of > count),
+        "{seen:?} of {count}"
+    );
+}
+
+#[test]
+fn a_body_with_warts_is_closed_and_its_normals_are_those_of_its_faces() {
+    for shape in closed_shapes() {
+        let raised = SolidPlan {
+            raised: Some(warts()),
+            ..plan(shape, Some(pattern(0.5)))
+        };
+        let body = grow(&raised);
+        let mut edges: BTreeMap<_, i32> = BTreeMap::new();
+        let mut around: BTreeMap<_, DVec3> = BTreeMap::new();
+        for triangle in &body.triangles {
+            let [p, q, r] = triangle.map(|vertex| body.positions[vertex as usize]);
+            for (from, to) in [(p, q), (q, r), (r, p)] {
+                *edges.entry([bits(from), bits(to)]).or_default() += 1;
+                *edges.entry([bits(to), bits(from)]).or_default() -= 1;
+            }
+            for vertex in triangle {
+                *around.entry(*vertex).or_default() += (q - p).cross(r - p);
+            }
+        }
+        assert!(edges.values().all(|&count| count == 0), "an edge is open");
+        let cosine = |(&vertex, sum): (&u32, &DVec3)| {
+            let normal = body.normals[vertex as usize];
+            assert!((normal.length() - 1.0).abs() < 1e-12);
+            normal.dot(sum.normalize())
+        };
+        let cosines: Vec<f64> = around.iter().map(cosine).collect();
+        let mean = cosines.iter().sum::<f64>() / cosines.len() as f64;
+        let least = cosines.iter().copied().fold(1.0, f64::min);
+        assert!(mean > 0.99 && least > 0.5, "mean {mean}, least {least}");
+    }
+}
+
+#[test]
+fn heights_that_fit_no_mosaic_are_refused() {
+    let refused = |plan: &SolidPlan| match Solid::grow(plan, &|| false) {
+        Err(SolidError::Raised(error)) => error,
+        other => panic!("{other:?}"),
+    };
+    let without = SolidPlan {
+        mosaic: None,
+        ..ball(Some(warts()))
+    };
+    assert_eq!(refused(&without), RaisedError::NoMosaic);
+    let of = |heights_mm: &[f64], over_mm: f64| {
+        refused(&ball(Some(Raised {
+            heights_mm: heights_mm.to_vec(),
+            over_mm,
+        })))
+    };
+    let few = RaisedError::Heights { types: 2, given: 1 };
+    assert_eq!(of(&[1.0], 1.0), few);
+    let height_mm = 1001.0;
+    assert_eq!(
+        of(&[0.0, height_mm], 1.0),
+        RaisedError::Height { height_mm }
+    );
+    let over_mm = 0.0;
+    assert_eq!(of(&[0.0, 1.0], over_mm), RaisedError::Slope { over_mm });
+    // A slope of a thousandth of a millimetre takes more triangles than there may be.
+    let narrow = ball(Some(Raised {
+        over_mm: 0.001,
+        ..warts()
+    }));
+    let refused = narrow.memory_bytes().expect_err("too many");
+    assert!(matches!(refused, SolidError::TooFine { .. }), "{refused}");
+}
