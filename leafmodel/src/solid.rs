@@ -2,9 +2,9 @@
 //!
 //! - **In**: a shape, the contents of its outer tissue, and a mosaic if it has one.
 //! - **Out**: a mesh with texture coordinates, and a map of contents over them.
+//!   Tissue of some cells may stand out from the shape.
 //! - **Always true**: contents are per area of the surface. They are those of the tissue down to
 //!   the depth that the optics use.
-//!   Tissue of some cells may stand out from the shape.
 //! - **Left out**: the inside.
 //!
 //! ```
@@ -101,8 +101,8 @@ pub enum SolidError {
     /// Its shape.
     #[error("shape: {0}")]
     Shape(#[source] ShapeError),
-    /// The body is too slender, or has too many cells or too narrow slopes, for the allowed number of
-    /// triangles.
+    /// The body is too slender, or has too many cells or too narrow slopes, for the allowed number
+    /// of triangles.
     #[error(
         "shape: it would take about {triangles:.0} triangles, too many: make the body less slender, give its mosaic fewer cells, or raised tissue a wider slope"
     )]

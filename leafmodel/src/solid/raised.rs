@@ -56,8 +56,8 @@ impl Raised {
 
     /// The height over a point, mm; `weights` is a buffer.
     ///
-    /// `field` blends types over twice the width of the slope, so that the weight of the tissue's own
-    /// type is ½ at its border and 1 from the width of the slope on.
+    /// `field` blends types over twice the width of the slope, so that the weight of the tissue's
+    /// own type is ½ at its border and 1 from the width of the slope on.
     fn height(&self, field: &TypeField, point: &SurfacePoint, weights: &mut [f64]) -> f64 {
         if field.is_bare(point) {
             return 0.0;

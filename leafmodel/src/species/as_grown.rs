@@ -100,8 +100,8 @@ pub(super) fn trillium() -> LeafPlan {
     leaf(traits, 1, specimens::entire(contours::petal()), venation)
 }
 
-/// A green organ of trillium: primaries that part from the midrib at these angles, degrees, and arch
-/// to the tip; its length, mm; its thickness, mm, and contents, by eye.
+/// A green organ of trillium: primaries that part from the midrib at these angles, degrees, and
+/// arch to the tip; its length, mm; its thickness, mm, and contents, by eye.
 fn green_trillium(
     outline: OutlinePlan,
     lateral_angles_deg: &[f64],

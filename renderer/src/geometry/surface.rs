@@ -32,8 +32,8 @@ pub struct SurfacePoint {
     /// Unit. Interpolated from the mesh's normals, turned to the side of the geometric normal; that
     /// normal itself where the mesh has none.
     pub shading_normal: Vec3,
-    /// Unit, at right angles to the shading normal up to rounding: the direction in which v grows, or some fixed
-    /// direction where the mesh has no uvs or they do not span the triangle.
+    /// Unit, at right angles to the shading normal up to rounding: the direction in which v grows,
+    /// or some fixed direction where the mesh has no uvs or they do not span the triangle.
     pub tangent: Vec3,
     /// Interpolated; the weights of the second and third vertex if the mesh has none.
     pub uv: Vec2,

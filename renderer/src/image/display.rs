@@ -258,8 +258,8 @@ fn wavelength(name: &str) -> Option<f64> {
         .filter(|nm: &f64| nm.is_finite())
 }
 
-/// The light that is seen, nm. Beyond it the eye has some thousandths of its sensitivity left, which
-/// would tint a picture of the near infrared in red.
+/// The light that is seen, nm. Beyond it the eye has some thousandths of its sensitivity left,
+/// which would tint a picture of the near infrared in red.
 const SEEN_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
 
 /// Bands stand for the wavelengths around them; without any in sight they are shown in grey.

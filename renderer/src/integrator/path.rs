@@ -3,6 +3,7 @@
 mod found;
 pub(super) mod lamps;
 pub(super) mod media;
+mod result;
 pub(super) mod scatterer;
 
 use glam::{Vec2, Vec3};
@@ -10,6 +11,7 @@ use glam::{Vec2, Vec3};
 use self::found::{emission, from_infinity};
 use self::lamps::sampled_light;
 use self::media::{Collision, Met, Passage};
+pub use self::result::{FirstHit, PathResult};
 use self::scatterer::Scatterer;
 use crate::camera::FilmRay;
 use crate::geometry::ray::Ray;
@@ -37,58 +39,6 @@ const VERTEX_SETS: u32 = 2;
 /// absorbs nothing, as in a medium so dense that its free paths are below the precision of places.
 const MOST_EVENTS: u32 = 100_000;
 
-/// The result of one path.
-#[derive(Clone, Copy, Debug)]
-pub struct PathResult<const N: usize> {
-    /// Radiance along the camera ray, W m⁻² sr⁻¹ nm⁻¹.
-    pub radiance: Lanes<N>,
-    /// The first hit of the camera ray.
-    pub first: Option<FirstHit<N>>,
-    /// Number of rays traced, shadow rays included.
-    pub rays: u32,
-}
-
-impl<const N: usize> PathResult<N> {
-    /// No light, of a path that has not begun.
-    pub const NOTHING: Self = Self {
-        radiance: Lanes::ZERO,
-        first: None,
-        rays: 0,
-    };
-}
-
-/// The first hit of the camera ray.
-#[derive(Clone, Copy, Debug)]
-pub struct FirstHit<const N: usize> {
-    /// Point, world, m.
-    pub position: Vec3,
-    /// Shading normal on the side of the camera, world.
-    pub normal: Vec3,
-    /// Share of light that the surface scatters.
-    pub albedo: Lanes<N>,
-    /// Number of the object in the scene.
-    pub object: u32,
-}
-
-impl<const N: usize> FirstHit<N> {
-    fn new(world: &World, encounter: &Encounter<'_, N>) -> Self {
-        let (surface, bsdf, wo) = (&encounter.surface, &encounter.bsdf, encounter.wo);
-        let normal = if encounter.has_relief {
-            encounter.frame.to_world(bsdf.normal(wo))
-        } else if wo.z < 0.0 {
-            -surface.shading_normal
-        } else {
-            surface.shading_normal
-        };
-        Self {
-            position: surface.position,
-            normal,
-            albedo: bsdf.albedo(wo),
-            object: world.objects[surface.instance as usize].object as u32,
-        }
-    }
-}
-
 /// Adds to `result` what a path through a random place in a pixel finds; `stream` gives the random
 /// numbers. Returns its wavelengths.
 pub fn of_pixel<const N: usize>(
@@ -114,7 +64,8 @@ pub fn of_pixel<const N: usize>(
     wavelengths
 }
 
-/// Adds to `result` the radiance that arrives along a ray. Of one of weight 0 only the first hit is found, for features.
+/// Adds to `result` the radiance that arrives along a ray. Of one of weight 0 only the first hit is
+/// found, for features.
 ///
 /// At every vertex each sun and one other light are sampled and weighted against the bounce by the
 /// power heuristic; at the first vertex the number of other lights is set by the effort. Russian

@@ -84,7 +84,9 @@ fn a_body_with_warts_is_closed_and_its_normals_are_those_of_its_faces() {
         let cosines: Vec<f64> = around.iter().map(cosine).collect();
         let mean = cosines.iter().sum::<f64>() / cosines.len() as f64;
         let least = cosines.iter().copied().fold(1.0, f64::min);
-        assert!(mean > 0.99 && least > 0.5, "mean {mean}, least {least}");
+        // Triangles are a third of a slope long, so that faces around a point differ where the slope
+        // begins: 0.9985 and 0.859 on the worst body.
+        assert!(mean > 0.998 && least > 0.85, "mean {mean}, least {least}");
     }
 }
 

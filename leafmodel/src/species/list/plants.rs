@@ -146,14 +146,14 @@ pub(super) static PLANTS: &[Preset] = &[
     Preset {
         name: "trillium-bract",
         about: "One of the three green leaves of white trillium, which floras call bracts",
-        source: "length and outline as Gleason and Cronquist 1991 give them (8–12 cm, ovate or rhombic, short-acuminate); primaries that arch from the base to the tip with a net between them, as floras say of the genus; their number, contents and lie by eye",
+        source: "length and outline as Gleason and Cronquist 1991 give them (8–12 cm, ovate or rhombic, short-acuminate); three to five primaries that meet at the tip, with a net between them, as descriptions of the genus and its family have it; their course, contents and lie by eye",
         row: None,
         plan: PlanOf::Function(as_grown::trillium_bract),
     },
     Preset {
         name: "trillium-sepal",
         about: "A sepal of white trillium: lanceolate, green",
-        source: "length and outline as Gleason and Cronquist 1991 give them (3–5 cm, lanceolate); primaries that arch from the base to the tip with a net between them, as floras say of the genus; their number, contents and lie by eye",
+        source: "length and outline as Gleason and Cronquist 1991 give them (3–5 cm, lanceolate); three to five primaries that meet at the tip, with a net between them, as descriptions of the genus and its family have it; their course, contents and lie by eye",
         row: None,
         plan: PlanOf::Function(as_grown::trillium_sepal),
     },

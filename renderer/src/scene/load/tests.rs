@@ -228,3 +228,23 @@ fn pictures_of_layers_are_read_and_written_back_by_their_paths() {
     assert!(matches!(&part.mask, Mask::Picture(picture) if picture.texels == [[0.5]; 6]));
     assert_eq!(read(&leaf_to_toml("beech", &plan, Extent::Changed)), plan);
 }
+
+#[test]
+fn raised_tissue_is_of_types_that_the_mosaic_has() {
+    let body = "format = 1\n[solids.cap]\nraised = { heights_mm = { wrt = 1.0 } }\n\
+        [solids.cap.shape.sphere]\nradius_mm = 10\n[solids.cap.contents]\nwater_cm = 0.01\n";
+    let mosaic = "[solids.cap.mosaic]\ndays = 1\n\
+        [solids.cap.mosaic.types.wart]\ninitial_share = 1\n";
+    let refused = |text: String| match parse(&text, "cap.toml", Path::new("."), &[]) {
+        Ok(_) => panic!("it is taken: {text}"),
+        Err(errors) => errors.to_string(),
+    };
+    let with = refused(body.to_owned() + mosaic + SCENE);
+    assert!(
+        with.contains("`wrt` is no type of cell of the mosaic"),
+        "{with}"
+    );
+    assert!(with.contains("write one of wart"), "{with}");
+    let without = refused(body.to_owned() + SCENE);
+    assert!(without.contains("give the body a `mosaic`"), "{without}");
+}
