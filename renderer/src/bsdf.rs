@@ -35,6 +35,7 @@ pub mod dust;
 pub mod fluorescence;
 pub mod fresnel;
 pub mod ggx;
+mod known;
 pub mod leaf;
 pub mod leaf_face;
 pub mod leaf_tissue;

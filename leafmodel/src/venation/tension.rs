@@ -12,9 +12,9 @@ use rayon::prelude::*;
 
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
+use net::Net;
 
-/// Share of the way to balance that a node goes in a round.
-const STEP: f64 = 0.25;
+mod net;
 
 /// Edges shorter than this share of the mean do not pull, so that none shrinks to nothing.
 const SHORTEST: f64 = 0.4;
@@ -23,7 +23,7 @@ const SHORTEST: f64 = 0.4;
 /// nothing moves at all.
 const TRIES: u32 = 24;
 
-/// Nodes that a thread takes at a time.
+/// Edges that a thread takes at a time.
 const BLOCK: usize = 4096;
 
 /// The places of the nodes after `rounds`; only nodes with two or more veins for which `is_free`
@@ -156,7 +156,8 @@ fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -
 ///
 /// Each node gathers the pulls on itself in the order of `edges`, so the bits are those of one
 /// thread. Nodes are worked on strip by strip of the blade, since what lies near in memory is
-/// fetched sooner: three times as fast as in the order of birth.
+/// fetched sooner: three times as fast as in the order of birth. Patches of them go through several
+/// rounds at once, in the cache.
 fn moved_from(
     positions: &[DVec2],
     edges: &[VeinEdge],
@@ -169,37 +170,9 @@ fn moved_from(
     for (place, &node) in (0..).zip(&sorted) {
         places[node as usize] = place;
     }
-    let (starts, pulls) = pulls_by_node(edges, &places);
-    let is_free: Vec<bool> = sorted.iter().map(|&node| moves[node as usize]).collect();
-    let mut now: Vec<DVec2> = sorted
-        .iter()
-        .map(|&node| positions[node as usize])
-        .collect();
-    let mut next = now.clone();
-    for _ in 0..rounds {
-        let pulled = next.par_iter_mut().enumerate().with_min_len(BLOCK);
-        pulled
-            .filter(|(node, _)| is_free[*node])
-            .for_each(|(node, place)| {
-                let here = now[node];
-                let (mut pull, mut sum) = (DVec2::ZERO, 0.0);
-                for &(other, radius) in &pulls[starts[node] as usize..starts[node + 1] as usize] {
-                    let way = now[other as usize] - here;
-                    let length = way.length();
-                    if length >= shortest {
-                        let stiffness = radius / length;
-                        pull += way * stiffness;
-                        sum += stiffness;
-                    }
-                }
-                *place = if sum > 0.0 {
-                    here + pull * (STEP / sum)
-                } else {
-                    here
-                };
-            });
-        std::mem::swap(&mut now, &mut next);
-    }
+    let net = Net::new(&places, edges, |place| moves[sorted[place] as usize]);
+    let at_place = |node: &u32| positions[*node as usize];
+    let now = net.after(sorted.iter().map(at_place).collect(), rounds, shortest);
     places.iter().map(|&place| now[place as usize]).collect()
 }
 
@@ -213,29 +186,6 @@ fn by_strips(positions: &[DVec2], height: f64) -> Vec<u32> {
         strips.then(along(a).total_cmp(&along(b))).then(a.cmp(&b))
     });
     sorted
-}
-
-/// For each place where its pulls begin, and all pulls: the place at the other end and the radius
-/// of the vein, in the order of `edges`. `places` are those of the nodes.
-fn pulls_by_node(edges: &[VeinEdge], places: &[u32]) -> (Vec<u32>, Vec<(u32, f64)>) {
-    let ends = |edge: &VeinEdge| [edge.from, edge.to].map(|node| places[node as usize]);
-    let mut starts = vec![0_u32; places.len() + 1];
-    for place in edges.iter().flat_map(ends) {
-        starts[place as usize + 1] += 1;
-    }
-    for place in 0..places.len() {
-        starts[place + 1] += starts[place];
-    }
-    let mut filled = starts.clone();
-    let mut pulls = vec![(0, 0.0); 2 * edges.len()];
-    for edge in edges {
-        let [from, to] = ends(edge);
-        for (here, there) in [(from, to), (to, from)] {
-            pulls[filled[here as usize] as usize] = (there, edge.radius_to);
-            filled[here as usize] += 1;
-        }
-    }
-    (starts, pulls)
 }
 
 fn mean_length(positions: &[DVec2], edges: &[VeinEdge]) -> f64 {

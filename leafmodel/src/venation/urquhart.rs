@@ -72,45 +72,69 @@ impl UrquhartNeighbourhood {
             return;
         }
         let half = 0.5 * offset.length_squared();
-        let beyond = |corner: DVec2| corner.dot(offset) - half;
-        let Some(last) = self.sides.last() else {
+        let beyond = |side: &Side| side.corner.dot(offset) - half;
+        if half == 0.0 {
+            self.give_all_to(id, offset);
+            return;
+        }
+        let Some(first) = self.sides.iter().position(|side| beyond(side) > 0.0) else {
             return;
         };
-        let mut before = (last.corner, beyond(last.corner));
-        if half > 0.0 && !self.sides.iter().any(|side| beyond(side.corner) > 0.0) {
-            return;
-        }
-        let mut sides = Vec::with_capacity(self.sides.len() + 2);
-        for side in &self.sides {
-            let at = beyond(side.corner);
-            let crossing = || before.0 + (side.corner - before.0) * (before.1 / (before.1 - at));
+        // The corners beyond the bisector follow one another; they begin at the end of the list if
+        // it ends with some.
+        let count = self.sides.len();
+        let at_end = self
+            .sides
+            .iter()
+            .rev()
+            .take_while(|side| beyond(side) > 0.0);
+        let at_end = at_end.count();
+        let start = if first == 0 {
+            (count - at_end) % count
+        } else {
+            first
+        };
+        self.sides.rotate_left(start);
+        let cut = self.sides.iter().take_while(|side| beyond(side) > 0.0);
+        let cut = cut.count();
+        if cut == count {
+            // By rounding only, since the source is on this side.
+            self.sides.clear();
+        } else {
+            let crossing = |from: &Side, to: &Side| {
+                let (before, after) = (beyond(from), beyond(to));
+                from.corner + (to.corner - from.corner) * (before / (before - after))
+            };
             // Where the old boundary crosses the bisector outwards, its side is cut short; where it
             // comes back, the new side ends.
-            match (before.1 > 0.0, at > 0.0) {
-                (false, false) => sides.push(*side),
-                (false, true) => sides.push(Side {
-                    node: side.node,
-                    corner: crossing(),
-                }),
-                (true, false) => {
-                    sides.push(Side {
-                        node: Some((id, offset)),
-                        corner: crossing(),
-                    });
-                    sides.push(*side);
-                }
-                (true, true) => {}
-            }
-            before = (side.corner, at);
-        }
-        // A node at the place of the source takes the whole cell.
-        if half == 0.0 {
-            sides = vec![Side {
+            let sides = &mut self.sides;
+            let shortened = crossing(&sides[count - 1], &sides[0]);
+            let new = Side {
                 node: Some((id, offset)),
-                corner: DVec2::ZERO,
-            }];
+                corner: crossing(&sides[cut - 1], &sides[cut]),
+            };
+            sides[0].corner = shortened;
+            if cut == 1 {
+                sides.insert(1, new);
+            } else {
+                sides[1] = new;
+                sides.drain(2..cut);
+            }
         }
-        self.sides = sides;
+        self.note_cut();
+    }
+
+    /// Gives the whole cell to a node at the place of the source.
+    fn give_all_to(&mut self, id: u32, offset: DVec2) {
+        self.sides.clear();
+        self.sides.push(Side {
+            node: Some((id, offset)),
+            corner: DVec2::ZERO,
+        });
+        self.note_cut();
+    }
+
+    fn note_cut(&mut self) {
         self.is_cut = true;
         self.radius_squared = self
             .sides
@@ -128,24 +152,25 @@ impl UrquhartNeighbourhood {
         if !std::mem::take(&mut self.is_cut) {
             return;
         }
-        let mut delaunay: Vec<(u32, DVec2)> = self.sides.iter().filter_map(|s| s.node).collect();
-        // Sorted by distance: only nearer nodes can exclude one, and mostly the nearest does.
-        let key = |&(id, offset): &(u32, DVec2)| (offset.length_squared().to_bits(), id);
-        delaunay.sort_unstable_by_key(key);
-        delaunay.dedup_by_key(|&mut (id, _)| id);
+        let delaunay = self.sides.iter().filter_map(|side| side.node);
         // Distances are computed as in the other modules: squares of differences of positions.
-        let excluded = |v: (u32, DVec2)| {
-            let squared = v.1.length_squared();
-            delaunay
-                .iter()
-                .take_while(|u| u.1.length_squared() <= squared)
-                .any(|u| u.0 != v.0 && squared >= (v.1 - u.1).length_squared())
+        let is_excluded = |v: (u32, DVec2), squared: f64| {
+            delaunay.clone().any(|u| {
+                u.0 != v.0
+                    && squared >= u.1.length_squared()
+                    && squared >= (v.1 - u.1).length_squared()
+            })
         };
         self.members.clear();
-        let chosen = delaunay.iter().filter(|&&v| !excluded(v));
-        self.members
-            .extend(chosen.map(|&(id, offset)| (id, offset.length_squared())));
+        for v in delaunay.clone() {
+            let squared = v.1.length_squared();
+            if !is_excluded(v, squared) {
+                self.members.push((v.0, squared));
+            }
+        }
         self.members.sort_unstable_by_key(|&(id, _)| id);
+        // By rounding a node may have two sides.
+        self.members.dedup_by_key(|&mut (id, _)| id);
     }
 
     /// Number and squared distance of each neighbour.

@@ -2,13 +2,14 @@
 //! to place.
 
 use std::f32::consts::FRAC_1_PI;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::directional_albedo::{lattice_on_disc, reflected_share};
 use super::ggx::Ggx;
+use super::known::Known;
 
 const ALPHA_NODES: usize = 16;
 const MU_NODES: usize = 33;
@@ -104,15 +105,8 @@ pub struct LocalCoat<'a> {
 impl CoatTable {
     /// The table of a refractive index, made once in a process.
     pub fn of(eta: f32) -> Arc<Self> {
-        static KNOWN: Mutex<Vec<(f32, Arc<CoatTable>)>> = Mutex::new(Vec::new());
-        // A list of finished tables is valid even if a thread panicked while it held the lock.
-        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, table)) = known.iter().find(|(other, _)| *other == eta) {
-            return Arc::clone(table);
-        }
-        let table = Arc::new(Self::new(eta));
-        known.push((eta, Arc::clone(&table)));
-        table
+        static KNOWN: Known<u32, CoatTable> = Known::new();
+        KNOWN.get(eta.to_bits(), || Self::new(eta))
     }
 
     fn new(eta: f32) -> Self {

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::bsdf::fresnel;
 use crate::bsdf::ggx::Ggx;
+use crate::bsdf::known::Known;
 use crate::sampling::warp;
 
 /// `E(ω)`, the share of light from ω that the coat's lobe reflects, and its mean `Ē`.
@@ -27,8 +28,18 @@ const AZIMUTH_NODES: usize = 17;
 const LATTICE: (u32, u32) = (6765, 4181);
 
 impl DirectionalAlbedo {
-    /// The directional albedo of a GGX coat with refractive index `eta`.
+    /// The directional albedo of a GGX coat with refractive index `eta`; worked out once in a process,
+    /// since the leaves of a plant have the same coats.
     pub fn new(ggx: Ggx, eta: f32) -> Self {
+        static KNOWN: Known<[u32; 3], DirectionalAlbedo> = Known::new();
+        let key = [ggx.alpha_x, ggx.alpha_y, eta].map(f32::to_bits);
+        KNOWN
+            .get(key, || Self::worked_out(ggx, eta))
+            .as_ref()
+            .clone()
+    }
+
+    fn worked_out(ggx: Ggx, eta: f32) -> Self {
         if eta == 1.0 {
             return Self {
                 values: Box::new([[0.0; MU_NODES]]),

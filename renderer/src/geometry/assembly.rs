@@ -16,7 +16,7 @@ use super::ray::Ray;
 use super::surface::{self, SurfacePoint, TextureScale};
 use super::wide_tree::{LeafItems, WideTree};
 use crate::simd::{LANES, Level};
-use joining::Joined;
+use joining::{Joined, MOST_REPEATED};
 use search::{AnyHit, NearestHit, Search};
 use triangle_tree::TriangleTree;
 
@@ -52,6 +52,15 @@ impl Geometry {
         meshes: Vec<TriangleMesh>,
         instances: Vec<Instance>,
     ) -> Result<Self, GeometryError> {
+        Self::built(meshes, instances, MOST_REPEATED)
+    }
+
+    /// As [`Geometry::build`]; `most_repeated` as in [`joining::choose`].
+    pub(super) fn built(
+        meshes: Vec<TriangleMesh>,
+        instances: Vec<Instance>,
+        most_repeated: usize,
+    ) -> Result<Self, GeometryError> {
         for (number, instance) in instances.iter().enumerate() {
             if instance.mesh as usize >= meshes.len() {
                 return Err(GeometryError::NoSuchMesh {
@@ -61,7 +70,7 @@ impl Geometry {
                 });
             }
         }
-        Self::placed(meshes.into(), &[], instances)
+        Self::placed(meshes.into(), &[], instances, most_repeated)
     }
 
     /// The same meshes with some of the instances, each moved by an offset, m; in the order given.
@@ -76,7 +85,7 @@ impl Geometry {
             instance
         });
         let meshes = Arc::clone(&self.meshes);
-        let geometry = Self::placed(meshes, &self.trees, moved.collect())?;
+        let geometry = Self::placed(meshes, &self.trees, moved.collect(), MOST_REPEATED)?;
         Ok(geometry.at_level(self.level))
     }
 
@@ -85,6 +94,7 @@ impl Geometry {
         meshes: Arc<[TriangleMesh]>,
         trees: &[Arc<TriangleTree>],
         instances: Vec<Instance>,
+        most_repeated: usize,
     ) -> Result<Self, GeometryError> {
         if instances.len() > MOST_INSTANCES {
             return Err(GeometryError::TooManyInstances {
@@ -99,7 +109,7 @@ impl Geometry {
                 Placement::new(number, instance, center)
             })
             .collect::<Result<Vec<_>, _>>()?;
-        let joined = joining::choose(&meshes, &placements);
+        let joined = joining::choose(&meshes, &placements, most_repeated);
         let mut trees = trees_of(&meshes, trees, &placements, joined.as_ref());
         let is_joined = |number: u32| {
             let joined = joined.as_ref();

@@ -96,12 +96,23 @@ pub(super) fn blade(
     TriangleMesh::new(positions, None, Some(uvs), triangles).expect("a blade has area")
 }
 
+/// Placed meshes, of which those that stand more than once have trees of their own.
 pub(super) fn placed(meshes: Vec<TriangleMesh>, to_world: &[(u32, Affine3A)]) -> Geometry {
+    placed_with(meshes, to_world, 0)
+}
+
+/// Placed meshes; those that stand more than once are joined, if together they have at most so many
+/// triangles.
+pub(super) fn placed_with(
+    meshes: Vec<TriangleMesh>,
+    to_world: &[(u32, Affine3A)],
+    most_repeated: usize,
+) -> Geometry {
     let instances = to_world
         .iter()
         .map(|&(mesh, to_world)| Instance { mesh, to_world })
         .collect();
-    Geometry::build(meshes, instances).expect("the transforms can be inverted")
+    Geometry::built(meshes, instances, most_repeated).expect("the transforms can be inverted")
 }
 
 pub(super) fn alone(mesh: TriangleMesh) -> Geometry {

@@ -31,6 +31,11 @@ const MOST_WALLS: usize = 2;
 /// Extent of a wall over that of all else, at least.
 const WALL_EXTENT: f32 = 4.0;
 
+/// Most triangles of all instances of meshes that stand more than once, if these are joined too:
+/// their copies take at most 36 MiB. A picture of six leaves takes 0.95 of the time that
+/// it takes through six trees; in boughs of more than a hundred leaves joining gave nothing.
+pub(super) const MOST_REPEATED: usize = 1 << 19;
+
 /// Instances that are joined, by number, rising.
 pub(super) struct Joined {
     /// In the tree.
@@ -54,20 +59,31 @@ impl Joined {
     }
 }
 
-/// The instances that are traced by one tree: those whose mesh stands once, as long as the world's
-/// numbers are as good as their own. None if there would be fewer than two.
+/// The instances that are traced by one tree: those whose mesh stands once, and all others if they
+/// are small, as long as the world's numbers are as good as their own. None if there would be fewer
+/// than two.
 ///
 /// A ray carried from instance to instance visits the tree of each; joined, it visits one.
-pub(super) fn choose(meshes: &[TriangleMesh], placements: &[Placement]) -> Option<Joined> {
+/// `most_repeated` is the greatest number of triangles of those others, together.
+pub(super) fn choose(
+    meshes: &[TriangleMesh],
+    placements: &[Placement],
+    most_repeated: usize,
+) -> Option<Joined> {
     let mut uses = vec![0_usize; meshes.len()];
     for placement in placements {
         uses[placement.instance.mesh as usize] += 1;
     }
     let mesh_of = |placement: &Placement| &meshes[placement.instance.mesh as usize];
     let triangles = |placement: &Placement| mesh_of(placement).triangles().len();
+    let stands_once = |placement: &Placement| uses[placement.instance.mesh as usize] == 1;
+    let repeated = placements
+        .iter()
+        .filter(|placement| !stands_once(placement));
+    let all_fit = repeated.map(triangles).sum::<usize>() <= most_repeated;
     let mut candidates: Vec<(u32, Bounds)> = (0..)
         .zip(placements)
-        .filter(|(_, placement)| uses[placement.instance.mesh as usize] == 1)
+        .filter(|(_, placement)| all_fit || stands_once(placement))
         .map(|(number, placement)| (number, rough_bounds(mesh_of(placement), placement)))
         .filter(|(_, bounds)| bounds.min.is_finite() && bounds.max.is_finite())
         .collect();

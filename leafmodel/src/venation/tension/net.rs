@@ -1,0 +1,297 @@
+//! The rounds of veins under tension.
+//!
+//! - **In**: nodes by place, so that what lies near in the blade lies near in memory; the edges.
+//! - **Out**: where the nodes are after some rounds.
+//! - **Always true**: bits are those of one round after the other on one thread. Patches of nodes go
+//!   through several rounds at once, in the cache.
+
+use std::ops::Range;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::VeinEdge;
+
+/// Share of the way to balance that a node goes in a round.
+const STEP: f64 = 0.25;
+
+/// Nodes of a patch. With what pulls at them they fill a megabyte, a second cache.
+const PATCH: usize = 16_384;
+
+/// Rounds that a patch goes through at once. Around it as many edges are worked on by its neighbours
+/// too.
+const AT_ONCE: u32 = 8;
+
+/// Nodes by place, and what pulls at them.
+pub(super) struct Net {
+    pulls: PullsByPlace,
+    is_free: Vec<bool>,
+}
+
+impl Net {
+    /// The net of these edges. `places` are those of the nodes; `is_free` says of a place whether
+    /// what is there moves.
+    pub(super) fn new(places: &[u32], edges: &[VeinEdge], is_free: impl Fn(usize) -> bool) -> Self {
+        Self {
+            pulls: pulls_by_place(edges, places),
+            is_free: (0..places.len()).map(is_free).collect(),
+        }
+    }
+
+    /// Where what is at each place is after `rounds`; edges shorter than `shortest` do not pull.
+    pub(super) fn after(&self, mut now: Vec<DVec2>, rounds: u32, shortest: f64) -> Vec<DVec2> {
+        let patches = self.patches(rounds.min(AT_ONCE));
+        let mut next = now.clone();
+        let mut left = rounds;
+        while left > 0 {
+            let rounds = left.min(AT_ONCE);
+            let moved = next.par_chunks_mut(PATCH).zip(&patches);
+            moved.for_each(|(next, patch)| patch.advance(&now, next, rounds, shortest));
+            std::mem::swap(&mut now, &mut next);
+            left -= rounds;
+        }
+        now
+    }
+
+    /// All places in patches of [`PATCH`], each with what lies at most `reach` edges from it.
+    fn patches(&self, reach: u32) -> Vec<Patch> {
+        let count = self.is_free.len();
+        let patches = count.div_ceil(PATCH);
+        let unknown = || vec![u32::MAX; count];
+        (0..patches)
+            .into_par_iter()
+            .map_init(unknown, |local, number| {
+                let first = number * PATCH;
+                let own = first as u32..count.min(first + PATCH) as u32;
+                self.patch(own, reach, local)
+            })
+            .collect()
+    }
+
+    /// A patch; `local` is [`u32::MAX`] for all places, before and after.
+    fn patch(&self, own: Range<u32>, reach: u32, local: &mut [u32]) -> Patch {
+        let mut places: Vec<u32> = own.collect();
+        for (number, &place) in (0..).zip(&places) {
+            local[place as usize] = number;
+        }
+        let mut within = vec![places.len()];
+        let mut ring = 0..places.len();
+        for _ in 0..reach {
+            for i in ring.clone() {
+                for &other in self.pulls.of(places[i]).iter().flat_map(|pulls| &pulls.to) {
+                    if local[other as usize] == u32::MAX {
+                        local[other as usize] = places.len() as u32;
+                        places.push(other);
+                    }
+                }
+            }
+            ring = ring.end..places.len();
+            within.push(places.len());
+        }
+        let inner = &places[..ring.start];
+        let mut pulls = PullsByPlace::default();
+        for &place in inner {
+            pulls.push(self.pulls.of(place).iter().map(|pulls| Pulls {
+                to: pulls.to.map(|other| local[other as usize]),
+                ..*pulls
+            }));
+        }
+        for &place in &places {
+            local[place as usize] = u32::MAX;
+        }
+        Patch {
+            is_free: inner
+                .iter()
+                .map(|&place| self.is_free[place as usize])
+                .collect(),
+            places,
+            within,
+            pulls,
+        }
+    }
+}
+
+/// Places that go through several rounds at once: their own, and what they feel in that time.
+struct Patch {
+    /// Own places, then those farther and farther away.
+    places: Vec<u32>,
+    /// Number of places at most 0, 1, 2 … edges away.
+    within: Vec<usize>,
+    /// What pulls at them, except at the farthest, and whether they move.
+    pulls: PullsByPlace,
+    is_free: Vec<bool>,
+}
+
+impl Patch {
+    /// Writes where its own places are after `rounds`.
+    fn advance(&self, before: &[DVec2], after: &mut [DVec2], rounds: u32, shortest: f64) {
+        let place = |place: &u32| before[*place as usize];
+        let mut now: Vec<DVec2> = self.places.iter().map(place).collect();
+        let mut next = now.clone();
+        for left in (0..rounds as usize).rev() {
+            // Farther ones have no effect on its own any more.
+            for node in 0..self.within[left] {
+                if self.is_free[node] {
+                    next[node] = pulled(now[node], self.pulls.of(node as u32), &now, shortest);
+                }
+            }
+            std::mem::swap(&mut now, &mut next);
+        }
+        after.copy_from_slice(&now[..after.len()]);
+    }
+}
+
+/// Where a node goes in a round.
+#[inline]
+fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
+    let (mut pull, mut sum) = (DVec2::ZERO, 0.0);
+    for pair in pulls {
+        let ways = pair.to.map(|other| now[other as usize] - here);
+        let lengths = ways.map(DVec2::length);
+        // Short ones are weighed with 0: a branch would keep the quotients apart.
+        let stiffness = [0, 1].map(|i| {
+            let pulls = f64::from(u8::from(lengths[i] >= shortest));
+            pulls * (pair.radius[i] / lengths[i].max(shortest))
+        });
+        pull += ways[0] * stiffness[0];
+        pull += ways[1] * stiffness[1];
+        sum += stiffness[0];
+        sum += stiffness[1];
+    }
+    if sum > 0.0 {
+        here + pull * (STEP / sum)
+    } else {
+        here
+    }
+}
+
+/// Two pulls on a node: the places at the other ends, and the radii of the veins. Square roots and
+/// quotients of a pair take the time of one; a node within a vein has one pair.
+#[derive(Clone, Copy)]
+struct Pulls {
+    to: [u32; 2],
+    radius: [f64; 2],
+}
+
+/// The pulls on each place.
+struct PullsByPlace {
+    /// Where those of each place begin.
+    starts: Vec<u32>,
+    pulls: Vec<Pulls>,
+}
+
+impl Default for PullsByPlace {
+    fn default() -> Self {
+        Self {
+            starts: vec![0],
+            pulls: Vec::new(),
+        }
+    }
+}
+
+impl PullsByPlace {
+    fn of(&self, place: u32) -> &[Pulls] {
+        let place = place as usize;
+        &self.pulls[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+
+    /// Those of the next place.
+    fn push(&mut self, pulls: impl Iterator<Item = Pulls>) {
+        self.pulls.extend(pulls);
+        self.starts.push(self.pulls.len() as u32);
+    }
+}
+
+/// All pulls on each place in the order of `edges`; `places` are those of the nodes. Where there is no
+/// second pull, the place itself stands, which does not pull.
+fn pulls_by_place(edges: &[VeinEdge], places: &[u32]) -> PullsByPlace {
+    let ends = |edge: &VeinEdge| [edge.from, edge.to].map(|node| places[node as usize]);
+    let mut degrees = vec![0_u32; places.len()];
+    for place in edges.iter().flat_map(ends) {
+        degrees[place as usize] += 1;
+    }
+    let mut all = PullsByPlace::default();
+    for (place, &degree) in (0..).zip(&degrees) {
+        let none = Pulls {
+            to: [place; 2],
+            radius: [0.0; 2],
+        };
+        all.push(std::iter::repeat_n(none, degree.div_ceil(2) as usize));
+    }
+    let mut filled = vec![0_u32; places.len()];
+    for edge in edges {
+        let [from, to] = ends(edge);
+        for (here, there) in [(from, to), (to, from)] {
+            let number = filled[here as usize];
+            filled[here as usize] += 1;
+            let pair = &mut all.pulls[(all.starts[here as usize] + number / 2) as usize];
+            pair.to[number as usize % 2] = there;
+            pair.radius[number as usize % 2] = edge.radius_to;
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patches_give_the_bits_of_one_round_after_the_other() {
+        // A crooked net of more nodes than a patch has, some of which are held.
+        let (wide, high) = (210_u32, 170_u32);
+        let places: Vec<u32> = (0..wide * high).collect();
+        assert!(places.len() > 2 * PATCH);
+        let start: Vec<DVec2> = places
+            .iter()
+            .map(|&i| {
+                let (x, y) = (f64::from(i % wide), f64::from(i / wide));
+                let askew = DVec2::new(libm::sin(7.0 * x + y), libm::sin(3.0 * x - 5.0 * y));
+                DVec2::new(x, y) + 0.3 * askew
+            })
+            .collect();
+        let edge = |from, to| VeinEdge {
+            from,
+            to,
+            radius_from: 1.0,
+            radius_to: 1.0 + f64::from(from % 5),
+            order: 1,
+        };
+        let edges: Vec<VeinEdge> = (0..wide * high)
+            .flat_map(|i| {
+                let right = (i % wide + 1 < wide && i % 7 != 3).then(|| edge(i, i + 1));
+                let up = (i / wide + 1 < high && i % 3 != 1).then(|| edge(i + wide, i));
+                [right, up].into_iter().flatten()
+            })
+            .collect();
+        let (rounds, shortest) = (AT_ONCE * 2 + 3, 0.8);
+        let net = Net::new(&places, &edges, |place| place % 11 != 0);
+        let mut at_node = vec![Vec::new(); places.len()];
+        for edge in &edges {
+            at_node[edge.from as usize].push((edge.to, edge.radius_to));
+            at_node[edge.to as usize].push((edge.from, edge.radius_to));
+        }
+        let mut expected = start.clone();
+        for _ in 0..rounds {
+            let before = expected.clone();
+            for (node, pulls) in at_node
+                .iter()
+                .enumerate()
+                .filter(|(node, _)| node % 11 != 0)
+            {
+                let (mut pull, mut sum) = (DVec2::ZERO, 0.0);
+                for &(other, radius) in pulls {
+                    let way = before[other as usize] - before[node];
+                    if way.length() >= shortest {
+                        pull += way * (radius / way.length());
+                        sum += radius / way.length();
+                    }
+                }
+                if sum > 0.0 {
+                    expected[node] = before[node] + pull * (STEP / sum);
+                }
+            }
+        }
+        assert_eq!(net.after(start, rounds, shortest), expected);
+    }
+}
