@@ -127,6 +127,68 @@ fn span_of_line(text: &str, line: usize) -> Range<usize> {
     text.len()..text.len()
 }
 
+/// Lines of the records of a table, counted from 1, asked for in their order.
+///
+/// A reader tells where it began to look for a record: before the rest of a line's end, empty lines
+/// and comments.
+struct Lines<'a> {
+    text: &'a [u8],
+    byte: usize,
+    line: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn of(text: &'a str) -> Self {
+        Self {
+            text: text.as_bytes(),
+            byte: 0,
+            line: 1,
+        }
+    }
+
+    /// The line on which a record begins.
+    fn at(&mut self, began: &csv::Position) -> usize {
+        while self.byte < began.byte() as usize {
+            self.step();
+        }
+        while let Some(byte) = self.text.get(self.byte) {
+            match byte {
+                b'\r' | b'\n' => self.step(),
+                b'#' => {
+                    while self.text.get(self.byte).is_some_and(|byte| *byte != b'\n') {
+                        self.step();
+                    }
+                }
+                _ => break,
+            }
+        }
+        self.line
+    }
+
+    fn step(&mut self) {
+        self.line += usize::from(self.text.get(self.byte) == Some(&b'\n'));
+        self.byte += 1;
+    }
+}
+
+/// A fault that the reader of a table tells.
+fn of_csv(text: &str, error: &csv::Error) -> Fault {
+    let line = error.position().map(|began| Lines::of(text).at(began));
+    // Its own words name a line too, counted in its way.
+    let problem = if let csv::ErrorKind::UnequalLengths {
+        expected_len, len, ..
+    } = error.kind()
+    {
+        format!("the line has {len} values, but there are {expected_len} columns")
+    } else {
+        error.to_string()
+    };
+    Fault {
+        span: line.map(|line| span_of_line(text, line)),
+        ..Fault::of_file(problem, "")
+    }
+}
+
 /// A piece of a file, safe to print.
 fn quoted(piece: &str) -> String {
     let piece: String = piece.chars().take(QUOTED).collect();

@@ -15,7 +15,7 @@
 use std::collections::BTreeMap;
 
 use super::units::{MICROMETRES, are_micrometres};
-use super::{Fault, quoted, span_of_line};
+use super::{Fault, Lines, of_csv, quoted};
 
 mod energy;
 
@@ -121,14 +121,10 @@ pub fn read(text: &str) -> Result<Table, Fault> {
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
-    let of_csv = |error: &csv::Error| {
-        let line = error.position().map(|at| at.line() as usize);
-        Fault {
-            span: line.map(|line| span_of_line(text, line)),
-            ..Fault::of_file(error.to_string(), "")
-        }
-    };
-    let names = reader.headers().map_err(|error| of_csv(&error))?.clone();
+    let names = reader
+        .headers()
+        .map_err(|error| of_csv(text, &error))?
+        .clone();
     let mut places = [0; 6];
     for (place, known) in places.iter_mut().zip(COLUMNS) {
         let found = names
@@ -141,9 +137,10 @@ pub fn read(text: &str) -> Result<Table, Fault> {
         })?;
     }
     let mut samples = Vec::new();
+    let mut lines = Lines::of(text);
     for record in reader.records() {
-        let record = record.map_err(|error| of_csv(&error))?;
-        let line = record.position().map_or(1, |at| at.line() as usize);
+        let record = record.map_err(|error| of_csv(text, &error))?;
+        let line = record.position().map_or(1, |began| lines.at(began));
         let mut numbers = [0.0; 6];
         for (number, place) in numbers.iter_mut().zip(places) {
             let written = &record[place];

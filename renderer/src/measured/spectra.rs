@@ -10,7 +10,7 @@ use csv::StringRecord;
 use super::columns::{Column, Measure, columns};
 use super::series::Series;
 use super::units::{MICROMETRES, PERCENT, are_micrometres, are_percent};
-use super::{Fault, Slack, quoted, span_of_line};
+use super::{Fault, Lines, Slack, of_csv, quoted};
 
 /// A leaf's spectra, by rising wavelength.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -117,19 +117,16 @@ pub fn read(text: &str) -> Result<Spectra, Fault> {
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
-    let of_csv = |error: &csv::Error| {
-        let line = error.position().map(|at| at.line() as usize);
-        Fault {
-            span: line.map(|line| span_of_line(text, line)),
-            ..Fault::of_file(error.to_string(), "")
-        }
-    };
-    let names = reader.headers().map_err(|error| of_csv(&error))?.clone();
+    let names = reader
+        .headers()
+        .map_err(|error| of_csv(text, &error))?
+        .clone();
     let columns = columns(&names).map_err(|what| Fault::of_file(what, ""))?;
     let mut leaves = Leaves::new(&columns);
+    let mut lines = Lines::of(text);
     for record in reader.records() {
-        let record = record.map_err(|error| of_csv(&error))?;
-        let line = record.position().map_or(1, |at| at.line() as usize);
+        let record = record.map_err(|error| of_csv(text, &error))?;
+        let line = record.position().map_or(1, |began| lines.at(began));
         leaves
             .add(&record, &names, &columns, line)
             .map_err(|problem| Fault::in_line(text, line, problem, ""))?;

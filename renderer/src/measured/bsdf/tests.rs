@@ -190,7 +190,14 @@ fn broken_tables_are_refused_with_line_and_value() {
             format!("{HEAD}30,0,60,0,550,0.1\n40,0,60,0,550,0.1\n30,0,60,0,550,0.2\n"),
             "line 4: has the directions and wavelength of line 2",
         ),
-        (format!("{HEAD}30,0,60,0,550\n"), "line 2"),
+        (
+            format!("{HEAD}30,0,60,0,550\n"),
+            "line 2: the line has 5 values, but there are 6 columns",
+        ),
+        (
+            format!("{HEAD}# two\r\n30,0,60,0,550,0.1\r\n\r\n30,0,60,0,550,-1\r\n"),
+            "line 5: value is -1",
+        ),
     ] {
         let fault = read(&text).expect_err(&text);
         let shown = fault.shown(Path::new("x.csv"), &text);

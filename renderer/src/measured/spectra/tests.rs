@@ -105,7 +105,24 @@ fn what_is_wrong_is_named_with_its_line_or_wavelength() {
             "nm,R,R_abaxial,T\n400,0.1,0.7,0.4\n",
             "line 2: abaxial R + T is 1.1",
         ),
-        ("nm,R,T\n400,0.6\n", "line 2: "),
+        (
+            "nm,R,T\n400,0.6\n",
+            "line 2: the line has 2 values, but there are 3 columns",
+        ),
+        // Ends of lines of two characters, empty lines and comments count.
+        ("nm,R\r\n400,0.1\r\n410,x\r\n", "line 3: R is \"x\""),
+        (
+            "# a\nnm,R\n# b\n\n400,0.1\n\n# c\n# d\n410,x\n",
+            "line 9: R is \"x\"",
+        ),
+        (
+            "# a\r\nnm,R\r\n\r\n# b\r\n400,0.1,3\r\n",
+            "line 5: the line has 3 values",
+        ),
+        (
+            "nm,R\n\"400\",\"0.1\"\n# c\n390,0.1\n",
+            "line 4: wavelength 390 after 400",
+        ),
     ] {
         let error = parsed(text, Slack::NOISE).expect_err(text);
         assert!(
