@@ -91,6 +91,10 @@ def test_a_spectral_picture_is_what_the_exr_holds() -> None:
         assert np.array_equal(ours, pixels[:, :, names.index(channel)])
     variance = picture.radiance_variance.sel(wavelength=550).values
     assert np.array_equal(variance, pixels[:, :, names.index("variance.S0.550,000000nm")])
+    assert picture.luminance_variance.attrs["units"] == picture.radiance_variance.attrs["units"]
+    # Of less than two batches of samples the error of the mean over bands is the greatest possible.
+    bound = np.sqrt(picture.radiance_variance).mean("wavelength") ** 2
+    np.testing.assert_allclose(picture.luminance_variance, bound, rtol=1e-4)
     assert picture.radiance.values.max() > 0
 
 
@@ -103,6 +107,7 @@ def test_a_colour_picture_has_channels_and_layers() -> None:
         picture = lamina.render(scene, {"film.rgb.size": [8, 6]}, spp=1)
     assert picture.colour.dims == ("y", "x", "channel")
     layers = {"coverage", "albedo", "normal", "position", "depth", "object", "samples"}
+    layers |= {"colour_variance", "luminance_variance"}
     assert layers <= set(picture)
     assert set(np.unique(picture.samples)) == {1.0}
 

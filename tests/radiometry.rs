@@ -171,6 +171,78 @@ fn stopping_at_a_noise_leaves_the_mean_as_it_is_and_reaches_the_noise() {
     }
 }
 
+/// Mean over pixels of the variance of luminance over seeds, of what the pictures tell of it, and of
+/// what single samples of the channels would tell.
+fn variances_of_luminance(text: &str, seeds: u64) -> [f64; 3] {
+    let pictures: Vec<_> = (0..seeds).map(|seed| picture_of(text, seed)).collect();
+    let mean = |of: &dyn Fn(&Pixel<'_>) -> f64| {
+        let values = pictures.iter().flat_map(|picture| {
+            let film = &picture.film;
+            let all = (0..film.height()).flat_map(|y| (0..film.width()).map(move |x| (x, y)));
+            all.map(|(x, y)| of(&film.pixel(x, y)))
+        });
+        values.sum::<f64>() / (256 * seeds) as f64
+    };
+    let told = mean(&|pixel| pixel.variance_of_luminance());
+    let of_samples = mean(&|pixel| {
+        let deviations = [0.2126, 0.7152, 0.0722].iter().zip(0..pixel.channels());
+        let deviations = deviations.map(|(share, channel)| {
+            share
+                * pixel
+                    .moments(channel)
+                    .variance_of_mean(pixel.samples())
+                    .sqrt()
+        });
+        deviations.sum::<f64>().powi(2)
+    });
+    let mut found = 0.0;
+    for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
+        let of_seeds: Vec<f64> = pictures
+            .iter()
+            .map(|picture| picture.film.pixel(x, y).luminance())
+            .collect();
+        let (_, error) = mean_and_error_of(&of_seeds);
+        found += error * error * seeds as f64 / 256.0;
+    }
+    [found, told, of_samples]
+}
+
+#[test]
+fn the_told_error_of_luminance_is_that_over_seeds() {
+    let of_colour = |camera: &str, integrator: &str, blocks: &str| {
+        let text = scene(camera, integrator, blocks);
+        let bands = "[film.spectral]\nsize = [16, 16]\nspp = 64\nbands_nm = [550, 800]\nband_width_nm = 0\n";
+        text.replace(bands, "[film.rgb]\nsize = [16, 16]\nspp = 128\n")
+    };
+    let room = glowing_room("0.6", 0.4);
+    let inside = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
+    let floor = GREY_FLOOR.replace("{ table = [[550, 0.25], [800, 0.75]] }", "0.5");
+    let lamp = format!(
+        "{floor}[meshes.lamp.rectangle]\nwidth_m = 0.5\nheight_m = 0.5\n\
+         [materials.black.diffuse]\nreflectance = 0\n\
+         [objects.lamp]\nmesh = \"lamp\"\nmaterial = \"black\"\nrotate_deg = [180, 0, 0]\n\
+         position_m = [0.8, 0.1, 0.6]\n\
+         [lights.lamp.area]\nobject = \"lamp\"\nradiance_w_m2_sr_nm = 1\n"
+    );
+    for (what, text, within) in [
+        // Paths that roulette ends at every bounce are nearly independent.
+        (
+            "room",
+            of_colour(inside, "roulette_below = 1", &room),
+            [0.9, 1.4],
+        ),
+        // The smoothest of integrands: later batches fill the gaps of earlier ones best, and single
+        // samples tell a variance a thousand times too large.
+        ("lamp", of_colour(FACING_THE_ORIGIN, "", &lamp), [0.9, 20.0]),
+    ] {
+        let [found, told, of_samples] = variances_of_luminance(&text, 24);
+        let (ratio, of_samples) = (told / found, of_samples / found);
+        eprintln!("{what}: told {ratio:.2} of the variance over seeds, samples {of_samples:.2}");
+        assert!(ratio > within[0] && ratio < within[1], "{what}: {ratio}");
+        assert!(of_samples > ratio, "{what}: {of_samples} by single samples");
+    }
+}
+
 #[test]
 fn roulette_leaves_the_mean_as_it_is() {
     let blocks = glowing_room("0.6", 0.4);

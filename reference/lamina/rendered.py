@@ -31,6 +31,7 @@ SINGLES = {
     "height.Z": ("height", "m"),
     "id.object": ("object", "1"),
     "samples.Y": ("samples", "1"),
+    "variance.Y": ("luminance_variance", "1"),
 }
 RADIANCE = "W m-2 sr-1 nm-1"
 
@@ -76,7 +77,9 @@ def read(file: str | Path) -> xr.Dataset:
     Dimensions are `y` and `x` (pixels, from the top left corner), and `wavelength` (nm) for a
     spectral film, `channel` (R, G, B) for a colour film, `axis` (X, Y, Z) for places and
     directions. `radiance` and `radiance_variance`, or `colour` and `colour_variance`: means over
-    samples and the variances of those means; then `coverage`, `depth`, `normal`, `position`,
+    samples and the variances of those means as if samples were independent; `luminance_variance`:
+    that of the mean luminance (of a spectral film, of the mean over bands), with what their even
+    spread gains; then `coverage`, `depth`, `normal`, `position`,
     `albedo`, `object` and `samples`, as far as the scene asked for them. Each variable has its
     `units`; what the program wrote about the render is in `attrs`. Raises OSError for a file that
     is no EXR.
@@ -97,6 +100,8 @@ def read(file: str | Path) -> xr.Dataset:
         elif name in SINGLES:
             key, unit = SINGLES[name]
             layers[key] = xr.DataArray(pixels[:, :, number], dims=("y", "x"), attrs={"units": unit})
+    if spectral and "luminance_variance" in layers:
+        layers["luminance_variance"].attrs["units"] = f"({RADIANCE})2"
     for layer, bands in spectral.items():
         bands.sort()
         name = "radiance" if not layer else f"radiance_{layer}"

@@ -1,8 +1,9 @@
 """Tells how noisy pictures are, from their own variance.
 
 Relative standard error of luminance by pixel: the root of the variance of the mean over the mean.
-The film holds variances of R, G and B but not how they go together, so they are taken to go wholly
-together: the true error is at most that. Bands are added with equal weights, likewise.
+The layer `variance.Y` has that variance. Pictures of older versions hold variances of R, G and B
+only, as if samples were independent, and not how they go together: taken to go wholly together they
+give an upper bound. Bands are added with equal weights, likewise.
 """
 
 from __future__ import annotations
@@ -14,12 +15,17 @@ import numpy as np
 import OpenImageIO as oiio
 from numpy.typing import NDArray
 
+Array = NDArray[np.float64]
+
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 PERCENT = 0.01
 
 
-def relative_error(file: str) -> NDArray[np.float64]:
-    """The bound on the relative standard error of luminance of each pixel that is not black."""
+def relative_error(file: str) -> tuple[Array, bool]:
+    """The relative standard error of luminance of each pixel that is not black.
+
+    Also whether it is only an upper bound. Raises SystemExit for a file without a variance.
+    """
     image = oiio.ImageInput.open(file)
     if image is None:
         raise SystemExit(f"{file}: {oiio.geterror()}")
@@ -27,15 +33,21 @@ def relative_error(file: str) -> NDArray[np.float64]:
     pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
     image.close()
     bands = {name: 1.0 for name in names if name.startswith("S0.")}
-    weights = bands or LUMINANCE
+    weights = {name: 1.0 / len(bands) for name in bands} or LUMINANCE
+    missing = [name for name in weights if {name, f"variance.{name}"} - set(names)]
+    if missing:
+        raise SystemExit(f"{file}: has no layer variance of {', '.join(missing)}")
     mean = np.zeros(pixels.shape[:2])
     error = np.zeros(pixels.shape[:2])
     for name, weight in weights.items():
         mean += weight * pixels[:, :, names.index(name)]
         variance = pixels[:, :, names.index(f"variance.{name}")]
         error += weight * np.sqrt(np.maximum(variance, 0.0))
+    bounded = "variance.Y" not in names
+    if not bounded:
+        error = np.sqrt(pixels[:, :, names.index("variance.Y")])
     lit = mean > 0.0
-    return np.asarray(error[lit] / mean[lit])
+    return np.asarray(error[lit] / mean[lit]), bounded
 
 
 def main() -> None:
@@ -45,12 +57,16 @@ def main() -> None:
     )
     parser.add_argument("pictures", nargs="+", metavar="PICTURE.exr")
     for file in parser.parse_args().pictures:
-        error = relative_error(file)
+        error, bounded = relative_error(file)
+        if not error.size:
+            sys.stdout.write(f"{file}: black\n")
+            continue
         within = float((error <= PERCENT).mean())
         middle, most = 100 * np.quantile(error, [0.5, 0.95])
         sys.stdout.write(
             f"{file}: {100 * within:.1f} % of pixels within 1 %; "
-            f"median {middle:.2f} %, 95 % within {most:.2f} %\n"
+            f"median {middle:.2f} %, 95 % within {most:.2f} %"
+            f"{' (upper bound)' if bounded else ''}\n"
         )
 
 

@@ -42,7 +42,7 @@ fn adding(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(u64::from(SIDE * SIDE * SAMPLES)));
     for (name, first) in [("with features", 0), ("radiance", FEATURE_SAMPLES)] {
         // A new film each time: no more than 256 samples of a pixel may record features.
-        let film = || Film::new(SIDE, SIDE, 3, &SUMS).expect("a small film");
+        let film = || Film::new(SIDE, SIDE, &[0.2, 0.7, 0.1], &SUMS).expect("a small film");
         group.bench_function(name, |bencher| {
             bencher.iter_batched_ref(
                 film,

@@ -37,7 +37,7 @@ use crate::integrator::render::{Begun, Job};
 use crate::spectrum::WavelengthSampler;
 
 /// The first bytes of a file.
-const MAGIC: [u8; 16] = *b"lamina sums  3\n\n";
+const MAGIC: [u8; 16] = *b"lamina sums  4\n\n";
 
 /// Why a checkpoint cannot be read.
 #[derive(Debug, Error)]
@@ -222,9 +222,9 @@ impl Opened {
     fn has_all_rows(&self, layout: Layout) -> bool {
         let Job { width, height, .. } = self.heading.job;
         let (across, rows) = (width.div_ceil(BLOCK_SIDE), height.div_ceil(BLOCK_SIDE));
-        // The count of samples, and two bytes for each kind of number.
-        let kinds = 2 * layout.beauty + 1 + layout.sums().len();
-        let least = u64::from(across) * (4 + 2 * kinds as u64);
+        // The counts of samples and of open batches, and two bytes for each kind of number.
+        let kinds = 2 * layout.beauty + 2 + layout.sums().len();
+        let least = u64::from(across) * (4 + 2 + 2 * kinds as u64);
         let rows = rows as usize;
         self.sections.len() == rows + 2
             && self.sections[..rows]

@@ -2,20 +2,20 @@
 //!
 //! - **In**: samples, block of pixels by block: each has a value per channel and, if the camera ray
 //!   hit something, a number per feature.
-//! - **Out**: mean and variance of the mean per pixel and channel; coverage, and means of features
+//! - **Out**: mean and variance of the mean per pixel and channel, and of luminance; coverage, and means of features
 //!   over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which
 //!   samples arrive; a sample with a number that is not finite is rejected whole and counted, one
 //!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
-//! - **Memory**: per pixel 32 bytes for each channel, 4 for coverage, and 8 or 4 for each feature,
-//!   depending on its [`Sum`].
+//! - **Memory**: per pixel 32 bytes for each channel, 8 for the error of luminance, 4 for coverage,
+//!   and 8 or 4 for each feature, depending on its [`Sum`].
 //! - **Left out**: the meaning of channels and features, which the film's creator defines.
 //!
 //! ```
 //! use renderer::film::Film;
 //!
-//! // One channel, no features: eight samples of each pixel, half of them 1, half 2.
-//! let mut film = Film::new(16, 16, 1, &[])?;
+//! // One channel, which is luminance, no features: eight samples of each pixel, half of them 1, half 2.
+//! let mut film = Film::new(16, 16, &[1.0], &[])?;
 //! film.expose(|block| {
 //!     block.expose(8, |_x, _y, pixel| {
 //!         for number in 0..8 {
@@ -28,6 +28,7 @@
 //! # Ok::<(), renderer::film::FilmError>(())
 //! ```
 
+mod batches;
 mod block;
 mod features;
 mod fixed;
@@ -42,12 +43,14 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 use thiserror::Error;
 
+pub use batches::BATCH;
 pub use block::{BLOCK_SIDE, Block, PixelSums};
 pub use features::{FEATURE_SAMPLES, Sum};
 pub use moments::Moments;
 pub use packed::{DamagedRow, RowSums};
 pub use pixel::Pixel;
 
+use batches::OpenBatches;
 use block::Faults;
 use features::{Coverage, Words};
 
@@ -90,15 +93,20 @@ pub enum FilmError {
 ///
 /// Each kind of sum is one array in the order of blocks, within a block row by row, so that pixels
 /// exposed together are contiguous.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     width: u32,
     height: u32,
-    channels: usize,
+    /// Share of each channel in luminance.
+    luminance: Vec<f32>,
     /// For each block the number of samples of its pixels, rejected ones included.
     drawn: Vec<u32>,
     /// The moments, one per channel for each pixel.
     moments: Vec<Moments>,
+    /// For each pixel the sum of the squares of the mean luminances of its batches.
+    squares: Vec<u64>,
+    /// For each block the batches of which it has some samples but not all; mostly none.
+    open: Vec<OpenBatches>,
     /// Layout of the remaining words of each pixel.
     words: Words,
     wide: Vec<i64>,
@@ -107,12 +115,19 @@ pub struct Film {
 }
 
 impl Film {
-    /// An empty film; `sums` says how each feature is kept.
+    /// An empty film with a channel for each number of `luminance`, its share in luminance; `sums`
+    /// says how each feature is kept.
     ///
     /// # Errors
     ///
     /// [`FilmError`] if it has no pixels or channels, or would be too large.
-    pub fn new(width: u32, height: u32, channels: usize, sums: &[Sum]) -> Result<Self, FilmError> {
+    pub fn new(
+        width: u32,
+        height: u32,
+        luminance: &[f32],
+        sums: &[Sum],
+    ) -> Result<Self, FilmError> {
+        let channels = luminance.len();
         Self::bytes(width, height, channels, sums)?;
         let pixels = width as usize * height as usize;
         let words = Words::new(sums);
@@ -120,9 +135,11 @@ impl Film {
         Ok(Self {
             width,
             height,
-            channels,
+            luminance: luminance.to_vec(),
             drawn: vec![0; blocks],
             moments: vec![Moments::default(); pixels * channels],
+            squares: vec![0; pixels],
+            open: vec![OpenBatches::default(); blocks],
             wide: vec![0; pixels * words.wide],
             narrow: vec![0; pixels * words.narrow],
             words,
@@ -156,10 +173,10 @@ impl Film {
         Ok(bytes)
     }
 
-    /// Memory of a pixel, bytes; each block needs four more.
+    /// Memory of a pixel, bytes; each block needs 28 more, and eight a pixel for each open batch.
     pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
-        channels * size_of::<Moments>() + Coverage::BYTES + features
+        channels * size_of::<Moments>() + size_of::<u64>() + Coverage::BYTES + features
     }
 
     /// Pixels across.
@@ -174,7 +191,7 @@ impl Film {
 
     /// Number of channels.
     pub fn channels(&self) -> usize {
-        self.channels
+        self.luminance.len()
     }
 
     /// The sums of a pixel.
@@ -188,18 +205,21 @@ impl Film {
             "the pixel is on the film"
         );
         let (column, row) = (x / BLOCK_SIDE, y / BLOCK_SIDE);
-        let height = BLOCK_SIDE.min(self.height - row * BLOCK_SIDE) as usize;
-        let width = BLOCK_SIDE.min(self.width - column * BLOCK_SIDE) as usize;
-        let corner = (row * BLOCK_SIDE) as usize * self.width as usize
-            + (column * BLOCK_SIDE) as usize * height;
-        let place = corner + (y % BLOCK_SIDE) as usize * width + (x % BLOCK_SIDE) as usize;
         let block = row as usize * self.blocks_across() + column as usize;
+        let width = BLOCK_SIDE.min(self.width - column * BLOCK_SIDE) as usize;
+        let within = (y % BLOCK_SIDE) as usize * width + (x % BLOCK_SIDE) as usize;
+        let place = self.first_of(block) + within;
         let rejected = self.faults.rejected.get(&place).copied().unwrap_or(0);
         Pixel {
-            moments: of_place(&self.moments, place, self.channels),
+            luminance: &self.luminance,
+            moments: of_place(&self.moments, place, self.channels()),
+            squares: self.squares[place],
+            open: &self.open[block],
+            within,
             words: &self.words,
             wide: of_place(&self.wide, place, self.words.wide),
             narrow: of_place(&self.narrow, place, self.words.narrow),
+            drawn: self.drawn[block],
             samples: self.drawn[block] - rejected,
         }
     }
@@ -222,33 +242,36 @@ impl Film {
     /// Lets `expose` add samples to every block, on the current thread pool. The result does not
     /// depend on which thread exposes a block.
     pub fn expose(&mut self, expose: impl Fn(&mut Block<'_>) + Sync) {
-        let (width, height, channels) = (self.width, self.height, self.channels);
-        let (across, words) = (self.blocks_across(), &self.words);
+        let (width, height, channels) = (self.width, self.height, self.channels());
+        let (across, words, luminance) = (self.blocks_across(), &self.words, &self.luminance[..]);
         let row_pixels = (BLOCK_SIDE * width) as usize;
         let rows = self.drawn.len() / across;
         let faults = Mutex::new(Faults::default());
         let rows = self
             .drawn
             .par_chunks_mut(across)
+            .zip(self.open.par_chunks_mut(across))
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
+            .zip(self.squares.par_chunks_mut(row_pixels))
             .zip(chunks_or_nothing(
                 &mut self.wide,
                 row_pixels * words.wide,
                 rows,
             ))
             .zip(self.narrow.par_chunks_mut(row_pixels * words.narrow));
-        rows.enumerate()
-            .for_each(|(row, (((drawn, moments), wide), narrow))| {
+        rows.enumerate().for_each(
+            |(row, (((((drawn, open), moments), squares), wide), narrow))| {
                 let y = row as u32 * BLOCK_SIDE;
                 let pixels = (BLOCK_SIDE * BLOCK_SIDE.min(height - y)) as usize;
                 let blocks = drawn
                     .par_iter_mut()
+                    .zip(open)
                     .zip(moments.par_chunks_mut(pixels * channels))
+                    .zip(squares.par_chunks_mut(pixels))
                     .zip(chunks_or_nothing(wide, pixels * words.wide, across))
                     .zip(narrow.par_chunks_mut(pixels * words.narrow));
-                blocks
-                    .enumerate()
-                    .for_each(|(column, (((drawn, moments), wide), narrow))| {
+                blocks.enumerate().for_each(
+                    |(column, (((((drawn, open), moments), squares), wide), narrow))| {
                         let x = column as u32 * BLOCK_SIDE;
                         let mut block = Block {
                             number: row * across + column,
@@ -256,12 +279,14 @@ impl Film {
                             y,
                             width: BLOCK_SIDE.min(width - x),
                             place: row * row_pixels + column * pixels,
-                            channels,
+                            luminance,
                             drawn,
                             moments,
+                            squares,
                             words,
                             wide,
                             narrow,
+                            open,
                             faults: Faults::default(),
                         };
                         expose(&mut block);
@@ -269,8 +294,10 @@ impl Film {
                             let mut all = faults.lock().unwrap_or_else(PoisonError::into_inner);
                             all.merge(&block.faults);
                         }
-                    });
-            });
+                    },
+                );
+            },
+        );
         let found = faults.into_inner().unwrap_or_else(PoisonError::into_inner);
         self.faults.merge(&found);
     }
@@ -281,7 +308,7 @@ impl Film {
     ///
     /// If the films have different sizes, or features that are kept differently.
     pub fn merge(&mut self, other: &Self) {
-        let size = |film: &Self| (film.width, film.height, film.channels);
+        let size = |film: &Self| (film.width, film.height, film.channels());
         assert_eq!(size(self), size(other), "films of one size are merged");
         assert_eq!(
             self.words, other.words,
@@ -289,8 +316,16 @@ impl Film {
         );
         merge_each(&mut self.drawn, &other.drawn, |own, other| *own += other);
         merge_each(&mut self.moments, &other.moments, Moments::merge);
+        merge_each(&mut self.squares, &other.squares, |own, other| {
+            *own = own.saturating_add(*other);
+        });
         merge_each(&mut self.wide, &other.wide, |own, other| *own += other);
         merge_each(&mut self.narrow, &other.narrow, |own, other| *own += other);
+        for block in 0..self.open.len() {
+            self.open[block].merge(&other.open[block]);
+            let (first, pixels) = (self.first_of(block), self.pixels_of(block) as usize);
+            self.open[block].close(&mut self.squares[first..][..pixels]);
+        }
         self.faults.merge(&other.faults);
     }
 
@@ -336,6 +371,14 @@ impl Film {
 
     fn blocks_across(&self) -> usize {
         self.width.div_ceil(BLOCK_SIDE) as usize
+    }
+
+    /// Place of a block's first pixel.
+    fn first_of(&self, block: usize) -> usize {
+        let (column, row) = (block % self.blocks_across(), block / self.blocks_across());
+        let side = BLOCK_SIDE as usize;
+        let height = side.min(self.height as usize - row * side);
+        row * side * self.width as usize + column * side * height
     }
 
     /// Number of pixels of a block; blocks are counted row by row from the top.

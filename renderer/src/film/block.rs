@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::batches::{BATCH, OpenBatches, Part, fixed, square_of_mean};
 use super::features::Words;
 use super::moments::Moments;
 
@@ -45,12 +46,15 @@ pub struct Block<'a> {
     pub(super) width: u32,
     /// Place of its first pixel in the film.
     pub(super) place: usize,
-    pub(super) channels: usize,
+    /// Share of each channel in luminance.
+    pub(super) luminance: &'a [f32],
     pub(super) drawn: &'a mut u32,
     pub(super) moments: &'a mut [Moments],
+    pub(super) squares: &'a mut [u64],
     pub(super) words: &'a Words,
     pub(super) wide: &'a mut [i64],
     pub(super) narrow: &'a mut [i32],
+    pub(super) open: &'a mut OpenBatches,
     pub(super) faults: Faults,
 }
 
@@ -62,20 +66,26 @@ impl Block<'_> {
 
     /// Number of pixels.
     pub fn pixels(&self) -> u32 {
-        (self.narrow.len() / self.words.narrow) as u32
+        self.squares.len() as u32
     }
 
     /// Adds the next `samples` of every pixel: `expose` is called with column, row and the pixel's
-    /// sums, to which it must add as many samples.
+    /// sums, to which it must add as many samples, of the same numbers in the same order for every
+    /// pixel.
     pub fn expose(&mut self, samples: u32, mut expose: impl FnMut(u32, u32, &mut PixelSums<'_>)) {
         let words = self.words;
         let places = self
             .moments
-            .chunks_exact_mut(self.channels)
+            .chunks_exact_mut(self.luminance.len())
             .zip(self.narrow.chunks_exact_mut(words.narrow));
         for (within, (moments, narrow)) in (0_u32..).zip(places) {
             let mut pixel = PixelSums {
+                luminance: self.luminance,
                 moments,
+                squares: &mut *self.squares,
+                open: &mut *self.open,
+                part: Part::default(),
+                within: within as usize,
                 words,
                 wide: &mut self.wide[within as usize * words.wide..][..words.wide],
                 narrow,
@@ -84,12 +94,14 @@ impl Block<'_> {
             };
             let (column, row) = (within % self.width, within / self.width);
             expose(self.x + column, self.y + row, &mut pixel);
+            pixel.end_part();
             self.faults.clamped += pixel.clamped;
             if pixel.rejected > 0 {
                 let place = self.place + within as usize;
                 *self.faults.rejected.entry(place).or_default() += pixel.rejected;
             }
         }
+        self.open.close(self.squares);
         *self.drawn += samples;
     }
 }
@@ -97,7 +109,15 @@ impl Block<'_> {
 /// The sums of a pixel, to which samples are added.
 #[derive(Debug)]
 pub struct PixelSums<'a> {
+    luminance: &'a [f32],
     moments: &'a mut [Moments],
+    /// Those of the whole block.
+    squares: &'a mut [u64],
+    open: &'a mut OpenBatches,
+    /// The samples of the present batch.
+    part: Part,
+    /// The pixel's place in the block.
+    within: usize,
     words: &'a Words,
     wide: &'a mut [i64],
     narrow: &'a mut [i32],
@@ -124,16 +144,35 @@ impl PixelSums<'_> {
             && features.is_none_or(|features| {
                 (features.iter()).fold(true, |all, number| all & number.is_finite())
             });
+        let batch = number / BATCH;
+        if batch != self.part.number {
+            self.end_part();
+            self.part.number = batch;
+        }
+        self.part.count += 1;
         if !finite {
             self.rejected += 1;
             return;
         }
+        let shares = values.iter().zip(self.luminance);
+        self.part.sum += fixed(shares.map(|(value, share)| value * share).sum());
         for (moments, &value) in self.moments.iter_mut().zip(values) {
             self.clamped += u64::from(moments.add(value));
         }
         if let Some(features) = features {
             debug_assert!(self.words.features() <= F, "a number for each feature");
             self.words.add(number, features, self.wide, self.narrow);
+        }
+    }
+
+    /// Adds the samples of the present batch to what the block has of it.
+    fn end_part(&mut self) {
+        let part = std::mem::take(&mut self.part);
+        if part.count == BATCH {
+            let square = &mut self.squares[self.within];
+            *square = square.saturating_add(square_of_mean(part.sum));
+        } else if part.count > 0 {
+            self.open.add(&part, self.within, self.squares.len());
         }
     }
 }

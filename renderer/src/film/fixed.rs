@@ -53,7 +53,7 @@ const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// A value times `scale`, rounded to the nearest, halves to even, and kept within ±`most`.
 ///
-/// `scale` is a power of two from 1 to 2²⁴, `most` a whole number of at most 2⁵⁰. There
+/// `scale` is a power of two from 1 to 2³², `most` a whole number of at most 2⁵⁰. There
 /// is no branch: a conversion of a number to an integer would look for what does not fit.
 #[inline]
 pub(super) fn nearest(value: f32, scale: f64, most: f64) -> i64 {

@@ -8,10 +8,11 @@
 //!
 //! The numbers of a kind in a block (a channel's sums, a channel's squares, a word) have similar
 //! sizes. Each is stored without the bytes that are zero below, or repeat the sign above, in all
-//! numbers of its kind. Of 160 bytes a pixel of colour, some 60 to 100 remain.
+//! numbers of its kind. Of 160 bytes a pixel of colour, some 60 to 105 remain.
 
 use rayon::prelude::*;
 
+use super::batches::{BATCH, OpenBatches};
 use super::features::Words;
 use super::moments::Moments;
 use super::{BLOCK_SIDE, Film, chunks_or_nothing};
@@ -32,7 +33,8 @@ impl Film {
     ///
     /// If there is no such row.
     pub fn packed_row(&self, row: usize) -> Vec<u8> {
-        let (across, words) = (self.blocks_across(), &self.words);
+        let (across, channels) = (self.blocks_across(), self.channels());
+        let words = &self.words;
         let first = row * (BLOCK_SIDE * self.width) as usize;
         let height = self.height_of(row);
         let mut out = Vec::new();
@@ -40,13 +42,16 @@ impl Film {
             let first = first + column * (BLOCK_SIDE as usize * height);
             let pixels = self.pixels_of(row * across + column) as usize;
             out.extend(drawn.to_le_bytes());
-            let moments = &self.moments[first * self.channels..][..pixels * self.channels];
-            for channel in 0..self.channels {
+            let moments = &self.moments[first * channels..][..pixels * channels];
+            for channel in 0..channels {
                 for part in 0..2 {
-                    let of = moments[channel..].iter().step_by(self.channels);
+                    let of = moments[channel..].iter().step_by(channels);
                     pack(&mut out, of.map(|moments| moments.bits()[part]));
                 }
             }
+            let squares = self.squares[first..][..pixels].iter();
+            pack(&mut out, squares.map(|&sum| i128::from(sum)));
+            pack_open(&mut out, &self.open[row * across + column]);
             let wide = &self.wide[first * words.wide..][..pixels * words.wide];
             for word in 0..words.wide {
                 let of = wide[word..].iter().step_by(words.wide);
@@ -71,31 +76,37 @@ impl Film {
         add: impl Fn(usize, &mut RowSums<'_>) -> Result<(), E> + Sync,
     ) -> Result<(), E> {
         let (across, rows) = (self.blocks_across(), self.rows());
-        let (width, height, channels) = (self.width, self.height, self.channels);
+        let (width, height, channels) = (self.width, self.height, self.channels());
         let words = &self.words;
         let row_pixels = (BLOCK_SIDE * width) as usize;
         let wide = chunks_or_nothing(&mut self.wide, row_pixels * words.wide, rows);
         let results: Vec<Result<(), E>> = self
             .drawn
             .par_chunks_mut(across)
+            .zip(self.open.par_chunks_mut(across))
             .zip(self.moments.par_chunks_mut(row_pixels * channels))
+            .zip(self.squares.par_chunks_mut(row_pixels))
             .zip(wide)
             .zip(self.narrow.par_chunks_mut(row_pixels * words.narrow))
             .with_max_len(1)
             .enumerate()
-            .map(|(row, (((drawn, moments), wide), narrow))| {
-                let mut sums = RowSums {
-                    width: width as usize,
-                    height: BLOCK_SIDE.min(height - row as u32 * BLOCK_SIDE) as usize,
-                    channels,
-                    words,
-                    drawn,
-                    moments,
-                    wide,
-                    narrow,
-                };
-                add(row, &mut sums)
-            })
+            .map(
+                |(row, (((((drawn, open), moments), squares), wide), narrow))| {
+                    let mut sums = RowSums {
+                        width: width as usize,
+                        height: BLOCK_SIDE.min(height - row as u32 * BLOCK_SIDE) as usize,
+                        channels,
+                        words,
+                        drawn,
+                        open,
+                        moments,
+                        squares,
+                        wide,
+                        narrow,
+                    };
+                    add(row, &mut sums)
+                },
+            )
             .collect();
         results.into_iter().collect()
     }
@@ -160,7 +171,9 @@ pub struct RowSums<'a> {
     channels: usize,
     words: &'a Words,
     drawn: &'a mut [u32],
+    open: &'a mut [OpenBatches],
     moments: &'a mut [Moments],
+    squares: &'a mut [u64],
     wide: &'a mut [i64],
     narrow: &'a mut [i32],
 }
@@ -175,7 +188,8 @@ impl RowSums<'_> {
         let mut rest = packed;
         let side = BLOCK_SIDE as usize;
         let (channels, words) = (self.channels, self.words);
-        for (column, drawn) in self.drawn.iter_mut().enumerate() {
+        let blocks = self.drawn.iter_mut().zip(self.open.iter_mut());
+        for (column, (drawn, open)) in blocks.enumerate() {
             let first = column * side * self.height;
             let pixels = side.min(self.width - column * side) * self.height;
             let (count, behind) = rest.split_first_chunk().ok_or(DamagedRow)?;
@@ -188,6 +202,15 @@ impl RowSums<'_> {
                     let of = moments[channel..].iter_mut().step_by(channels);
                     rest = unpack(rest, of, |moments, bits| moments.add_bits(part, bits))?;
                 }
+            }
+            let squares = &mut self.squares[first..][..pixels];
+            rest = unpack(rest, squares.iter_mut(), |sum, bits| {
+                *sum = sum.saturating_add(bits as u64);
+            })?;
+            rest = unpack_open(rest, open, pixels)?;
+            open.close(squares);
+            if open.samples() > *drawn {
+                return Err(DamagedRow);
             }
             let wide = &mut self.wide[first * words.wide..][..pixels * words.wide];
             for word in 0..words.wide {
@@ -227,6 +250,37 @@ fn pack(out: &mut Vec<u8>, numbers: impl Iterator<Item = i128> + Clone) {
     for number in numbers {
         out.extend_from_slice(&(number >> (8 * below)).to_le_bytes()[..kept as usize]);
     }
+}
+
+/// Appends the number of open batches, then number, count and sums of each.
+fn pack_open(out: &mut Vec<u8>, open: &OpenBatches) {
+    out.extend((open.iter().len() as u16).to_le_bytes());
+    for open in open.iter() {
+        out.extend(open.number.to_le_bytes());
+        out.push(open.count as u8);
+        pack(out, open.sums.iter().map(|&sum| i128::from(sum)));
+    }
+}
+
+/// Adds the packed open batches of a block of so many pixels; returns what follows them.
+fn unpack_open<'a>(
+    bytes: &'a [u8],
+    target: &mut OpenBatches,
+    pixels: usize,
+) -> Result<&'a [u8], DamagedRow> {
+    let (&number, mut rest) = bytes.split_first_chunk().ok_or(DamagedRow)?;
+    let mut sums = vec![0; pixels];
+    for _ in 0..u16::from_le_bytes(number) {
+        let (&number, behind) = rest.split_first_chunk().ok_or(DamagedRow)?;
+        let (&count, behind) = behind.split_first().ok_or(DamagedRow)?;
+        if count == 0 || u32::from(count) >= BATCH {
+            return Err(DamagedRow);
+        }
+        sums.fill(0);
+        rest = unpack(behind, sums.iter_mut(), |sum, bits| *sum = bits as i64)?;
+        target.add_all(u32::from_le_bytes(number), u32::from(count), &sums);
+    }
+    Ok(rest)
 }
 
 /// Gives each of the packed numbers to `add` with its target; returns what follows them.
@@ -280,7 +334,7 @@ mod tests {
             Sum::Narrow { fraction_bits: 22 },
             Sum::First,
         ];
-        let mut film = Film::new(21, 13, 2, &sums).expect("a small film");
+        let mut film = Film::new(21, 13, &[0.25, 0.75], &sums).expect("a small film");
         film.expose(|block| {
             block.expose(end - first, |x, y, pixel| {
                 for number in first..end {
@@ -322,6 +376,7 @@ mod tests {
     fn damaged_rows_are_errors() {
         let whole = film(0, 20);
         let row = whole.packed_row(0);
+        let rest: Vec<_> = (1..whole.rows()).map(|row| whole.packed_row(row)).collect();
         for length in 0..row.len() {
             let mut target = film(0, 0);
             let result = target.add_rows(|_, sums| sums.add(&row[..length]));
@@ -331,7 +386,11 @@ mod tests {
             let mut damaged = row.clone();
             damaged[place] ^= 0x55;
             // Whatever is added, nothing panics.
-            let _ = film(0, 0).add_rows(|_, sums| sums.add(&damaged));
+            let rows = |row: usize| if row == 0 { &damaged } else { &rest[row - 1] };
+            let mut target = film(0, 0);
+            if target.add_rows(|row, sums| sums.add(rows(row))).is_ok() && target.is_sound() {
+                target.map(|pixel| pixel.variance_of_luminance());
+            }
         }
         let mut target = film(0, 0);
         for counts in [&[][..], &[1, 2], &[1, 273, 1], &[1, 0, 1 << 40]] {

@@ -1,15 +1,25 @@
 //! Reading access to a pixel's sums.
 
+use super::batches::{BATCH, OpenBatches, squares_of, variance_of_mean};
 use super::features::{Coverage, Words};
 use super::moments::Moments;
 
 /// Sums of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixel<'a> {
+    pub(super) luminance: &'a [f32],
     pub(super) moments: &'a [Moments],
+    /// The sum of squares of the means of its batches.
+    pub(super) squares: u64,
+    /// The open batches of its block, and its place there.
+    pub(super) open: &'a OpenBatches,
+    pub(super) within: usize,
     pub(super) words: &'a Words,
     pub(super) wide: &'a [i64],
     pub(super) narrow: &'a [i32],
+    /// Number of samples, rejected ones included.
+    pub(super) drawn: u32,
+    /// Number without them.
     pub(super) samples: u32,
 }
 
@@ -32,6 +42,41 @@ impl Pixel<'_> {
     /// Mean of a channel; 0 without samples.
     pub fn mean(&self, channel: usize) -> f64 {
         self.moments[channel].mean(self.samples)
+    }
+
+    /// Mean of luminance; 0 without samples.
+    pub fn luminance(&self) -> f64 {
+        let shares = self.moments.iter().zip(self.luminance);
+        let shares = shares.map(|(moments, &share)| moments.mean(self.samples) * f64::from(share));
+        shares.sum()
+    }
+
+    /// Variance of the mean of luminance: that of means of batches, which counts what low
+    /// discrepancy gains and how errors of channels cancel.
+    ///
+    /// Below two whole batches, and where luminance is too great to be stored, it is an upper
+    /// bound: that of single samples, all channels' errors alike. 0 below two samples.
+    pub fn variance_of_luminance(&self) -> f64 {
+        self.variance_of_batches()
+            .unwrap_or_else(|| self.greatest_variance_of_luminance())
+    }
+
+    fn variance_of_batches(&self) -> Option<f64> {
+        let in_batches = self.drawn - self.open.samples();
+        let sum = self.luminance() * f64::from(self.samples) - self.open.sum(self.within);
+        let mean = sum / f64::from(in_batches);
+        let squares = squares_of(self.squares)?;
+        variance_of_mean(squares, in_batches / BATCH, mean, self.samples)
+    }
+
+    fn greatest_variance_of_luminance(&self) -> f64 {
+        let shares = self.moments.iter().zip(self.luminance);
+        let deviation: f64 = shares
+            .map(|(moments, &share)| {
+                f64::from(share) * moments.variance_of_mean(self.samples).sqrt()
+            })
+            .sum();
+        deviation * deviation
     }
 
     /// Share of samples that hit something.

@@ -34,7 +34,7 @@ fn exposed(
     numbers: &[u32],
     sample: impl Fn(u32, u32, u32) -> Sample + Sync,
 ) -> Film {
-    let mut film = Film::new(size[0], size[1], 2, &SUMS).expect("a small film");
+    let mut film = Film::new(size[0], size[1], &[0.25, 0.75], &SUMS).expect("a small film");
     film.expose(|block| {
         block.expose(numbers.len() as u32, |x, y, pixel| {
             for &number in numbers {
@@ -59,22 +59,23 @@ fn features(pixel: &Pixel<'_>) -> Option<[f64; SUMS.len()]> {
 #[test]
 fn a_film_that_would_not_fit_is_refused_with_its_size() {
     for (width, height, channels) in [(1 << 20, 1 << 20, 3), (u32::MAX, u32::MAX, 32)] {
-        let film = Film::new(width, height, channels, &SUMS);
+        let film = Film::new(width, height, &vec![1.0; channels], &SUMS);
         assert!(matches!(film, Err(FilmError::TooLarge { .. })));
     }
     assert!(matches!(
-        Film::new(0, 5, 3, &SUMS),
+        Film::new(0, 5, &[1.0; 3], &SUMS),
         Err(FilmError::Empty { .. })
     ));
 }
 
 #[test]
-fn a_pixel_takes_its_channels_a_count_and_its_sums() {
-    let film = Film::new(512, 512, 3, &SUMS).expect("a small film");
-    let bytes = 3 * 32 + 4 + 3 * 8 + 7 * 4;
+fn a_pixel_takes_its_channels_an_error_a_count_and_its_sums() {
+    let film = Film::new(512, 512, &[1.0; 3], &SUMS).expect("a small film");
+    let bytes = 3 * 32 + 8 + 4 + 3 * 8 + 7 * 4;
     assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
+            + size_of_val(&film.squares[..])
             + size_of_val(&film.wide[..])
             + size_of_val(&film.narrow[..]),
         bytes * 512 * 512
@@ -101,7 +102,7 @@ fn every_pixel_is_exposed_once_at_its_own_place() {
 #[test]
 fn a_film_has_as_many_features_as_it_was_made_with() {
     for sums in [&[][..], &[Sum::First], &SUMS[..3]] {
-        let mut film = Film::new(11, 9, 1, sums).expect("a small film");
+        let mut film = Film::new(11, 9, &[1.0], sums).expect("a small film");
         film.expose(|block| {
             block.expose(1, |_, _, pixel| {
                 pixel.add(0, &[2.0], Some(&GREY));
@@ -186,6 +187,50 @@ fn a_sample_that_is_not_finite_is_rejected_whole_and_a_huge_one_clamped() {
     assert_eq!((pixel.samples(), pixel.alpha()), (1, 1.0));
     assert_eq!((pixel.mean(0), pixel.mean(1)), (3.0, f64::from(1 << 30)));
     assert_eq!(film.pixel(7, 0).samples(), 4);
+}
+
+#[test]
+fn the_error_of_luminance_is_that_of_means_of_batches() {
+    // Samples of a batch are evenly spread, and channels err against one another: what varies from
+    // batch to batch is all that luminance errs by.
+    let values = |number: u32| {
+        let of_batch = [1.0, 3.0, 2.0, 6.0][(number / BATCH) as usize % 4];
+        let even = if number.is_multiple_of(2) { 4.0 } else { -4.0 };
+        [of_batch + 3.0 * even, of_batch - even]
+    };
+    let film = |count: u32| {
+        let numbers: Vec<u32> = (0..count).collect();
+        exposed([9, 1], &numbers, |_, _, number| (values(number), None))
+    };
+    // Variance of 1, 3, 2, 6 with n − 1: 14/3.
+    for (count, expected) in [
+        (32, 2.0 / 2.0),
+        (64, 14.0 / 3.0 / 4.0),
+        (72, 14.0 / 3.0 / 4.0 * 64.0 / 72.0),
+    ] {
+        let film = film(count);
+        let found = film.pixel(8, 0).variance_of_luminance();
+        assert!((found - expected).abs() < 1e-6, "{count}: {found}");
+        assert!(film.pixel(8, 0).moments(0).variance_of_mean(count) > expected);
+    }
+    // One batch alone tells nothing: the bound by single samples, 0.25 · 12 + 0.75 · 4 by a mean.
+    let found = film(16).pixel(0, 0).variance_of_luminance();
+    assert!((found - 36.0 / 15.0).abs() < 1e-9, "{found}");
+}
+
+#[test]
+fn luminance_beyond_what_is_stored_has_the_error_of_single_samples() {
+    let numbers: Vec<u32> = (0..64).collect();
+    let film = exposed([1, 1], &numbers, |_, _, number| {
+        ([number as f32 * 1e3; 2], None)
+    });
+    let pixel = film.pixel(0, 0);
+    let expected = pixel.moments(0).variance_of_mean(64);
+    let found = pixel.variance_of_luminance();
+    assert!(
+        (found / expected - 1.0).abs() < 1e-9,
+        "{found}, not {expected}"
+    );
 }
 
 /// Any finite sample, now and then one that is not finite, with or without a feature.

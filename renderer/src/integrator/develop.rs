@@ -76,7 +76,7 @@ fn developed(
         Source::Radiance(of) => {
             film.map(|pixel| of(pixel.moments(channel), pixel.samples()) as f32)
         }
-        Source::Count(of) => film.map(|pixel| of(pixel) as f32),
+        Source::Pixel(of) => film.map(|pixel| of(pixel) as f32),
         Source::Feature {
             quantity,
             within: [least, most],

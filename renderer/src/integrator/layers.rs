@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use crate::camera::view::View;
 use crate::film::{Film, Moments, Pixel, Sum};
+use crate::image::LUMINANCE;
 use crate::image::openexr::spectral_channel_name;
 use crate::integrator::features::{Quantity, Sight};
 use crate::scene::description::FilmKind;
@@ -55,8 +56,8 @@ pub enum Films {
 pub enum Source {
     /// The film's own channels, computed from their two moments and the number of samples.
     Radiance(fn(&Moments, u32) -> f64),
-    /// Counts that every pixel stores anyway.
-    Count(fn(&Pixel<'_>) -> f64),
+    /// What every pixel stores besides: counts, and the error of luminance.
+    Pixel(fn(&Pixel<'_>) -> f64),
     /// Its own features, one per channel; 0 where nothing is covered.
     Feature {
         /// The quantity; the layer uses as many of its numbers as it has channels.
@@ -93,13 +94,20 @@ pub const LAYERS: &[FilmLayer] = &[
         channels: Channels::OfFilm,
         films: Films::All,
         source: Source::Radiance(Moments::variance_of_mean),
-        about: "variance of the mean radiance, an upper estimate of the noise",
+        about: "variance of the mean radiance as if samples were independent, an upper estimate",
+    },
+    FilmLayer {
+        name: "variance",
+        channels: Channels::Named(&["Y"]),
+        films: Films::All,
+        source: Source::Pixel(variance_of_luminance),
+        about: "variance of the mean luminance, of bands that of their mean, by batches of 16 samples",
     },
     FilmLayer {
         name: "",
         channels: Channels::Named(&["A"]),
         films: Films::All,
-        source: Source::Count(alpha),
+        source: Source::Pixel(alpha),
         about: "share of the samples that met something",
     },
     FilmLayer {
@@ -151,7 +159,7 @@ pub const LAYERS: &[FilmLayer] = &[
         name: "samples",
         channels: Channels::Named(&["Y"]),
         films: Films::All,
-        source: Source::Count(|pixel| f64::from(pixel.samples())),
+        source: Source::Pixel(|pixel| f64::from(pixel.samples())),
         about: "number of samples",
     },
     FilmLayer {
@@ -166,6 +174,10 @@ pub const LAYERS: &[FilmLayer] = &[
         about: "number of the object that the pixel's first sample met, 0 for none; the attribute `lamina:objects` names them",
     },
 ];
+
+fn variance_of_luminance(pixel: &Pixel<'_>) -> f64 {
+    pixel.variance_of_luminance()
+}
 
 fn alpha(pixel: &Pixel<'_>) -> f64 {
     pixel.alpha()
@@ -196,7 +208,7 @@ impl FilmLayer {
             (Source::Feature { .. }, Channels::OfFilm) => {
                 panic!("a feature's channels do not depend on the film")
             }
-            (Source::Radiance(_) | Source::Count(_) | Source::OfPoint { .. }, _) => 0,
+            (Source::Radiance(_) | Source::Pixel(_) | Source::OfPoint { .. }, _) => 0,
         }
     }
 
@@ -249,9 +261,18 @@ impl Layout {
     pub fn sums(self) -> Vec<Sum> {
         let of = |layer: &FilmLayer| match layer.source {
             Source::Feature { sum, .. } => vec![sum; layer.features()],
-            Source::Radiance(_) | Source::Count(_) | Source::OfPoint { .. } => Vec::new(),
+            Source::Radiance(_) | Source::Pixel(_) | Source::OfPoint { .. } => Vec::new(),
         };
         self.layers().flat_map(of).collect()
+    }
+
+    /// The share of each channel in luminance; bands have equal ones.
+    pub fn luminance(self) -> Vec<f32> {
+        if self.colour {
+            LUMINANCE.map(|share| share as f32).to_vec()
+        } else {
+            vec![1.0 / self.beauty as f32; self.beauty]
+        }
     }
 
     /// Memory of a pixel, bytes.

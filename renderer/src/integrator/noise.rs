@@ -14,7 +14,7 @@
 
 use rayon::prelude::*;
 
-use crate::film::{BLOCK_SIDE, Film, Pixel};
+use crate::film::{BLOCK_SIDE, Film};
 
 /// The first border. A decision needs two, so no block stops before twice as many samples.
 const FIRST_BORDER: u32 = 16;
@@ -24,15 +24,11 @@ pub const STEP: u32 = 16;
 /// nearly black parts need not be as precise as bright ones.
 const FLOOR: f64 = 0.1;
 
-/// Luminance of linear Rec. 709 colour.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
 /// The noise of every block and the number of samples at which it stops.
 #[derive(Clone, Debug)]
 pub struct NoiseWatch {
     aim: f64,
     most: u32,
-    colour: bool,
     /// Luminance of each pixel at the last border, in the film's order of blocks.
     luminance: Vec<f32>,
     blocks: Vec<BlockNoise>,
@@ -49,9 +45,8 @@ struct BlockNoise {
 }
 
 impl NoiseWatch {
-    /// The initial state, in which every block goes on to `most` samples. If `colour`, channels are
-    /// R, G, B; else luminance is the mean of all channels.
-    pub fn new(film: &Film, aim: f64, most: u32, colour: bool) -> Self {
+    /// The initial state, in which every block goes on to `most` samples.
+    pub fn new(film: &Film, aim: f64, most: u32) -> Self {
         let pixels = film.width() as usize * film.height() as usize;
         let block = BlockNoise {
             goal: u32::MAX,
@@ -60,7 +55,6 @@ impl NoiseWatch {
         Self {
             aim,
             most,
-            colour,
             luminance: vec![0.0; pixels],
             blocks: vec![block; film.blocks()],
         }
@@ -175,7 +169,6 @@ impl NoiseWatch {
 
     /// Compares every block with the last border, and stores this one.
     fn compare(&mut self, film: &Film) -> Vec<Compared> {
-        let colour = self.colour;
         let (width, height) = (film.width(), film.height());
         self.luminance
             .par_chunks_mut((width * BLOCK_SIDE) as usize)
@@ -191,7 +184,7 @@ impl NoiseWatch {
                     let mut sums = [0.0; 2];
                     for (within, before) in (0..).zip(before) {
                         let pixel = film.pixel(x + within % across, y + within / across);
-                        let now = luminance(&pixel, colour);
+                        let now = pixel.luminance();
                         let difference = now - f64::from(*before);
                         sums[0] += now;
                         sums[1] += difference * difference;
@@ -227,20 +220,6 @@ impl Compared {
     }
 }
 
-fn luminance(pixel: &Pixel<'_>, colour: bool) -> f64 {
-    if colour {
-        let channels = LUMINANCE.iter().enumerate();
-        channels
-            .map(|(channel, weight)| weight * pixel.mean(channel))
-            .sum()
-    } else {
-        (0..pixel.channels())
-            .map(|channel| pixel.mean(channel))
-            .sum::<f64>()
-            / pixel.channels() as f64
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -260,8 +239,9 @@ mod tests {
         most: u32,
         value: impl Fn(u32, u32, u32) -> f32 + Sync,
     ) -> (Film, NoiseWatch) {
-        let mut film = Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, 3, &[]).expect("a small film");
-        let mut watch = NoiseWatch::new(&film, aim, most, true);
+        let mut film =
+            Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, &[0.25, 0.5, 0.25], &[]).expect("a small film");
+        let mut watch = NoiseWatch::new(&film, aim, most);
         let mut first = 0;
         while first < watch.last_goal() {
             let end = (first + STEP).min(watch.last_goal());

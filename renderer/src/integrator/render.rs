@@ -108,8 +108,8 @@ impl Begun {
         aim: Option<f64>,
         effort: Effort,
     ) -> Result<Self, FilmError> {
-        let film = Film::new(job.width, job.height, layout.beauty, &layout.sums())?;
-        let watch = aim.map(|aim| NoiseWatch::new(&film, aim, job.spp, layout.colour));
+        let film = Film::new(job.width, job.height, &layout.luminance(), &layout.sums())?;
+        let watch = aim.map(|aim| NoiseWatch::new(&film, aim, job.spp));
         Ok(Self {
             film,
             first: 0,

@@ -37,7 +37,7 @@ fn channels_of(kind: &FilmKind, layout: Layout) -> Vec<String> {
 fn channels_have_the_names_that_other_programs_look_for() {
     let [(rgb, colour), (spectral, bands)] = layouts();
     let of_any = "A P.X P.Y P.Z N.X N.Y N.Z depth.Z samples.Y id.object";
-    let of_colour = "R G B variance.R variance.G variance.B albedo.R albedo.G albedo.B";
+    let of_colour = "R G B variance.R variance.G variance.B variance.Y albedo.R albedo.G albedo.B";
     let of_bands = "S0.450,000000nm S0.550,500000nm S0.900,000000nm variance.S0.450,000000nm";
     for (found, wanted) in [
         (channels_of(&rgb, colour), of_colour),
@@ -74,7 +74,7 @@ fn a_film_has_what_its_layers_are_made_of() {
                     let found = layout.layers().find(|other| other.name == point);
                     assert_eq!(found.map(FilmLayer::features), Some(3), "{point}");
                 }
-                Source::Radiance(_) | Source::Count(_) => {}
+                Source::Radiance(_) | Source::Pixel(_) => {}
             }
         }
         assert_eq!(next, layout.sums().len());
@@ -85,8 +85,7 @@ fn a_film_has_what_its_layers_are_made_of() {
 #[test]
 fn a_pixel_of_colour_takes_at_most_160_bytes() {
     let [(_, colour), _] = layouts();
-    let of_its_block = 4.0 / 64.0;
-    assert!(colour.bytes_a_pixel() as f64 + of_its_block <= 160.0);
+    assert!(colour.bytes_a_pixel() <= 160);
 }
 
 const GUIDE: &str = include_str!("../../../../docs/src/guide.md");
@@ -119,7 +118,7 @@ fn rows_of_layers() -> Vec<String> {
                 sum: Sum::First, ..
             }
             | Source::Radiance(_)
-            | Source::Count(_)
+            | Source::Pixel(_)
             | Source::OfPoint { .. } => String::new(),
         };
         format!("| {} | {}{samples}{films} |", shown(layer), layer.about)
@@ -145,7 +144,7 @@ fn rows_of_features() -> Vec<String> {
             let bytes = layer.features() * sum.bytes();
             Some(format!("| {} | {kept} | {bytes} |", shown(layer)))
         }
-        Source::Radiance(_) | Source::Count(_) | Source::OfPoint { .. } => None,
+        Source::Radiance(_) | Source::Pixel(_) | Source::OfPoint { .. } => None,
     };
     LAYERS.iter().filter_map(row).collect()
 }

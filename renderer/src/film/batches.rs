@@ -1,0 +1,198 @@
+//! Batches: aligned runs of a pixel's samples, whose means tell the error of its luminance.
+//!
+//! Low-discrepancy samples fill the gaps between earlier ones, so they are no independent draws and
+//! their own variance overestimates the error. Samples 16 k to 16 k + 15 are spread evenly among
+//! themselves, and different k differ almost independently: means of batches show what the mean of
+//! all still varies by. Luminance is added up sample by sample, so it also counts that errors of
+//! channels partly cancel.
+//!
+//! - **In**: luminances of samples, by number, in any order and grouping.
+//! - **Out**: the sum of the squares of the means of whole batches; sums of those that are not.
+//! - **Always true**: only integers are stored, so parts merge to the same bits in any order.
+//! - **Left out**: the mean itself, which follows from the channels.
+
+use super::fixed::nearest;
+
+/// Number of samples of a batch: enough for most of what low discrepancy gains, few enough that
+/// a picture of some dozens of samples has several.
+pub const BATCH: u32 = 16;
+
+/// Fraction bits of the luminance of a sample, and of a sum of them.
+const FRACTION_BITS: i32 = 32;
+/// Units of a sample's luminance in 1.
+const ONE: f64 = 4_294_967_296.0;
+/// Greatest luminance of a sample in these units: ±2¹⁸.
+const MOST: f64 = (1_i64 << 50) as f64;
+/// Fraction bits of the sum of squares of means. It saturates at 2¹⁶.
+const SQUARE_BITS: i32 = 48;
+
+/// A sample's luminance in units of 2⁻³², rounded to the nearest and at most ±2¹⁸.
+#[inline]
+pub(super) fn fixed(luminance: f32) -> i64 {
+    nearest(luminance, ONE, MOST)
+}
+
+/// Luminance of a sum of samples.
+pub(super) fn sum_of(fixed: i64) -> f64 {
+    fixed as f64 / ONE
+}
+
+/// The square of the mean of a whole batch with this sum, in units of 2⁻⁴⁸, rounded.
+pub(super) fn square_of_mean(sum: i64) -> u64 {
+    const BELOW: i32 = 2 * (FRACTION_BITS + BATCH.trailing_zeros() as i32) - SQUARE_BITS;
+    let sum = u128::from(sum.unsigned_abs());
+    let square = (sum * sum + (1 << (BELOW - 1))) >> BELOW;
+    square.min(u128::from(u64::MAX)) as u64
+}
+
+/// The sum of squares of means; `None` if it is beyond what is stored.
+pub(super) fn squares_of(fixed: u64) -> Option<f64> {
+    (fixed < u64::MAX).then(|| fixed as f64 / (1_u64 << SQUARE_BITS) as f64)
+}
+
+/// A batch of which a block's pixels have some samples, but not all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Open {
+    /// Its number.
+    pub(super) number: u32,
+    /// Number of samples that a pixel has of it, 1 to 15, rejected ones included.
+    pub(super) count: u32,
+    /// The sum of these samples' luminances for each pixel of the block.
+    pub(super) sums: Vec<i64>,
+}
+
+/// The open batches of a block, by number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct OpenBatches(Vec<Open>);
+
+impl OpenBatches {
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &Open> {
+        self.0.iter()
+    }
+
+    /// Number of samples of a pixel in open batches.
+    pub(super) fn samples(&self) -> u32 {
+        self.0.iter().map(|open| open.count).sum()
+    }
+
+    /// Sum of the luminances of a pixel in open batches.
+    pub(super) fn sum(&self, within: usize) -> f64 {
+        let sums = self.0.iter().map(|open| sum_of(open.sums[within]));
+        sums.sum()
+    }
+
+    /// The batch of this number in a block of so many pixels.
+    fn of(&mut self, number: u32, pixels: usize) -> &mut Open {
+        let found = self.0.binary_search_by_key(&number, |open| open.number);
+        let place = found.unwrap_or_else(|place| {
+            let open = Open {
+                number,
+                count: 0,
+                sums: vec![0; pixels],
+            };
+            self.0.insert(place, open);
+            place
+        });
+        &mut self.0[place]
+    }
+
+    /// Adds one pixel's part of a batch. Samples are counted once for all pixels of a block, by the
+    /// first one.
+    pub(super) fn add(&mut self, part: &Part, within: usize, pixels: usize) {
+        let open = self.of(part.number, pixels);
+        open.sums[within] += part.sum;
+        if within == 0 {
+            open.count += part.count;
+        }
+    }
+
+    /// Adds those of another film's block.
+    pub(super) fn merge(&mut self, other: &Self) {
+        for open in &other.0 {
+            self.add_all(open.number, open.count, &open.sums);
+        }
+    }
+
+    /// Adds a part of a batch that all pixels of a block have.
+    pub(super) fn add_all(&mut self, number: u32, count: u32, sums: &[i64]) {
+        let open = self.of(number, sums.len());
+        open.count = open.count.saturating_add(count);
+        for (own, other) in open.sums.iter_mut().zip(sums) {
+            // Bytes from a file may hold anything.
+            *own = own.saturating_add(*other);
+        }
+    }
+
+    /// Turns batches that are whole now into squares of their means.
+    pub(super) fn close(&mut self, squares: &mut [u64]) {
+        self.0.retain(|open| {
+            if open.count < BATCH {
+                return true;
+            }
+            for (square, &sum) in squares.iter_mut().zip(&open.sums) {
+                *square = square.saturating_add(square_of_mean(sum));
+            }
+            false
+        });
+    }
+}
+
+/// A pixel's samples of one batch.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    pub(super) number: u32,
+    /// Number of samples, rejected ones included.
+    pub(super) count: u32,
+    /// Sum of their luminances.
+    pub(super) sum: i64,
+}
+
+/// Variance of the mean luminance over `samples` samples of a pixel, from the sum of the squares of
+/// the means of `batches` whole batches and the mean over these; `None` if there are fewer than
+/// two.
+pub(super) fn variance_of_mean(squares: f64, batches: u32, mean: f64, samples: u32) -> Option<f64> {
+    if batches < 2 {
+        return None;
+    }
+    let count = f64::from(batches);
+    let of_batch = (squares - count * mean * mean).max(0.0) / (count - 1.0);
+    Some(of_batch * f64::from(BATCH) / f64::from(samples))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn squares_are_those_of_double_precision() {
+        for luminance in [0.0, 1e-4, 0.25, -0.25, 3.0, 17.5, 200.0] {
+            let sum = BATCH as i64 * fixed(luminance);
+            let expected = f64::from(luminance) * f64::from(luminance);
+            let found = squares_of(square_of_mean(sum)).expect("it is small");
+            let rounding = 1e-15 + expected * 1e-5 * f64::from(luminance.abs() < 1e-3);
+            assert!(
+                (found - expected).abs() <= rounding + expected * 1e-9,
+                "{luminance}: {found}, not {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_too_bright_is_not_told() {
+        for luminance in [300.0, 1e9, -1e30] {
+            let sum = i64::from(BATCH) * fixed(luminance);
+            assert_eq!(squares_of(square_of_mean(sum)), None, "{luminance}");
+        }
+    }
+
+    #[test]
+    fn variance_is_that_of_the_batches() {
+        // Means 1, 2, 3, 4: variance 5/3 with n − 1, of the mean a quarter of that.
+        let found = variance_of_mean(30.0, 4, 2.5, 64).expect("there are four");
+        assert!((found - 5.0 / 12.0).abs() < 1e-15, "{found}");
+        // A few more samples that are no whole batch make the mean better by their share.
+        let found = variance_of_mean(30.0, 4, 2.5, 72).expect("there are four");
+        assert!((found - 5.0 / 12.0 * 64.0 / 72.0).abs() < 1e-15, "{found}");
+        assert_eq!(variance_of_mean(1.0, 1, 1.0, 16), None);
+    }
+}
