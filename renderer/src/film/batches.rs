@@ -149,9 +149,9 @@ pub(super) struct Part {
 
 /// Variance of the mean luminance over `samples` samples of a pixel, from the sum of the squares of
 /// the means of `batches` whole batches and the mean over these; `None` if there are fewer than
-/// two.
+/// two, or no samples.
 pub(super) fn variance_of_mean(squares: f64, batches: u32, mean: f64, samples: u32) -> Option<f64> {
-    if batches < 2 {
+    if batches < 2 || samples == 0 {
         return None;
     }
     let count = f64::from(batches);

@@ -389,7 +389,8 @@ mod tests {
             let rows = |row: usize| if row == 0 { &damaged } else { &rest[row - 1] };
             let mut target = film(0, 0);
             if target.add_rows(|row, sums| sums.add(rows(row))).is_ok() && target.is_sound() {
-                target.map(|pixel| pixel.variance_of_luminance());
+                let finite = target.map(|pixel| pixel.variance_of_luminance().is_finite());
+                assert!(!finite.contains(&false), "byte {place}");
             }
         }
         let mut target = film(0, 0);

@@ -219,6 +219,15 @@ fn the_error_of_luminance_is_that_of_means_of_batches() {
 }
 
 #[test]
+fn a_pixel_whose_samples_were_all_rejected_has_no_error() {
+    let numbers: Vec<u32> = (0..64).collect();
+    let film = exposed([1, 1], &numbers, |_, _, _| ([f32::NAN; 2], None));
+    let pixel = film.pixel(0, 0);
+    assert_eq!((pixel.samples(), pixel.luminance()), (0, 0.0));
+    assert_eq!(pixel.variance_of_luminance(), 0.0);
+}
+
+#[test]
 fn luminance_beyond_what_is_stored_has_the_error_of_single_samples() {
     let numbers: Vec<u32> = (0..64).collect();
     let film = exposed([1, 1], &numbers, |_, _, number| {
