@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of `reference/denoise`: run by `reference/self-test`.
+"""Tests of `reference/denoise` and `reference/noise`: run by `reference/self-test`.
 
 Pictures here are made of light that is known and noise of a fixed seed, so that what comes out can
 be held against the truth. Where Open Image Denoise is missing, what needs it is skipped and told.
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from lamina_reference.denoise import ALBEDO, NORMAL, NOTE, REC2020, Denoiser, main
 from lamina_reference.denoise import read as read_film
+from lamina_reference.noise import relative_error
 from lamina_reference.program import program
 from lamina_reference.testing import run_tests
 
@@ -214,6 +215,34 @@ def lamina(named: str) -> Iterator[None]:
         os.environ.pop("LAMINA")
         if kept is not None:
             os.environ["LAMINA"] = kept
+
+
+def test_noise_is_that_of_luminance_or_a_bound() -> None:
+    grey = np.full((4, 6), 0.5)
+    grey[0, 0] = 0.0
+    # Red, green and blue each err by 2 %, luminance by 1 %.
+    film = {name: grey for name in "RGB"} | {f"variance.{n}": np.full((4, 6), 1e-4) for n in "RGB"}
+    bands = {name: grey for name in BANDS}
+    bands |= {f"variance.{name}": np.full((4, 6), 1e-4) for name in BANDS}
+    told = {"variance.Y": np.full((4, 6), 2.5e-5)}
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "noise.exr")
+        for layers, expected, is_bound in (
+            (film, 0.02, True),
+            (film | told, 0.01, False),
+            (bands, 0.02, True),
+            (bands | told, 0.01, False),
+        ):
+            error, bounded = relative_error(str(write(file, layers)))
+            # The black pixel has no relative error.
+            assert error.shape == (23,) and bounded == is_bound
+            np.testing.assert_allclose(error, expected, rtol=1e-6)
+        try:
+            relative_error(str(write(file, {name: grey for name in "RGB"})))
+        except SystemExit as refusal:
+            assert "no layer variance of R, G, B" in str(refusal)
+        else:
+            raise AssertionError("a picture without a variance has no noise to tell")
 
 
 def test_denoised_colours_are_nearer_to_the_truth() -> None:
