@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use renderer::film::Pixel;
+use renderer::image::LUMINANCE;
 use renderer::integrator::render::Halt;
 use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of, picture_until};
 
@@ -185,7 +186,7 @@ fn variances_of_luminance(text: &str, seeds: u64) -> [f64; 3] {
     };
     let told = mean(&|pixel| pixel.variance_of_luminance());
     let of_samples = mean(&|pixel| {
-        let deviations = [0.2126, 0.7152, 0.0722].iter().zip(0..pixel.channels());
+        let deviations = LUMINANCE.iter().zip(0..pixel.channels());
         let deviations = deviations.map(|(share, channel)| {
             share
                 * pixel

@@ -2,19 +2,20 @@
 //!
 //! - **In**: samples, block of pixels by block: each has a value per channel and, if the camera ray
 //!   hit something, a number per feature.
-//! - **Out**: mean and variance of the mean per pixel and channel, and of luminance; coverage, and means of features
-//!   over covered samples.
+//! - **Out**: mean and variance of the mean per pixel and channel, and of luminance; coverage, and
+//!   means of features over covered samples.
 //! - **Always true**: sums are integers, so they do not depend on the order or grouping in which
 //!   samples arrive; a sample with a number that is not finite is rejected whole and counted, one
 //!   beyond ±2³⁰ is clamped and counted. All pixels of a block have the same number of samples.
-//! - **Memory**: per pixel 32 bytes for each channel, 8 for the error of luminance, 4 for coverage,
+//! - **Memory**: per pixel 32 bytes for each channel, 7 for the error of luminance, 4 for coverage,
 //!   and 8 or 4 for each feature, depending on its [`Sum`].
 //! - **Left out**: the meaning of channels and features, which the film's creator defines.
 //!
 //! ```
 //! use renderer::film::Film;
 //!
-//! // One channel, which is luminance, no features: eight samples of each pixel, half of them 1, half 2.
+//! // One channel, which is luminance, no features: eight samples of each pixel, half of them 1,
+//! // half 2.
 //! let mut film = Film::new(16, 16, &[1.0], &[])?;
 //! film.expose(|block| {
 //!     block.expose(8, |_x, _y, pixel| {
@@ -50,7 +51,7 @@ pub use moments::Moments;
 pub use packed::{DamagedRow, RowSums};
 pub use pixel::Pixel;
 
-use batches::OpenBatches;
+use batches::{OpenBatches, Squares};
 use block::Faults;
 use features::{Coverage, Words};
 
@@ -104,7 +105,7 @@ pub struct Film {
     /// The moments, one per channel for each pixel.
     moments: Vec<Moments>,
     /// For each pixel the sum of the squares of the mean luminances of its batches.
-    squares: Vec<u64>,
+    squares: Vec<Squares>,
     /// For each block the batches of which it has some samples but not all; mostly none.
     open: Vec<OpenBatches>,
     /// Layout of the remaining words of each pixel.
@@ -138,7 +139,7 @@ impl Film {
             luminance: luminance.to_vec(),
             drawn: vec![0; blocks],
             moments: vec![Moments::default(); pixels * channels],
-            squares: vec![0; pixels],
+            squares: vec![Squares::default(); pixels],
             open: vec![OpenBatches::default(); blocks],
             wide: vec![0; pixels * words.wide],
             narrow: vec![0; pixels * words.narrow],
@@ -176,7 +177,7 @@ impl Film {
     /// Memory of a pixel, bytes; each block needs 28 more, and eight a pixel for each open batch.
     pub fn bytes_a_pixel(channels: usize, sums: &[Sum]) -> usize {
         let features: usize = sums.iter().map(|sum| sum.bytes()).sum();
-        channels * size_of::<Moments>() + size_of::<u64>() + Coverage::BYTES + features
+        channels * size_of::<Moments>() + size_of::<Squares>() + Coverage::BYTES + features
     }
 
     /// Pixels across.
@@ -317,7 +318,7 @@ impl Film {
         merge_each(&mut self.drawn, &other.drawn, |own, other| *own += other);
         merge_each(&mut self.moments, &other.moments, Moments::merge);
         merge_each(&mut self.squares, &other.squares, |own, other| {
-            *own = own.saturating_add(*other);
+            own.add(other.bits());
         });
         merge_each(&mut self.wide, &other.wide, |own, other| *own += other);
         merge_each(&mut self.narrow, &other.narrow, |own, other| *own += other);

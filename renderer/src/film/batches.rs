@@ -23,8 +23,8 @@ const FRACTION_BITS: i32 = 32;
 const ONE: f64 = 4_294_967_296.0;
 /// Greatest luminance of a sample in these units: ±2¹⁸.
 const MOST: f64 = (1_i64 << 50) as f64;
-/// Fraction bits of the sum of squares of means. It saturates at 2¹⁶.
-const SQUARE_BITS: i32 = 48;
+/// Fraction bits of the sum of squares of means.
+const SQUARE_BITS: i32 = 44;
 
 /// A sample's luminance in units of 2⁻³², rounded to the nearest and at most ±2¹⁸.
 #[inline]
@@ -37,17 +37,39 @@ pub(super) fn sum_of(fixed: i64) -> f64 {
     fixed as f64 / ONE
 }
 
-/// The square of the mean of a whole batch with this sum, in units of 2⁻⁴⁸, rounded.
+/// A sum of squares of means, in units of 2⁻⁴⁴. It saturates just below 2¹². (With an eighth byte a
+/// pixel of colour would take more than 160.)
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Squares([u8; 7]);
+
+impl Squares {
+    const MOST: u64 = (1 << 56) - 1;
+
+    /// The sum in its units.
+    pub(super) fn bits(self) -> u64 {
+        let [a, b, c, d, e, f, g] = self.0;
+        u64::from_le_bytes([a, b, c, d, e, f, g, 0])
+    }
+
+    pub(super) fn add(&mut self, bits: u64) {
+        let sum = self.bits().saturating_add(bits).min(Self::MOST);
+        let [bytes @ .., _] = sum.to_le_bytes();
+        self.0 = bytes;
+    }
+
+    /// The sum; `None` if it is beyond what is stored.
+    pub(super) fn sum(self) -> Option<f64> {
+        let bits = self.bits();
+        (bits < Self::MOST).then(|| bits as f64 / (1_u64 << SQUARE_BITS) as f64)
+    }
+}
+
+/// The square of the mean of a whole batch with this sum, in units of 2⁻⁴⁴, rounded.
 pub(super) fn square_of_mean(sum: i64) -> u64 {
     const BELOW: i32 = 2 * (FRACTION_BITS + BATCH.trailing_zeros() as i32) - SQUARE_BITS;
     let sum = u128::from(sum.unsigned_abs());
     let square = (sum * sum + (1 << (BELOW - 1))) >> BELOW;
     square.min(u128::from(u64::MAX)) as u64
-}
-
-/// The sum of squares of means; `None` if it is beyond what is stored.
-pub(super) fn squares_of(fixed: u64) -> Option<f64> {
-    (fixed < u64::MAX).then(|| fixed as f64 / (1_u64 << SQUARE_BITS) as f64)
 }
 
 /// A batch of which a block's pixels have some samples, but not all.
@@ -124,13 +146,13 @@ impl OpenBatches {
     }
 
     /// Turns batches that are whole now into squares of their means.
-    pub(super) fn close(&mut self, squares: &mut [u64]) {
+    pub(super) fn close(&mut self, squares: &mut [Squares]) {
         self.0.retain(|open| {
             if open.count < BATCH {
                 return true;
             }
             for (square, &sum) in squares.iter_mut().zip(&open.sums) {
-                *square = square.saturating_add(square_of_mean(sum));
+                square.add(square_of_mean(sum));
             }
             false
         });
@@ -163,12 +185,18 @@ pub(super) fn variance_of_mean(squares: f64, batches: u32, mean: f64, samples: u
 mod tests {
     use super::*;
 
+    fn square_of(sum: i64) -> Option<f64> {
+        let mut squares = Squares::default();
+        squares.add(square_of_mean(sum));
+        squares.sum()
+    }
+
     #[test]
     fn squares_are_those_of_double_precision() {
-        for luminance in [0.0, 1e-4, 0.25, -0.25, 3.0, 17.5, 200.0] {
-            let sum = BATCH as i64 * fixed(luminance);
+        for luminance in [0.0, 1e-4, 0.25, -0.25, 3.0, 17.5, 60.0] {
+            let sum = i64::from(BATCH) * fixed(luminance);
             let expected = f64::from(luminance) * f64::from(luminance);
-            let found = squares_of(square_of_mean(sum)).expect("it is small");
+            let found = square_of(sum).expect("it is small");
             let rounding = 1e-15 + expected * 1e-5 * f64::from(luminance.abs() < 1e-3);
             assert!(
                 (found - expected).abs() <= rounding + expected * 1e-9,
@@ -181,7 +209,7 @@ mod tests {
     fn what_is_too_bright_is_not_told() {
         for luminance in [300.0, 1e9, -1e30] {
             let sum = i64::from(BATCH) * fixed(luminance);
-            assert_eq!(squares_of(square_of_mean(sum)), None, "{luminance}");
+            assert_eq!(square_of(sum), None, "{luminance}");
         }
     }
 

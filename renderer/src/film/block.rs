@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::batches::{BATCH, OpenBatches, Part, fixed, square_of_mean};
+use super::batches::{BATCH, OpenBatches, Part, Squares, fixed, square_of_mean};
 use super::features::Words;
 use super::moments::Moments;
 
@@ -50,7 +50,7 @@ pub struct Block<'a> {
     pub(super) luminance: &'a [f32],
     pub(super) drawn: &'a mut u32,
     pub(super) moments: &'a mut [Moments],
-    pub(super) squares: &'a mut [u64],
+    pub(super) squares: &'a mut [Squares],
     pub(super) words: &'a Words,
     pub(super) wide: &'a mut [i64],
     pub(super) narrow: &'a mut [i32],
@@ -112,7 +112,7 @@ pub struct PixelSums<'a> {
     luminance: &'a [f32],
     moments: &'a mut [Moments],
     /// Those of the whole block.
-    squares: &'a mut [u64],
+    squares: &'a mut [Squares],
     open: &'a mut OpenBatches,
     /// The samples of the present batch.
     part: Part,
@@ -169,8 +169,7 @@ impl PixelSums<'_> {
     fn end_part(&mut self) {
         let part = std::mem::take(&mut self.part);
         if part.count == BATCH {
-            let square = &mut self.squares[self.within];
-            *square = square.saturating_add(square_of_mean(part.sum));
+            self.squares[self.within].add(square_of_mean(part.sum));
         } else if part.count > 0 {
             self.open.add(&part, self.within, self.squares.len());
         }

@@ -8,11 +8,11 @@
 //!
 //! The numbers of a kind in a block (a channel's sums, a channel's squares, a word) have similar
 //! sizes. Each is stored without the bytes that are zero below, or repeat the sign above, in all
-//! numbers of its kind. Of 160 bytes a pixel of colour, some 60 to 105 remain.
+//! numbers of its kind. Of 159 bytes a pixel of colour, some 60 to 105 remain.
 
 use rayon::prelude::*;
 
-use super::batches::{BATCH, OpenBatches};
+use super::batches::{BATCH, OpenBatches, Squares};
 use super::features::Words;
 use super::moments::Moments;
 use super::{BLOCK_SIDE, Film, chunks_or_nothing};
@@ -50,7 +50,7 @@ impl Film {
                 }
             }
             let squares = self.squares[first..][..pixels].iter();
-            pack(&mut out, squares.map(|&sum| i128::from(sum)));
+            pack(&mut out, squares.map(|sum| i128::from(sum.bits())));
             pack_open(&mut out, &self.open[row * across + column]);
             let wide = &self.wide[first * words.wide..][..pixels * words.wide];
             for word in 0..words.wide {
@@ -173,7 +173,7 @@ pub struct RowSums<'a> {
     drawn: &'a mut [u32],
     open: &'a mut [OpenBatches],
     moments: &'a mut [Moments],
-    squares: &'a mut [u64],
+    squares: &'a mut [Squares],
     wide: &'a mut [i64],
     narrow: &'a mut [i32],
 }
@@ -204,9 +204,7 @@ impl RowSums<'_> {
                 }
             }
             let squares = &mut self.squares[first..][..pixels];
-            rest = unpack(rest, squares.iter_mut(), |sum, bits| {
-                *sum = sum.saturating_add(bits as u64);
-            })?;
+            rest = unpack(rest, squares.iter_mut(), |sum, bits| sum.add(bits as u64))?;
             rest = unpack_open(rest, open, pixels)?;
             open.close(squares);
             if open.samples() > *drawn {

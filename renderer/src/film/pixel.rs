@@ -1,6 +1,6 @@
 //! Reading access to a pixel's sums.
 
-use super::batches::{BATCH, OpenBatches, squares_of, variance_of_mean};
+use super::batches::{BATCH, OpenBatches, Squares, variance_of_mean};
 use super::features::{Coverage, Words};
 use super::moments::Moments;
 
@@ -10,7 +10,7 @@ pub struct Pixel<'a> {
     pub(super) luminance: &'a [f32],
     pub(super) moments: &'a [Moments],
     /// The sum of squares of the means of its batches.
-    pub(super) squares: u64,
+    pub(super) squares: Squares,
     /// The open batches of its block, and its place there.
     pub(super) open: &'a OpenBatches,
     pub(super) within: usize,
@@ -65,7 +65,7 @@ impl Pixel<'_> {
         let in_batches = self.drawn - self.open.samples();
         let sum = self.luminance() * f64::from(self.samples) - self.open.sum(self.within);
         let mean = sum / f64::from(in_batches);
-        let squares = squares_of(self.squares)?;
+        let squares = self.squares.sum()?;
         variance_of_mean(squares, in_batches / BATCH, mean, self.samples)
     }
 

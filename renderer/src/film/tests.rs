@@ -71,7 +71,7 @@ fn a_film_that_would_not_fit_is_refused_with_its_size() {
 #[test]
 fn a_pixel_takes_its_channels_an_error_a_count_and_its_sums() {
     let film = Film::new(512, 512, &[1.0; 3], &SUMS).expect("a small film");
-    let bytes = 3 * 32 + 8 + 4 + 3 * 8 + 7 * 4;
+    let bytes = 3 * 32 + 7 + 4 + 3 * 8 + 7 * 4;
     assert_eq!(Film::bytes_a_pixel(3, &SUMS), bytes);
     assert_eq!(
         size_of_val(&film.moments[..])
