@@ -86,6 +86,7 @@ fn film_and_camera_are_in_si_units() {
         (scene.picture.exposure_ev, scene.picture.tone),
         (-1.5, Tone::Filmic)
     );
+    assert_near(scene.picture.contrast, 1.25);
     assert_near(lens_of(&scene).vertical_fov, std::f64::consts::FRAC_PI_2);
     let iris = lens_of(&scene).iris;
     assert_eq!((iris.blades, iris.cats_eye), (7, 0.4));

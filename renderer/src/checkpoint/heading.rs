@@ -160,6 +160,7 @@ impl Heading {
             white_object,
             white_light,
             tone,
+            contrast,
             depth,
             alpha,
         } = &caption.picture;
@@ -175,6 +176,7 @@ impl Heading {
         out.text(white_light.as_deref().unwrap_or_default());
         let number = TONES.iter().position(|known| known == tone);
         out.word(number.map_or(u32::MAX, |number| number as u32));
+        out.double(*contrast);
         out.flag(*depth == Depth::Sixteen);
         out.flag(*alpha);
         out.0
@@ -233,6 +235,7 @@ impl Heading {
                 white_object: Some(rest.text()?).filter(|name| !name.is_empty()),
                 white_light: Some(rest.text()?).filter(|name| !name.is_empty()),
                 tone: *TONES.get(rest.word()? as usize)?,
+                contrast: rest.double()?,
                 depth: if rest.flag()? {
                     Depth::Sixteen
                 } else {

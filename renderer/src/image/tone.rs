@@ -30,17 +30,37 @@ pub enum Tone {
 const MOST_LIGHT: f64 = 1e9;
 
 impl Tone {
+    /// Least and most contrast.
+    pub const CONTRASTS: [f64; 2] = [0.6, 2.0];
+
+    /// Prepares for many colours; `contrast`, one of [`Tone::CONTRASTS`], is that of [`Tone::Agx`].
+    pub fn prepared(self, contrast: f64) -> PreparedTone {
+        PreparedTone {
+            tone: self,
+            agx: agx::Curve::new(contrast),
+        }
+    }
+}
+
+/// A tone with its contrast.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedTone {
+    tone: Tone,
+    agx: agx::Curve,
+}
+
+impl PreparedTone {
     /// The sRGB values, each 0 to 1, of linear sRGB light. A channel that is NaN counts as 0.
-    pub fn encoded(self, light: [f64; 3]) -> [f64; 3] {
+    pub fn encoded(&self, light: [f64; 3]) -> [f64; 3] {
         let light = light.map(|value| match value {
             value if value.is_nan() => 0.0,
             value => value.clamp(-MOST_LIGHT, MOST_LIGHT),
         });
-        let shown = match self {
-            Self::Agx => agx::formed(Oklab::of(light)),
-            Self::Standard => Gamut::Display.hold(Oklab::of(light)),
-            Self::Filmic => light.map(filmic),
-            Self::Linear => light,
+        let shown = match self.tone {
+            Tone::Agx => self.agx.formed(Oklab::of(light)),
+            Tone::Standard => Gamut::Display.hold(Oklab::of(light)),
+            Tone::Filmic => light.map(filmic),
+            Tone::Linear => light,
         };
         shown.map(|value| to_srgb(value.clamp(0.0, 1.0)))
     }
@@ -92,7 +112,8 @@ mod tests {
     use super::*;
 
     fn bytes(tone: Tone, light: [f64; 3]) -> [u8; 3] {
-        tone.encoded(light)
+        tone.prepared(1.0)
+            .encoded(light)
             .map(|value| libm::round(value * 255.0) as u8)
     }
 
@@ -118,9 +139,9 @@ mod tests {
             );
         }
         // Without a curve 0.8 of the light; with one, 0.8 of the scale half a stop brighter.
-        let paper = from_srgb(Tone::Standard.encoded([0.8; 3])[1]);
+        let paper = from_srgb(Tone::Standard.prepared(1.0).encoded([0.8; 3])[1]);
         assert!((paper - 0.8).abs() < 1e-4, "{paper}");
-        let paper = Tone::Agx.encoded([0.8 * 2.0_f64.sqrt(); 3])[1];
+        let paper = Tone::Agx.prepared(1.0).encoded([0.8 * 2.0_f64.sqrt(); 3])[1];
         assert!((paper - 0.8).abs() < 0.02, "{paper}");
     }
 
@@ -142,7 +163,9 @@ mod tests {
         for tone in [Tone::Agx, Tone::Standard, Tone::Filmic, Tone::Linear] {
             let mut last: Option<[f64; 3]> = None;
             for step in -2000..2000 {
-                let now = tone.encoded([0.4, 0.5, 5e-5 * f64::from(step)]);
+                let now = tone
+                    .prepared(1.0)
+                    .encoded([0.4, 0.5, 5e-5 * f64::from(step)]);
                 if let Some(last) = last {
                     for (one, other) in now.into_iter().zip(last) {
                         assert!(
@@ -168,7 +191,7 @@ mod tests {
                 1e-300,
             ] {
                 for green in [0.0, 1.0, f64::INFINITY, -1.0] {
-                    let shown = tone.encoded([red, green, 1e-9]);
+                    let shown = tone.prepared(1.0).encoded([red, green, 1e-9]);
                     let is_shown = shown.iter().all(|value| (0.0..=1.0).contains(value));
                     assert!(is_shown, "{tone:?} of {red} {green}: {shown:?}");
                 }

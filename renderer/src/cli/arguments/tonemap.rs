@@ -34,6 +34,9 @@ pub struct TonemapArguments {
     /// How light becomes what a display shows: agx, standard, filmic or none
     #[arg(long, value_name = "TONE")]
     tone: Option<String>,
+    /// Slope of agx at middle grey over its usual one
+    #[arg(long, value_name = "FACTOR")]
+    contrast: Option<String>,
     /// Whether a png has 16 bits a channel instead of 8
     #[arg(long, value_name = "true|false", num_args = 0..=1, default_missing_value = "true")]
     sixteen_bits: Option<String>,
@@ -51,6 +54,7 @@ impl TonemapArguments {
             ("auto_exposure", &self.auto_exposure),
             ("grey_object", &self.grey_object),
             ("tone", &self.tone),
+            ("contrast", &self.contrast),
             ("sixteen_bits", &self.sixteen_bits),
             ("alpha", &self.alpha),
         ];

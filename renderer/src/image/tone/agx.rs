@@ -23,7 +23,7 @@ const STOPS: [f64; 2] = [-10.0, 6.5];
 const MIDDLE_GREY: f64 = 0.18;
 /// Exponent of what the curve's output stands for.
 const DISPLAY_POWER: f64 = 2.4;
-/// Slope of the curve at middle grey.
+/// Slope of the curve at middle grey, with a contrast of 1.
 const SLOPE: f64 = 2.4;
 /// Power with which it runs into both ends.
 const POWER: f64 = 1.5;
@@ -67,82 +67,118 @@ const OUTSET: [[f64; 3]; 3] = [
     ],
 ];
 
-/// What the display shows for linear sRGB light: linear sRGB from 0 to 1.
-pub(super) fn formed(light: Oklab) -> [f64; 3] {
-    let seen = times(&INSET, times(&TO_REC2020, Gamut::Light.hold(light)));
-    let bent = seen.map(curve);
-    let formed = Oklab::of(times(&FROM_REC2020, times(&OUTSET, bent)));
-    Gamut::Display.hold(formed.with_hue_of(light))
+/// The curve of one channel over the logarithm of light, with a contrast.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curve {
+    slope: f64,
+    /// Middle grey as the curve gives it out.
+    middle_out: f64,
+    /// How far it runs from middle grey into black, and into white.
+    scales: [f64; 2],
 }
 
-/// The curve of one channel: linear light to linear light from 0 to 1. Middle grey stays.
-pub(super) fn curve(light: f64) -> f64 {
-    let [low, high] = STOPS;
-    let stops = libm::log2(light.max(1e-30) / MIDDLE_GREY).clamp(low, high);
-    let pivot = -low / (high - low);
-    let pivot_out = libm::pow(MIDDLE_GREY, 1.0 / DISPLAY_POWER);
-    let from_pivot = stops / (high - low);
-    // Of the half that ends in white or in black.
-    let (run, rise) = if from_pivot >= 0.0 {
-        (1.0 - pivot, 1.0 - pivot_out)
-    } else {
-        (pivot, pivot_out)
-    };
-    let straight = SLOPE * run;
-    let scale = straight / libm::pow(libm::pow(straight / rise, POWER) - 1.0, 1.0 / POWER);
-    let x = SLOPE * from_pivot.abs() / scale;
-    let bent = scale * x / libm::pow(1.0 + libm::pow(x, POWER), 1.0 / POWER);
-    let out = pivot_out + if from_pivot >= 0.0 { bent } else { -bent };
-    libm::pow(out.clamp(0.0, 1.0), DISPLAY_POWER)
+impl Curve {
+    /// With `contrast` times the slope at middle grey; from 0.6 on, below which it would not reach
+    /// its ends.
+    pub(super) fn new(contrast: f64) -> Self {
+        let slope = SLOPE * contrast;
+        let scale = |run: f64, rise: f64| {
+            let straight = slope * run;
+            straight / libm::pow(libm::pow(straight / rise, POWER) - 1.0, 1.0 / POWER)
+        };
+        let [low, high] = STOPS;
+        let middle = -low / (high - low);
+        let middle_out = libm::pow(MIDDLE_GREY, 1.0 / DISPLAY_POWER);
+        Self {
+            slope,
+            middle_out,
+            scales: [
+                scale(middle, middle_out),
+                scale(1.0 - middle, 1.0 - middle_out),
+            ],
+        }
+    }
+
+    /// What the display shows for linear sRGB light: linear sRGB from 0 to 1.
+    pub(super) fn formed(&self, light: Oklab) -> [f64; 3] {
+        let seen = times(&INSET, times(&TO_REC2020, Gamut::Light.hold(light)));
+        let bent = seen.map(|channel| self.at(channel));
+        let formed = Oklab::of(times(&FROM_REC2020, times(&OUTSET, bent)));
+        Gamut::Display.hold(formed.with_hue_of(light))
+    }
+
+    /// Linear light to linear light from 0 to 1. Middle grey stays.
+    fn at(&self, light: f64) -> f64 {
+        let [low, high] = STOPS;
+        let stops = libm::log2(light.max(1e-30) / MIDDLE_GREY).clamp(low, high);
+        let from_pivot = stops / (high - low);
+        let scale = self.scales[usize::from(from_pivot >= 0.0)];
+        let x = self.slope * from_pivot.abs() / scale;
+        let bent = scale * x / libm::pow(1.0 + libm::pow(x, POWER), 1.0 / POWER);
+        let out = self.middle_out + if from_pivot >= 0.0 { bent } else { -bent };
+        libm::pow(out.clamp(0.0, 1.0), DISPLAY_POWER)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const CONTRASTS: [f64; 4] = [0.6, 1.0, 1.4, 2.0];
+
     #[test]
     fn the_curve_runs_from_black_through_middle_grey_to_white() {
-        assert!(curve(0.0) < 1e-12 && curve(MIDDLE_GREY * 0.5_f64.powi(11)) < 1e-12);
-        assert!((curve(MIDDLE_GREY) - MIDDLE_GREY).abs() < 1e-12);
-        assert!((curve(MIDDLE_GREY * 2.0_f64.powi(7)) - 1.0).abs() < 1e-9);
-        let mut last = 0.0;
-        for step in 1..165 {
-            let now = curve(MIDDLE_GREY * libm::exp2(-10.0 + 0.1 * f64::from(step)));
-            assert!(now > last, "step {step}");
-            last = now;
+        for contrast in CONTRASTS {
+            let curve = Curve::new(contrast);
+            let at = |stops: f64| curve.at(MIDDLE_GREY * libm::exp2(stops));
+            assert!(curve.at(0.0) < 1e-12 && at(-11.0) < 1e-12, "{contrast}");
+            assert!((at(0.0) - MIDDLE_GREY).abs() < 1e-12, "{contrast}");
+            assert!((at(7.0) - 1.0).abs() < 1e-9, "{contrast}");
+            let mut last = 0.0;
+            for step in 1..165 {
+                let now = at(-10.0 + 0.1 * f64::from(step));
+                assert!(now > last, "{contrast}: step {step}");
+                last = now;
+            }
+            // The slope at the pivot, by differences: 2.4 a range of logarithm.
+            let out = |stops: f64| libm::pow(at(stops), 1.0 / 2.4);
+            let slope = (out(0.001) - out(-0.001)) / 0.002 * 16.5;
+            assert!((slope / contrast - 2.4).abs() < 0.01, "{contrast}: {slope}");
         }
-        // The slope at the pivot, by differences: 2.4 a range of logarithm.
-        let at = |stops: f64| libm::pow(curve(MIDDLE_GREY * libm::exp2(stops)), 1.0 / 2.4);
-        let slope = (at(0.001) - at(-0.001)) / 0.002 * 16.5;
-        assert!((slope - 2.4).abs() < 0.01, "{slope}");
     }
 
     #[test]
     fn grey_stays_grey() {
+        let curve = Curve::new(1.0);
         for light in [0.001, 0.18, 0.8, 5.0] {
-            let [r, g, b] = formed(Oklab::of([light; 3]));
+            let [r, g, b] = curve.formed(Oklab::of([light; 3]));
             assert!((r - g).abs() < 1e-4 && (b - g).abs() < 1e-4, "{r} {g} {b}");
-            assert!((g - curve(light)).abs() < 1e-4, "{g}");
+            assert!((g - curve.at(light)).abs() < 1e-4, "{g}");
         }
     }
 
     #[test]
-    fn a_leaf_against_the_sun_keeps_its_hue_and_some_blue_at_any_exposure() {
+    fn a_leaf_against_the_sun_keeps_its_hue_and_some_blue_at_any_exposure_and_contrast() {
         // Light through a green leaf: blue is below 0 in sRGB.
         let light = [0.32, 0.45, -0.012];
         let hue = |lab: Oklab| libm::atan2(lab.b, lab.a).to_degrees();
         let before = hue(Oklab::of(light));
-        for ev in -4..=4 {
+        for (contrast, ev) in CONTRASTS
+            .iter()
+            .flat_map(|own| (-4..=4).map(move |ev| (*own, ev)))
+        {
             let factor = libm::exp2(f64::from(ev));
-            let shown = formed(Oklab::of(light.map(|value| factor * value)));
+            let shown = Curve::new(contrast).formed(Oklab::of(light.map(|value| factor * value)));
+            // A contrast of 2 lets darks run into black: 0.2 of a step of 8 bits is left.
+            let least = if contrast > 1.0 { 5e-6 } else { 1e-4 };
             assert!(
-                shown.iter().all(|&value| value > 1e-4 && value < 1.0),
-                "{shown:?}"
+                shown.iter().all(|&value| value > least && value < 1.0),
+                "{shown:?} at {ev} EV with {contrast}"
             );
             let after = hue(Oklab::of(shown));
             assert!(
                 (after - before).abs() < 0.05,
-                "{after}, not {before}, at {ev} EV"
+                "{after}, not {before}, at {ev} EV with {contrast}"
             );
         }
     }

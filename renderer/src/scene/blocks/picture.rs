@@ -98,6 +98,11 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
         rolled off as on film; or neither, each channel clipped (`linear` is its older name), so \
         that colours can be measured in the picture.";
     keys.key("tone", &mut picture.tone, Word(&words), about);
+    let [least, most] = Tone::CONTRASTS;
+    let about = "Slope of `agx` at middle grey over its usual one, which is low; photographs mostly \
+        have 1.2 to 1.5. The other tones have no curve of their own to make steeper.";
+    let limits = Number(Limits::closed(least, most));
+    keys.key("contrast", &mut picture.contrast, limits, about);
     let mut is_deep = picture.depth == Depth::Sixteen;
     let about = "Whether the PNG has 16 bits a channel instead of 8; a JPEG has 8.";
     keys.key("sixteen_bits", &mut is_deep, Flag, about);
