@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of `reference/denoise` and `reference/noise`: run by `reference/self-test`.
+"""Tests of `reference/denoise`: run by `reference/self-test`.
 
 Pictures here are made of light that is known and noise of a fixed seed, so that what comes out can
 be held against the truth. Where Open Image Denoise is missing, what needs it is skipped and told.
@@ -24,15 +24,13 @@ sys.path.insert(0, str(HERE))
 
 import numpy as np
 import OpenImageIO as oiio
-from numpy.typing import NDArray
 
 from lamina_reference.denoise import ALBEDO, NORMAL, NOTE, REC2020, Denoiser, main
 from lamina_reference.denoise import read as read_film
-from lamina_reference.noise import relative_error
+from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.program import program
 from lamina_reference.testing import run_tests
 
-Array = NDArray[np.float64]
 HEIGHT, WIDTH = 64, 96
 BANDS = tuple(f"S0.{nm},000000nm" for nm in (450, 550, 650, 750))
 # A green that no mixture of the primaries of Rec. 709 gives, a grey, a dark red: Rec. 2020.
@@ -94,32 +92,10 @@ def to_709(light: Array) -> Array:
 
 
 def write(file: Path, layers: dict[str, Array], told: dict[str, str] | None = None) -> Path:
-    """An EXR of 32-bit floats."""
-    height, width = next(iter(layers.values())).shape
-    spec = oiio.ImageSpec(width, height, len(layers), oiio.FLOAT)
-    spec.channelnames = tuple(layers)
-    for name, value in (TOLD | (told or {})).items():
-        spec.attribute(name, value)
-    spec.attribute("lamina:spp", 16)
-    # Lamina writes no date, and OpenImageIO one of its own unless this is empty.
-    spec.attribute("DateTime", "")
-    # As matrices are written by Lamina: of 16 numbers.
-    spec.attribute("worldToCamera", oiio.TypeMatrix, np.arange(16, dtype=np.float32))
-    output = oiio.ImageOutput.create("openexr")
-    assert output is not None and output.open(str(file), spec), oiio.geterror()
-    pixels = np.stack(list(layers.values()), axis=2).astype(np.float32)
-    assert output.write_image(pixels) and output.close(), output.geterror()
+    """An EXR as Lamina writes it, with 16 samples and some camera."""
+    camera = np.arange(16, dtype=np.float32)
+    write_channels(file, layers, TOLD | (told or {}) | {"lamina:spp": 16, "worldToCamera": camera})
     return file
-
-
-def read(file: Path) -> dict[str, Array]:
-    """Channels of an EXR by name."""
-    image = oiio.ImageInput.open(str(file))
-    assert image is not None, oiio.geterror()
-    pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
-    names = image.spec().channelnames
-    image.close()
-    return {name: pixels[:, :, number] for number, name in enumerate(names)}
 
 
 def named(names: tuple[str, ...], values: Array) -> dict[str, Array]:
@@ -187,7 +163,7 @@ def denoised(folder: Path, layers: dict[str, Array], *flags: str) -> tuple[dict[
     source, out = write(folder / "in.exr", layers), folder / "out.exr"
     status, said, warned = call(source, "--out", out, *flags)
     assert status == 0 and said == f"{out}\n", warned
-    return read(out), warned
+    return read_channels(out), warned
 
 
 def error(light: Array, right: Array) -> float:
@@ -215,34 +191,6 @@ def lamina(named: str) -> Iterator[None]:
         os.environ.pop("LAMINA")
         if kept is not None:
             os.environ["LAMINA"] = kept
-
-
-def test_noise_is_that_of_luminance_or_a_bound() -> None:
-    grey = np.full((4, 6), 0.5)
-    grey[0, 0] = 0.0
-    # Red, green and blue each err by 2 %, luminance by 1 %.
-    film = {name: grey for name in "RGB"} | {f"variance.{n}": np.full((4, 6), 1e-4) for n in "RGB"}
-    bands = {name: grey for name in BANDS}
-    bands |= {f"variance.{name}": np.full((4, 6), 1e-4) for name in BANDS}
-    told = {"variance.Y": np.full((4, 6), 2.5e-5)}
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "noise.exr")
-        for layers, expected, is_bound in (
-            (film, 0.02, True),
-            (film | told, 0.01, False),
-            (bands, 0.02, True),
-            (bands | told, 0.01, False),
-        ):
-            error, bounded = relative_error(str(write(file, layers)))
-            # The black pixel has no relative error.
-            assert error.shape == (23,) and bounded == is_bound
-            np.testing.assert_allclose(error, expected, rtol=1e-6)
-        try:
-            relative_error(str(write(file, {name: grey for name in "RGB"})))
-        except SystemExit as refusal:
-            assert "no layer variance of R, G, B" in str(refusal)
-        else:
-            raise AssertionError("a picture without a variance has no noise to tell")
 
 
 def test_denoised_colours_are_nearer_to_the_truth() -> None:
@@ -303,7 +251,7 @@ def test_all_else_in_the_file_stays_and_the_note_is_added() -> None:
         with scratch() as folder:
             clean, _ = denoised(folder, layers)
             source, out = folder / "in.exr", folder / "out.exr"
-            before = read(source)
+            before = read_channels(source)
             assert list(before) == list(clean)
             for name, values in before.items():
                 same = np.array_equal(values, clean[name])
@@ -365,7 +313,7 @@ def test_the_picture_to_look_at_is_shown_as_its_scene_says() -> None:
         subprocess.run([*line, "--exposure-ev", "0"], check=True, capture_output=True)
         assert own.read_bytes() != png.read_bytes()
         # Of the render it is the same picture but for its noise.
-        shown, rendered = (read(file) for file in (png, Path(f"{stem}.png")))
+        shown, rendered = (read_channels(file) for file in (png, Path(f"{stem}.png")))
         assert np.abs(shown["G"] - rendered["G"]).mean() < 0.05
 
 

@@ -12,10 +12,8 @@ import argparse
 import sys
 
 import numpy as np
-import OpenImageIO as oiio
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .exr import Array, read_channels
 
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 PERCENT = 0.01
@@ -26,26 +24,23 @@ def relative_error(file: str) -> tuple[Array, bool]:
 
     Also whether it is only an upper bound. Raises SystemExit for a file without a variance.
     """
-    image = oiio.ImageInput.open(file)
-    if image is None:
-        raise SystemExit(f"{file}: {oiio.geterror()}")
-    names = list(image.spec().channelnames)
-    pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
-    image.close()
-    bands = {name: 1.0 for name in names if name.startswith("S0.")}
+    try:
+        channels = read_channels(file)
+    except RuntimeError as error:
+        raise SystemExit(str(error)) from error
+    bands = {name: 1.0 for name in channels if name.startswith("S0.")}
     weights = {name: 1.0 / len(bands) for name in bands} or LUMINANCE
-    missing = [name for name in weights if {name, f"variance.{name}"} - set(names)]
+    missing = [name for name in weights if {name, f"variance.{name}"} - set(channels)]
     if missing:
         raise SystemExit(f"{file}: has no layer variance of {', '.join(missing)}")
-    mean = np.zeros(pixels.shape[:2])
-    error = np.zeros(pixels.shape[:2])
+    shape = next(iter(channels.values())).shape
+    mean, error = np.zeros(shape), np.zeros(shape)
     for name, weight in weights.items():
-        mean += weight * pixels[:, :, names.index(name)]
-        variance = pixels[:, :, names.index(f"variance.{name}")]
-        error += weight * np.sqrt(np.maximum(variance, 0.0))
-    bounded = "variance.Y" not in names
+        mean += weight * channels[name]
+        error += weight * np.sqrt(np.maximum(channels[f"variance.{name}"], 0.0))
+    bounded = "variance.Y" not in channels
     if not bounded:
-        error = np.sqrt(pixels[:, :, names.index("variance.Y")])
+        error = np.sqrt(channels["variance.Y"])
     lit = mean > 0.0
     return np.asarray(error[lit] / mean[lit]), bounded
 

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .exr import Array, read_channels
 
 # Spectral EXR layout of Fichet, Pacanowski and Wilkie (JCGT 10:3, 2021): emissive, unpolarised;
 # the decimal point is a comma.
@@ -31,19 +29,13 @@ class Picture:
 
 def read_lamina(file: Path) -> tuple[Picture, list[float]]:
     """Reads a spectral film of the renderer; gives the bands' centres (nm), ascending."""
-    image = oiio.ImageInput.open(str(file))
-    if image is None:
-        raise RuntimeError(f"{file}: {oiio.geterror()}")
-    spec = image.spec()
-    pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
-    image.close()
     means: dict[float, Array] = {}
     variances: dict[float, Array] = {}
-    for number, name in enumerate(spec.channelnames):
+    for name, values in read_channels(file).items():
         found = CHANNEL.match(name)
         if found:
             target = variances if found[1] else means
-            target[float(f"{found[2]}.{found[3]}")] = pixels[:, :, number]
+            target[float(f"{found[2]}.{found[3]}")] = values
     bands = sorted(means)
     if not bands or sorted(variances) != bands:
         raise RuntimeError(f"{file}: bands {bands} with variances for {sorted(variances)}")
