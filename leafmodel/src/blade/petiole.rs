@@ -287,22 +287,33 @@ impl PetiolePlan {
     ) -> Option<StalkMesh> {
         let (base, frame) = joint.posture.base();
         let lies = joint.posture.on_ground() && matches!(way, Way::Whole);
+        let end: Vec<(DVec3, f64)> = (0..=JOINT_PIECES)
+            .map(|i| {
+                let t = i as f64 / JOINT_PIECES as f64;
+                let (point, radius) = joint.at(midrib, t);
+                if matches!(way, Way::Rigid) {
+                    let along = DVec3::new(0.0, joint.length * t, -joint.depth);
+                    (base + frame * along, radius)
+                } else {
+                    (point, radius)
+                }
+            })
+            .collect();
+        // The leaf is lifted until its joint is out of the ground, and the stem with it: held above
+        // the ground as it is now, the stem would have a step before the joint.
+        let below = |(point, radius): &(DVec3, f64)| point.z - radius;
+        let ground = end.iter().map(below).fold(0.0, f64::min);
         let (mut points, mut radii, mut sections) = (Vec::new(), Vec::new(), Vec::new());
         for station in stem {
             let mut at = base + frame * station.at;
             if lies {
-                at.z = at.z.max(station.radius);
+                at.z = at.z.max(ground + station.radius);
             }
             points.push(at);
             radii.push(station.radius);
             sections.push((station.share, frame * station.across));
         }
-        for i in 0..=JOINT_PIECES {
-            let t = i as f64 / JOINT_PIECES as f64;
-            let (mut point, radius) = joint.at(midrib, t);
-            if matches!(way, Way::Rigid) {
-                point = base + frame * DVec3::new(0.0, joint.length * t, -joint.depth);
-            }
+        for (point, radius) in end {
             points.push(point);
             radii.push(radius);
             sections.push((0.0, frame.x_axis));

@@ -179,3 +179,46 @@ fn a_closed_blade_lies_on_its_abaxial_face() {
     assert!((-1e-9..slack).contains(&bottom), "{bottom}");
     assert!(lowest(&leaf) > 0.1 * slack, "the sheet is inside");
 }
+
+#[test]
+fn the_petiole_of_a_leaf_on_the_ground_has_no_step_before_its_joint() {
+    for radius_mm in [0.4, 1.4, 2.5] {
+        let petiole = Some(PetiolePlan {
+            length: 0.5,
+            radius_mm: Some(radius_mm),
+            curl: 0.3,
+            course: Course::STRAIGHT,
+            section: Section::default(),
+        });
+        let stance = Stance {
+            on_ground: true,
+            ..Stance::default()
+        };
+        let plan = LeafPlan {
+            stance,
+            petiole,
+            ..plan()
+        };
+        let leaf = Leaf::grow(&plan).expect("a good plan");
+        let stalk = leaf.petiole.expect("it has one");
+        // The centres of its rings, from foot to joint; those of the caps left out.
+        let rings = stalk.uvs.chunk_by(|a, b| a.y == b.y).scan(0, |from, ring| {
+            let own = *from..*from + ring.len();
+            *from = own.end;
+            Some((ring[0].y, own))
+        });
+        let centres: Vec<DVec3> = rings
+            .filter(|(along, _)| *along > 0.0 && *along < 1.0)
+            .map(|(_, own)| {
+                let count = own.len() as f64;
+                stalk.positions[own].iter().sum::<DVec3>() / count
+            })
+            .collect();
+        assert!(centres.len() > 20);
+        let ways: Vec<DVec3> = centres.windows(2).map(|p| p[1] - p[0]).collect();
+        for pair in ways.windows(2) {
+            let turn = pair[0].angle_between(pair[1]);
+            assert!(turn < 0.4, "{radius_mm} mm: it turns by {turn}");
+        }
+    }
+}
