@@ -281,8 +281,14 @@ fn declare_terrain(terrain: &mut Terrain, keys: &mut Keys<'_>) {
             1e-6 * across * along,
             1e-6 * MOST_SQUARES
         );
-        let help = "make it smaller, or its shortest wave longer";
-        keys.refuse(&["waves_mm"], problem, help);
+        // Rounded up to two digits, so that what is told fits.
+        let fits_mm = waves_mm[1] * (across * along / MOST_SQUARES).sqrt();
+        let decimals = 1.0 - libm::log10(fits_mm).floor();
+        let digit = libm::exp10(-decimals);
+        let (fits_mm, decimals) = ((fits_mm / digit).ceil() * digit, decimals.max(0.0) as usize);
+        let help =
+            format!("make it smaller, or its shortest wave {fits_mm:.decimals$} mm or longer");
+        keys.refuse(&["waves_mm"], problem, &help);
     }
 }
 
