@@ -17,4 +17,5 @@ mod random_plans;
 mod scattering;
 mod sensitivities;
 mod solid_tissue;
+mod told_errors;
 mod white_balance;

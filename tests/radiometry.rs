@@ -3,12 +3,10 @@
 use std::f64::consts::PI;
 
 use renderer::film::Pixel;
-use renderer::image::LUMINANCE;
-use renderer::integrator::render::Halt;
-use support::picture::{mean_and_error, mean_and_error_of, mean_of, picture_of, picture_until};
+use support::picture::{mean_and_error, mean_of, picture_of};
 
 /// A scene of two bands with a pinhole camera, to which blocks are added.
-fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
+pub(crate) fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
     format!(
         "format = 1\n\
          [film.spectral]\nsize = [16, 16]\nspp = 64\nbands_nm = [550, 800]\nband_width_nm = 0\n\
@@ -16,10 +14,10 @@ fn scene(camera: &str, integrator: &str, blocks: &str) -> String {
     )
 }
 
-const FACING_THE_ORIGIN: &str =
+pub(crate) const FACING_THE_ORIGIN: &str =
     "position_m = [0.3, -0.2, 1]\nlook_at_m = [0, 0, 0]\nvertical_fov_deg = 4";
 
-const GREY_FLOOR: &str = "
+pub(crate) const GREY_FLOOR: &str = "
 [materials.grey.diffuse]
 reflectance = { table = [[550, 0.25], [800, 0.75]] }
 [meshes.floor.rectangle]
@@ -31,7 +29,7 @@ material = \"grey\"
 ";
 
 /// A cube of edge 2 around the origin whose walls glow inward.
-fn glowing_room(reflectance: &str, radiance: f64) -> String {
+pub(crate) fn glowing_room(reflectance: &str, radiance: f64) -> String {
     let mut text = format!(
         "[materials.wall.diffuse]\nreflectance = {reflectance}\n\
          [meshes.wall.rectangle]\nwidth_m = 2\nheight_m = 2\n"
@@ -56,7 +54,7 @@ fn glowing_room(reflectance: &str, radiance: f64) -> String {
 }
 
 /// Asserts that a mean lies within four of its standard errors (and that those are small).
-fn assert_agrees(what: &str, found: (f64, f64), expected: f64) {
+pub(crate) fn assert_agrees(what: &str, found: (f64, f64), expected: f64) {
     let (mean, error) = found;
     eprintln!("{what}: {mean:.6} ± {error:.1e}, expected {expected:.6}");
     assert!(
@@ -128,120 +126,6 @@ fn a_closed_glowing_room_has_the_radiance_of_the_geometric_series() {
     let text = scene(camera, "", &blocks);
     assert_agrees("room, 0.5", mean_and_error(&text, 0, 8), 0.1 / (1.0 - 0.5));
     assert_agrees("room, 0.9", mean_and_error(&text, 1, 8), 0.1 / (1.0 - 0.9));
-}
-
-#[test]
-fn stopping_at_a_noise_leaves_the_mean_as_it_is_and_reaches_the_noise() {
-    let blocks = glowing_room("0.6", 0.4);
-    let camera = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
-    // Every pixel's radiance is 1, and roulette at every bounce makes paths of very different
-    // lengths of it.
-    let text = scene(camera, "roulette_below = 1", &blocks).replace("spp = 64", "spp = 4096");
-    for aim in [0.1, 0.05, 0.03] {
-        let halt = Halt {
-            noise: Some(aim),
-            time: None,
-        };
-        let pictures: Vec<_> = (0..16)
-            .map(|seed| picture_until(&text, seed, &halt))
-            .collect();
-        let what = format!("room, noise {aim}");
-        let means: Vec<f64> = pictures.iter().map(|picture| mean_of(picture, 0)).collect();
-        assert_agrees(&what, mean_and_error_of(&means), 1.0);
-        let (mut square, mut estimate, mut spp) = (0.0, 0.0, 0.0);
-        for picture in &pictures {
-            let squares = picture.film.map(|pixel| (pixel.mean(0) - 1.0).powi(2));
-            square += squares.iter().sum::<f64>() / squares.len() as f64;
-            let noise = picture.noise.expect("it was watched");
-            estimate += noise.reached.expect("there were enough samples").powi(2);
-            spp += picture.film.drawn() as f64 / squares.len() as f64;
-        }
-        let count = pictures.len() as f64;
-        // Relative to radiance and a tenth of the picture's mean.
-        let error = (square / count).sqrt() / 1.1;
-        let estimate = (estimate / count).sqrt();
-        eprintln!(
-            "{what}: error {error:.4}, estimate {estimate:.4}, {:.0} samples",
-            spp / count
-        );
-        // Here samples are nearly independent, so the estimate has no margin, and blocks that stop
-        // at a low one are picked. 4,096 pixels tell errors to 1.1 %: four of that, twice, leave 10
-        // %.
-        assert!(error <= 1.1 * aim && error <= 1.1 * estimate, "{what}");
-        assert!(error >= 0.4 * aim, "{what}: samples are wasted");
-    }
-}
-
-/// Mean over pixels of the variance of luminance over seeds, of what the pictures tell of it, and of
-/// what single samples of the channels would tell.
-fn variances_of_luminance(text: &str, seeds: u64) -> [f64; 3] {
-    let pictures: Vec<_> = (0..seeds).map(|seed| picture_of(text, seed)).collect();
-    let mean = |of: &dyn Fn(&Pixel<'_>) -> f64| {
-        let values = pictures.iter().flat_map(|picture| {
-            let film = &picture.film;
-            let all = (0..film.height()).flat_map(|y| (0..film.width()).map(move |x| (x, y)));
-            all.map(|(x, y)| of(&film.pixel(x, y)))
-        });
-        values.sum::<f64>() / (256 * seeds) as f64
-    };
-    let told = mean(&|pixel| pixel.variance_of_luminance());
-    let of_samples = mean(&|pixel| {
-        let deviations = LUMINANCE.iter().zip(0..pixel.channels());
-        let deviations = deviations.map(|(share, channel)| {
-            share
-                * pixel
-                    .moments(channel)
-                    .variance_of_mean(pixel.samples())
-                    .sqrt()
-        });
-        deviations.sum::<f64>().powi(2)
-    });
-    let mut found = 0.0;
-    for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
-        let of_seeds: Vec<f64> = pictures
-            .iter()
-            .map(|picture| picture.film.pixel(x, y).luminance())
-            .collect();
-        let (_, error) = mean_and_error_of(&of_seeds);
-        found += error * error * seeds as f64 / 256.0;
-    }
-    [found, told, of_samples]
-}
-
-#[test]
-fn the_told_error_of_luminance_is_that_over_seeds() {
-    let of_colour = |camera: &str, integrator: &str, blocks: &str| {
-        let text = scene(camera, integrator, blocks);
-        let bands = "[film.spectral]\nsize = [16, 16]\nspp = 64\nbands_nm = [550, 800]\nband_width_nm = 0\n";
-        text.replace(bands, "[film.rgb]\nsize = [16, 16]\nspp = 128\n")
-    };
-    let room = glowing_room("0.6", 0.4);
-    let inside = "position_m = [0.1, 0.2, 0.3]\nlook_at_m = [1, 0, 0]\nvertical_fov_deg = 90";
-    let floor = GREY_FLOOR.replace("{ table = [[550, 0.25], [800, 0.75]] }", "0.5");
-    let lamp = format!(
-        "{floor}[meshes.lamp.rectangle]\nwidth_m = 0.5\nheight_m = 0.5\n\
-         [materials.black.diffuse]\nreflectance = 0\n\
-         [objects.lamp]\nmesh = \"lamp\"\nmaterial = \"black\"\nrotate_deg = [180, 0, 0]\n\
-         position_m = [0.8, 0.1, 0.6]\n\
-         [lights.lamp.area]\nobject = \"lamp\"\nradiance_w_m2_sr_nm = 1\n"
-    );
-    for (what, text, within) in [
-        // Paths that roulette ends at every bounce are nearly independent.
-        (
-            "room",
-            of_colour(inside, "roulette_below = 1", &room),
-            [0.9, 1.4],
-        ),
-        // The smoothest of integrands: later batches fill the gaps of earlier ones best, and single
-        // samples tell a variance a thousand times too large.
-        ("lamp", of_colour(FACING_THE_ORIGIN, "", &lamp), [0.9, 20.0]),
-    ] {
-        let [found, told, of_samples] = variances_of_luminance(&text, 24);
-        let (ratio, of_samples) = (told / found, of_samples / found);
-        eprintln!("{what}: told {ratio:.2} of the variance over seeds, samples {of_samples:.2}");
-        assert!(ratio > within[0] && ratio < within[1], "{what}: {ratio}");
-        assert!(of_samples > ratio, "{what}: {of_samples} by single samples");
-    }
 }
 
 #[test]
