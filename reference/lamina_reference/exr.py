@@ -1,4 +1,4 @@
-"""Channels of EXR files by name."""
+"""Channels of pictures by name."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def read_channels(file: str | Path) -> dict[str, Array]:
 def write_channels(
     file: str | Path, channels: Mapping[str, Array], told: Mapping[str, object] | None = None
 ) -> None:
-    """Channels as 32-bit floats; `told` are attributes, text, whole numbers or 4 × 4 matrices."""
+    """Channels as 32-bit floats of an EXR; `told` are attributes, text, whole numbers or 4 × 4 matrices."""
     height, width = next(iter(channels.values())).shape
     spec = oiio.ImageSpec(width, height, len(channels), oiio.FLOAT)
     spec.channelnames = tuple(channels)

@@ -35,7 +35,7 @@ pub struct Display {
     pub white_light: Option<String>,
     /// How light becomes what a display shows.
     pub tone: Tone,
-    /// Slope of [`Tone::Agx`] at middle grey over its usual one: [`Tone::CONTRASTS`].
+    /// Slope of [`Tone::Agx`] at middle grey over its usual one, within [`Tone::CONTRASTS`].
     pub contrast: f64,
     /// Depth of a PNG.
     pub depth: Depth,

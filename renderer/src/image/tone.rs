@@ -33,7 +33,7 @@ impl Tone {
     /// Least and most contrast.
     pub const CONTRASTS: [f64; 2] = [0.6, 2.0];
 
-    /// Prepares for many colours; `contrast`, one of [`Tone::CONTRASTS`], is that of [`Tone::Agx`].
+    /// Prepares for many colours; `contrast`, within [`Tone::CONTRASTS`], is that of [`Tone::Agx`].
     pub fn prepared(self, contrast: f64) -> PreparedTone {
         PreparedTone {
             tone: self,

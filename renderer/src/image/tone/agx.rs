@@ -78,8 +78,8 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// With `contrast` times the slope at middle grey; from 0.6 on, below which it would not reach
-    /// its ends.
+    /// With `contrast` times the slope at middle grey, more than 0.54: a straight line of that slope
+    /// just reaches white.
     pub(super) fn new(contrast: f64) -> Self {
         let slope = SLOPE * contrast;
         let scale = |run: f64, rise: f64| {
@@ -169,7 +169,7 @@ mod tests {
         {
             let factor = libm::exp2(f64::from(ev));
             let shown = Curve::new(contrast).formed(Oklab::of(light.map(|value| factor * value)));
-            // A contrast of 2 lets darks run into black: 0.2 of a step of 8 bits is left.
+            // A contrast of 2 lets darks run into black: four steps of 16 bits are left.
             let least = if contrast > 1.0 { 5e-6 } else { 1e-4 };
             assert!(
                 shown.iter().all(|&value| value > least && value < 1.0),

@@ -99,8 +99,8 @@ pub(super) fn picture(picture: &mut Picture, keys: &mut Keys<'_>) {
         that colours can be measured in the picture.";
     keys.key("tone", &mut picture.tone, Word(&words), about);
     let [least, most] = Tone::CONTRASTS;
-    let about = "Slope of `agx` at middle grey over its usual one, which is low; photographs mostly \
-        have 1.2 to 1.5. The other tones have no curve of their own to make steeper.";
+    let about = "Slope of `agx` at middle grey over its usual one, which is low. It has no effect on \
+        the other tones.";
     let limits = Number(Limits::closed(least, most));
     keys.key("contrast", &mut picture.contrast, limits, about);
     let mut is_deep = picture.depth == Depth::Sixteen;
