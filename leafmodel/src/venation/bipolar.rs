@@ -65,21 +65,28 @@ impl Bipolar {
     /// Finds the poles of source number `id`.
     pub(crate) fn find(source: DVec2, id: u32, surroundings: &Surroundings<'_>) -> Self {
         let &Surroundings { tree, seed, .. } = surroundings;
-        let mut found = Self::about(source, DVec2::X);
-        let _ = tree.visit(source, &mut Search(&mut found));
-        let Some((_, place)) = found.nearest else {
-            return found;
+        let mut vein = Nearest { source, node: None };
+        let _ = tree.visit(source, &mut vein);
+        let Some((_, place)) = vein.node else {
+            return Self::about(source, DVec2::X);
         };
         let axis = axis_of(place - source, id, surroundings.axis_along_vein, seed);
-        found = Self::about(source, axis);
-        found.find_anew(source, tree);
+        let mut found = Self {
+            nearest: vein.node,
+            ..Self::about(source, axis)
+        };
+        found.search(tree);
         found
     }
 
     /// Finds the poles of the same source when it and all nodes have moved.
     pub(crate) fn find_anew(&mut self, source: DVec2, tree: &PointTree) {
         *self = Self::about(source, self.axis);
-        let _ = tree.visit(source, &mut Search(self));
+        self.search(tree);
+    }
+
+    fn search(&mut self, tree: &PointTree) {
+        let _ = tree.visit(self.source, &mut Search(self));
         self.choose();
     }
 
@@ -122,6 +129,31 @@ fn is_better(node: Pole, than: Option<Pole>) -> bool {
         node.distance_squared < than.distance_squared
             || node.distance_squared == than.distance_squared && node.id < than.id
     })
+}
+
+/// Searches the nearest node.
+struct Nearest {
+    source: DVec2,
+    node: Option<(Pole, DVec2)>,
+}
+
+impl Probe for Nearest {
+    fn enters(&self, low: DVec2, high: DVec2) -> bool {
+        let squared = distance_squared(low, high, self.source);
+        self.node
+            .is_none_or(|(node, _)| squared <= node.distance_squared * SLACK)
+    }
+
+    fn meet(&mut self, id: u32, position: DVec2) -> ControlFlow<()> {
+        let node = Pole {
+            id,
+            distance_squared: (position - self.source).length_squared(),
+        };
+        if is_better(node, self.node.map(|(nearest, _)| nearest)) {
+            self.node = Some((node, position));
+        }
+        ControlFlow::Continue(())
+    }
 }
 
 /// Searches nodes that are nearer than the poles.

@@ -199,7 +199,7 @@ impl PointTree {
 
     /// The same for a probe that only needs points between the corners `low` and `high`: starts at
     /// the smallest cell that holds that rectangle.
-    fn visit_within(
+    pub(crate) fn visit_within(
         &self,
         low: DVec2,
         high: DVec2,

@@ -44,14 +44,11 @@ pub(super) fn relaxed(
         .enumerate()
         .map(|(node, &degree)| degree > 1 && is_free(node))
         .collect();
-    let (before, mut now) = rayon::join(
-        || crossings(positions, edges),
-        || moved(positions, edges, &moves, rounds),
-    );
+    let mut now = moved(positions, edges, &moves, rounds);
     for attempt in 0..TRIES {
         let new: Vec<[u32; 2]> = crossings(&now, edges)
             .into_iter()
-            .filter(|pair| before.binary_search(pair).is_err())
+            .filter(|&pair| !cross(ends(positions, edges, pair)))
             .collect();
         if new.is_empty() {
             return now;
@@ -88,8 +85,9 @@ fn hold(moves: &mut [bool], edges: &[VeinEdge], held: &[u32], reach: u32) {
 
 /// Brings `now` to what [`moved`] gives once the nodes `stopped` move no more.
 ///
-/// What happens at a node reaches one edge farther in each round. So places farther away than there
-/// are rounds stay, and those nearer are found on the net up to twice as far: with the same bits.
+/// What happens at a node reaches one edge farther in each round, of which nothing is left far away:
+/// see [`reach`]. So places farther away stay, and those nearer are found on the net up to twice as
+/// far.
 fn renew(
     now: &mut Vec<DVec2>,
     positions: &[DVec2],
@@ -98,6 +96,7 @@ fn renew(
     (rounds, stopped): (u32, &[u32]),
 ) {
     const FAR: u32 = u32::MAX;
+    let reach = reach(rounds);
     let mut beside: Vec<Vec<u32>> = vec![Vec::new(); positions.len()];
     for edge in edges {
         beside[edge.from as usize].push(edge.to);
@@ -113,7 +112,7 @@ fn renew(
         next += 1;
         let step = away[node as usize] + 1;
         for &other in &beside[node as usize] {
-            if step <= 2 * rounds && away[other as usize] == FAR {
+            if step <= 2 * reach && away[other as usize] == FAR {
                 away[other as usize] = step;
                 near.push(other);
             }
@@ -141,10 +140,20 @@ fn renew(
     let shortest = SHORTEST * mean_length(positions, edges);
     let found = moved_from(&at, &part, &free, rounds, shortest);
     for (&node, place) in near.iter().zip(found) {
-        if away[node as usize] <= rounds {
+        if away[node as usize] <= reach {
             now[node as usize] = place;
         }
     }
+}
+
+/// How many edges away what happens at a node is felt after `rounds`.
+///
+/// In a round a node goes a quarter of its way, as if a quarter of what it feels came from its
+/// neighbours: so what is felt spreads like a walk of `rounds` steps of variance 1/4. Nine times its
+/// standard deviation away less is left than a number has bits.
+fn reach(rounds: u32) -> u32 {
+    let deviation = (net::STEP * f64::from(rounds)).sqrt();
+    rounds.min((9.0 * deviation).ceil() as u32)
 }
 
 fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -> Vec<DVec2> {
@@ -155,9 +164,9 @@ fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -
 /// As [`moved`]; edges shorter than `shortest` do not pull.
 ///
 /// Each node gathers the pulls on itself in the order of `edges`, so the bits are those of one
-/// thread. Nodes are worked on strip by strip of the blade, since what lies near in memory is
-/// fetched sooner: three times as fast as in the order of birth. Patches of them go through several
-/// rounds at once, in the cache.
+/// thread. Nodes are worked on in the order of their places, since what lies near in memory is fetched
+/// sooner: three times as fast as in the order of birth. Patches of them go through several rounds at
+/// once, in the cache.
 fn moved_from(
     positions: &[DVec2],
     edges: &[VeinEdge],
@@ -165,7 +174,7 @@ fn moved_from(
     rounds: u32,
     shortest: f64,
 ) -> Vec<DVec2> {
-    let sorted = by_strips(positions, 8.0 * mean_length(positions, edges));
+    let sorted = by_strips(positions, mean_length(positions, edges));
     let mut places = vec![0_u32; positions.len()];
     for (place, &node) in (0..).zip(&sorted) {
         places[node as usize] = place;
@@ -176,16 +185,21 @@ fn moved_from(
     places.iter().map(|&place| now[place as usize]).collect()
 }
 
-/// The nodes ordered by strips of this height, along x within each.
-fn by_strips(positions: &[DVec2], height: f64) -> Vec<u32> {
-    let strip = |node: u32| (positions[node as usize].y / height) as i64;
-    let mut sorted: Vec<u32> = (0..positions.len() as u32).collect();
-    sorted.par_sort_unstable_by(|&a, &b| {
-        let along = |node: u32| positions[node as usize].x;
-        let strips = strip(a).cmp(&strip(b));
-        strips.then(along(a).total_cmp(&along(b))).then(a.cmp(&b))
-    });
-    sorted
+/// The nodes ordered by strips of the blade, each of which is worked through in narrow columns, so
+/// that a patch of them is nearly square: as high as it is wide, with few neighbours around.
+fn by_strips(positions: &[DVec2], mean_length: f64) -> Vec<u32> {
+    let [high, wide] = [128.0, 8.0].map(|edges| edges * mean_length);
+    let least = positions.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let mut sorted: Vec<([u32; 2], f64, u32)> = (0..)
+        .zip(positions)
+        .map(|(node, &place)| {
+            let from = place - least;
+            let [strip, column] = [from.y / high, from.x / wide].map(|cell| cell as u32);
+            ([strip, column], place.y, node)
+        })
+        .collect();
+    sorted.par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    sorted.into_iter().map(|(.., node)| node).collect()
 }
 
 fn mean_length(positions: &[DVec2], edges: &[VeinEdge]) -> f64 {
@@ -195,21 +209,21 @@ fn mean_length(positions: &[DVec2], edges: &[VeinEdge]) -> f64 {
 
 /// Pairs of edges that cross, ascending.
 fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
-    let ends = |edge: u32| {
+    let nodes = |edge: u32| {
         let edge = &edges[edge as usize];
         [edge.from, edge.to]
     };
-    let place = |node: u32| positions[node as usize];
     let mean = mean_length(positions, edges);
     let grid = EdgeGrid::new(positions, edges, mean);
     let pairs = |near: &[u32], found: &mut Vec<[u32; 2]>| {
         for (i, &first) in near.iter().enumerate() {
-            let [a, b] = ends(first);
+            let [a, b] = nodes(first);
             for &second in &near[i + 1..] {
-                let [c, d] = ends(second);
+                let [c, d] = nodes(second);
                 let share_a_node = a == c || a == d || b == c || b == d;
-                if !share_a_node && cross([a, b, c, d].map(place)) {
-                    found.push([first.min(second), first.max(second)]);
+                let pair = [first.min(second), first.max(second)];
+                if !share_a_node && cross(ends(positions, edges, pair)) {
+                    found.push(pair);
                 }
             }
         }
@@ -226,6 +240,12 @@ fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// The ends of the first, then of the second edge.
+fn ends(positions: &[DVec2], edges: &[VeinEdge], pair: [u32; 2]) -> [DVec2; 4] {
+    let [first, second] = pair.map(|edge| &edges[edge as usize]);
+    [first.from, first.to, second.from, second.to].map(|node| positions[node as usize])
 }
 
 /// Whether the way from the first to the second place crosses that from the third to the fourth.
@@ -306,26 +326,28 @@ mod tests {
         assert!(now != positions, "what is far from the end moves");
     }
 
+    /// A net of so many crooked meshes.
+    fn crooked(wide: u32, high: u32) -> (Vec<DVec2>, Vec<VeinEdge>) {
+        let positions = (0..wide * high).map(|i| {
+            let (x, y) = (f64::from(i % wide), f64::from(i / wide));
+            let askew = DVec2::new(libm::sin(7.0 * x + y), libm::sin(3.0 * x - 5.0 * y));
+            DVec2::new(x, y) + 0.3 * askew
+        });
+        let edges = (0..wide * high).flat_map(|i| {
+            let right = (i % wide + 1 < wide).then(|| vein(i, i + 1, 1.0));
+            let up = (i / wide + 1 < high).then(|| vein(i, i + wide, 0.5));
+            [right, up].into_iter().flatten()
+        });
+        (positions.collect(), edges.collect())
+    }
+
     #[test]
     fn what_is_moved_anew_around_held_nodes_has_the_same_bits() {
-        // A net of 60 × 8 crooked meshes.
-        let (wide, high) = (60_u32, 8_u32);
-        let positions: Vec<DVec2> = (0..wide * high)
-            .map(|i| {
-                let (x, y) = (f64::from(i % wide), f64::from(i / wide));
-                let askew = DVec2::new(libm::sin(7.0 * x + y), libm::sin(3.0 * x - 5.0 * y));
-                DVec2::new(x, y) + 0.3 * askew
-            })
-            .collect();
-        let edges: Vec<VeinEdge> = (0..wide * high)
-            .flat_map(|i| {
-                let right = (i % wide + 1 < wide).then(|| vein(i, i + 1, 1.0));
-                let up = (i / wide + 1 < high).then(|| vein(i, i + wide, 0.5));
-                [right, up].into_iter().flatten()
-            })
-            .collect();
+        let wide = 60;
+        let (positions, edges) = crooked(wide, 8);
         let mut moves = vec![true; positions.len()];
         let rounds = 9;
+        assert_eq!(reach(rounds), rounds);
         let mut now = moved(&positions, &edges, &moves, rounds);
         let first = now.clone();
         for stopped in [[65, 66], [188, 3 * wide + 9]] {
@@ -336,5 +358,21 @@ mod tests {
             assert_eq!(now, moved(&positions, &edges, &moves, rounds));
         }
         assert_ne!(now, first);
+    }
+
+    #[test]
+    fn nothing_is_felt_beyond_the_reach_of_many_rounds() {
+        let (positions, edges) = crooked(320, 4);
+        let mut moves = vec![true; positions.len()];
+        let rounds = 120;
+        assert_eq!(reach(rounds), 50);
+        let mut now = moved(&positions, &edges, &moves, rounds);
+        let stopped = [1];
+        moves[1] = false;
+        renew(&mut now, &positions, &edges, &moves, (rounds, &stopped));
+        let whole = moved(&positions, &edges, &moves, rounds);
+        for (found, whole) in now.iter().zip(whole) {
+            assert!((*found - whole).length() < 1e-14 * 320.0);
+        }
     }
 }

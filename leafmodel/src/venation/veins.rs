@@ -42,6 +42,8 @@ pub(crate) struct Veins {
     first_children: Vec<u32>,
     /// Nodes besides the first from which edges lead to a junction.
     joints: BTreeMap<u32, Vec<u32>>,
+    /// Whether `joints` has anything of each node: asked far more often than answered with yes.
+    is_joint: Vec<bool>,
     /// The order as which each node was laid out, or 0.
     pub(crate) laid_orders: Vec<u8>,
     /// Edges by length in segments of their place, if edges stretch in time.
@@ -74,6 +76,7 @@ impl Veins {
             parents: Vec::new(),
             first_children: Vec::new(),
             joints: BTreeMap::new(),
+            is_joint: Vec::new(),
             laid_orders: Vec::new(),
             by_length: length_queue(),
             stretching,
@@ -107,6 +110,7 @@ impl Veins {
         }
         self.births.push(step);
         self.parents.push(NO_NODE);
+        self.is_joint.push(false);
         self.first_children.push(NO_NODE);
         self.tree.insert(node, position);
         node
@@ -120,6 +124,7 @@ impl Veins {
             self.parents[to as usize] = from;
         } else {
             self.joints.entry(to).or_default().push(from);
+            self.is_joint[to as usize] = true;
         }
         if self.first_children[from as usize] == NO_NODE {
             self.first_children[from as usize] = to;
@@ -207,15 +212,8 @@ impl Veins {
         let curved = at_shares(&|u| catmull_rom([p0, p1, p2, p3], u));
         let straight = at_shares(&|u| p1 + (p2 - p1) * u);
         let crosses = |places: &[DVec2]| {
-            let last = places.len();
-            let all = |k: usize| if k == last { p2 } else { places[k] };
-            (0..=last).any(|k| {
-                // The first piece and the last meet what the edge meets.
-                let start = if k == 0 { from } else { NO_NODE };
-                let end = if k == last { to } else { NO_NODE };
-                let before = if k == 0 { p1 } else { places[k - 1] };
-                self.piece_crosses([before, all(k)], [start, end], Some([from, to]), unit)
-            })
+            let line: Vec<DVec2> = [&[p1], places, &[p2]].concat();
+            self.line_crosses(&line, [from, to], unit)
         };
         let curved = Some(curved).filter(|places| !self.minds_crossings || !crosses(places));
         let Some(places) = curved.into_iter().chain([straight]).find(|p| stays(p)) else {

@@ -137,11 +137,9 @@ impl Course {
 pub(crate) fn cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<f64> {
     let (way, piece) = (b - a, d - c);
     let across = way.perp_dot(piece);
+    let is_on = |share: &f64| (0.0..=1.0).contains(share);
+    let t = Some((c - a).perp_dot(piece) / across).filter(is_on)?;
+    Some((c - a).perp_dot(way) / across).filter(is_on)?;
     // Pieces of one straight vein lie in line, up to rounding: they do not cross.
-    if across.abs() <= 1e-6 * way.length() * piece.length() {
-        return None;
-    }
-    let t = (c - a).perp_dot(piece) / across;
-    let u = (c - a).perp_dot(way) / across;
-    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)).then_some(t)
+    (across.abs() > 1e-6 * way.length() * piece.length()).then_some(t)
 }

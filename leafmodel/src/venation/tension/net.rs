@@ -13,10 +13,10 @@ use rayon::prelude::*;
 use super::VeinEdge;
 
 /// Share of the way to balance that a node goes in a round.
-const STEP: f64 = 0.25;
+pub(super) const STEP: f64 = 0.25;
 
-/// Nodes of a patch. With what pulls at them they fill a megabyte, a second cache.
-const PATCH: usize = 16_384;
+/// Nodes of a patch. With what pulls at them they fill half a megabyte, a second cache.
+const PATCH: usize = 8192;
 
 /// Rounds that a patch goes through at once. Around it as many edges are worked on by its neighbours
 /// too.
@@ -141,22 +141,26 @@ impl Patch {
     }
 }
 
-/// Where a node goes in a round.
+/// Where a node goes in a round: a share of the way along Σ r w / l over Σ r / l, for ways w of
+/// lengths l to the other ends of veins of radii r.
+///
+/// Numerator and denominator are kept times the product of the lengths, so that one division is left.
 #[inline]
 fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
-    let (mut pull, mut sum) = (DVec2::ZERO, 0.0);
+    let (mut pull, mut sum, mut scale) = (DVec2::ZERO, 0.0, 1.0);
     for pair in pulls {
         let ways = pair.to.map(|other| now[other as usize] - here);
         let lengths = ways.map(DVec2::length);
-        // Short ones are weighed with 0: a branch would keep the quotients apart.
-        let stiffness = [0, 1].map(|i| {
+        // Short ones are weighed with 0: a branch would keep the square roots apart.
+        let weights = [0, 1].map(|i| {
             let pulls = f64::from(u8::from(lengths[i] >= shortest));
-            pulls * (pair.radius[i] / lengths[i].max(shortest))
+            pulls * pair.radius[i] * lengths[1 - i].max(shortest)
         });
-        pull += ways[0] * stiffness[0];
-        pull += ways[1] * stiffness[1];
-        sum += stiffness[0];
-        sum += stiffness[1];
+        let lengths = lengths[0].max(shortest) * lengths[1].max(shortest);
+        let way = ways[0] * weights[0] + ways[1] * weights[1];
+        pull = pull * lengths + way * scale;
+        sum = sum * lengths + (weights[0] + weights[1]) * scale;
+        scale *= lengths;
     }
     if sum > 0.0 {
         here + pull * (STEP / sum)
@@ -165,8 +169,8 @@ fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
     }
 }
 
-/// Two pulls on a node: the places at the other ends, and the radii of the veins. Square roots and
-/// quotients of a pair take the time of one; a node within a vein has one pair.
+/// Two pulls on a node: the places at the other ends, and the radii of the veins. Square roots of a
+/// pair take the time of one; a node within a vein has one pair.
 #[derive(Clone, Copy)]
 struct Pulls {
     to: [u32; 2],
@@ -292,6 +296,11 @@ mod tests {
                 }
             }
         }
-        assert_eq!(net.after(start, rounds, shortest), expected);
+        let at_once = net.after(start.clone(), rounds, shortest);
+        for (found, expected) in at_once.iter().zip(&expected) {
+            assert!((*found - *expected).length() < 1e-11);
+        }
+        let one_by_one = (0..rounds).fold(start, |now, _| net.after(now, 1, shortest));
+        assert_eq!(at_once, one_by_one);
     }
 }

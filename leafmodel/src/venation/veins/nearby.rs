@@ -43,21 +43,22 @@ impl Veins {
         distance: f64,
         meet: impl FnMut(u32, DVec2) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let squared = distance * distance;
-        self.tree.visit(
+        let mut around = Around {
             place,
-            &mut Around {
-                place,
-                squared,
-                meet,
-            },
-        )
+            squared: distance * distance,
+            meet,
+        };
+        let reach = DVec2::splat(distance);
+        let (low, high) = (place - reach, place + reach);
+        self.tree.visit_within(low, high, place, &mut around)
     }
 
     /// The nodes from which edges lead to a node.
     fn before(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
         let first = self.parents[node as usize];
-        let more = self.joints.get(&node).into_iter().flatten().copied();
+        let is_joint = self.is_joint[node as usize];
+        let joints = is_joint.then(|| self.joints.get(&node)).flatten();
+        let more = joints.into_iter().flatten().copied();
         std::iter::once(first).filter(|&n| n != NO_NODE).chain(more)
     }
 
@@ -69,30 +70,30 @@ impl Veins {
     /// Whether a straight vein from a node to a place crosses another; `unit` is a segment there.
     pub(crate) fn crosses(&self, from: u32, to: DVec2, unit: f64) -> bool {
         let start = self.positions[from as usize];
-        self.piece_crosses([start, to], [from, NO_NODE], None, unit)
+        self.line_crosses(&[start, to], [from, NO_NODE], unit)
     }
 
-    /// Whether a straight piece crosses a vein; those that meet in one of `ends` do not count, nor
-    /// does the edge `own`.
-    pub(super) fn piece_crosses(
-        &self,
-        [start, to]: [DVec2; 2],
-        ends: [u32; 2],
-        own: Option<[u32; 2]>,
-        unit: f64,
-    ) -> bool {
-        let middle = (start + to) * 0.5;
+    /// Whether a line between two nodes crosses a vein. What its first piece meets at the first node,
+    /// and its last at the last, does not count, nor does the edge between the two.
+    pub(super) fn line_crosses(&self, line: &[DVec2], ends: [u32; 2], unit: f64) -> bool {
+        let (low, high) = line.iter().fold((line[0], line[0]), |(low, high), &place| {
+            (low.min(place), high.max(place))
+        });
         // An edge is at most two segments long, so that one of its ends is not farther than that.
-        let reach = (to - start).length() * 0.5 + 2.1 * unit;
-        self.around(middle, reach, |node, place| {
-            if ends.contains(&node) {
-                return ControlFlow::Continue(());
-            }
+        let reach = (high - low).length() * 0.5 + 2.1 * unit;
+        let last = line.len() - 2;
+        self.around((low + high) * 0.5, reach, |node, place| {
             for before in self.before(node) {
+                if [before, node] == ends {
+                    continue;
+                }
                 let there = self.positions[before as usize];
-                let is_own = own == Some([before, node]);
-                if !is_own && !ends.contains(&before) && cross(start, to, there, place).is_some() {
-                    return ControlFlow::Break(());
+                for (k, piece) in line.windows(2).enumerate() {
+                    let meets = |end: u32| end == node || end == before;
+                    let is_joined = k == 0 && meets(ends[0]) || k == last && meets(ends[1]);
+                    if !is_joined && cross(piece[0], piece[1], there, place).is_some() {
+                        return ControlFlow::Break(());
+                    }
                 }
             }
             ControlFlow::Continue(())
