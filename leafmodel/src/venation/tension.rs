@@ -7,11 +7,14 @@
 //! - **Always true**: no two veins cross that did not before; all nodes move at once, so the order
 //!   of work does not matter.
 
+use std::cell::LazyCell;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
+use super::topology::Topology;
 use net::Net;
 
 mod net;
@@ -45,8 +48,12 @@ pub(super) fn relaxed(
         .map(|(node, &degree)| degree > 1 && is_free(node))
         .collect();
     let mut now = moved(positions, edges, &moves, rounds);
+    let mut found = crossings(&now, edges);
+    let pairs: LazyCell<Vec<[u32; 2]>, _> =
+        LazyCell::new(|| edges.iter().map(|edge| [edge.from, edge.to]).collect());
+    let topology = LazyCell::new(|| Topology::new(positions.len(), &pairs));
     for attempt in 0..TRIES {
-        let new: Vec<[u32; 2]> = crossings(&now, edges)
+        let new: Vec<[u32; 2]> = found
             .into_iter()
             .filter(|&pair| !cross(ends(positions, edges, pair)))
             .collect();
@@ -59,7 +66,12 @@ pub(super) fn relaxed(
             .zip(were.iter().zip(&moves))
             .filter_map(|(node, (before, after))| (before != after).then_some(node))
             .collect();
-        renew(&mut now, positions, edges, &moves, (rounds, &stopped));
+        let net = (edges, &*topology);
+        let renewed = renew(&mut now, positions, net, &moves, (rounds, &stopped));
+        found = match renewed {
+            Some(renewed) => crossings_of(&now, edges, &renewed),
+            None => crossings(&now, edges),
+        };
     }
     positions.to_vec()
 }
@@ -87,21 +99,16 @@ fn hold(moves: &mut [bool], edges: &[VeinEdge], held: &[u32], reach: u32) {
 ///
 /// What happens at a node reaches one edge farther in each round, of which nothing is left far away:
 /// see [`reach`]. So places farther away stay, and those nearer are found on the net up to twice as
-/// far.
+/// far. Gives the nodes that have new places, or none if all have.
 fn renew(
     now: &mut Vec<DVec2>,
     positions: &[DVec2],
-    edges: &[VeinEdge],
+    (edges, topology): (&[VeinEdge], &Topology<'_>),
     moves: &[bool],
     (rounds, stopped): (u32, &[u32]),
-) {
+) -> Option<Vec<u32>> {
     const FAR: u32 = u32::MAX;
     let reach = reach(rounds);
-    let mut beside: Vec<Vec<u32>> = vec![Vec::new(); positions.len()];
-    for edge in edges {
-        beside[edge.from as usize].push(edge.to);
-        beside[edge.to as usize].push(edge.from);
-    }
     let mut away = vec![FAR; positions.len()];
     let mut near = stopped.to_vec();
     for &node in stopped {
@@ -111,7 +118,15 @@ fn renew(
     while let Some(&node) = near.get(next) {
         next += 1;
         let step = away[node as usize] + 1;
-        for &other in &beside[node as usize] {
+        let leaving = topology
+            .leaving(node)
+            .iter()
+            .map(|&edge| topology.edge(edge)[1]);
+        let entering = topology
+            .entering(node)
+            .iter()
+            .map(|&edge| topology.edge(edge)[0]);
+        for other in leaving.chain(entering) {
             if step <= 2 * reach && away[other as usize] == FAR {
                 away[other as usize] = step;
                 near.push(other);
@@ -120,7 +135,7 @@ fn renew(
     }
     if 2 * near.len() > positions.len() {
         *now = moved(positions, edges, moves, rounds);
-        return;
+        return None;
     }
     let mut local = vec![FAR; positions.len()];
     for (number, &node) in (0..).zip(&near) {
@@ -144,6 +159,8 @@ fn renew(
             now[node as usize] = place;
         }
     }
+    near.retain(|&node| away[node as usize] <= reach);
+    Some(near)
 }
 
 /// How many edges away what happens at a node is felt after `rounds`.
@@ -240,6 +257,44 @@ fn crossings(positions: &[DVec2], edges: &[VeinEdge]) -> Vec<[u32; 2]> {
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// As [`crossings`], of pairs of which one has an end among these nodes, and perhaps some more.
+fn crossings_of(positions: &[DVec2], edges: &[VeinEdge], nodes: &[u32]) -> Vec<[u32; 2]> {
+    let mut is_one = vec![false; positions.len()];
+    for &node in nodes {
+        is_one[node as usize] = true;
+    }
+    let all = || positions.iter().copied();
+    let (low, high) = (
+        all().fold(DVec2::INFINITY, DVec2::min),
+        all().fold(-DVec2::INFINITY, DVec2::max),
+    );
+    let size = high - low;
+    let cell = (4.0 * mean_length(positions, edges)).max(size.max_element() / 2000.0);
+    let columns = (size.x / cell) as usize + 1;
+    let cells = |edge: &VeinEdge| {
+        let [from, to] = [edge.from, edge.to].map(|node| positions[node as usize]);
+        let [least, most] = [from.min(to), from.max(to)].map(|corner| (corner - low) / cell);
+        let rows = least.y as usize..=most.y as usize;
+        rows.flat_map(move |row| {
+            (least.x as usize..=most.x as usize).map(move |column| row * columns + column)
+        })
+    };
+    let mut is_near = vec![false; columns * ((size.y / cell) as usize + 1)];
+    for edge in edges {
+        if is_one[edge.from as usize] || is_one[edge.to as usize] {
+            cells(edge).for_each(|cell| is_near[cell] = true);
+        }
+    }
+    let (numbers, near): (Vec<u32>, Vec<VeinEdge>) = (0..)
+        .zip(edges)
+        .filter(|(_, edge)| cells(edge).any(|cell| is_near[cell]))
+        .map(|(number, edge)| (number, *edge))
+        .unzip();
+    let found = crossings(positions, &near);
+    let whole = |pair: [u32; 2]| pair.map(|edge| numbers[edge as usize]);
+    found.into_iter().map(whole).collect()
 }
 
 /// The ends of the first, then of the second edge.
@@ -354,10 +409,35 @@ mod tests {
             for node in stopped {
                 moves[node as usize] = false;
             }
-            renew(&mut now, &positions, &edges, &moves, (rounds, &stopped));
+            let pairs: Vec<[u32; 2]> = edges.iter().map(|edge| [edge.from, edge.to]).collect();
+            let net = (&edges[..], &Topology::new(positions.len(), &pairs));
+            renew(&mut now, &positions, net, &moves, (rounds, &stopped));
             assert_eq!(now, moved(&positions, &edges, &moves, rounds));
         }
         assert_ne!(now, first);
+    }
+
+    #[test]
+    fn crossings_around_some_nodes_are_those_of_all_that_have_an_end_there() {
+        let (mut positions, edges) = crooked(60, 40);
+        for (number, place) in positions.iter_mut().enumerate() {
+            *place += 0.7 * DVec2::from_angle(number as f64);
+        }
+        let nodes: Vec<u32> = (900..960).collect();
+        let has_end = |pair: &[u32; 2]| {
+            let mut ends = pair.iter().flat_map(|&edge| {
+                let edge = &edges[edge as usize];
+                [edge.from, edge.to]
+            });
+            ends.any(|node| nodes.contains(&node))
+        };
+        let only = |pairs: Vec<[u32; 2]>| -> Vec<[u32; 2]> {
+            pairs.into_iter().filter(|pair| has_end(pair)).collect()
+        };
+        let all = crossings(&positions, &edges);
+        let expected = only(all.clone());
+        assert!(expected.len() > 10 && 10 * expected.len() < all.len());
+        assert_eq!(only(crossings_of(&positions, &edges, &nodes)), expected);
     }
 
     #[test]
@@ -369,7 +449,10 @@ mod tests {
         let mut now = moved(&positions, &edges, &moves, rounds);
         let stopped = [1];
         moves[1] = false;
-        renew(&mut now, &positions, &edges, &moves, (rounds, &stopped));
+        let pairs: Vec<[u32; 2]> = edges.iter().map(|edge| [edge.from, edge.to]).collect();
+        let net = (&edges[..], &Topology::new(positions.len(), &pairs));
+        let renewed = renew(&mut now, &positions, net, &moves, (rounds, &stopped));
+        assert!(renewed.is_some_and(|nodes| nodes.len() < 4 * 60));
         let whole = moved(&positions, &edges, &moves, rounds);
         for (found, whole) in now.iter().zip(whole) {
             assert!((*found - whole).length() < 1e-14 * 320.0);
