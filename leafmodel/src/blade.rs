@@ -57,6 +57,7 @@ pub mod vein_body;
 pub mod vein_cover;
 pub mod vein_field;
 mod vein_grid;
+mod vein_light;
 pub mod vein_profile;
 pub mod weathering;
 

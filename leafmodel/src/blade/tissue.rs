@@ -93,8 +93,8 @@ fn fields_of(whole: &str) -> PerConstituent<String> {
     PerConstituent::from_fn(|constituent| format!("{whole}.{}", constituent.name()))
 }
 
-/// What the mottle varies.
-const MOTTLED: [Constituent; 2] = [Constituent::Chlorophyll, Constituent::Carotenoids];
+/// What the mottle varies, and what makes tissue green.
+const GREENS: [Constituent; 2] = [Constituent::Chlorophyll, Constituent::Carotenoids];
 
 impl Tissue {
     /// Checks that every field is in its range. Upper limits are far above the values of leaves;
@@ -148,8 +148,8 @@ impl Tissue {
     /// `C (1 + (f − 1)(w + e))`: their surplus grows with a vein's thickness, so with its radius
     /// (`e`, [`VeinCover::excess`]), whereas pigment contents do not. With a [`VeinBody`] it is
     /// `C (1 + (f − 1) w + b e)` for all of them, with the body's share `b`. Chlorophyll and carotenoids
-    /// are multiplied by `1 + mottle share × mottle`. Structure is at least 1, the others at
-    /// least 0.
+    /// have [`VeinCover::greens`] for `w` and are multiplied by `1 + mottle share × mottle`. Structure
+    /// is at least 1, the others at least 0.
     #[must_use]
     pub fn contents(&self, cover: VeinCover, mottle: f64) -> Contents {
         self.contents_of(self.lamina, cover, mottle)
@@ -163,14 +163,16 @@ impl Tissue {
         for (constituent, value) in contents.iter_mut() {
             let factor = self.vein_factors[constituent];
             let thick = constituent.is_bulk() && factor > 1.0;
+            let is_green = GREENS.contains(&constituent);
+            let weight = if is_green { cover.greens } else { cover.weight };
             let body = self.vein_body.as_ref();
             *value *= if let Some(body) = body {
-                1.0 + (factor - 1.0) * cover.weight + body.shares[constituent] * cover.excess
+                1.0 + (factor - 1.0) * weight + body.shares[constituent] * cover.excess
             } else {
-                let share = cover.weight + if thick { cover.excess } else { 0.0 };
+                let share = weight + if thick { cover.excess } else { 0.0 };
                 1.0 + (factor - 1.0) * share
             };
-            if MOTTLED.contains(&constituent) {
+            if is_green {
                 *value *= patch;
             }
             // A factor of 0 at full weight may round to slightly below 0.
@@ -209,14 +211,8 @@ pub(super) mod tests {
         mottle_scale_mm: 1.0,
     };
 
-    const LAMINA_ONLY: VeinCover = VeinCover {
-        weight: 0.0,
-        excess: 0.0,
-    };
-    const FULL: VeinCover = VeinCover {
-        weight: 1.0,
-        excess: 0.0,
-    };
+    const LAMINA_ONLY: VeinCover = VeinCover::NONE;
+    const FULL: VeinCover = VeinCover::of(1.0, 0.0);
 
     #[test]
     fn each_field_out_of_range_is_refused_by_name() {
@@ -299,10 +295,7 @@ pub(super) mod tests {
 
     #[test]
     fn thickness_adds_bulk_and_leaves_pigments_alone() {
-        let thick = VeinCover {
-            weight: 1.0,
-            excess: 3.0,
-        };
+        let thick = VeinCover::of(1.0, 3.0);
         let (full, thick) = (GREEN.contents(FULL, 0.0), GREEN.contents(thick, 0.0));
         let surplus = |contents: Contents| {
             contents[Constituent::DryMatter] - GREEN.lamina[Constituent::DryMatter]
@@ -319,13 +312,7 @@ pub(super) mod tests {
         // Contents with a factor below 1 do not become negative in thick veins.
         let mut dry = GREEN;
         dry.vein_factors[Constituent::Water] = 0.0;
-        let drained = dry.contents(
-            VeinCover {
-                weight: 1.0,
-                excess: 3.0,
-            },
-            0.0,
-        );
+        let drained = dry.contents(VeinCover::of(1.0, 3.0), 0.0);
         assert_eq!(drained[Constituent::Water], 0.0);
     }
 
@@ -335,10 +322,7 @@ pub(super) mod tests {
             vein_body: Some(VeinBody::USUAL),
             ..GREEN
         };
-        let thick = VeinCover {
-            weight: 1.0,
-            excess: 3.0,
-        };
+        let thick = VeinCover::of(1.0, 3.0);
         let (full, thick) = (tissue.contents(FULL, 0.0), tissue.contents(thick, 0.0));
         assert_eq!(full, GREEN.contents(FULL, 0.0));
         for (constituent, share) in VeinBody::USUAL.shares {

@@ -67,7 +67,7 @@ mod tests {
         let at = ProspectD::coefficients(550.0).expect("in range");
         let through = |weight: f64, radius: f64| {
             let excess = body.layers(0.0, radius);
-            let held = tissue.contents(VeinCover { weight, excess }, 0.0);
+            let held = tissue.contents(VeinCover::of(weight, excess), 0.0);
             at.reflectance_transmittance(&held).transmittance
         };
         let blade = through(0.0, 0.0);

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::tissue::{Tissue, TissueError};
-use super::vein_cover::VeinCover;
+use super::vein_cover::{Covers, Moments, VeinCover};
 use super::vein_profile::{Profile, Surplus, strength};
 use crate::venation::network::VeinSegment;
 
@@ -57,25 +57,36 @@ impl Segment {
         }
     }
 
-    /// Squared distance to the axis, and where along it the nearest point lies (0 to 1).
+    /// Squared distance to the axis, and where along it the point lies: from 0 to 1 beside it, less
+    /// or more beyond its ends.
     fn nearest(&self, point: DVec2) -> (f64, f64) {
         let offset = point - self.from;
-        let t = (offset.dot(self.along) * self.inverse_square).clamp(0.0, 1.0);
-        ((offset - t * self.along).length_squared(), t)
+        let t = offset.dot(self.along) * self.inverse_square;
+        (
+            (offset - t.clamp(0.0, 1.0) * self.along).length_squared(),
+            t,
+        )
     }
 
-    fn cover(&self, point: DVec2, field: &VeinField) -> VeinCover {
+    fn add_to(&self, covers: &mut Covers, point: DVec2, field: &VeinField) {
         let (profile, full_radius) = (field.profile, field.full_radius);
         let (square, t) = self.nearest(point);
         if square >= self.reach * self.reach {
-            return VeinCover::NONE;
+            return;
         }
         let distance = square.sqrt();
-        let radius = self.radius_from + t * self.radius_growth;
-        VeinCover {
-            weight: strength(radius, full_radius) * profile.weight(distance, radius),
-            excess: profile.excess(distance, radius, field.surplus),
-        }
+        let radius = self.radius_from + t.clamp(0.0, 1.0) * self.radius_growth;
+        let strength = strength(radius, full_radius);
+        let weight = Moments {
+            mean: strength * profile.weight(distance, radius),
+            square: strength * strength * profile.square(distance, radius),
+        };
+        let is_beside = (0.0..1.0).contains(&t);
+        covers.add(
+            weight,
+            is_beside,
+            profile.excess(distance, radius, field.surplus),
+        );
     }
 }
 
@@ -193,17 +204,19 @@ impl VeinField {
         )
     }
 
-    /// The cover of veins at a point in millimetres: that of the strongest vein nearby.
+    /// The cover of veins at a point in millimetres: that of the strongest vein nearby, and where the
+    /// field is averaged over texels that of others beside it.
     #[must_use]
     pub fn cover(&self, point: DVec2) -> VeinCover {
         // No vein reaches points outside the grid; the segments of the nearest cell give 0 there.
         let (column, row) = self.cell_of(point);
         let cell = row * self.columns + column;
         let (start, end) = (self.starts[cell] as usize, self.starts[cell + 1] as usize);
-        self.entries[start..end]
-            .iter()
-            .map(|&index| self.segments[index as usize].cover(point, self))
-            .fold(VeinCover::NONE, VeinCover::strongest)
+        let mut covers = Covers::default();
+        for &index in &self.entries[start..end] {
+            self.segments[index as usize].add_to(&mut covers, point, self);
+        }
+        covers.all()
     }
 }
 
@@ -247,11 +260,11 @@ mod tests {
     }
 
     fn over_all(field: &VeinField, point: DVec2) -> VeinCover {
-        field
-            .segments
-            .iter()
-            .map(|segment| segment.cover(point, field))
-            .fold(VeinCover::NONE, VeinCover::strongest)
+        let mut covers = Covers::default();
+        for segment in &field.segments {
+            segment.add_to(&mut covers, point, field);
+        }
+        covers.all()
     }
 
     fn any_vein() -> impl Strategy<Value = VeinSegment> {

@@ -76,6 +76,18 @@ impl Profile {
         mean.clamp(0.0, 1.0)
     }
 
+    /// Mean of the square of the weight, from the weight's own square up to the weight.
+    pub(super) fn square(self, d: f64, r: f64) -> f64 {
+        let h = self.texel;
+        let weight = self.weight(d, r);
+        if h < 1e-3 * self.sheath || weight == 0.0 || weight == 1.0 {
+            return weight * weight;
+        }
+        let second = |x: f64| self.second_integral_of_square(x.abs(), r);
+        let mean = (second(d + h) - 2.0 * second(d) + second(d - h)) / (h * h);
+        mean.clamp(weight * weight, weight)
+    }
+
     /// The profile itself, for `h = 0`.
     fn sharp(self, d: f64, r: f64) -> f64 {
         let u = ((d - r) / self.sheath).clamp(0.0, 1.0);
@@ -93,6 +105,19 @@ impl Profile {
         let inside = 0.5 * r * r + r * s * u + s * s * u * u * (0.5 + u * u * (0.1 * u - 0.25));
         let beyond = (d - r - s).max(0.0);
         inside + (r + 0.5 * s) * beyond
+    }
+
+    /// As [`Profile::second_integral`] of the square of the weight.
+    fn second_integral_of_square(self, d: f64, r: f64) -> f64 {
+        let s = self.sheath;
+        if d <= r {
+            return 0.5 * d * d;
+        }
+        let u = ((d - r) / s).min(1.0);
+        let fall = 0.5 + u * u * (-0.5 + u * (0.2 + u * (0.3 + u * (u / 14.0 - 2.0 / 7.0))));
+        let inside = 0.5 * r * r + r * s * u + s * s * u * u * fall;
+        let beyond = (d - r - s).max(0.0);
+        inside + (r + 13.0 / 35.0 * s) * beyond
     }
 
     /// Excess of a vein of radius `r` over a fully developed one at the distance `d` from its axis:
@@ -156,11 +181,13 @@ mod tests {
         ) {
             let profile = Profile { sheath, texel };
             let count = (profile.reach(radius) / texel).ceil() as i32 + 1;
-            let sum: f64 = (-count..=count)
-                .map(|i| profile.weight(((f64::from(i) + phase) * texel).abs(), radius) * texel)
-                .sum();
+            let at = |i: i32| ((f64::from(i) + phase) * texel).abs();
+            let sum: f64 = (-count..=count).map(|i| profile.weight(at(i), radius) * texel).sum();
             let covers = 2.0 * radius + sheath;
             prop_assert!((sum - covers).abs() < 1e-9 * covers.max(texel), "{sum} {covers}");
+            let squares: f64 = (-count..=count).map(|i| profile.square(at(i), radius) * texel).sum();
+            let covers = 2.0 * radius + 2.0 * 13.0 / 35.0 * sheath;
+            prop_assert!((squares - covers).abs() < 1e-9 * covers.max(texel), "{squares} {covers}");
         }
 
         #[test]

@@ -28,10 +28,7 @@ impl WholeLeaf {
             }
             lamina = Contents(mean);
         }
-        let vein = VeinCover {
-            weight: 1.0,
-            excess: 0.0,
-        };
+        let vein = VeinCover::of(1.0, 0.0);
         let Some(mut body) = plan.tissue.vein_body else {
             return Ok(plan.tissue.contents_of(lamina, vein, 0.0));
         };
