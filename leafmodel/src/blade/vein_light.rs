@@ -11,8 +11,8 @@ use crate::optics::{Constituent, Contents, Pigments, ProspectD};
 use super::vein_cover::VeinCover;
 
 /// Wavelength, nm, at which the light is the same. One content can give the mean light of two at one
-/// wavelength only: with 560 the red of a maple with 400 texels is too dark by a tenth, with 650 its
-/// green too light by as much as red is right.
+/// wavelength only: with 560 the red of a maple with 400 texels is too dark by some 10 %, with 650 its
+/// green too light by some 6 %.
 const NM: f64 = 590.0;
 
 /// Chlorophyll up to which light is tabulated, µg/cm². More than that changes next to nothing.
