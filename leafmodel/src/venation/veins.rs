@@ -36,14 +36,12 @@ pub(crate) struct Veins {
     pub(crate) edges: Vec<[u32; 2]>,
     /// All nodes by place.
     pub(crate) tree: PointTree,
-    /// The node each node grew from (the first, for a junction), or [`NO_NODE`].
-    parents: Vec<u32>,
+    /// What each node grew from.
+    stems: Vec<Stem>,
     /// The first node that grew from each node, or [`NO_NODE`].
     first_children: Vec<u32>,
     /// Nodes besides the first from which edges lead to a junction.
     joints: BTreeMap<u32, Vec<u32>>,
-    /// Whether `joints` has anything of each node: asked far more often than answered with yes.
-    is_joint: Vec<bool>,
     /// The order as which each node was laid out, or 0.
     pub(crate) laid_orders: Vec<u8>,
     /// Edges by length in segments of their place, if edges stretch in time.
@@ -52,6 +50,18 @@ pub(crate) struct Veins {
     stretching: bool,
     /// Whether veins may not cross. The rows of the paper let them.
     pub(crate) minds_crossings: bool,
+}
+
+/// What a node grew from. Who looks for veins around a place asks all nodes there: so all that they ask
+/// stands together.
+#[derive(Clone, Copy)]
+struct Stem {
+    /// The node it grew from (the first, for a junction), or [`NO_NODE`].
+    node: u32,
+    /// Whether `joints` has more of them.
+    is_joint: bool,
+    /// The place of `node`.
+    place: DVec2,
 }
 
 /// A queue of edges; a segment is never shorter than one unit of the frame.
@@ -73,10 +83,9 @@ impl Veins {
             births: Vec::new(),
             edges: Vec::new(),
             tree: PointTree::new(low, high),
-            parents: Vec::new(),
+            stems: Vec::new(),
             first_children: Vec::new(),
             joints: BTreeMap::new(),
-            is_joint: Vec::new(),
             laid_orders: Vec::new(),
             by_length: length_queue(),
             stretching,
@@ -109,8 +118,11 @@ impl Veins {
             self.starts.push(lamina.start_of(position));
         }
         self.births.push(step);
-        self.parents.push(NO_NODE);
-        self.is_joint.push(false);
+        self.stems.push(Stem {
+            node: NO_NODE,
+            is_joint: false,
+            place: position,
+        });
         self.first_children.push(NO_NODE);
         self.tree.insert(node, position);
         node
@@ -120,16 +132,22 @@ impl Veins {
     pub(crate) fn add_edge(&mut self, from: u32, to: u32, lamina: &Lamina) {
         let edge = self.edges.len() as u32;
         self.edges.push([from, to]);
-        if self.parents[to as usize] == NO_NODE {
-            self.parents[to as usize] = from;
+        if self.stems[to as usize].node == NO_NODE {
+            self.set_stem(to, from);
         } else {
             self.joints.entry(to).or_default().push(from);
-            self.is_joint[to as usize] = true;
+            self.stems[to as usize].is_joint = true;
         }
         if self.first_children[from as usize] == NO_NODE {
             self.first_children[from as usize] = to;
         }
         self.note_length(edge, lamina);
+    }
+
+    fn set_stem(&mut self, of: u32, node: u32) {
+        let stem = &mut self.stems[of as usize];
+        stem.node = node;
+        stem.place = self.positions[node as usize];
     }
 
     /// Called when growth has ended: edges stretch no more.
@@ -146,6 +164,11 @@ impl Veins {
             let place = lamina.now_at(start);
             self.positions[node] = place;
             self.tree.insert(node as u32, place);
+        }
+        for stem in &mut self.stems {
+            if stem.node != NO_NODE {
+                stem.place = self.positions[stem.node as usize];
+            }
         }
         self.by_length = length_queue();
         for edge in 0..self.edges.len() as u32 {
@@ -183,7 +206,7 @@ impl Veins {
         let [from, to] = self.edges[edge as usize];
         let at = |node: u32| self.positions[node as usize];
         let (p1, p2) = (at(from), at(to));
-        let before = self.parents[from as usize];
+        let before = self.stems[from as usize].node;
         let after = self.first_children[to as usize];
         // At the end of a vein, the missing neighbour is the reflection of the edge's other end.
         let neighbour = |node: u32, mirrored: DVec2, of: DVec2| {
@@ -228,10 +251,10 @@ impl Veins {
             if self.first_children[tail as usize] == to {
                 self.first_children[tail as usize] = node;
             }
-            self.parents[node as usize] = tail;
+            self.set_stem(node, tail);
             self.first_children[node as usize] = to;
-            if self.parents[to as usize] == tail {
-                self.parents[to as usize] = node;
+            if self.stems[to as usize].node == tail {
+                self.set_stem(to, node);
             } else if let Some(before) = self.joints.get_mut(&to) {
                 before
                     .iter_mut()
@@ -333,8 +356,9 @@ mod tests {
         }
         // Walking back from the tip meets every node once and ends at the seed.
         let (mut node, mut met) = (3, 1);
-        while veins.parents[node] != NO_NODE {
-            let parent = veins.parents[node];
+        while veins.stems[node].node != NO_NODE {
+            let parent = veins.stems[node].node;
+            assert_eq!(veins.stems[node].place, veins.positions[parent as usize]);
             assert!(veins.edges.contains(&[parent, node as u32]));
             assert_eq!(veins.first_children[parent as usize], node as u32);
             node = parent as usize;

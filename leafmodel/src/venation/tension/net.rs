@@ -71,26 +71,39 @@ impl Net {
     /// A patch; `local` is [`u32::MAX`] for all places, before and after.
     fn patch(&self, own: Range<u32>, reach: u32, local: &mut [u32]) -> Patch {
         let mut places: Vec<u32> = own.collect();
-        for (number, &place) in (0..).zip(&places) {
-            local[place as usize] = number;
-        }
-        let mut within = vec![places.len()];
-        let mut ring = 0..places.len();
-        for _ in 0..reach {
-            for i in ring.clone() {
+        let own = places.len();
+        let (mut rings, mut pulls) = (Vec::new(), PullsByPlace::default());
+        let mut ring = 0..own;
+        loop {
+            // Those of one kind follow one another.
+            places[ring.clone()].sort_by_key(|&place| self.kind(place));
+            for (number, &place) in ring.clone().zip(&places[ring.clone()]) {
+                local[place as usize] = number as u32;
+            }
+            if rings.len() == reach as usize {
+                break;
+            }
+            let from = ring.start;
+            let ends = [Kind::OnePair, Kind::TwoPairs, Kind::More].map(|kind| {
+                places[ring.clone()].partition_point(|&place| self.kind(place) <= kind)
+            });
+            rings.push(Ring {
+                one_pair: from..from + ends[0],
+                two_pairs: from + ends[0]..from + ends[1],
+                more: from + ends[1]..from + ends[2],
+            });
+            let end = places.len();
+            for i in ring {
                 for &other in self.pulls.of(places[i]).iter().flat_map(|pulls| &pulls.to) {
                     if local[other as usize] == u32::MAX {
-                        local[other as usize] = places.len() as u32;
+                        local[other as usize] = IN_NEXT_RING;
                         places.push(other);
                     }
                 }
             }
-            ring = ring.end..places.len();
-            within.push(places.len());
+            ring = end..places.len();
         }
-        let inner = &places[..ring.start];
-        let mut pulls = PullsByPlace::default();
-        for &place in inner {
+        for &place in &places[..ring.start] {
             pulls.push(self.pulls.of(place).iter().map(|pulls| Pulls {
                 to: pulls.to.map(|other| local[other as usize]),
                 ..*pulls
@@ -100,44 +113,93 @@ impl Net {
             local[place as usize] = u32::MAX;
         }
         Patch {
-            is_free: inner
-                .iter()
-                .map(|&place| self.is_free[place as usize])
-                .collect(),
+            own,
             places,
-            within,
+            rings,
             pulls,
+        }
+    }
+
+    fn kind(&self, place: u32) -> Kind {
+        match (self.is_free[place as usize], self.pulls.of(place).len()) {
+            (false, _) | (_, 0) => Kind::Held,
+            (true, 1) => Kind::OnePair,
+            (true, 2) => Kind::TwoPairs,
+            (true, _) => Kind::More,
         }
     }
 }
 
+/// Of a place that is found, but has no number in its patch yet.
+const IN_NEXT_RING: u32 = u32::MAX - 1;
+
+/// How many pairs of pulls are on what lies at a place, if it moves.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    OnePair,
+    TwoPairs,
+    More,
+    Held,
+}
+
 /// Places that go through several rounds at once: their own, and what they feel in that time.
 struct Patch {
+    /// Number of its own places.
+    own: usize,
     /// Own places, then those farther and farther away.
     places: Vec<u32>,
-    /// Number of places at most 0, 1, 2 … edges away.
-    within: Vec<usize>,
-    /// What pulls at them, except at the farthest, and whether they move.
+    /// Those 0, 1, 2 … edges away, without the farthest.
+    rings: Vec<Ring>,
+    /// What pulls at them.
     pulls: PullsByPlace,
-    is_free: Vec<bool>,
+}
+
+/// What lies equally many edges from a patch and moves, by its pairs of pulls: where all have as many,
+/// the processor need not guess how many come next.
+struct Ring {
+    one_pair: Range<usize>,
+    two_pairs: Range<usize>,
+    more: Range<usize>,
 }
 
 impl Patch {
-    /// Writes where its own places are after `rounds`.
+    /// Writes where its own places are after `rounds`; the first of them is `first`.
     fn advance(&self, before: &[DVec2], after: &mut [DVec2], rounds: u32, shortest: f64) {
         let place = |place: &u32| before[*place as usize];
         let mut now: Vec<DVec2> = self.places.iter().map(place).collect();
         let mut next = now.clone();
         for left in (0..rounds as usize).rev() {
             // Farther ones have no effect on its own any more.
-            for node in 0..self.within[left] {
-                if self.is_free[node] {
-                    next[node] = pulled(now[node], self.pulls.of(node as u32), &now, shortest);
+            for ring in &self.rings[..=left] {
+                self.pull::<1>(ring.one_pair.clone(), &now, &mut next, shortest);
+                self.pull::<2>(ring.two_pairs.clone(), &now, &mut next, shortest);
+                for node in ring.more.clone() {
+                    let pulls = self.pulls.of(node as u32);
+                    next[node] = pulled(now[node], pulls, &now, shortest);
                 }
             }
             std::mem::swap(&mut now, &mut next);
         }
-        after.copy_from_slice(&now[..after.len()]);
+        let first = self.places[..self.own].iter().min().copied().unwrap_or(0);
+        for (&place, now) in self.places[..self.own].iter().zip(now) {
+            after[(place - first) as usize] = now;
+        }
+    }
+
+    /// One round of nodes that have as many pairs of pulls each.
+    fn pull<const PAIRS: usize>(
+        &self,
+        nodes: Range<usize>,
+        now: &[DVec2],
+        next: &mut [DVec2],
+        shortest: f64,
+    ) {
+        let pulls = &self.pulls.pulls[self.pulls.starts[nodes.start] as usize..];
+        let (pulls, _) = pulls.as_chunks::<PAIRS>();
+        let here = &now[nodes.clone()];
+        for ((next, &here), pulls) in next[nodes].iter_mut().zip(here).zip(pulls) {
+            *next = pulled(here, pulls, now, shortest);
+        }
     }
 }
 
@@ -145,7 +207,7 @@ impl Patch {
 /// lengths l to the other ends of veins of radii r.
 ///
 /// Numerator and denominator are kept times the product of the lengths, so that one division is left.
-#[inline]
+#[inline(always)]
 fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
     let (mut pull, mut sum, mut scale) = (DVec2::ZERO, 0.0, 1.0);
     for pair in pulls {

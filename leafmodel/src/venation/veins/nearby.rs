@@ -53,18 +53,20 @@ impl Veins {
         self.tree.visit_within(low, high, place, &mut around)
     }
 
-    /// The nodes from which edges lead to a node.
-    fn before(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
-        let first = self.parents[node as usize];
-        let is_joint = self.is_joint[node as usize];
-        let joints = is_joint.then(|| self.joints.get(&node)).flatten();
-        let more = joints.into_iter().flatten().copied();
-        std::iter::once(first).filter(|&n| n != NO_NODE).chain(more)
+    /// The nodes from which edges lead to a node, and their places.
+    fn before(&self, node: u32) -> impl Iterator<Item = (u32, DVec2)> + '_ {
+        let stem = &self.stems[node as usize];
+        let joints = stem.is_joint.then(|| self.joints.get(&node)).flatten();
+        let more = joints.into_iter().flatten();
+        let more = more.map(|&node| (node, self.positions[node as usize]));
+        let first = (stem.node != NO_NODE).then_some((stem.node, stem.place));
+        first.into_iter().chain(more)
     }
 
     /// Whether an edge leads from one of two nodes to the other.
     pub(crate) fn are_joined(&self, a: u32, b: u32) -> bool {
-        self.before(a).any(|node| node == b) || self.before(b).any(|node| node == a)
+        let leads = |from, to| self.before(to).any(|(node, _)| node == from);
+        leads(b, a) || leads(a, b)
     }
 
     /// Whether a straight vein from a node to a place crosses another; `unit` is a segment there.
@@ -83,11 +85,10 @@ impl Veins {
         let reach = (high - low).length() * 0.5 + 2.1 * unit;
         let last = line.len() - 2;
         self.around((low + high) * 0.5, reach, |node, place| {
-            for before in self.before(node) {
+            for (before, there) in self.before(node) {
                 if [before, node] == ends {
                     continue;
                 }
-                let there = self.positions[before as usize];
                 for (k, piece) in line.windows(2).enumerate() {
                     let meets = |end: u32| end == node || end == before;
                     let is_joined = k == 0 && meets(ends[0]) || k == last && meets(ends[1]);
@@ -108,9 +109,9 @@ impl Veins {
         let way = way.normalize_or_zero();
         let runs_along = |other: DVec2| (other - place).normalize_or_zero().dot(way) > APART;
         let mut count = 0;
-        for before in self.before(node) {
+        for (_, before) in self.before(node) {
             count += 1;
-            if runs_along(self.positions[before as usize]) {
+            if runs_along(before) {
                 return true;
             }
         }
@@ -118,7 +119,7 @@ impl Veins {
             return false;
         }
         let crowded = self.around(place, 2.1 * unit, |other, at| {
-            if other != node && self.before(other).any(|before| before == node) {
+            if other != node && self.before(other).any(|(before, _)| before == node) {
                 count += 1;
                 if runs_along(at) {
                     return ControlFlow::Break(());
