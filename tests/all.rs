@@ -3,6 +3,7 @@
 
 mod architecture;
 mod determinism;
+mod drops;
 mod fluorescence;
 mod format;
 mod golden;

@@ -14,5 +14,11 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
     drop(patience);
     mitsuba::write(&scene, &world, &arguments.out).map_err(Failure::system)?;
     say(arguments.out.display());
+    if world.objects.have_drops() {
+        eprintln!(
+            "note: under drops Mitsuba takes leaves as they are in air, so that they send out 1/eta² of their \
+             light; Lamina does not"
+        );
+    }
     Ok(())
 }

@@ -148,6 +148,7 @@ impl<const N: usize> Paths<'_, N> {
             inside: &passage.inside,
             // A leaf is a sheet, no boundary of a body.
             boundary: None,
+            cap: None,
         };
         let mut result = PathResult {
             radiance: Lanes::ZERO,
@@ -159,9 +160,12 @@ impl<const N: usize> Paths<'_, N> {
         let (light, rays) = sampled_light(self.world, &vertex, wavelengths, [x, y], stream);
         result.radiance += light;
         result.rays += rays;
-        if let Some(leg) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) {
+        if let Some(mut leg) = vertex.bounce(numbers, 1.0, self.effort.roulette_below) {
+            let drops = passage.drops;
+            let place = (surface, &encounter.frame, encounter.wo);
             let passage = Passage {
                 flights: passage.flights + FLIGHTS_OF_A_PATH,
+                drops: (drops.film()).map_or(drops, |film| film.leave(drops, place, &mut leg)),
                 ..*passage
             };
             paths.follow(leg, passage, depth + 1, stream, &mut result);

@@ -1,10 +1,13 @@
 //! The path estimator: unidirectional, with light samples at every vertex.
 
+pub(super) mod drops;
 mod found;
 pub(super) mod lamps;
 pub(super) mod media;
 mod result;
 pub(super) mod scatterer;
+mod through_leaf;
+mod vertex;
 
 use glam::{Vec2, Vec3};
 
@@ -13,18 +16,16 @@ use self::lamps::sampled_light;
 use self::media::{Collision, Met, Passage};
 pub use self::result::{FirstHit, PathResult};
 use self::scatterer::Scatterer;
+pub(super) use self::vertex::Vertex;
 use crate::camera::FilmRay;
 use crate::geometry::ray::Ray;
 use crate::integrator::cone::Cone;
 use crate::integrator::effort::Effort;
 use crate::integrator::encounter::Encounter;
 use crate::light::Receiver;
-use crate::medium::{Body, BodyPlace, Inside};
 use crate::sampling::stream::Stream;
 use crate::scene::world::World;
 use crate::spectrum::{Lanes, Wavelengths};
-
-mod through_leaf;
 
 /// Number of sets of four random numbers before those of the vertices: one for the places on film
 /// and lens, one for the wavelengths (without a lens the first set holds both), and one for suns.
@@ -137,22 +138,17 @@ impl<const N: usize> Paths<'_, N> {
         let (world, wavelengths) = (self.world, self.wavelengths);
         for depth in from..MOST_EVENTS {
             let met = self.meet(&mut leg, &mut passage, depth == 0, stream, result);
-            let Leg {
-                ray,
-                cone,
-                throughput,
-                bounce,
-            } = &leg;
             let is_last = world.integrator.max_depth.is_some_and(|most| depth >= most);
             let hit = match met {
                 Met::Surface(hit) => hit,
                 Met::Nothing => {
+                    let way = leg.ray.direction;
                     result.radiance +=
-                        *throughput * from_infinity(world, ray.direction, bounce, wavelengths);
+                        leg.throughput * from_infinity(world, way, &leg.bounce, wavelengths);
                     return;
                 }
                 Met::Medium(collision) => {
-                    if throughput.is_zero() || is_last {
+                    if leg.throughput.is_zero() || is_last {
                         return;
                     }
                     let next = self.collide(&leg, &passage, &collision, depth, stream, result);
@@ -164,8 +160,22 @@ impl<const N: usize> Paths<'_, N> {
                 }
             };
             let material = world.material_of(hit.instance);
-            let encounter =
-                Encounter::new(&world.geometry, material, (ray, cone), &hit, wavelengths);
+            let mut encounter = Encounter::new(
+                &world.geometry,
+                material,
+                (&leg.ray, &leg.cone),
+                &hit,
+                wavelengths,
+            );
+            let Ok(film) = self.film_over(&mut leg, passage.drops, &mut encounter, &hit) else {
+                continue;
+            };
+            let Leg {
+                ray,
+                throughput,
+                bounce,
+                ..
+            } = &leg;
             let (surface, frame, bsdf) = (&encounter.surface, &encounter.frame, &encounter.bsdf);
             let (wo, width) = (encounter.wo, encounter.width);
             if let Some(number) = world.objects[surface.instance as usize].light {
@@ -186,9 +196,12 @@ impl<const N: usize> Paths<'_, N> {
                     leg: (*throughput, width),
                     depth,
                 };
-                let Some(next) = self.through_leaf(&entry, stream, result) else {
+                let Some(mut next) = self.through_leaf(&entry, stream, result) else {
                     return;
                 };
+                if let Some(film) = film {
+                    passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
+                }
                 leg = next;
                 continue;
             }
@@ -197,41 +210,20 @@ impl<const N: usize> Paths<'_, N> {
             let Some(view) = &view else {
                 return;
             };
-            let vertex = Vertex {
-                paths: self,
-                scatterer: Scatterer::Surface {
-                    surface,
-                    frame,
-                    view,
-                },
-                receiver: Receiver {
-                    position: surface.position,
-                    normal: surface.shading_normal,
-                },
-                is_lit: !bsdf.is_specular(),
-                light_samples: self.light_samples(depth),
-                throughput: *throughput,
-                width,
-                gathered: result.radiance,
-                inside: &passage.inside,
-                boundary: world.objects[surface.instance as usize].body.map(|body| {
-                    let place = world.objects.body_place(surface.instance);
-                    (place, body, surface.geometric_normal)
-                }),
-            };
+            let gathered = result.radiance;
+            let vertex = self.on_surface((&encounter, view), &leg, &passage, depth, gathered);
             if let Some(leaf) = self.fluorescing(material) {
                 let (light, rays) = self.emitted(leaf, &encounter, &passage, depth, stream);
                 result.radiance += *throughput * light;
                 result.rays += rays;
             }
-            let Some(next) = self.scatter(&vertex, &passage, depth, stream, result) else {
+            let Some(mut next) = self.scatter(&vertex, &passage, depth, stream, result) else {
                 return;
             };
-            if let Some((place, body, normal)) = vertex.boundary {
-                let direction = next.ray.direction;
-                passage
-                    .inside
-                    .leave_boundary(place, body, normal, direction);
+            let beyond = vertex.passage_towards(&passage, next.ray.direction);
+            passage = beyond;
+            if let Some(film) = film {
+                passage.drops = film.leave(passage.drops, (surface, frame, wo), &mut next);
             }
             leg = next;
         }
@@ -284,6 +276,7 @@ impl<const N: usize> Paths<'_, N> {
             gathered: result.radiance,
             inside: &passage.inside,
             boundary: None,
+            cap: None,
         };
         self.scatter(&vertex, passage, depth, stream, result)
     }
@@ -325,10 +318,7 @@ impl<const N: usize> Paths<'_, N> {
                 stream.seek(set);
                 let share = 1.0 / self.effort.branches as f32;
                 if let Some(leg) = vertex.bounce(stream.next4(), share, 0.0) {
-                    let passage = Passage {
-                        inside: vertex.inside_towards(leg.ray.direction),
-                        ..*passage
-                    };
+                    let passage = vertex.passage_towards(passage, leg.ray.direction);
                     self.follow(leg, passage, 1, &mut stream, result);
                 }
             }
@@ -372,81 +362,4 @@ struct Bounce {
     from: Receiver,
     /// Number of lights chosen there.
     light_samples: u32,
-}
-
-/// A point where a path is scattered.
-pub(super) struct Vertex<'a, const N: usize> {
-    pub(super) paths: &'a Paths<'a, N>,
-    pub(super) scatterer: Scatterer<'a, N>,
-    pub(super) receiver: Receiver,
-    /// Whether lamps are sampled.
-    pub(super) is_lit: bool,
-    /// Number of lights that are chosen and sampled.
-    pub(super) light_samples: u32,
-    /// Factor on radiance from here, up to the camera.
-    pub(super) throughput: Lanes<N>,
-    /// Width of the ray that found it, m.
-    pub(super) width: f32,
-    /// Radiance that the path has found so far.
-    pub(super) gathered: Lanes<N>,
-    /// The bodies from whose inside the ray came.
-    pub(super) inside: &'a Inside,
-    /// The body on whose boundary the point lies, with its outward normal, in scenes with media.
-    pub(super) boundary: Option<(BodyPlace, Body, Vec3)>,
-}
-
-impl<const N: usize> Vertex<'_, N> {
-    /// The leg that leaves by a random bounce with a share of the throughput; `None` if Russian
-    /// roulette, below a threshold, ends the path.
-    pub(super) fn bounce(
-        &self,
-        numbers: [f32; 4],
-        share: f32,
-        roulette_below: f32,
-    ) -> Option<Leg<N>> {
-        let [lobe, x, y, roulette] = numbers;
-        let sample = self.scatterer.sample(lobe, Vec2::new(x, y))?;
-        let mut throughput = self.throughput * sample.weight * share;
-        let brightness = self.paths.brightness(&throughput);
-        if brightness <= 0.0 {
-            return None;
-        }
-        if brightness < roulette_below {
-            let survival = brightness / roulette_below;
-            if roulette >= survival {
-                return None;
-            }
-            throughput *= 1.0 / survival;
-        }
-        // Where lamps were not sampled, what the bounce finds has no other weight.
-        let pdf = if self.is_lit {
-            sample.pdf
-        } else {
-            f32::INFINITY
-        };
-        Some(Leg {
-            ray: match (&self.scatterer, self.boundary) {
-                (Scatterer::Surface { surface, .. }, Some(_)) => {
-                    surface.spawn_whole(sample.wi_world)
-                }
-                (scatterer, _) => scatterer.spawn(sample.wi_world),
-            },
-            throughput,
-            cone: Cone::scattered(self.width),
-            bounce: Bounce {
-                pdf,
-                from: self.receiver,
-                light_samples: self.light_samples,
-            },
-        })
-    }
-
-    /// The bodies around a ray that leaves in a direction.
-    fn inside_towards(&self, direction: Vec3) -> Inside {
-        let mut inside = *self.inside;
-        if let Some((place, body, normal)) = self.boundary {
-            inside.leave_boundary(place, body, normal, direction);
-        }
-        inside
-    }
 }

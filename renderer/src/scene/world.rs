@@ -23,7 +23,7 @@ use leafmodel::optics::solid::ReflectanceTable;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use self::bodies::{around, build_media, set_bodies};
+use self::bodies::{around, build_media, set_bodies, set_drops};
 use self::light_colours::{check_white, light_colours};
 use self::lights::build_lights;
 use self::materials::{Known, build_materials};
@@ -326,6 +326,7 @@ impl World {
             mut objects,
             first,
         } = place(scene, &pieces, &strewn_around);
+        set_drops(&mut objects, scene, &owners, &instances);
         let mut media = build_media(scene, wavelengths.grid());
         if media.are_present {
             set_bodies(&mut objects, scene, &owners, (&meshes, &instances))?;

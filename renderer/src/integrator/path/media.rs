@@ -4,6 +4,7 @@
 
 use glam::Vec3;
 
+use super::drops::Drops;
 use super::{FirstHit, Leg, PathResult, Paths};
 use crate::geometry::{Hit, Ray};
 use crate::medium::{Inside, Phase};
@@ -25,6 +26,8 @@ pub(in crate::integrator) struct Passage {
     pub(in crate::integrator) inside: Inside,
     /// Number of flights so far, each with random numbers of its own.
     pub(in crate::integrator) flights: u32,
+    /// The drops around.
+    pub(in crate::integrator) drops: Drops,
 }
 
 /// What a ray comes to.
@@ -52,6 +55,7 @@ impl Passage {
         Self {
             inside: world.media.around_camera,
             flights: 0,
+            drops: Drops::default(),
         }
     }
 }

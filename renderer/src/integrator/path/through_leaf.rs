@@ -80,6 +80,7 @@ impl<const N: usize> Paths<'_, N> {
                     gathered: result.radiance,
                     inside: &entry.passage.inside,
                     boundary: None,
+                    cap: None,
                 };
                 let (light, rays) = sampled_light(world, &vertex, self.wavelengths, [x, y], stream);
                 result.radiance += light;

@@ -41,6 +41,27 @@ pub(super) fn build_media(scene: &Description, grid: &WavelengthGrid) -> Media {
     }
 }
 
+/// Finds out which instances are drops: of a shape without a base, of a dielectric.
+pub(super) fn set_drops(
+    objects: &mut WorldObjects,
+    scene: &Description,
+    owners: &[MaterialOwner],
+    instances: &[Instance],
+) {
+    objects.set_drops(|number, WorldObject { material, .. }| {
+        let mesh = scene.meshes.get(instances[number].mesh as usize)?;
+        let MaterialOwner::Scene(material) = owners[material] else {
+            return None;
+        };
+        match (&mesh.value, &scene.materials[material].value) {
+            (description::Mesh::Drop(_), description::Material::Dielectric { eta, .. }) => {
+                Some(*eta as f32).filter(|eta| *eta != 1.0)
+            }
+            _ => None,
+        }
+    });
+}
+
 /// Finds out which instances are bodies to rays. A dielectric without a medium is one if it is
 /// closed: inside it there is no medium, whatever is around it.
 pub(super) fn set_bodies(

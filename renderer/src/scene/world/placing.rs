@@ -45,6 +45,8 @@ pub struct WorldObject {
     pub light: Option<usize>,
     /// What it is to a ray, if it is a transparent body in a scene with media.
     pub body: Option<Body>,
+    /// Refractive index of its water over that outside, if it is a drop, which has no base.
+    pub drop: Option<f32>,
 }
 
 /// The object, material and light of each instance. All places of an object share an entry for each
@@ -53,6 +55,7 @@ pub struct WorldObject {
 pub struct WorldObjects {
     parts: Vec<WorldObject>,
     instances: Vec<Standing>,
+    have_drops: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +103,7 @@ impl WorldObjects {
             instances: instances
                 .map(|number| self.instances[number as usize])
                 .collect(),
+            have_drops: self.have_drops,
         }
     }
 
@@ -108,16 +112,44 @@ impl WorldObjects {
         self.parts[self.instances[instance].part as usize].light = Some(light);
     }
 
+    /// Whether there are drops.
+    pub fn have_drops(&self) -> bool {
+        self.have_drops
+    }
+
     /// Says of each part what body it is, given the number of an instance of it.
     pub(super) fn set_bodies<E>(
         &mut self,
         body: impl Fn(usize, WorldObject) -> Result<Option<Body>, E>,
     ) -> Result<(), E> {
+        self.for_each_part(|instance, part| {
+            part.body = body(instance, *part)?;
+            Ok(())
+        })
+    }
+
+    /// Says of each part whether it is a drop, given the number of an instance of it.
+    pub(super) fn set_drops(&mut self, drop: impl Fn(usize, WorldObject) -> Option<f32>) {
+        let mut some = false;
+        let set: Result<(), std::convert::Infallible> = self.for_each_part(|instance, part| {
+            part.drop = drop(instance, *part);
+            some |= part.drop.is_some();
+            Ok(())
+        });
+        match set {
+            Ok(()) => self.have_drops = some,
+        }
+    }
+
+    fn for_each_part<E>(
+        &mut self,
+        mut set: impl FnMut(usize, &mut WorldObject) -> Result<(), E>,
+    ) -> Result<(), E> {
         let mut is_known = vec![false; self.parts.len()];
         for (instance, standing) in self.instances.iter().enumerate() {
             let part = standing.part as usize;
             if !std::mem::replace(&mut is_known[part], true) {
-                self.parts[part].body = body(instance, self.parts[part])?;
+                set(instance, &mut self.parts[part])?;
             }
         }
         Ok(())
@@ -129,6 +161,7 @@ impl WorldObjects {
             material,
             light: None,
             body: None,
+            drop: None,
         });
         self.parts.len() as u32 - 1
     }

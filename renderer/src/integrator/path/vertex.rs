@@ -1,0 +1,153 @@
+//! A point where a path is scattered, and the ways on from there.
+
+use glam::{Vec2, Vec3};
+
+use super::drops::Cap;
+use super::media::Passage;
+use super::scatterer::Scatterer;
+use super::{Bounce, Leg, Paths};
+use crate::bsdf::View;
+use crate::integrator::cone::Cone;
+use crate::integrator::encounter::Encounter;
+use crate::light::Receiver;
+use crate::medium::{Body, BodyPlace, Inside};
+use crate::spectrum::Lanes;
+
+/// A point where a path is scattered.
+pub(in crate::integrator) struct Vertex<'a, const N: usize> {
+    pub(in crate::integrator) paths: &'a Paths<'a, N>,
+    pub(in crate::integrator) scatterer: Scatterer<'a, N>,
+    pub(in crate::integrator) receiver: Receiver,
+    /// Whether lamps are sampled.
+    pub(in crate::integrator) is_lit: bool,
+    /// Number of lights that are chosen and sampled.
+    pub(in crate::integrator) light_samples: u32,
+    /// Factor on radiance from here, up to the camera.
+    pub(in crate::integrator) throughput: Lanes<N>,
+    /// Width of the ray that found it, m.
+    pub(in crate::integrator) width: f32,
+    /// Radiance that the path has found so far.
+    pub(in crate::integrator) gathered: Lanes<N>,
+    /// The bodies from whose inside the ray came.
+    pub(in crate::integrator) inside: &'a Inside,
+    /// The body on whose boundary the point lies, with its outward normal, in scenes with media.
+    pub(in crate::integrator) boundary: Option<(BodyPlace, Body, Vec3)>,
+    /// The drop on whose surface the point lies.
+    pub(in crate::integrator) cap: Option<Cap>,
+}
+
+impl<const N: usize> Vertex<'_, N> {
+    /// The leg that leaves by a random bounce with a share of the throughput; `None` if Russian
+    /// roulette, below a threshold, ends the path.
+    pub(in crate::integrator) fn bounce(
+        &self,
+        numbers: [f32; 4],
+        share: f32,
+        roulette_below: f32,
+    ) -> Option<Leg<N>> {
+        let [lobe, x, y, roulette] = numbers;
+        let sample = self.scatterer.sample(lobe, Vec2::new(x, y))?;
+        let mut throughput = self.throughput * sample.weight * share;
+        let brightness = self.paths.brightness(&throughput);
+        if brightness <= 0.0 {
+            return None;
+        }
+        if brightness < roulette_below {
+            let survival = brightness / roulette_below;
+            if roulette >= survival {
+                return None;
+            }
+            throughput *= 1.0 / survival;
+        }
+        // Where lamps were not sampled, what the bounce finds has no other weight.
+        let pdf = if self.is_lit {
+            sample.pdf
+        } else {
+            f32::INFINITY
+        };
+        Some(Leg {
+            ray: match (&self.scatterer, self.boundary) {
+                (Scatterer::Surface { surface, .. }, Some(_)) => {
+                    surface.spawn_whole(sample.wi_world)
+                }
+                (scatterer, _) => scatterer.spawn(sample.wi_world),
+            },
+            throughput,
+            cone: Cone::scattered(self.width),
+            bounce: Bounce {
+                pdf,
+                from: self.receiver,
+                light_samples: self.light_samples,
+            },
+        })
+    }
+
+    /// The bodies around a ray that leaves in a direction.
+    pub(in crate::integrator) fn inside_towards(&self, direction: Vec3) -> Inside {
+        let mut inside = *self.inside;
+        if let Some((place, body, normal)) = self.boundary {
+            inside.leave_boundary(place, body, normal, direction);
+        }
+        inside
+    }
+
+    /// Where a ray is that leaves in a direction, of a path that came by this passage.
+    #[inline]
+    pub(in crate::integrator) fn passage_towards(
+        &self,
+        passage: &Passage,
+        direction: Vec3,
+    ) -> Passage {
+        let mut beyond = Passage {
+            inside: self.inside_towards(direction),
+            ..*passage
+        };
+        if let Some(cap) = &self.cap {
+            beyond.drops = cap.drops_towards(beyond.drops, direction);
+        }
+        beyond
+    }
+}
+
+impl<const N: usize> Paths<'_, N> {
+    /// The vertex where a leg has met a surface.
+    #[inline(always)]
+    pub(in crate::integrator) fn on_surface<'v>(
+        &'v self,
+        (encounter, view): (&'v Encounter<'_, N>, &'v View<'v, N>),
+        leg: &Leg<N>,
+        passage: &'v Passage,
+        depth: u32,
+        gathered: Lanes<N>,
+    ) -> Vertex<'v, N> {
+        let objects = &self.world.objects;
+        let surface = &encounter.surface;
+        Vertex {
+            paths: self,
+            scatterer: Scatterer::Surface {
+                surface,
+                frame: &encounter.frame,
+                view,
+            },
+            receiver: Receiver {
+                position: surface.position,
+                normal: surface.shading_normal,
+            },
+            is_lit: !encounter.bsdf.is_specular(),
+            light_samples: self.light_samples(depth),
+            throughput: leg.throughput,
+            width: encounter.width,
+            gathered,
+            inside: &passage.inside,
+            boundary: objects[surface.instance as usize].body.map(|body| {
+                let place = objects.body_place(surface.instance);
+                (place, body, surface.geometric_normal)
+            }),
+            cap: if objects.have_drops() {
+                self.cap_at(surface, leg.ray.direction)
+            } else {
+                None
+            },
+        }
+    }
+}
