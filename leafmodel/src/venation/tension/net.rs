@@ -163,7 +163,7 @@ struct Ring {
 }
 
 impl Patch {
-    /// Writes where its own places are after `rounds`; the first of them is `first`.
+    /// Writes where its own places, which follow one another in the net, are after `rounds`.
     fn advance(&self, before: &[DVec2], after: &mut [DVec2], rounds: u32, shortest: f64) {
         let place = |place: &u32| before[*place as usize];
         let mut now: Vec<DVec2> = self.places.iter().map(place).collect();
