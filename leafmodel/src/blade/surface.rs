@@ -215,8 +215,12 @@ fn moments(
         }
     };
     let centre = corner + 0.5 * texel;
-    if mounds.are_near(centre) {
-        mounds.reaching(centre, 0.5 * texel.length(), near);
+    mounds.reaching(centre, 0.5 * texel.length(), near);
+    // Bulge and mesh are straight within a texel.
+    if near.is_empty() {
+        let slope = bulge.slope(centre) - carried([PLACES / 2; 2]);
+        add([slope; 2], rough, 1.0);
+    } else {
         for number in 0..PLACES * PLACES {
             let place = [number % PLACES, number / PLACES];
             let share = DVec2::new(place[0] as f64, place[1] as f64);
@@ -227,9 +231,6 @@ fn moments(
             let rough = rough + vein.roughness;
             add(faces, rough, 1.0 / (PLACES * PLACES) as f64);
         }
-    } else {
-        let slope = bulge.slope(centre) - carried([PLACES / 2; 2]);
-        add([slope; 2], rough, 1.0);
     }
     // Rounding to single precision must not bring a mean square below the square of the mean.
     sums.map(|sum| {

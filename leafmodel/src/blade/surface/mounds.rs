@@ -47,11 +47,6 @@ impl Mounds {
         }
     }
 
-    /// Whether the cell of a texel's centre has any veins.
-    pub(super) fn are_near(&self, centre: DVec2) -> bool {
-        !self.veins.members(centre).is_empty()
-    }
-
     /// Puts into `near` the veins whose mounds come within the distance `reach` of a point, the
     /// centre of a texel and half its diagonal, in the order of their numbers.
     pub(super) fn reaching(&self, centre: DVec2, reach: f64, near: &mut Vec<u32>) {
@@ -83,14 +78,15 @@ impl Mounds {
             if away >= 1.0 {
                 continue;
             }
-            let profile = f64::midpoint(1.0, libm::cos(PI * away));
+            let (sine, cosine) = libm::sincos(PI * away);
+            let profile = f64::midpoint(1.0, cosine);
             let height = 2.0 * near.radius * profile;
             if height <= highest {
                 continue;
             }
             highest = height;
             // Downwards over the distance; the mound itself points to −z.
-            let steepness = near.radius * PI / width * libm::sin(PI * away);
+            let steepness = near.radius * PI / width * sine;
             let outward = (p - near.foot).normalize_or_zero();
             mound = Mound {
                 slopes: self.heights.map(|own| outward * (own * steepness)),
