@@ -54,7 +54,11 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
         eprintln!("note: {note}");
     }
     let build_seconds = started.elapsed().as_secs_f64();
-    let time = arguments.time.map(Duration::from_secs_f64);
+    // It counts from where an earlier run ended.
+    let spent = plan.before.as_ref().map(|begun| begun.elapsed);
+    let time = arguments
+        .time
+        .map(|time| Duration::from_secs_f64(time) + spent.unwrap_or_default());
     signals.begin_work();
     let is_taken_up = plan.before.is_some();
     let keeping = Keeping::new(
@@ -71,7 +75,7 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
     let preview = Preview::new(&plan.heading, layout, every, shown, viewer);
     let tracing = Instant::now();
     let begun = match plan.before {
-        Some(begun) => begun.up_to(&job),
+        Some(begun) => begun.up_to(&job).down_to(plan.heading.aim),
         None => pool
             .install(|| begin(&world, &job, plan.heading.aim, &signals.stop))
             .map_err(Failure::bad)?

@@ -44,6 +44,15 @@ struct BlockNoise {
     of_one_sample: f32,
 }
 
+impl BlockNoise {
+    /// Samples for a relative error, a multiple of [`STEP`]; `None` while the noise is unknown.
+    fn needed(self, aim: f64) -> Option<u32> {
+        let samples = (f64::from(self.of_one_sample) / aim).powi(2);
+        let steps = (samples / f64::from(STEP)).ceil() as u32;
+        (self.of_one_sample >= 0.0).then(|| steps.saturating_mul(STEP))
+    }
+}
+
 impl NoiseWatch {
     /// The initial state, in which every block goes on to `most` samples.
     pub fn new(film: &Film, aim: f64, most: u32) -> Self {
@@ -68,6 +77,16 @@ impl NoiseWatch {
     /// Lets blocks go on to `most` samples.
     pub fn set_most(&mut self, most: u32) {
         self.most = most;
+    }
+
+    /// Lets blocks go on to a lower relative error, by what is known of their noise.
+    pub fn set_aim(&mut self, aim: f64) {
+        self.aim = aim;
+        for block in &mut self.blocks {
+            if let Some(needed) = block.needed(aim) {
+                block.goal = needed;
+            }
+        }
     }
 
     /// What [`NoiseWatch::restored`] needs: the luminance of each pixel at the last border, then
@@ -125,30 +144,28 @@ impl NoiseWatch {
             .sum()
     }
 
-    /// Judges the film at a border, when every unfinished block has `samples` samples.
+    /// Judges the blocks that have come to the border at `samples` samples.
+    ///
+    /// Blocks that stopped before it keep what is known of them, and so do those that were beyond it
+    /// when others were told to go on to a lower error.
     pub fn look(&mut self, film: &Film, samples: u32) {
-        let found = self.compare(film);
+        let found = self.compare(film, samples);
         let pixels = |number: usize| f64::from(film.pixels_of(number));
         let sum: f64 = (0..)
             .zip(&found)
             .map(|(number, block)| block.luminance * pixels(number))
             .sum();
         let mean = sum / self.luminance.len() as f64;
-        for (block, found) in self.blocks.iter_mut().zip(&found) {
+        for (number, (block, found)) in self.blocks.iter_mut().zip(&found).enumerate() {
             // At the first border there is nothing to compare with.
-            if block.goal < samples || samples == FIRST_BORDER {
+            if film.drawn_of(number) != samples || samples == FIRST_BORDER {
                 continue;
             }
             let error = found.relative_error(mean);
             block.of_one_sample = (error * f64::from(samples).sqrt()) as f32;
-            block.goal = if error <= self.aim {
-                samples
-            } else {
-                // If more than twice as many are needed, the next border decides.
-                let needed = f64::from(samples) * (error / self.aim) * (error / self.aim);
-                let steps = (needed / f64::from(STEP)).ceil() as u32;
-                steps.saturating_mul(STEP)
-            };
+            // If more than twice as many are needed, the next border decides.
+            let needed = block.needed(self.aim).unwrap_or(u32::MAX);
+            block.goal = needed.max(samples);
         }
     }
 
@@ -167,8 +184,9 @@ impl NoiseWatch {
         Some((sum / self.luminance.len() as f64).sqrt())
     }
 
-    /// Compares every block with the last border, and stores this one.
-    fn compare(&mut self, film: &Film) -> Vec<Compared> {
+    /// Compares every block with its last border; of those that have come to this one, its luminance
+    /// is stored.
+    fn compare(&mut self, film: &Film, samples: u32) -> Vec<Compared> {
         let (width, height) = (film.width(), film.height());
         self.luminance
             .par_chunks_mut((width * BLOCK_SIDE) as usize)
@@ -177,7 +195,9 @@ impl NoiseWatch {
                 let y = row as u32 * BLOCK_SIDE;
                 let pixels = BLOCK_SIDE * BLOCK_SIDE.min(height - y);
                 let blocks = line.chunks_mut(pixels as usize).enumerate();
+                let first = row * width.div_ceil(BLOCK_SIDE) as usize;
                 blocks.map(move |(column, before)| {
+                    let is_here = film.drawn_of(first + column) == samples;
                     let x = column as u32 * BLOCK_SIDE;
                     let across = BLOCK_SIDE.min(width - x);
                     let count = before.len() as f64;
@@ -188,7 +208,9 @@ impl NoiseWatch {
                         let difference = now - f64::from(*before);
                         sums[0] += now;
                         sums[1] += difference * difference;
-                        *before = now as f32;
+                        if is_here {
+                            *before = now as f32;
+                        }
                     }
                     Compared {
                         luminance: sums[0] / count,
@@ -242,10 +264,25 @@ mod tests {
         let mut film =
             Film::new(4 * BLOCK_SIDE, BLOCK_SIDE, &[0.25, 0.5, 0.25], &[]).expect("a small film");
         let mut watch = NoiseWatch::new(&film, aim, most);
-        let mut first = 0;
-        while first < watch.last_goal() {
-            let end = (first + STEP).min(watch.last_goal());
+        expose(&mut film, &mut watch, value);
+        (film, watch)
+    }
+
+    /// Adds samples until all blocks have enough.
+    fn expose(
+        film: &mut Film,
+        watch: &mut NoiseWatch,
+        value: impl Fn(u32, u32, u32) -> f32 + Sync,
+    ) {
+        loop {
+            let drawn: Vec<u32> = (0..film.blocks()).map(|b| film.drawn_of(b)).collect();
+            let lacking = drawn.iter().zip(0..).filter(|&(&n, b)| n < watch.goal(b));
+            let Some(next) = lacking.map(|(&n, _)| n).min() else {
+                return;
+            };
+            let end = (next / STEP + 1) * STEP;
             film.expose(|block| {
+                let first = drawn[block.number()];
                 let end = end.min(watch.goal(block.number()));
                 if first < end {
                     block.expose(end - first, |x, y, pixel| {
@@ -253,12 +290,34 @@ mod tests {
                     });
                 }
             });
-            first = end;
-            if NoiseWatch::is_border(first) {
-                watch.look(&film, first);
+            if NoiseWatch::is_border(end) {
+                watch.look(film, end);
             }
         }
-        (film, watch)
+    }
+
+    #[test]
+    fn blocks_that_had_enough_go_on_to_a_lower_noise() {
+        // Half the noise from block to block, so that all stop at other numbers of samples.
+        let value = |x, y, number| {
+            let deviation = 0.5_f32.powi((x / BLOCK_SIDE) as i32);
+            1.0 + deviation * (2.0 * coin(x, y, number) - 1.0)
+        };
+        let (mut film, mut watch) = exposed(0.08, 100_000, value);
+        let before = [0, 1, 2, 3].map(|block| film.drawn_of(block));
+        watch.set_aim(0.03);
+        expose(&mut film, &mut watch, value);
+        let (at_once, its_watch) = exposed(0.03, 100_000, value);
+        for (block, before) in (0..4).zip(before) {
+            // The mean of the picture, to which errors are relative too, is known better now.
+            let (both, once) = (film.drawn_of(block), at_once.drawn_of(block));
+            assert!(both >= before, "{both} after {before}");
+            assert!(both.abs_diff(once) <= STEP, "{both} and {once} at once");
+        }
+        assert!(film.drawn_of(0) > 2 * before[0], "{before:?}");
+        let reached = [(&film, &watch), (&at_once, &its_watch)]
+            .map(|(film, watch)| watch.reached(film).expect("there were enough samples"));
+        assert!(reached[0] <= 0.03, "{reached:?}");
     }
 
     #[test]

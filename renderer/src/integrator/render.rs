@@ -133,6 +133,20 @@ impl Begun {
         self
     }
 
+    /// This render, going on to a lower noise; `None` is all samples for every pixel.
+    ///
+    /// With `None` the bits are those of a render that never had a target. With a lower target they
+    /// may differ from those of a render that always had it: an error is relative to the mean of the
+    /// whole picture too, which is known better now.
+    pub fn down_to(mut self, aim: Option<f64>) -> Self {
+        match (aim, &mut self.watch) {
+            (Some(aim), Some(watch)) if aim < watch.aim() => watch.set_aim(aim),
+            (None, _) => self.watch = None,
+            (Some(_), _) => {}
+        }
+        self
+    }
+
     /// Number of the sample behind the last one of a block.
     fn end_of(&self, block: usize) -> u32 {
         self.first + self.film.drawn_of(block)

@@ -200,6 +200,17 @@ fn check_same(
     first: u32,
 ) -> Result<(), Failure> {
     let path = path.display();
+    // What had enough samples for one noise goes on to a lower one, or to all samples.
+    let goes_on = match (kept.aim, wanted.aim) {
+        (Some(kept), Some(wanted)) => wanted < kept,
+        (Some(_), None) => true,
+        (None, _) => false,
+    };
+    let aim = if goes_on { wanted.aim } else { kept.aim };
+    let kept = &Heading {
+        aim,
+        ..kept.clone()
+    };
     if let Some(what) = kept.difference(wanted) {
         return Err(Failure::bad(format!(
             "{path} is {what}: render without --resume, or name another --checkpoint"
