@@ -216,7 +216,7 @@ fn moments(
     };
     let centre = corner + 0.5 * texel;
     mounds.reaching(centre, 0.5 * texel.length(), near);
-    // Bulge and mesh are straight within a texel.
+    // The slopes of bulge and mesh hardly change within a texel.
     if near.is_empty() {
         let slope = bulge.slope(centre) - carried([PLACES / 2; 2]);
         add([slope; 2], rough, 1.0);

@@ -201,12 +201,11 @@ fn check_same(
 ) -> Result<(), Failure> {
     let path = path.display();
     // What had enough samples for one noise goes on to a lower one, or to all samples.
-    let goes_on = match (kept.aim, wanted.aim) {
-        (Some(kept), Some(wanted)) => wanted < kept,
-        (Some(_), None) => true,
-        (None, _) => false,
+    let aim = match (kept.aim, wanted.aim) {
+        (Some(kept), Some(wanted)) => Some(kept.min(wanted)),
+        (_, None) => None,
+        (None, Some(_)) => kept.aim,
     };
-    let aim = if goes_on { wanted.aim } else { kept.aim };
     let kept = &Heading {
         aim,
         ..kept.clone()
