@@ -5,8 +5,8 @@
 //!   with radii. It can be drawn flat as one network ([`FlatLeaf`]) or built in space
 //!   ([`WholeLeaf`]) as blades, tubes and the place of each blade. Lengths are millimetres; the
 //!   petiole starts at the origin and goes along +y.
-//! - **Always true**: in the plane no leaflet overlaps another one or a stalk other than its own;
-//!   stalks taper; the same plan gives the same leaf.
+//! - **Always true**: in the plane no leaflet overlaps another one or a stalk other than its own,
+//!   however irregular they stand; stalks taper; the same plan gives the same leaf.
 //! - **Left out**: leaves whose leaflets overlap in nature. They are refused.
 //!
 //! ```
@@ -26,6 +26,7 @@ mod flat;
 pub mod form;
 mod overlap;
 mod stalk_contents;
+mod stray;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -175,9 +176,22 @@ impl CompoundForm {
         outlines: &[Outline],
     ) -> Result<CompoundLeaf, CompoundError> {
         self.validate()?;
-        let leaf = arrange::arrange(self, leaflet.length_mm);
-        overlap::check(&leaf, outlines)?;
-        Ok(leaf)
+        let mut stray = stray::Stray::new(self, leaflet.seed);
+        loop {
+            let leaf = arrange::arrange(self, leaflet.length_mm, &stray);
+            let most = if self.irregularity > 0.0 {
+                2 * leaf.leaflets.len()
+            } else {
+                1
+            };
+            let mut errors = overlap::find(&leaf, outlines, most);
+            if errors.is_empty() {
+                return Ok(leaf);
+            }
+            if !stray.calm(&errors) {
+                return Err(errors.swap_remove(0));
+            }
+        }
     }
 
     /// Checks every number.
@@ -194,6 +208,7 @@ impl CompoundForm {
         in_range("curl", self.curl, [-6.2, 6.2], "-6.2 to 6.2 (radians)")?;
         in_range("fold", self.fold, [-1.4, 1.4], "-1.4 to 1.4 (radians)")?;
         in_range("tilt", self.tilt, [0.0, 1.0], "0 to 1 (radians)")?;
+        in_range("irregularity", self.irregularity, [0.0, 0.25], "0 to 0.25")?;
         let leaflets = match &self.arrangement {
             Arrangement::Pinnate(feather) => {
                 feather.validate()?;

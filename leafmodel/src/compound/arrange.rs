@@ -2,10 +2,13 @@
 
 use glam::DVec2;
 
+use super::stray::{Part, Stray, Strayed};
 use super::{
     Arrangement, CompoundForm, CompoundLeaf, Feather, PlacedLeaflet, Stalk, StalkKind, direction,
 };
 
+/// Widest angle from its axis of what strays, radians.
+const WIDEST: f64 = 3.0;
 /// Number of straight pieces of a rachis between two leaflets.
 const PIECES: u32 = 4;
 
@@ -19,6 +22,8 @@ struct Insertion {
     /// Angle from the axis, > 0 to the right; 0 at its end.
     angle: f64,
     size: f64,
+    /// What chance adds to the angle by which a pinna turns.
+    turn: f64,
 }
 
 /// A point on an axis of length `length` that starts at `base` towards `heading` and turns evenly,
@@ -46,8 +51,15 @@ impl Feather {
         }
     }
 
-    /// The insertions on a rachis of this length, from its base on.
-    fn insertions(&self, base: DVec2, heading: f64, length: f64) -> Vec<Insertion> {
+    /// The insertions on a rachis of this length, from its base on; the one with a number strays
+    /// that far.
+    fn insertions(
+        &self,
+        base: DVec2,
+        heading: f64,
+        length: f64,
+        strayed: impl Fn(usize) -> Strayed,
+    ) -> Vec<Insertion> {
         let pairs = f64::from(self.pairs);
         // A terminal leaflet is inserted one gap beyond the last pair; without one the last pair is
         // at the rachis' end.
@@ -60,9 +72,16 @@ impl Feather {
                 0.5
             };
             for (side, offset) in [(1.0, 0.0), (-1.0, self.alternation)] {
+                let by = strayed(all.len());
+                // The rachis ends with its last pair, which stays.
+                let shift = if i + 1 == self.pairs && !self.terminal {
+                    0.0
+                } else {
+                    by.along
+                };
                 // A single pair is at the end.
                 let along = if gaps > 0.0 {
-                    ((f64::from(i) + offset) * (length / gaps)).min(length)
+                    ((f64::from(i) + offset + shift) * (length / gaps)).clamp(0.0, length)
                 } else {
                     length
                 };
@@ -72,19 +91,22 @@ impl Feather {
                     at,
                     heading,
                     along,
-                    angle: side * (first + (last - first) * share),
-                    size: self.size(share),
+                    angle: side * ((first + (last - first) * share) * by.angle).min(WIDEST),
+                    size: (self.size(share) * by.size).min(1.0),
+                    turn: by.turn,
                 });
             }
         }
         if self.terminal {
             let (at, heading) = on_arc(base, heading, length, self.turn, length);
+            let by = strayed(all.len());
             all.push(Insertion {
                 at,
                 heading,
                 along: length,
-                angle: 0.0,
-                size: self.sizes[2],
+                angle: by.angle - 1.0,
+                size: (self.sizes[2] * by.size).min(1.0),
+                turn: by.turn,
             });
         }
         all
@@ -94,15 +116,17 @@ impl Feather {
 /// A compound leaf under construction.
 struct Builder<'p> {
     plan: &'p CompoundForm,
+    stray: &'p Stray,
     /// Length of the largest leaflet, mm.
     unit: f64,
     leaf: CompoundLeaf,
 }
 
 /// Arranges the leaflets of a checked plan.
-pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
+pub(super) fn arrange(plan: &CompoundForm, unit: f64, stray: &Stray) -> CompoundLeaf {
     let mut builder = Builder {
         plan,
+        stray,
         unit,
         leaf: CompoundLeaf {
             leaflets: Vec::new(),
@@ -123,6 +147,7 @@ pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
                 feather,
                 (end, 0.0),
                 length,
+                Part::Leaflet,
                 |builder, insertion| builder.leaflet(insertion, insertion.size),
             )
         }
@@ -142,6 +167,7 @@ pub(super) fn arrange(plan: &CompoundForm, unit: f64) -> CompoundLeaf {
                 pinnae,
                 (end, 0.0),
                 pinnae.rachis * pinna,
+                Part::Pinna,
                 |builder, insertion| builder.pinna(leaflets, insertion, stalk * unit, pinna),
             )
         }
@@ -194,16 +220,24 @@ impl Builder<'_> {
         flow
     }
 
-    /// Adds an axis and its leaflets or pinnae; returns their total flow.
+    /// Adds an axis and its leaflets or pinnae, which `part` numbers; returns their total flow.
     fn feather(
         &mut self,
         kind: StalkKind,
         feather: &Feather,
         (base, heading): (DVec2, f64),
         length: f64,
+        part: fn(usize) -> Part,
         mut bear: impl FnMut(&mut Self, &Insertion) -> f64,
     ) -> f64 {
-        let insertions = feather.insertions(base, heading, length);
+        // A leaf has one row of pinnae; of leaflets it has one for each pinna.
+        let before = match part(0) {
+            Part::Leaflet(_) => self.leaf.leaflets.len(),
+            Part::Pinna(_) => 0,
+        };
+        let insertions = feather.insertions(base, heading, length, |number| {
+            self.stray.of(part(before + number))
+        });
         let place = self.leaf.stalks.len();
         self.stalk(kind, Vec::new(), Vec::new());
         let flows: Vec<f64> = insertions
@@ -248,12 +282,16 @@ impl Builder<'_> {
         } else {
             leaflets.turn
         };
-        let own = Feather { turn, ..*leaflets };
+        let own = Feather {
+            turn: turn + insertion.turn,
+            ..*leaflets
+        };
         let flow = self.feather(
             StalkKind::Pinna,
             &own,
             (base, heading),
             length * size,
+            Part::Leaflet,
             |builder, on| builder.leaflet(on, on.size * size),
         );
         let radius = self.radius(flow);
@@ -267,13 +305,17 @@ impl Builder<'_> {
         let mut flow = 0.0;
         for i in 0..leaflets {
             let share = 1.0 - 2.0 * f64::from(i) / f64::from(leaflets - 1);
-            let size = middle + (outer - middle) * share.abs();
+            let by = self.stray.of(Part::Leaflet(i as usize));
+            let size = ((middle + (outer - middle) * share.abs()) * by.size).min(1.0);
+            // By a share of the angle between neighbours: the one ahead strays as far as the others.
+            let between = spread / f64::from(leaflets - 1);
             let insertion = Insertion {
                 at,
                 heading: 0.0,
                 along: 0.0,
-                angle: 0.5 * spread * share,
+                angle: 0.5 * spread * share + between * (by.angle - 1.0),
                 size,
+                turn: 0.0,
             };
             flow += self.leaflet(&insertion, size);
         }

@@ -75,11 +75,15 @@ pub struct CompoundForm {
     /// Largest random rotation of each leaflet about its midrib, radians, 0 to 1; that about the
     /// axis across it is half as large.
     pub tilt: f64,
+    /// Standard deviation, from leaflet to leaflet and from pinna to pinna, of places along the axis
+    /// in gaps between pairs, of angles relative to themselves and, half as much, of sizes; 0 to
+    /// 0.25. Those that would come into each other's way stray less.
+    pub irregularity: f64,
 }
 
 impl CompoundForm {
     /// A form with default values for all but the arrangement: no petiole, short stalks, all in one
-    /// plane.
+    /// plane and without chance.
     pub fn new(arrangement: Arrangement) -> Self {
         Self {
             arrangement,
@@ -90,6 +94,7 @@ impl CompoundForm {
             curl: 0.0,
             fold: 0.0,
             tilt: 0.0,
+            irregularity: 0.0,
         }
     }
 

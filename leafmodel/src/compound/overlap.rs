@@ -9,8 +9,9 @@ use crate::shape::outline::Outline;
 /// base on the axis.
 const TOUCH: f64 = 1e-6;
 
-/// Refuses leaflets that overlap each other or lie over an axis.
-pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), CompoundError> {
+/// Leaflets that overlap each other or lie over an axis, as errors; at most as many as `most`.
+pub(super) fn find(leaf: &CompoundLeaf, outlines: &[Outline], most: usize) -> Vec<CompoundError> {
+    let mut found = Vec::new();
     let of = |leaflet: usize| &outlines[leaf.leaflets[leaflet].variant as usize % outlines.len()];
     let placed: Vec<(Vec<DVec2>, DVec2, DVec2)> = leaf
         .leaflets
@@ -58,7 +59,10 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
                 of(second).contains(other)
             };
             if crosses || outline.contains(own[0]) || around() {
-                return Err(CompoundError::Overlap { first, second });
+                found.push(CompoundError::Overlap { first, second });
+                if found.len() >= most {
+                    return found;
+                }
             }
         }
     }
@@ -83,10 +87,13 @@ pub(super) fn check(leaf: &CompoundLeaf, outlines: &[Outline]) -> Result<(), Com
                     outline.contains(p) && outline.distance_to_margin(p) > TOUCH * outline.length()
                 };
                 if outline.is_crossed_by(from, to) || inside(from) || inside(to) {
-                    return Err(CompoundError::OnStalk { leaflet });
+                    found.push(CompoundError::OnStalk { leaflet });
+                    if found.len() >= most {
+                        return found;
+                    }
                 }
             }
         }
     }
-    Ok(())
+    found
 }

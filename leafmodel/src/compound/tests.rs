@@ -186,6 +186,92 @@ fn leaflets_in_each_others_way_are_refused() {
     ));
 }
 
+/// The same leaf with an irregularity.
+fn irregular(arrangement: Arrangement, irregularity: f64) -> CompoundForm {
+    CompoundForm {
+        irregularity,
+        ..plan(arrangement)
+    }
+}
+
+#[test]
+fn leaflets_stray_by_chance_as_far_as_the_plan_says() {
+    // Narrow and far apart: none is in another's way.
+    let sparse = Feather {
+        pairs: 60,
+        terminal: false,
+        rachis: 100.0,
+        angles: [1.0; 2],
+        sizes: [0.5; 3],
+        ..feather()
+    };
+    let leaf = irregular(Arrangement::Pinnate(sparse), 0.1)
+        .arrange(&leaflet())
+        .expect("a good plan");
+    let gap = 100.0 * 40.0 / 59.0;
+    let base = 0.5 * 40.0;
+    let deviation = |values: Vec<f64>| {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
+        (mean, (square / count).sqrt())
+    };
+    // The first pair strays only ahead and the last not at all.
+    let inner: Vec<_> = leaf.leaflets[2..118].iter().enumerate().collect();
+    let along = inner
+        .iter()
+        .map(|(i, leaflet)| (leaflet.foot.y - base) / gap - (1 + i / 2) as f64);
+    let (mean, spread) = deviation(along.collect());
+    assert!(
+        mean.abs() < 0.03 && (spread - 0.1).abs() < 0.02,
+        "{mean} ± {spread}"
+    );
+    let angles = inner.iter().map(|(_, leaflet)| leaflet.from_axis.abs());
+    let (mean, spread) = deviation(angles.collect());
+    assert!(
+        (mean - 1.0).abs() < 0.03 && (spread - 0.1).abs() < 0.02,
+        "{mean} ± {spread}"
+    );
+    let sizes = inner.iter().map(|(_, leaflet)| leaflet.scale / 0.5);
+    let (mean, spread) = deviation(sizes.collect());
+    assert!(
+        (mean - 1.0).abs() < 0.02 && (spread - 0.05).abs() < 0.01,
+        "{mean} ± {spread}"
+    );
+    // Another leaf strays otherwise.
+    let other = LeafPlan {
+        seed: leaflet().seed + 1,
+        ..leaflet()
+    };
+    let sparse = irregular(Arrangement::Pinnate(sparse), 0.1);
+    assert_ne!(sparse.arrange(&other).expect("a good plan"), leaf);
+}
+
+#[test]
+fn however_far_leaflets_stray_none_is_in_anothers_way() {
+    // Pairs as near as they may stand in order.
+    let with = |pairs| Arrangement::Pinnate(Feather { pairs, ..feather() });
+    let dense = (5..14)
+        .rev()
+        .map(with)
+        .find(|dense| plan(dense.clone()).arrange(&leaflet()).is_ok())
+        .expect("five have room");
+    for arrangement in [dense, palmate(), bipinnate()] {
+        plan(arrangement.clone())
+            .arrange(&leaflet())
+            .expect("in order they have room");
+        let leaf = irregular(arrangement, 0.25)
+            .arrange(&leaflet())
+            .expect("they stray less where they have none");
+        let outline = leaflet().grow_outline().expect("a good outline");
+        assert!(overlap::find(&leaf, &[outline], 1).is_empty());
+    }
+    assert!(matches!(
+        irregular(with(14), 0.25).arrange(&leaflet()),
+        Err(CompoundError::Overlap { .. })
+    ));
+}
+
 #[test]
 fn every_bad_number_is_named() {
     let with = |change: fn(&mut Feather)| {
@@ -249,6 +335,7 @@ fn every_bad_number_is_named() {
                 ..plan(palmate())
             },
         ),
+        ("irregularity", irregular(palmate(), 0.3)),
         (
             "leaflets",
             plan(Arrangement::Palmate {

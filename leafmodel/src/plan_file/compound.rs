@@ -216,6 +216,11 @@ fn stalks(form: &mut CompoundForm, keys: &mut Keys<'_>) {
     let about = "Largest angle by which each is turned by chance about its midrib, and half as \
         far across it.";
     keys.key("tilt_deg", &mut form.tilt, limits, about);
+    let limits = Number(Limits::closed(0.0, 0.25));
+    let about = "Standard deviation, from one to the next, of places along an axis in gaps between \
+        pairs, of angles over themselves and, half as much, of sizes. Those that would come into \
+        each other's way stray less.";
+    keys.key("irregularity", &mut form.irregularity, limits, about);
 }
 
 /// The keys of two rows along a rachis.

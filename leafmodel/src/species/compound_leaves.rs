@@ -180,6 +180,7 @@ pub(super) fn ash() -> LeafPlan {
         curl: 25.0_f64.to_radians(),
         fold: 14.0_f64.to_radians(),
         tilt: 9.0_f64.to_radians(),
+        irregularity: 0.06,
         ..CompoundForm::new(Arrangement::Pinnate(rows))
     };
     leaf(leaflet, form)
@@ -211,6 +212,7 @@ pub(super) fn rose() -> LeafPlan {
         curl: 20.0_f64.to_radians(),
         fold: 18.0_f64.to_radians(),
         tilt: 8.0_f64.to_radians(),
+        irregularity: 0.06,
         ..CompoundForm::new(Arrangement::Pinnate(rows))
     };
     leaf(leaflet, form)
@@ -234,6 +236,7 @@ pub(super) fn horse_chestnut() -> LeafPlan {
         curl: 15.0_f64.to_radians(),
         fold: -12.0_f64.to_radians(),
         tilt: 6.0_f64.to_radians(),
+        irregularity: 0.08,
         ..CompoundForm::new(Arrangement::Palmate {
             leaflets: 7,
             spread: 250.0_f64.to_radians(),
@@ -275,10 +278,11 @@ pub(super) fn mimosa() -> LeafPlan {
         petiole: 3.5,
         petiolule: 0.03,
         stalk_radius_mm: 0.045,
-        variants: 3,
+        variants: 8,
         curl: 20.0_f64.to_radians(),
         fold: 12.0_f64.to_radians(),
         tilt: 7.0_f64.to_radians(),
+        irregularity: 0.1,
         ..CompoundForm::new(Arrangement::Bipinnate {
             pinnae,
             leaflets: rows,
@@ -305,6 +309,7 @@ pub(super) fn clover() -> LeafPlan {
         curl: 10.0_f64.to_radians(),
         fold: 10.0_f64.to_radians(),
         tilt: 6.0_f64.to_radians(),
+        irregularity: 0.04,
         ..CompoundForm::new(Arrangement::Palmate {
             leaflets: 3,
             spread: 220.0_f64.to_radians(),

@@ -155,8 +155,9 @@ pub(super) fn petiole_or_compound()
         prop_oneof![Just(0.05), 0.1..2.0],
         prop_oneof![Just(0.4), 0.1..2.0],
     );
-    let compound = (arrangement, bends, stalks, 1_u32..5).prop_map(
-        |(arrangement, bends, (petiole, petiolule, stalk_radius_mm), variants)| {
+    let irregularity = prop_oneof![Just(0.0), 0.01..0.25];
+    let compound = (arrangement, bends, stalks, 1_u32..5, irregularity).prop_map(
+        |(arrangement, bends, (petiole, petiolule, stalk_radius_mm), variants, irregularity)| {
             let [curl, fold, tilt] = bends.map(f64::to_radians);
             CompoundForm {
                 arrangement,
@@ -167,6 +168,7 @@ pub(super) fn petiole_or_compound()
                 curl,
                 fold,
                 tilt,
+                irregularity,
             }
         },
     );

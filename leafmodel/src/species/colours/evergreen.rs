@@ -100,6 +100,7 @@ pub(super) const ACER_VARIEGATED: ColouredLeaf = ColouredLeaf {
             curl: 18.0_f64.to_radians(),
             fold: 10.0_f64.to_radians(),
             tilt: 8.0_f64.to_radians(),
+            irregularity: 0.06,
             ..CompoundForm::new(Arrangement::Pinnate(rows))
         });
         plan
