@@ -4,7 +4,8 @@
 //! An axis grows node by node. Each node bears one leaf or several, turned against those of the
 //! node before (phyllotaxis). In its axil there may be a bud, in its place a branch, or a short shoot
 //! with a cluster of leaves. A petiole, which is part of the leaf, twists and bends until the blade
-//! faces the light, as far as it may.
+//! faces the light, as far as it may. Where blades would cut each other or an axis, they turn out of
+//! the way.
 //!
 //! - **In**: a plan ([`PlantPlan`]), how each leaf is held ([`Foot`]), and the [`Wall`] on which
 //!   the plant climbs.
@@ -13,10 +14,12 @@
 //! - **Always true**: the foot of each petiole lies within its axis; neighbours on an axis are
 //!   different individuals; axes that climb lie on the wall; same plan and seed, same plant, bit for
 //!   bit.
-//! - **Left out**: leaves may touch one another; wood does not bend under the weight of leaves.
+//! - **Left out**: compound leaves, petioles and what the weather did to a blade are in nobody's way;
+//!   leaves that find no free place cut others; wood does not bend under the weight of leaves.
 //!
 //! The plant's frame: the foot of its main axis is the origin, z is up. Lengths are millimetres.
 
+mod apart;
 mod axis;
 mod bearing;
 mod check;
@@ -58,6 +61,9 @@ pub struct PlantPlan {
     pub branching: Option<Branching>,
     /// How leaves stand.
     pub posture: Posture,
+    /// How many other turns a leaf tries that would cut another or an axis, 0 to 1000. What climbs
+    /// tries none.
+    pub evasions: u32,
     /// The buds; none if none are seen.
     pub buds: Option<Buds>,
     /// The stems that rise from its foot.

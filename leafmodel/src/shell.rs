@@ -33,6 +33,7 @@ mod tests;
 
 #[cfg(test)]
 pub(crate) use crossings::crossings;
+pub(crate) use crossings::{Extent, cross, each_near, sweep};
 pub(crate) use equilibrium::{Effort, relaxed};
 pub(crate) use grid::Grid;
 pub(crate) use patch::Patch;

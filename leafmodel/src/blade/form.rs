@@ -29,6 +29,37 @@ const LEAST_WIDTH: f64 = 0.35;
 /// margins are not mirror images.
 const LEFT_AHEAD: f64 = 1.9;
 
+impl BladeForm {
+    /// A coarse sheet of the blade of a flat leaf of this outline: `count` ≥ 2 rows, from the lowest
+    /// point of the margin to the highest, of the leftmost, a middle and the rightmost place, mm, in
+    /// the leaf's frame. Lobes and teeth count as if the blade filled the gaps between them.
+    pub(crate) fn rows(&self, outline: &Outline, count: usize) -> Vec<[DVec3; 3]> {
+        let bending = Bending::new(self, outline, ConformalMap::FLAT);
+        let points = outline.points();
+        let (low, high) = outline.bounds();
+        let step = (high.y - low.y) / (count - 1) as f64;
+        (0..count)
+            .map(|row| {
+                let y = low.y + step * row as f64;
+                let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
+                let mut take = |x: f64| reach = [reach[0].min(x), reach[1].max(x)];
+                for (i, &a) in points.iter().enumerate() {
+                    let b = points[(i + 1) % points.len()];
+                    if (a.y - y).abs() <= 0.5 * step {
+                        take(a.x);
+                    }
+                    if (a.y - y) * (b.y - y) < 0.0 {
+                        take(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+                    }
+                }
+                let [left, right] = reach;
+                let middle = outline.base().x.clamp(left, right);
+                [left, middle, right].map(|x| bending.place(DVec2::new(x, y), 0.0))
+            })
+            .collect()
+    }
+}
+
 /// The map from the flat lamina into space.
 #[derive(Debug)]
 pub(super) struct Bending {
@@ -261,6 +292,23 @@ mod tests {
             ruffle: 0.02,
             ruffle_waves: 5.0,
             ..flat()
+        }
+    }
+
+    #[test]
+    fn rows_of_a_coarse_sheet_reach_the_margin_and_bend_with_the_blade() {
+        let outline = ellipse(20.0, 60.0, 60);
+        let rows = flat().rows(&outline, 7);
+        let (low, high) = outline.bounds();
+        assert_eq!((rows[0][1].y, rows[6][1].y), (low.y, high.y));
+        let [left, middle, right] = rows[3];
+        assert!((left.x - low.x).abs() < 0.1 && (right.x - high.x).abs() < 0.1);
+        assert_eq!(middle.x, outline.base().x);
+        let bending = Bending::new(&bent(), &outline, ConformalMap::FLAT);
+        for (flat, bent) in rows.iter().zip(bent().rows(&outline, 7)) {
+            for (flat, bent) in flat.iter().zip(bent) {
+                assert!(bending.place(flat.truncate(), 0.0).distance(bent) < 1e-9);
+            }
         }
     }
 

@@ -57,6 +57,11 @@ pub fn plant(plan: &mut PlantPlan, keys: &mut Keys<'_>) {
     );
     let about = "How leaves stand on their axis.";
     keys.block("posture", about, |keys| posture(&mut plan.posture, keys));
+    let about = "Other turns about its foot that a leaf tries whose blade would cut another one or an \
+        axis; it takes the first that cuts nothing, or the one that cuts least. Compound leaves and \
+        plants that climb try none.";
+    let limits = Integer::within(0, 1000);
+    keys.key("evasions", &mut plan.evasions, limits, about);
     let usual = || Buds {
         length_mm: 4.0,
         radius_mm: 1.2,

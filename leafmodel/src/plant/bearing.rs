@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::apart::{Standing, Wood, keep_apart};
 use super::axis::{Axis, Node, Start};
 use super::climbing::Wall;
 use super::posture::Stand;
@@ -47,6 +48,9 @@ struct Builder<'a> {
     kinds: usize,
     wall: Option<&'a Wall>,
     plant: Plant,
+    /// The leaves that may turn, and what is in their way besides one another.
+    standing: Vec<Standing>,
+    wood: Vec<Wood>,
     /// Number of axes so far.
     axes: u64,
     /// Which individual comes next on the present axis.
@@ -70,6 +74,8 @@ pub(super) fn grow(
             organs: Vec::new(),
             crumbs: Vec::new(),
         },
+        standing: Vec::new(),
+        wood: Vec::new(),
         axes: 0,
         next: 0,
     };
@@ -78,6 +84,10 @@ pub(super) fn grow(
         builder.axis(&axis, at, along, 0)?;
     }
     let mut plant = builder.plant;
+    if plan.climbing.is_none() {
+        let bodies = (&*builder.standing, &*builder.wood);
+        keep_apart(plan, feet, bodies, &mut plant.leaves);
+    }
     if let Some(pot) = &plan.pot {
         plant.organs.push((Organ::Pot, pot.vessel()));
         plant.organs.push((Organ::Soil, pot.soil(plan.seed)));
@@ -105,6 +115,12 @@ impl Builder<'_> {
         self.axes += 1;
         let axis = plan.grown(&start);
         self.tube(&axis.points, &axis.radii)?;
+        for (ends, radii) in axis.points.windows(2).zip(axis.radii.windows(2)) {
+            self.wood.push(Wood {
+                ends: [ends[0], ends[1]],
+                radius: radii[0].max(radii[1]),
+            });
+        }
         self.rootlets(&axis, start.number)?;
         // Neighbours on an axis are different individuals, whatever its branches bear.
         let on_parent = std::mem::replace(&mut self.next, start.number as usize);
@@ -340,9 +356,13 @@ impl Builder<'_> {
         let mut linear =
             turn * DMat3::from_diagonal(DVec3::splat(self.plan.posture.size_at(share)));
         if let (Some(wall), Some(climbing)) = (self.wall, self.plan.climbing) {
-            let blade = foot.blade().map(|point| linear * point);
+            let blade = foot.reach().map(|point| linear * point);
             linear = climbing.cleared(wall, at, &blade) * linear;
         }
+        self.standing.push(Standing {
+            leaf: leaves.len(),
+            radial: stand.radial,
+        });
         leaves.push(BorneLeaf {
             kind,
             individual: individual as u32,

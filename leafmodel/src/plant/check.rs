@@ -69,6 +69,8 @@ impl PlantPlan {
             [0.5, 200.0],
             "0.5 to 200",
         )?;
+        let evasions = f64::from(self.evasions);
+        within("evasions", evasions, [0.0, 1000.0], "0 to 1000")?;
         if let Some(branches) = &self.branching {
             let order = f64::from(branches.order);
             within("branches.order", order, [1.0, 4.0], "1 to 4")?;

@@ -4,10 +4,11 @@ use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 use crate::leaf::LeafPlan;
+use crate::leaf::outline_plan::Contour;
 use crate::shape::specimen::BaseShape;
 
 /// The foot of a leaf's petiole, in the leaf's frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Foot {
     /// Its place, mm.
     pub at: DVec3,
@@ -15,6 +16,10 @@ pub struct Foot {
     pub frame: DMat3,
     /// Length of the blade, mm.
     pub length_mm: f64,
+    /// The blade as a coarse sheet, which others keep clear of: rows from its base to its tip of
+    /// places on its left margin, its midrib and its right margin, mm. Empty for a blade in
+    /// nobody's way.
+    pub blade: Vec<[DVec3; 3]>,
 }
 
 /// Why no plant can bear a leaf.
@@ -43,9 +48,12 @@ const PLACES: [[f64; 2]; 8] = [
     [-0.3, 0.75],
 ];
 
+/// Rows of a coarse sheet.
+const ROWS: usize = 8;
+
 impl Foot {
     /// Places of the flat blade, about as wide as it is long, from the petiole's foot, mm.
-    pub(super) fn blade(&self) -> [DVec3; 8] {
+    pub(super) fn reach(&self) -> [DVec3; 8] {
         PLACES.map(|[x, y]| DVec3::new(x, y, 0.0) * self.length_mm - self.at)
     }
 
@@ -73,6 +81,21 @@ impl Foot {
             at,
             frame,
             length_mm: plan.length_mm,
+            blade: coarse(plan),
         })
     }
+}
+
+/// The coarse sheet of a leaf's blade as its form has it. Empty for a compound leaf, for a margin
+/// that only grows with the veins, and for one that cannot be grown.
+fn coarse(plan: &LeafPlan) -> Vec<[DVec3; 3]> {
+    let with_veins = matches!(
+        plan.outline.contour,
+        Contour::Transport(_) | Contour::Development(_)
+    );
+    if plan.compound.is_some() || with_veins {
+        return Vec::new();
+    }
+    let outline = plan.grow_outline();
+    outline.map_or_else(|_| Vec::new(), |outline| plan.form.rows(&outline, ROWS))
 }

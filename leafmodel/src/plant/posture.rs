@@ -8,7 +8,7 @@ use crate::shape::chance::{Use, bell};
 
 /// Least cosine of the petiole's foot to the direction away from the axis that turning to the light
 /// leaves: it does not bend into the axis.
-const LEAST_AWAY: f64 = 0.12;
+pub(super) const LEAST_AWAY: f64 = 0.12;
 /// Halvings of a turn that would bend it there.
 const HALVINGS: u32 = 10;
 

@@ -124,6 +124,7 @@ impl PlantPlan {
                 cluster: 1,
                 spur_mm: 5.0,
             },
+            evasions: 24,
             buds: None,
             stems: Stems::ONE,
             is_green: false,

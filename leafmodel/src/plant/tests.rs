@@ -14,6 +14,7 @@ const SESSILE: Foot = Foot {
     at: DVec3::ZERO,
     frame: DMat3::IDENTITY,
     length_mm: 60.0,
+    blade: Vec::new(),
 };
 
 /// An upright straight shoot whose leaves stand out level and do not turn.
@@ -122,6 +123,7 @@ fn blades_turn_to_the_light_as_far_as_they_may() {
         plan.posture.to_light = share;
         plan.posture.light = light;
         plan.posture.stray = 0.0;
+        plan.evasions = 0;
         let leaf = species::find("maple").expect("a preset").plan();
         let feet = vec![Foot::of(&leaf).expect("it is borne"); 2];
         let plant = Plant::grow(&plan, &[feet]).expect("a good plan");

@@ -36,6 +36,8 @@ pub(crate) enum Use {
     Soil = 15,
     /// Adventitious roots.
     Rootlet = 16,
+    /// Turns that a leaf of a plant tries which would cut another.
+    Evasion = 17,
 }
 
 /// A uniform random number in [0, 1), a multiple of 2⁻⁵³.

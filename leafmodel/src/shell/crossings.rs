@@ -27,13 +27,13 @@ pub(crate) fn crossings(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[u32
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(crate) struct Extent {
     pub(super) low: DVec3,
     pub(super) high: DVec3,
 }
 
 impl Extent {
-    pub(super) fn of(points: &[DVec3]) -> Self {
+    pub(crate) fn of(points: &[DVec3]) -> Self {
         let from = Self {
             low: DVec3::INFINITY,
             high: DVec3::NEG_INFINITY,
@@ -44,25 +44,25 @@ impl Extent {
         })
     }
 
-    pub(super) fn widened(self, by: f64) -> Self {
+    pub(crate) fn widened(self, by: f64) -> Self {
         Self {
             low: self.low - by,
             high: self.high + by,
         }
     }
 
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
 }
 
 /// Brings boxes into the order that [`each_near`] needs.
-pub(super) fn sweep(boxes: &mut [(Extent, u32)]) {
+pub(crate) fn sweep(boxes: &mut [(Extent, u32)]) {
     boxes.sort_unstable_by(|(a, i), (b, j)| a.low.x.total_cmp(&b.low.x).then(i.cmp(j)));
 }
 
 /// Calls `act` with the numbers of each two boxes that meet.
-pub(super) fn each_near(boxes: &[(Extent, u32)], mut act: impl FnMut(u32, u32)) {
+pub(crate) fn each_near(boxes: &[(Extent, u32)], mut act: impl FnMut(u32, u32)) {
     for (i, (one, a)) in boxes.iter().enumerate() {
         for (other, b) in &boxes[i + 1..] {
             if other.low.x > one.high.x {
@@ -77,7 +77,7 @@ pub(super) fn each_near(boxes: &[(Extent, u32)], mut act: impl FnMut(u32, u32)) 
 
 /// Whether a side of one triangle passes through the inside of the other. Triangles of one plane
 /// do not cross.
-pub(super) fn cross(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
+pub(crate) fn cross(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let pierced = |by: &[DVec3; 3], face: &[DVec3; 3]| {
         let sides = by.map(|p| volume(face, p));
         // A triangle on one side of the other's plane has no part beyond it.

@@ -141,7 +141,7 @@ fn axes_that_climb_lie_on_the_wall_and_leaves_stand_off_it() {
             assert!((0.2..20.0).contains(&before), "{before}");
             near += u32::from(before < 8.0);
             let foot = &feet[0][leaf.individual as usize];
-            for point in foot.blade() {
+            for point in foot.reach() {
                 let place = leaf.to_plant.transform_point3(foot.at + point);
                 let gap = place.x - wall.height(place);
                 assert!(gap > 0.5 * climbing.clearance_mm, "{gap}");
