@@ -16,6 +16,12 @@ use crate::shell::{Extent, cross, each_near, sweep};
 const TURNS: [f64; 2] = [0.1, 0.4];
 /// How often all leaves are looked at: one that turns later may have been in an earlier one's way.
 const SWEEPS: usize = 2;
+/// A plant of more leaves keeps them as they stand.
+const MOST_TURNED: usize = 20_000;
+/// Most neighbours of a leaf that are looked at, and most pairs of boxes around triangles in all: what
+/// is crowded beyond that stays as it stands.
+const MOST_NEAR: usize = 1024;
+const MOST_WORK: u64 = 1 << 29;
 /// Distance from a leaf's node within which its own axis is not in its way, over the axis' radius.
 const OWN_WOOD: f64 = 2.0;
 
@@ -74,8 +80,8 @@ impl Body {
         }))
     }
 
-    /// How many pairs of triangles cross.
-    fn cuts(&self, other: &Self) -> usize {
+    /// How many pairs of triangles cross; adds the pairs of boxes that it compares to `work`.
+    fn cuts(&self, other: &Self, work: &mut u64) -> usize {
         if !self.extent.meets(&other.extent) {
             return 0;
         }
@@ -84,6 +90,7 @@ impl Body {
             if !extent.meets(&other.extent) {
                 continue;
             }
+            *work += other.faces.len() as u64;
             let near = other.faces.iter().filter(|(_, own)| own.meets(extent));
             count += near.filter(|(own, _)| cross(face, own)).count();
         }
@@ -108,7 +115,7 @@ pub(super) fn keep_apart(
     (standing, wood): (&[Standing], &[Wood]),
     leaves: &mut [BorneLeaf],
 ) {
-    if plan.evasions == 0 {
+    if plan.evasions == 0 || leaves.len() > MOST_TURNED {
         return;
     }
     let foot = |leaf: &BorneLeaf| &feet[leaf.kind][leaf.individual as usize];
@@ -118,14 +125,18 @@ pub(super) fn keep_apart(
         .chain(wood.iter().map(Body::wood))
         .collect();
     let near = neighbours(leaves, &bodies, wood);
+    let mut work = 0;
     for _ in 0..SWEEPS {
         let mut has_turned = false;
         for stand in standing {
+            if work > MOST_WORK {
+                return;
+            }
             let leaf = leaves[stand.leaf];
-            let cuts = |body: &Body| -> usize {
+            let mut cuts = |body: &Body| -> usize {
                 let others = near[stand.leaf].iter();
                 others
-                    .map(|&other| body.cuts(&bodies[other as usize]))
+                    .map(|&other| body.cuts(&bodies[other as usize], &mut work))
                     .sum()
             };
             let mut least = cuts(&bodies[stand.leaf]);
@@ -207,6 +218,9 @@ fn neighbours(leaves: &[BorneLeaf], bodies: &[Body], wood: &[Wood]) -> Vec<Vec<u
             let Some(own) = leaves.get(leaf as usize) else {
                 continue;
             };
+            if near[leaf as usize].len() >= MOST_NEAR {
+                continue;
+            }
             let borne_by = (other as usize).checked_sub(leaves.len());
             if borne_by.is_none_or(|piece| !wood[piece].bears(own.node)) {
                 near[leaf as usize].push(other);
@@ -238,7 +252,10 @@ mod tests {
             .collect();
         let mut cut = 0;
         for (number, body) in bodies.iter().enumerate() {
-            cut += bodies[..number].iter().filter(|o| body.cuts(o) > 0).count();
+            cut += bodies[..number]
+                .iter()
+                .filter(|o| body.cuts(o, &mut 0) > 0)
+                .count();
         }
         (plant.leaves, cut)
     }
@@ -274,9 +291,29 @@ mod tests {
             let corners = [[x - 3.0, -3.0, 0.1], [x + 3.0, -3.0, 0.2], [x, 4.0, 0.3]];
             Body::new([corners.map(DVec3::from_array)].into_iter())
         };
-        assert!(Body::wood(&wood).cuts(&face(0.0)) > 0);
-        assert_eq!(Body::wood(&wood).cuts(&face(8.0)), 0);
+        assert!(Body::wood(&wood).cuts(&face(0.0), &mut 0) > 0);
+        assert_eq!(Body::wood(&wood).cuts(&face(8.0), &mut 0), 0);
         assert!(wood.bears(DVec3::new(1.5, 0.0, 2.0)));
         assert!(!wood.bears(DVec3::new(1.5, 0.0, 8.0)));
+    }
+
+    #[test]
+    fn a_plant_too_dense_to_be_sorted_out_is_grown_all_the_same() {
+        let mut plan = presets::find("croton-shoot").expect("a preset").plan();
+        (plan.axis.nodes, plan.axis.length_mm) = (1000, 20_000.0);
+        plan.axis.shortening = 1.0;
+        plan.axis.phyllotaxis.per_node = 12;
+        plan.branching = None;
+        let leaf = species::find("croton").expect("a preset").plan();
+        let foot = Foot::of(&leaf).expect("it is borne");
+        let [turned, stayed] = [24, 0].map(|evasions| {
+            plan.evasions = evasions;
+            let plant = Plant::grow(&plan, &[vec![foot.clone()]]);
+            plant.expect("a good plan").leaves
+        });
+        assert_eq!((turned.len(), stayed.len()), (12_000, 12_000));
+        // The first have turned, the last have not been looked at.
+        assert_ne!(turned[..100], stayed[..100]);
+        assert_eq!(turned[11_000..], stayed[11_000..]);
     }
 }
