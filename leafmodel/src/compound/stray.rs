@@ -1,7 +1,7 @@
 //! How leaflets and pinnae stray from the plan's rule by chance.
 //!
-//! Each has four random numbers of its own, as many times its plan's irregularity. Those that come
-//! into each other's way stray half as far until they do not: [`Stray::calm`].
+//! Each strays by four random numbers of its own, times its plan's irregularity. Those that come into
+//! each other's way stray half as far, again and again, until they do not: [`Stray::calm`].
 
 use super::{Arrangement, CompoundError, CompoundForm};
 use crate::venation::chance::{Use, uniform};
