@@ -90,15 +90,18 @@ impl Stray {
     }
 
     /// Lets those that are in the way, and the pinnae of two that stand on different ones, stray
-    /// half as far. Returns whether any of them strayed.
+    /// half as far; once none of these strays, the pinna on which two stand, which may bend too
+    /// much. Returns whether any of them strayed.
     pub(super) fn calm(&mut self, errors: &[CompoundError]) -> bool {
-        let (mut leaflets, mut pinnae) = (Vec::new(), Vec::new());
+        let (mut leaflets, mut pinnae, mut shared) = (Vec::new(), Vec::new(), Vec::new());
         for error in errors {
             match *error {
                 CompoundError::Overlap { first, second } => {
                     leaflets.extend([first, second]);
-                    if self.on_pinna > 0 && first / self.on_pinna != second / self.on_pinna {
-                        pinnae.extend([first / self.on_pinna, second / self.on_pinna]);
+                    if self.on_pinna > 0 {
+                        let own = [first, second].map(|leaflet| leaflet / self.on_pinna);
+                        let alike = own[0] == own[1];
+                        if alike { &mut shared } else { &mut pinnae }.extend(own);
                     }
                 }
                 // Which axis it lies over is not known: it may be any.
@@ -109,9 +112,10 @@ impl Stray {
                 CompoundError::OutOfRange { .. } | CompoundError::Leaflet(_) => {}
             }
         }
-        // Not `||`: both are calmed.
+        // Not `||` for the first two: both are calmed.
         self.irregularity > 0.0
-            && (halve(&mut self.leaflets, leaflets) | halve(&mut self.pinnae, pinnae))
+            && (halve(&mut self.leaflets, leaflets) | halve(&mut self.pinnae, pinnae)
+                || halve(&mut self.pinnae, shared))
     }
 }
 

@@ -273,6 +273,28 @@ fn however_far_leaflets_stray_none_is_in_anothers_way() {
 }
 
 #[test]
+fn a_pinna_whose_leaflets_stay_in_each_others_way_is_straightened_last() {
+    let form = irregular(bipinnate(), 0.25);
+    let mut stray = stray::Stray::new(&form, leaflet().seed);
+    let turn = |stray: &stray::Stray| stray.of(stray::Part::Pinna(0)).turn;
+    let along = |stray: &stray::Stray| stray.of(stray::Part::Leaflet(0)).along;
+    let before = turn(&stray);
+    assert!(before != 0.0 && along(&stray) != 0.0);
+    let on_one = [CompoundError::Overlap {
+        first: 0,
+        second: 1,
+    }];
+    while along(&stray) != 0.0 {
+        assert!(stray.calm(&on_one));
+        assert_eq!(turn(&stray), before);
+    }
+    while turn(&stray) != 0.0 {
+        assert!(stray.calm(&on_one));
+    }
+    assert!(!stray.calm(&on_one));
+}
+
+#[test]
 fn every_bad_number_is_named() {
     let with = |change: fn(&mut Feather)| {
         let mut feather = feather();
