@@ -1,8 +1,13 @@
 #!/usr/bin/env python3
-"""Tests of `reference/noise`: run by `reference/self-test`."""
+"""Tests of `reference/noise`, and of the noise that `reference/denoise --twin` tells: run by
+`reference/self-test`.
+
+Where Open Image Denoise is missing, what needs it is skipped and told.
+"""
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 import tempfile
 from pathlib import Path
@@ -11,8 +16,23 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np
 
-from lamina_reference.exr import Array, write_channels
-from lamina_reference.noise import relative_error
+from denoisetest import (
+    BANDS,
+    LEAF,
+    PAPER,
+    STEM,
+    attributes,
+    call,
+    colour_film,
+    scratch,
+    spectral_film,
+    stacked,
+    truth,
+    write,
+)
+from lamina_reference.denoise import NOTE
+from lamina_reference.exr import Array, read_channels, write_channels
+from lamina_reference.noise import relative_error, weights
 from lamina_reference.testing import run_tests
 
 GREY = np.full((4, 6), 0.5)
@@ -48,7 +68,10 @@ def test_a_picture_that_does_not_tell_its_noise_is_refused() -> None:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "colours.exr")
         write_channels(file, {name: GREY for name in "RGB"})
-        for name, problem in ((file, "no layer variance of R, G, B"), (Path(folder, "no.exr"), "no.exr")):
+        for name, problem in (
+            (file, "no layer variance of R, G, B"),
+            (Path(folder, "no.exr"), "no.exr"),
+        ):
             try:
                 relative_error(str(name))
             except SystemExit as refusal:
@@ -57,5 +80,116 @@ def test_a_picture_that_does_not_tell_its_noise_is_refused() -> None:
                 raise AssertionError(f"{name} has no noise to tell")
 
 
+def denoised(folder: Path, *films: dict[str, Array]) -> dict[str, Array]:
+    """Layers of a denoised picture, or of the mean of twins."""
+    files = [
+        write(folder / f"{seed}.exr", film, {"lamina:seed": str(seed)})
+        for seed, film in enumerate(films, 1)
+    ]
+    twin = ["--twin", files[1]] if len(files) == 2 else []
+    status, _, warned = call(files[0], *twin, "--out", folder / "out.exr")
+    assert status == 0, warned
+    return read_channels(folder / "out.exr")
+
+
+def luminance(layers: dict[str, Array], names: tuple[str, ...] = ("R", "G", "B")) -> Array:
+    """That of a film, `[height, width]`."""
+    shares = weights(names)
+    return np.asarray(stacked(layers, names) @ np.array([shares[name] for name in names]))
+
+
+def film_of(light: Array, seed: int = 1) -> dict[str, Array]:
+    """Layers of a colour film with an error of luminance, whatever it be."""
+    return colour_film(light, seed) | {"variance.Y": np.ones(light.shape[:2])}
+
+
+def test_twins_tell_the_noise_that_is_left() -> None:
+    light = truth((LEAF, PAPER, STEM))
+    with scratch() as folder:
+        alone = [luminance(denoised(folder, film_of(light, seed))) for seed in range(1, 13)]
+        twins = [
+            denoised(folder, film_of(light, seed), film_of(light, seed + 1))
+            for seed in (1, 3, 5, 7)
+        ]
+    # The truth is how twelve pictures scatter, each denoised alone; the mean of two has half of
+    # that variance.
+    right = np.var(alone, axis=0, ddof=1).mean() / 2
+    told = [layers["variance.Y"].mean() / right for layers in twins]
+    assert 0.8 < np.mean(told) < 1.25, told
+    # And before it was many times as much.
+    before = [luminance(film_of(light, seed)) for seed in range(1, 13)]
+    assert np.var(before, axis=0, ddof=1).mean() / 2 > 10 * right
+    for pair, layers in zip((0, 2, 4, 6), twins, strict=True):
+        np.testing.assert_allclose(
+            luminance(layers), (alone[pair] + alone[pair + 1]) / 2, rtol=1e-4, atol=1e-6
+        )
+
+
+def test_twins_add_up_their_samples_and_leave_all_else_as_it_was() -> None:
+    light = truth((LEAF, PAPER, STEM))
+    _, bands = spectral_film()
+    bands |= {"variance.Y": np.ones(bands["A"].shape)}
+    for film, names in ((film_of(light), ("R", "G", "B")), (bands, BANDS)):
+        other = film | {name: 1.1 * film[name] for name in names}
+        with scratch() as folder:
+            made = denoised(folder, film, other)
+            before = read_channels(folder / "1.exr")
+            note = attributes(folder / "out.exr")[NOTE][1].decode()
+        assert "mean of seeds 1 and 2; variance is that of the noise left" in note, note
+        changed = {*names, "variance.Y", "samples.Y"} | {f"variance.{name}" for name in names}
+        for name, values in before.items():
+            assert np.array_equal(values, made[name]) == (name not in changed), name
+        if "samples.Y" in made:
+            assert (made["samples.Y"] == 32).all()
+        # The second is a tenth brighter: half of that is what the mean may err by.
+        error = np.sqrt(made["variance.Y"]) / luminance(made, names)
+        assert abs(np.median(error) / (0.05 / 1.05) - 1) < 0.05, np.median(error)
+
+
+def test_what_is_no_twin_is_refused() -> None:
+    film = colour_film(truth((LEAF, PAPER, STEM)))
+    with scratch() as folder:
+        first = write(folder / "first.exr", film)
+        small = write(
+            folder / "small.exr",
+            {name: values[:, :40] for name, values in film.items()},
+            {"lamina:seed": "2"},
+        )
+        poor = write(
+            folder / "poor.exr",
+            {name: film[name] for name in film if name != "A"},
+            {"lamina:seed": "2"},
+        )
+        scene = write(
+            folder / "scene.exr", film, {"lamina:seed": "2", "lamina:scene": "format = 1\n"}
+        )
+        for twin, problem in (
+            (first, "first.exr: it is no twin: both are of seed 18446744073709551615; render with"),
+            (small, "small.exr: it is no twin: it has another size or other layers"),
+            (poor, "poor.exr: it is no twin: it has another size or other layers"),
+            (scene, "scene.exr: it is no twin: it is of another scene"),
+            (folder / "none.exr", "none.exr: No such file"),
+        ):
+            status, said, warned = call(first, "--twin", twin, "--out", folder / "out.exr")
+            assert (status, said) == (2, "") and problem in warned, warned
+        # The twin is kept like the first.
+        status, _, warned = call(first, "--twin", scene, "--out", scene)
+        assert status == 2 and "scene.exr: it is the input, which is kept" in warned, warned
+        assert not (folder / "out.exr").exists()
+
+
+def run() -> int:
+    """Runs every test of this file, or those whose names hold the arguments."""
+    tests = dict(globals())
+    if importlib.util.find_spec("mitsuba_oidn") is None:
+        print("skip  what denoises: mitsuba-oidn is missing in this Python", file=sys.stderr)
+        for test in (
+            test_twins_tell_the_noise_that_is_left,
+            test_twins_add_up_their_samples_and_leave_all_else_as_it_was,
+        ):
+            del tests[test.__name__]
+    return run_tests(tests, "noise")
+
+
 if __name__ == "__main__":
-    sys.exit(run_tests(globals(), "noise"))
+    sys.exit(run())

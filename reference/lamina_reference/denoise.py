@@ -4,9 +4,13 @@ Open Image Denoise guesses each pixel from its neighbours. What comes out is for
 biased, and nobody knows by how much. The file says so in `lamina:denoised`; its layer `variance` is
 that of the picture which went in.
 
+With a twin, a render of the same scene with another seed, both are denoised and their mean is
+written. How they differ tells what is left of the noise: that is the layer `variance` then.
+
 - In: an EXR of Lamina, of a colour film or a spectral one; its layers `albedo` and `N` as guides.
 - Out: the same EXR with other radiance; if wanted, a picture to look at by `lamina tonemap`.
-- Always true: no other layer and no attribute changes; OUT is whole or not there.
+- Always true: no other layer and no attribute changes, but for variances and samples if there is a
+  twin; OUT is whole or not there.
 - Left out: pictures by other programs, parts of a render, tests of light.
 """
 
@@ -26,7 +30,9 @@ from typing import Any
 import numpy as np
 import OpenImageIO as oiio
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter
 
+from .noise import weights
 from .picture import CHANNEL
 from .program import program
 
@@ -34,6 +40,11 @@ Pixels = NDArray[np.float32]
 NOTE = "lamina:denoised"
 ALBEDO = ("albedo.R", "albedo.G", "albedo.B")
 NORMAL = ("N.X", "N.Y", "N.Z")
+SAMPLES = ("samples.Y",)
+SEED, SCENE = "lamina:seed", "lamina:scene"
+# A pixel's own difference is one number, too few to tell an error by: squares are averaged over
+# this many pixels across and down.
+NEAR = 5
 # Linear Rec. 709 to linear Rec. 2020 (ITU-R BT.2087): many leaf greens have a negative blue in the
 # first, and the denoiser takes what is below 0 for 0.
 REC2020 = np.array([[0.6274, 0.3293, 0.0433], [0.0691, 0.9195, 0.0114], [0.0164, 0.0880, 0.8956]])
@@ -127,6 +138,22 @@ def check(film: Film, file: Path, guides: bool) -> None:
                     )
 
 
+def check_twin(films: list[Film], file: Path) -> None:
+    """Refuses a second picture that is not of the same scene, or of the same random numbers."""
+    first, other = (film.spec for film in films)
+    seeds, scenes = (
+        [spec.get_string_attribute(name) for spec in (first, other)] for name in (SEED, SCENE)
+    )
+    if first.channelnames != other.channelnames or films[0].pixels.shape != films[1].pixels.shape:
+        raise Refused(f"{file}: it is no twin: it has another size or other layers")
+    if scenes[0] != scenes[1]:
+        raise Refused(f"{file}: it is no twin: it is of another scene")
+    if seeds[0] == seeds[1]:
+        raise Refused(
+            f"{file}: it is no twin: both are of seed {seeds[0]}; render with another --seed"
+        )
+
+
 class Denoiser:
     """Open Image Denoise on the processor, so that one picture gives the same bytes again."""
 
@@ -194,26 +221,60 @@ class Denoiser:
         return np.stack(self.run("color", channels, guides), axis=2) + np.minimum(light, 0)
 
 
-def denoise(film: Film, denoiser: Denoiser, with_guides: bool) -> tuple[Film, list[str]]:
-    """The film with denoised radiance and the note; and what guided."""
-    guides = denoiser.guides(film) if with_guides else {}
+def cleaned(film: Film, denoiser: Denoiser, guides: dict[str, Pixels]) -> Pixels:
+    """Radiance with less noise."""
     names = film.light()
     light = film.layer(names)
-    if names == ("R", "G", "B"):
-        wide = denoiser.light((light @ REC2020.T).astype(np.float32), guides)
-        clean = wide @ np.linalg.inv(REC2020).T
-    else:
-        clean = denoiser.light(light, guides)
-    pixels = film.pixels.copy()
-    pixels[:, :, film.places(names)] = clean
-    layers = ["albedo", "N"][: len(guides)]
-    spec = oiio.ImageSpec(film.spec)
+    if names != ("R", "G", "B"):
+        return denoiser.light(light, guides)
+    wide = denoiser.light((light @ REC2020.T).astype(np.float32), guides)
+    made: Pixels = wide @ np.linalg.inv(REC2020).T
+    return made
+
+
+def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> tuple[Film, list[str]]:
+    """The first film with denoised radiance and the note; and what guided.
+
+    Of twins the radiance is the mean of both, and the variance is of that.
+    """
+    first = films[0]
+    guides = [denoiser.guides(film) if with_guides else {} for film in films]
+    clean = [cleaned(film, denoiser, guide) for film, guide in zip(films, guides, strict=True)]
+    pixels = first.pixels.copy()
+    names = first.light()
+    pixels[:, :, first.places(names)] = np.mean(clean, axis=0)
+    error = "variance is that of the picture before"
+    if len(films) == 2:
+        seeds = " and ".join(film.spec.get_string_attribute(SEED) for film in films)
+        error = f"mean of seeds {seeds}; variance is that of the noise left, without bias"
+        for layer, values in left_noise(clean, names).items():
+            if first.has((layer,)):
+                pixels[:, :, first.places((layer,))[0]] = values
+        if first.has(SAMPLES):
+            pixels[:, :, first.places(SAMPLES)] = sum(film.layer(SAMPLES) for film in films)
+    layers = ["albedo", "N"][: len(guides[0])]
+    spec = oiio.ImageSpec(first.spec)
     spec.attribute(
         NOTE,
         f"{denoiser.version}; guides: {', '.join(layers) or 'none'}; each channel alone; "
-        "biased, no measurement; variance is that of the picture before",
+        f"biased, no measurement; {error}",
     )
     return Film(spec, pixels), layers
+
+
+def left_noise(clean: list[Pixels], names: tuple[str, ...]) -> dict[str, Pixels]:
+    """Variances of the mean of two denoised pictures, of each channel and of luminance.
+
+    A quarter of the square of their difference, as of any two independent values.
+    """
+    half = (clean[0] - clean[1]) / 2
+    shares = weights(names)
+    luminance = half @ np.array([shares[name] for name in names], np.float32)
+    layers = {f"variance.{name}": half[:, :, number] for number, name in enumerate(names)}
+    layers["variance.Y"] = luminance
+    return {
+        name: uniform_filter(values**2, NEAR, mode="nearest") for name, values in layers.items()
+    }
 
 
 def write(film: Film, out: Path) -> None:
@@ -294,6 +355,13 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         "--png", type=Path, metavar="OUT.png", help="also one to look at, png or jpg"
     )
     parser.add_argument(
+        "--twin",
+        type=Path,
+        metavar="TWIN.exr",
+        help="the same scene rendered with another --seed: the mean of both is written, and the "
+        "layers variance tell what is left of the noise",
+    )
+    parser.add_argument(
         "--no-guides", action="store_true", help="leave the layers albedo and N aside"
     )
     return parser.parse_args(words)
@@ -301,13 +369,18 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
 
 def run(options: argparse.Namespace) -> None:
     """Reads, denoises, writes, and says what was done."""
-    source: Path = options.picture
-    check_places(source, options.out, options.png)
-    film = read(source)
-    check(film, source, not options.no_guides)
+    sources: list[Path] = [file for file in (options.picture, options.twin) if file]
+    films = []
+    for source in sources:
+        check_places(source, options.out, options.png)
+    for source in sources:
+        films.append(read(source))
+        check(films[-1], source, not options.no_guides)
+    if options.twin:
+        check_twin(films, options.twin)
     denoiser = Denoiser()
     began = perf_counter()
-    clean, layers = denoise(film, denoiser, not options.no_guides)
+    clean, layers = denoise(films, denoiser, not options.no_guides)
     write(clean, options.out)
     guided = f"guided by {' and '.join(layers)}"
     if not layers:

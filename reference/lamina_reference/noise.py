@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -17,6 +18,12 @@ from .exr import Array, read_channels
 
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 PERCENT = 0.01
+
+
+def weights(names: Iterable[str]) -> dict[str, float]:
+    """The share in luminance of each channel of radiance among these: `R`, `G`, `B`, or bands."""
+    bands = [name for name in names if name.startswith("S0.")]
+    return {name: 1.0 / len(bands) for name in bands} or LUMINANCE
 
 
 def relative_error(file: str) -> tuple[Array, bool]:
@@ -28,14 +35,13 @@ def relative_error(file: str) -> tuple[Array, bool]:
         channels = read_channels(file)
     except RuntimeError as error:
         raise SystemExit(str(error)) from error
-    bands = {name: 1.0 for name in channels if name.startswith("S0.")}
-    weights = {name: 1.0 / len(bands) for name in bands} or LUMINANCE
-    missing = [name for name in weights if {name, f"variance.{name}"} - set(channels)]
+    shares = weights(channels)
+    missing = [name for name in shares if {name, f"variance.{name}"} - set(channels)]
     if missing:
         raise SystemExit(f"{file}: has no layer variance of {', '.join(missing)}")
     shape = next(iter(channels.values())).shape
     mean, error = np.zeros(shape), np.zeros(shape)
-    for name, weight in weights.items():
+    for name, weight in shares.items():
         mean += weight * channels[name]
         error += weight * np.sqrt(np.maximum(channels[f"variance.{name}"], 0.0))
     bounded = "variance.Y" not in channels
