@@ -23,7 +23,6 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import numpy as np
-import OpenImageIO as oiio
 
 from lamina_reference.denoise import ALBEDO, NORMAL, NOTE, REC2020, Denoiser, main
 from lamina_reference.denoise import read as read_film
@@ -226,13 +225,19 @@ def test_guides_keep_what_noise_hides() -> None:
     # Veins of one pixel, of which each pixel of the picture alone tells little.
     light = truth((PAPER, PAPER, PAPER))
     light[:, ::6] *= 0.6
+    # Bands that see the same, whose albedo is one number.
+    bands = np.stack([light[:, :, 0]] * len(BANDS), axis=2)
+    grey = {**spectral_film()[1], **named(BANDS, noisy(bands)), "albedo.Y": light[:, :, 0]}
     with scratch() as folder:
-        layers = colour_film(light)
-        errors = [
-            error(stacked(denoised(folder, layers, *flags)[0], ("R", "G", "B")), to_709(light))
-            for flags in ((), ("--no-guides",))
-        ]
-    assert errors[1] > 1.5 * errors[0], errors
+        for layers, names, right in (
+            (colour_film(light), ("R", "G", "B"), to_709(light)),
+            (grey, BANDS, bands),
+        ):
+            errors = [
+                error(stacked(denoised(folder, layers, *flags)[0], names), right)
+                for flags in ((), ("--no-guides",))
+            ]
+            assert errors[1] > 1.5 * errors[0], (names, errors)
 
 
 def test_guides_have_the_edges_of_the_light() -> None:

@@ -96,6 +96,8 @@ def test_a_spectral_picture_is_what_the_exr_holds() -> None:
     bound = np.sqrt(picture.radiance_variance).mean("wavelength") ** 2
     np.testing.assert_allclose(picture.luminance_variance, bound, rtol=1e-4)
     assert picture.radiance.values.max() > 0
+    assert np.array_equal(picture.mean_albedo, pixels[:, :, names.index("albedo.Y")])
+    assert 0 < picture.mean_albedo.max() < 1
 
 
 def test_a_colour_picture_has_channels_and_layers() -> None:

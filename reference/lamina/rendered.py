@@ -27,6 +27,7 @@ TRIPLES = {
 }
 SINGLES = {
     "A": ("coverage", "1"),
+    "albedo.Y": ("mean_albedo", "1"),
     "depth.Z": ("depth", "m"),
     "height.Z": ("height", "m"),
     "id.object": ("object", "1"),
@@ -80,9 +81,9 @@ def read(file: str | Path) -> xr.Dataset:
     samples and the variances of those means as if samples were independent; `luminance_variance`:
     that of the mean luminance (of a spectral film, of the mean over bands), with what their even
     spread gains; then `coverage`, `depth`, `normal`, `position`,
-    `albedo`, `object` and `samples`, as far as the scene asked for them. Each variable has its
-    `units`; what the program wrote about the render is in `attrs`. Raises OSError for a file that
-    is no EXR.
+    `albedo` (of a spectral film `mean_albedo`, over its bands), `object` and `samples`. Each has
+    its `units`; what the program wrote about the render is in `attrs`. Raises OSError for a file
+    that is no EXR.
     """
     image = oiio.ImageInput.open(str(file))
     if image is None:

@@ -39,6 +39,8 @@ from .program import program
 Pixels = NDArray[np.float32]
 NOTE = "lamina:denoised"
 ALBEDO = ("albedo.R", "albedo.G", "albedo.B")
+# Of a spectral film the mean over its bands, three times.
+MEAN_ALBEDO = ("albedo.Y",) * 3
 NORMAL = ("N.X", "N.Y", "N.Z")
 SAMPLES = ("samples.Y",)
 SEED, SCENE = "lamina:seed", "lamina:scene"
@@ -79,6 +81,10 @@ class Film:
     def layer(self, names: tuple[str, ...]) -> Pixels:
         """Channels by name, `[height, width, names]`."""
         return np.ascontiguousarray(self.pixels[:, :, self.places(names)])
+
+    def albedo(self) -> tuple[str, ...]:
+        """Names of the three channels of albedo; empty if there is none."""
+        return next((names for names in (ALBEDO, MEAN_ALBEDO) if self.has(names)), ())
 
     def light(self) -> tuple[str, ...]:
         """Names of the channels of radiance: `R`, `G`, `B`, or bands; empty if there are none."""
@@ -126,7 +132,7 @@ def check(film: Film, file: Path, guides: bool) -> None:
     if min(film.pixels.shape[:2]) < LEAST_SIZE:
         raise Refused(f"{file}: it has less than {LEAST_SIZE} pixels across or down")
     # The denoiser takes NaN for 0 and says nothing.
-    for names in (film.light(), *((ALBEDO, NORMAL, ("A",)) if guides else ())):
+    for names in (film.light(), *((film.albedo(), NORMAL, ("A",)) if guides else ())):
         for name in names:
             if film.has((name,)):
                 bad = np.argwhere(~np.isfinite(film.pixels[:, :, film.places((name,))[0]]))
@@ -203,9 +209,9 @@ class Denoiser:
         that features are weighed by coverage to have the same edges.
         """
         # Normals alone are no input that the denoiser knows.
-        if not film.has(ALBEDO):
+        if not film.albedo():
             return {}
-        layers = {"albedo": ALBEDO} | ({"normal": NORMAL} if film.has(NORMAL) else {})
+        layers = {"albedo": film.albedo()} | ({"normal": NORMAL} if film.has(NORMAL) else {})
         share = film.layer(("A",)) if film.has(("A",)) else np.float32(1)
         return {
             kind: self.run(kind, [film.layer(names) * share], {})[0]

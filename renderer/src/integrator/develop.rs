@@ -86,7 +86,9 @@ fn developed(
             // Paths know places from the origin around which the world is traced.
             let from = match quantity {
                 Quantity::Position => camera.origin()[channel],
-                Quantity::Normal | Quantity::Albedo | Quantity::Object => 0.0,
+                Quantity::Normal | Quantity::Albedo | Quantity::MeanAlbedo | Quantity::Object => {
+                    0.0
+                }
             };
             film.map(|pixel| {
                 let value = pixel.feature(number);

@@ -13,6 +13,8 @@ pub enum Quantity {
     Normal,
     /// Linear sRGB of the surface under white light.
     Albedo,
+    /// Share of light that the surface scatters, mean over the bands of a spectral film.
+    MeanAlbedo,
     /// Number + 1 of the object.
     Object,
 }
@@ -26,6 +28,7 @@ impl Quantity {
             Self::Position => hit.position.to_array(),
             Self::Normal => hit.normal.to_array(),
             Self::Albedo => sight.colour(hit.albedo),
+            Self::MeanAlbedo => [sight.mean(hit.albedo), 0.0, 0.0],
             Self::Object => [hit.object.saturating_add(1) as f32, 0.0, 0.0],
         }
     }
@@ -59,6 +62,12 @@ impl<const N: usize> Sight<'_, N> {
         }
         colour
     }
+
+    /// Mean over the bands, of which each has a wavelength of its own.
+    fn mean(&self, share: Lanes<N>) -> f32 {
+        let bands = self.sampler.channels();
+        share.0.iter().take(bands).sum::<f32>() / bands as f32
+    }
 }
 
 /// D65 of luminance 1: a surface of albedo 1 under it is 1 1 1 in linear sRGB.
@@ -68,4 +77,37 @@ pub fn white(sampler: &WavelengthSampler) -> Spectrum {
     let mut white = Spectrum::from(curve);
     white.tabulate(sampler.grid());
     white
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::spectrum::recorded::{Band, FilmKind};
+
+    #[test]
+    fn the_mean_albedo_is_that_of_the_bands_and_of_no_lane_beyond() {
+        let bands = [500.0, 700.0, 900.0].map(|center_nm| Band {
+            center_nm,
+            width_nm: 10.0,
+        });
+        let bands = bands.to_vec();
+        let sampler = WavelengthSampler::new(&FilmKind::Spectral { bands });
+        let hit = FirstHit {
+            position: Vec3::ZERO,
+            normal: Vec3::Z,
+            albedo: Lanes([0.1, 0.3, 0.8, 7.0]),
+            object: 0,
+        };
+        let sight = Sight {
+            hit: &hit,
+            wavelengths: &sampler.draw::<4>(0.5),
+            sampler: &sampler,
+            white: &white(&sampler),
+            recorded: true,
+        };
+        let [mean, ..] = Quantity::MeanAlbedo.of(&sight);
+        assert!((mean - 0.4).abs() < 1e-6, "{mean}");
+    }
 }

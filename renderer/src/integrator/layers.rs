@@ -49,6 +49,8 @@ pub enum Films {
     All,
     /// Those of colour.
     Colour,
+    /// Those of bands.
+    Spectral,
 }
 
 /// The source of a layer: what pixels store for it, and how it is developed.
@@ -142,6 +144,17 @@ pub const LAYERS: &[FilmLayer] = &[
             within: [0.0, 1.0],
         },
         about: "albedo of what was met first, linear sRGB",
+    },
+    FilmLayer {
+        name: "albedo",
+        channels: Channels::Named(&["Y"]),
+        films: Films::Spectral,
+        source: Source::Feature {
+            quantity: Quantity::MeanAlbedo,
+            sum: Sum::Narrow { fraction_bits: 20 },
+            within: [0.0, 1.0],
+        },
+        about: "mean albedo over the bands of what was met first",
     },
     FilmLayer {
         name: "depth",
@@ -254,6 +267,7 @@ impl Layout {
         LAYERS.iter().filter(move |layer| match layer.films {
             Films::All => true,
             Films::Colour => self.colour,
+            Films::Spectral => !self.colour,
         })
     }
 

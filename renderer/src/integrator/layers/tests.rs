@@ -38,7 +38,8 @@ fn channels_have_the_names_that_other_programs_look_for() {
     let [(rgb, colour), (spectral, bands)] = layouts();
     let of_any = "A P.X P.Y P.Z N.X N.Y N.Z depth.Z samples.Y id.object";
     let of_colour = "R G B variance.R variance.G variance.B variance.Y albedo.R albedo.G albedo.B";
-    let of_bands = "S0.450,000000nm S0.550,500000nm S0.900,000000nm variance.S0.450,000000nm";
+    let of_bands =
+        "S0.450,000000nm S0.550,500000nm S0.900,000000nm variance.S0.450,000000nm albedo.Y";
     for (found, wanted) in [
         (channels_of(&rgb, colour), of_colour),
         (channels_of(&spectral, bands), of_bands),
@@ -110,6 +111,7 @@ fn rows_of_layers() -> Vec<String> {
         let films = match layer.films {
             Films::All => "",
             Films::Colour => "; colour films",
+            Films::Spectral => "; spectral films",
         };
         let samples = match layer.source {
             Source::Feature {
