@@ -15,6 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np
+from scipy.ndimage import gaussian_filter
 
 from denoisetest import (
     BANDS,
@@ -24,6 +25,7 @@ from denoisetest import (
     attributes,
     call,
     colour_film,
+    noisy,
     scratch,
     spectral_film,
     stacked,
@@ -34,6 +36,7 @@ from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error, weights
 from lamina_reference.testing import run_tests
+from lamina_reference.twins import Bias, bias, left_noise
 
 GREY = np.full((4, 6), 0.5)
 # One pixel is black: it has no relative error.
@@ -86,8 +89,8 @@ def denoised(folder: Path, *films: dict[str, Array]) -> dict[str, Array]:
         write(folder / f"{seed}.exr", film, {"lamina:seed": str(seed)})
         for seed, film in enumerate(films, 1)
     ]
-    twin = ["--twin", files[1]] if len(files) == 2 else []
-    status, _, warned = call(files[0], *twin, "--out", folder / "out.exr")
+    twins = [word for file in files[1:] for word in ("--twin", file)]
+    status, _, warned = call(files[0], *twins, "--out", folder / "out.exr")
     assert status == 0, warned
     return read_channels(folder / "out.exr")
 
@@ -111,12 +114,15 @@ def test_twins_tell_the_noise_that_is_left() -> None:
             denoised(folder, film_of(light, seed), film_of(light, seed + 1))
             for seed in (1, 3, 5, 7)
         ]
+        three = denoised(folder, *(film_of(light, seed) for seed in (1, 2, 3)))
     # The truth is how twelve pictures scatter, each denoised alone; the mean of two has half of
     # that variance.
     right = np.var(alone, axis=0, ddof=1).mean() / 2
     # One pair is off by up to 29 % here: few pixels, whose errors go together after the denoiser.
     told = [layers["variance.Y"].mean() / right for layers in twins]
     assert 0.8 < np.mean(told) < 1.25, told
+    assert 0.5 < three["variance.Y"].mean() / right / (2 / 3) < 2
+    np.testing.assert_allclose(luminance(three), np.mean(alone[:3], axis=0), rtol=1e-4, atol=1e-6)
     # And before it was many times as much.
     before = [luminance(film_of(light, seed)) for seed in range(1, 13)]
     assert np.var(before, axis=0, ddof=1).mean() / 2 > 10 * right
@@ -124,6 +130,44 @@ def test_twins_tell_the_noise_that_is_left() -> None:
         np.testing.assert_allclose(
             luminance(layers), (alone[pair] + alone[pair + 1]) / 2, rtol=1e-4, atol=1e-6
         )
+
+
+def test_bias_is_told_whatever_the_noise() -> None:
+    # A blur is a denoiser whose bias is known: that of the light without noise.
+    light = np.tile(truth((LEAF, PAPER, STEM)), (8, 8, 1))
+    blurred = gaussian_filter(light, (1, 1, 0))
+    names = ("R", "G", "B")
+    shares = np.array([weights(names)[name] for name in names])
+    bright = blurred @ shares
+    off = (blurred - light) @ shares / np.sqrt(bright**2 + 0.01 * bright.mean() ** 2)
+    right = np.mean(off**2)
+    for count in (2, 4):
+        traced = [noisy(light, seed).astype(np.float32) for seed in range(count)]
+        told = bias([gaussian_filter(film, (1, 1, 0)) for film in traced], traced, names)
+        assert 0 < told.error < 0.05 * right, (told.square, told.error, right)
+        # What is relative is so to light that is noisy too.
+        assert abs(told.square - right) < 0.05 * right, (told.square, told.error, right)
+        # The light itself has none.
+        none = bias([light.astype(np.float32)] * count, traced, names)
+        assert abs(none.square) < 2.5 * none.error < right, (none.square, none.error)
+        assert str(none).startswith("below")
+    assert str(Bias(4e-4, 1e-5)) == "2 %"
+    assert str(Bias(1e-4, 1e-4)) == "below 1.7 %" and str(Bias(-1e-4, 5e-5)) == "below 1 %"
+
+
+def test_of_unequal_twins_the_one_of_more_samples_counts_more() -> None:
+    rng = np.random.default_rng(1)
+    names = ("R", "G", "B")
+    light = np.ones((200, 200, 1), np.float32)
+    # Errors of one and of four samples: of the mean by samples they are those of five.
+    clean = [light + spread * rng.standard_normal((200, 200, 1)) for spread in (0.2, 0.1)]
+    shares = np.array([0.2, 0.8])
+    right = np.var(np.average(clean, axis=0, weights=shares))
+    grey = [np.repeat(values, 3, axis=2).astype(np.float32) for values in clean]
+    told = left_noise(grey, shares, names)
+    for layer in ("variance.R", "variance.Y"):
+        assert abs(told[layer].mean() / right - 1) < 0.05, (told[layer].mean(), right)
+    assert abs(right / (0.04 / 5) - 1) < 0.05
 
 
 def test_twins_add_up_their_samples_and_leave_all_else_as_it_was() -> None:
@@ -165,7 +209,7 @@ def test_what_is_no_twin_is_refused() -> None:
             folder / "scene.exr", film, {"lamina:seed": "2", "lamina:scene": "format = 1\n"}
         )
         for twin, problem in (
-            (first, "first.exr: it is no twin: both are of seed 18446744073709551615; render with"),
+            (first, "first.exr is of seed 18446744073709551615 too; render with another"),
             (small, "small.exr: it is no twin: it has another size or other layers"),
             (poor, "poor.exr: it is no twin: it has another size or other layers"),
             (scene, "scene.exr: it is no twin: it is of another scene"),

@@ -1,16 +1,16 @@
 """Takes noise out of a picture: `reference/denoise IN.exr --out OUT.exr`.
 
 Open Image Denoise guesses each pixel from its neighbours. What comes out is for the eye: it is
-biased, and nobody knows by how much. The file says so in `lamina:denoised`; its layer `variance` is
-that of the picture which went in.
+biased, and of one picture nobody knows by how much. The file says so in `lamina:denoised`; its
+layer `variance` is that of the picture which went in.
 
-With a twin, a render of the same scene with another seed, both are denoised and their mean is
-written. How they differ tells what is left of the noise: that is the layer `variance` then.
+With twins, renders of the same scene with other seeds, all are denoised and their mean is written.
+`twins` tells what is left of the noise, which the layer `variance` has then, and the bias.
 
 - In: an EXR of Lamina, of a colour film or a spectral one; its layers `albedo` and `N` as guides.
 - Out: the same EXR with other radiance; if wanted, a picture to look at by `lamina tonemap`.
-- Always true: no other layer and no attribute changes, but for variances and samples if there is a
-  twin; OUT is whole or not there.
+- Always true: no other layer and no attribute changes, but for variances and samples if there are
+  twins; OUT is whole or not there.
 - Left out: pictures by other programs, parts of a render, tests of light.
 """
 
@@ -30,11 +30,10 @@ from typing import Any
 import numpy as np
 import OpenImageIO as oiio
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter
 
-from .noise import weights
 from .picture import CHANNEL
 from .program import program
+from .twins import bias, left_noise
 
 Pixels = NDArray[np.float32]
 NOTE = "lamina:denoised"
@@ -44,9 +43,6 @@ MEAN_ALBEDO = ("albedo.Y",) * 3
 NORMAL = ("N.X", "N.Y", "N.Z")
 SAMPLES = ("samples.Y",)
 SEED, SCENE = "lamina:seed", "lamina:scene"
-# A pixel's own difference is one number, too few to tell an error by: squares are averaged over
-# this many pixels across and down.
-NEAR = 5
 # Linear Rec. 709 to linear Rec. 2020 (ITU-R BT.2087): many leaf greens have a negative blue in the
 # first, and the denoiser takes what is below 0 for 0.
 REC2020 = np.array([[0.6274, 0.3293, 0.0433], [0.0691, 0.9195, 0.0114], [0.0164, 0.0880, 0.8956]])
@@ -144,20 +140,22 @@ def check(film: Film, file: Path, guides: bool) -> None:
                     )
 
 
-def check_twin(films: list[Film], file: Path) -> None:
-    """Refuses a second picture that is not of the same scene, or of the same random numbers."""
-    first, other = (film.spec for film in films)
-    seeds, scenes = (
-        [spec.get_string_attribute(name) for spec in (first, other)] for name in (SEED, SCENE)
-    )
-    if first.channelnames != other.channelnames or films[0].pixels.shape != films[1].pixels.shape:
-        raise Refused(f"{file}: it is no twin: it has another size or other layers")
-    if scenes[0] != scenes[1]:
-        raise Refused(f"{file}: it is no twin: it is of another scene")
-    if seeds[0] == seeds[1]:
-        raise Refused(
-            f"{file}: it is no twin: both are of seed {seeds[0]}; render with another --seed"
-        )
+def check_twins(films: list[Film], files: list[Path]) -> None:
+    """Refuses a further picture that is not of the same scene, or not of other random numbers."""
+    seeds: dict[str, Path] = {}
+    for film, file in zip(films, files, strict=True):
+        first, other = films[0].spec, film.spec
+        if first.channelnames != other.channelnames or films[0].pixels.shape != film.pixels.shape:
+            raise Refused(f"{file}: it is no twin: it has another size or other layers")
+        if len({spec.get_string_attribute(SCENE) for spec in (first, other)}) > 1:
+            raise Refused(f"{file}: it is no twin: it is of another scene")
+        seed = other.get_string_attribute(SEED)
+        if seed in seeds:
+            raise Refused(
+                f"{file}: it is no twin: {seeds[seed]} is of seed {seed} too; render with another "
+                "--seed"
+            )
+        seeds[seed] = file
 
 
 class Denoiser:
@@ -238,49 +236,45 @@ def cleaned(film: Film, denoiser: Denoiser, guides: dict[str, Pixels]) -> Pixels
     return made
 
 
-def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> tuple[Film, list[str]]:
-    """The first film with denoised radiance and the note; and what guided.
+def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> tuple[Film, str]:
+    """The first film with denoised radiance and the note; and what is to be said.
 
-    Of twins the radiance is the mean of both, and the variance is of that.
+    Of twins the radiance is the mean of all, by their samples, and the variance is of that.
     """
     first = films[0]
     guides = [denoiser.guides(film) if with_guides else {} for film in films]
     clean = [cleaned(film, denoiser, guide) for film, guide in zip(films, guides, strict=True)]
     pixels = first.pixels.copy()
     names = first.light()
-    pixels[:, :, first.places(names)] = np.mean(clean, axis=0)
+    # By their mean numbers of samples, not each pixel's own, which go with how bright it came out.
+    counts = [float(film.layer(SAMPLES).mean()) if film.has(SAMPLES) else 1.0 for film in films]
+    shares = np.array(counts) / sum(counts)
+    pixels[:, :, first.places(names)] = np.average(clean, axis=0, weights=shares)
+    layers = ["albedo", "N"][: len(guides[0])]
+    how = f"guided by {' and '.join(layers)}"
+    if not layers:
+        how = f"without guides{': the picture has no layer albedo' if with_guides else ''}"
     error = "variance is that of the picture before"
-    if len(films) == 2:
+    if len(films) > 1:
         seeds = " and ".join(film.spec.get_string_attribute(SEED) for film in films)
-        error = f"mean of seeds {seeds}; variance is that of the noise left, without bias"
-        for layer, values in left_noise(clean, names).items():
+        off = bias(clean, [film.layer(names) for film in films], names)
+        error = (
+            f"mean of seeds {seeds}; variance is that of the noise left, without bias; "
+            f"bias of luminance {off}"
+        )
+        how += f", bias {off}"
+        for layer, values in left_noise(clean, shares, names).items():
             if first.has((layer,)):
                 pixels[:, :, first.places((layer,))[0]] = values
         if first.has(SAMPLES):
             pixels[:, :, first.places(SAMPLES)] = sum(film.layer(SAMPLES) for film in films)
-    layers = ["albedo", "N"][: len(guides[0])]
     spec = oiio.ImageSpec(first.spec)
     spec.attribute(
         NOTE,
         f"{denoiser.version}; guides: {', '.join(layers) or 'none'}; each channel alone; "
         f"biased, no measurement; {error}",
     )
-    return Film(spec, pixels), layers
-
-
-def left_noise(clean: list[Pixels], names: tuple[str, ...]) -> dict[str, Pixels]:
-    """Variances of the mean of two denoised pictures, of each channel and of luminance.
-
-    A quarter of the square of their difference, as of any two independent values.
-    """
-    half = (clean[0] - clean[1]) / 2
-    shares = weights(names)
-    luminance = half @ np.array([shares[name] for name in names], np.float32)
-    layers = {f"variance.{name}": half[:, :, number] for number, name in enumerate(names)}
-    layers["variance.Y"] = luminance
-    return {
-        name: uniform_filter(values**2, NEAR, mode="nearest") for name, values in layers.items()
-    }
+    return Film(spec, pixels), how
 
 
 def write(film: Film, out: Path) -> None:
@@ -363,9 +357,11 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--twin",
         type=Path,
+        action="append",
+        default=[],
         metavar="TWIN.exr",
-        help="the same scene rendered with another --seed: the mean of both is written, and the "
-        "layers variance tell what is left of the noise",
+        help="the same scene rendered with another --seed: the mean is written, and what is left "
+        "of the noise and the bias are told; may be given again for more",
     )
     parser.add_argument(
         "--no-guides", action="store_true", help="leave the layers albedo and N aside"
@@ -375,25 +371,19 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
 
 def run(options: argparse.Namespace) -> None:
     """Reads, denoises, writes, and says what was done."""
-    sources: list[Path] = [file for file in (options.picture, options.twin) if file]
+    sources: list[Path] = [options.picture, *options.twin]
     films = []
     for source in sources:
         check_places(source, options.out, options.png)
     for source in sources:
         films.append(read(source))
         check(films[-1], source, not options.no_guides)
-    if options.twin:
-        check_twin(films, options.twin)
+    check_twins(films, sources)
     denoiser = Denoiser()
     began = perf_counter()
-    clean, layers = denoise(films, denoiser, not options.no_guides)
+    clean, how = denoise(films, denoiser, not options.no_guides)
     write(clean, options.out)
-    guided = f"guided by {' and '.join(layers)}"
-    if not layers:
-        why = "" if options.no_guides else ": the picture has no layer albedo"
-        guided = f"without guides{why}"
-    seconds = perf_counter() - began
-    print(f"{denoiser.version}, {guided}, {seconds:.1f} s", file=sys.stderr)
+    print(f"{denoiser.version}, {how}, {perf_counter() - began:.1f} s", file=sys.stderr)
     print(options.out)
     if options.png:
         tonemap(options.out, options.png)

@@ -1,0 +1,86 @@
+"""What is wrong with the mean of denoised twins: renders of one scene that share no random number.
+
+How the denoised pictures differ tells what is left of the noise. What all of them share, the bias,
+shows against the pictures as they were traced, which have none: E_i, denoised less traced, has the
+bias for its mean, and of two seeds the noise in E_i and that in E_j are independent. So the mean of
+E_i E_j is the square of the bias, whatever the noise.
+
+- In: two or more pictures, `[height, width, channels]`, each alone.
+- Always true: no value is told that the pictures do not show; what is not known is told by a bound.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter
+
+from .noise import PERCENT, weights
+
+Pixels = NDArray[np.float32]
+# A pixel's own difference is one number, too few to tell an error by: squares are averaged over
+# this many pixels across and down.
+NEAR = 5
+# Added to the square of luminance, as a share of the square of the picture's mean, so that what is
+# black does not rule what is relative.
+DARK = 0.01
+
+
+def luminance(light: Pixels, names: tuple[str, ...]) -> Pixels:
+    """That of channels of radiance, `[height, width]`."""
+    shares = weights(names)
+    made: Pixels = light @ np.array([shares[name] for name in names], np.float32)
+    return made
+
+
+def left_noise(
+    clean: list[Pixels], shares: NDArray[np.float64], names: tuple[str, ...]
+) -> dict[str, Pixels]:
+    """Variances of the mean of denoised pictures, of each channel and of luminance.
+
+    `shares` are those of the pictures in the mean, as of samples: the more, the less the noise.
+    """
+    pixels = dict(
+        zip((f"variance.{name}" for name in names), np.moveaxis(clean, 3, 0), strict=True)
+    )
+    pixels["variance.Y"] = np.stack([luminance(light, names) for light in clean])
+    made = {}
+    for name, values in pixels.items():
+        mean = np.average(values, axis=0, weights=shares)
+        squares = np.average((values - mean) ** 2, axis=0, weights=shares) / (len(clean) - 1)
+        made[name] = uniform_filter(squares, NEAR, mode="nearest")
+    return made
+
+
+@dataclass
+class Bias:
+    """Square of the relative bias of luminance, the mean over all pixels, and its standard error.
+
+    The error is that of a mean over pixels, so that it also has how the bias differs among them: it
+    is too large rather than too small.
+    """
+
+    square: float
+    error: float
+
+    def __str__(self) -> str:
+        at_most = np.sqrt(max(self.square, 0.0) + 2 * self.error) / PERCENT
+        if self.square < 2 * self.error:
+            return f"below {at_most:.2g} %"
+        return f"{np.sqrt(self.square) / PERCENT:.2g} %"
+
+
+def bias(clean: list[Pixels], traced: list[Pixels], names: tuple[str, ...]) -> Bias:
+    """The bias of denoised pictures against the same as they were traced."""
+    bright = luminance(np.mean(clean, axis=0), names)
+    scale = np.sqrt(bright**2 + DARK * bright.mean() ** 2)
+    errors = [
+        (luminance(after, names) - luminance(before, names)) / scale
+        for after, before in zip(clean, traced, strict=True)
+    ]
+    pairs = [one * other for one, other in combinations(errors, 2)]
+    square = np.mean(pairs, axis=0, dtype=np.float64)
+    return Bias(float(square.mean()), float(square.std() / np.sqrt(square.size)))
