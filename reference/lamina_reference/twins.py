@@ -24,6 +24,9 @@ Pixels = NDArray[np.float32]
 # A pixel's own difference is one number, too few to tell an error by: squares are averaged over
 # this many pixels across and down.
 NEAR = 5
+# Luminance of the darkest pixels there are, as a share of the picture's mean: black has no relative
+# error.
+DARKEST = 1e-3
 # Added to the square of luminance, as a share of the square of the picture's mean, so that what is
 # black does not rule what is relative.
 DARK = 0.01
@@ -42,16 +45,20 @@ def left_noise(
     """Variances of the mean of denoised pictures, of each channel and of luminance.
 
     `shares` are those of the pictures in the mean, as of samples: the more, the less the noise.
+    What is averaged over near pixels is relative to luminance: where a noisy leaf ends before a
+    bright sky, each would else get the other's noise.
     """
     pixels = dict(
         zip((f"variance.{name}" for name in names), np.moveaxis(clean, 3, 0), strict=True)
     )
     pixels["variance.Y"] = np.stack([luminance(light, names) for light in clean])
+    bright = luminance(np.average(clean, axis=0, weights=shares), names)
+    scale = np.maximum(bright, DARKEST * bright.mean())
     made = {}
     for name, values in pixels.items():
         mean = np.average(values, axis=0, weights=shares)
         squares = np.average((values - mean) ** 2, axis=0, weights=shares) / (len(clean) - 1)
-        made[name] = uniform_filter(squares, NEAR, mode="nearest")
+        made[name] = uniform_filter(squares / scale**2, NEAR, mode="nearest") * scale**2
     return made
 
 
