@@ -191,6 +191,17 @@ def test_twins_add_up_their_samples_and_leave_all_else_as_it_was() -> None:
         assert abs(np.median(error) / (0.05 / 1.05) - 1) < 0.05, np.median(error)
 
 
+def test_twins_without_light_have_no_noise_and_no_bias() -> None:
+    with scratch() as folder:
+        black = film_of(np.zeros((32, 32, 3)))
+        black |= {"samples.Y": np.full((32, 32), 16.0)}
+        black = {name: values[:32, :32] for name, values in black.items()}
+        made = denoised(folder, black, black)
+        note = attributes(folder / "out.exr")[NOTE][1].decode()
+    assert (made["variance.Y"] == 0).all() and (made["R"] == 0).all()
+    assert "bias of luminance 0 %" in note or "below 0 %" in note, note
+
+
 def test_what_is_no_twin_is_refused() -> None:
     film = colour_film(truth((LEAF, PAPER, STEM)))
     with scratch() as folder:
@@ -231,6 +242,7 @@ def run() -> int:
         for test in (
             test_twins_tell_the_noise_that_is_left,
             test_twins_add_up_their_samples_and_leave_all_else_as_it_was,
+            test_twins_without_light_have_no_noise_and_no_bias,
         ):
             del tests[test.__name__]
     return run_tests(tests, "noise")

@@ -30,6 +30,8 @@ DARKEST = 1e-3
 # Added to the square of luminance, as a share of the square of the picture's mean, so that what is
 # black does not rule what is relative.
 DARK = 0.01
+# A picture without any light has no relative error either: 0 over this is 0.
+TINY = 1e-30
 
 
 def luminance(light: Pixels, names: tuple[str, ...]) -> Pixels:
@@ -53,7 +55,7 @@ def left_noise(
     )
     pixels["variance.Y"] = np.stack([luminance(light, names) for light in clean])
     bright = luminance(np.average(clean, axis=0, weights=shares), names)
-    scale = np.maximum(bright, DARKEST * bright.mean())
+    scale = np.maximum(bright, max(DARKEST * bright.mean(), TINY))
     made = {}
     for name, values in pixels.items():
         mean = np.average(values, axis=0, weights=shares)
@@ -83,7 +85,7 @@ class Bias:
 def bias(clean: list[Pixels], traced: list[Pixels], names: tuple[str, ...]) -> Bias:
     """The bias of denoised pictures against the same as they were traced."""
     bright = luminance(np.mean(clean, axis=0), names)
-    scale = np.sqrt(bright**2 + DARK * bright.mean() ** 2)
+    scale = np.maximum(np.sqrt(bright**2 + DARK * bright.mean() ** 2), TINY)
     errors = [
         (luminance(after, names) - luminance(before, names)) / scale
         for after, before in zip(clean, traced, strict=True)
