@@ -34,9 +34,10 @@ from denoisetest import (
 )
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
-from lamina_reference.noise import relative_error, weights
+from lamina_reference.noise import relative_error
 from lamina_reference.testing import run_tests
 from lamina_reference.twins import Bias, bias, left_noise
+from lamina_reference.twins import luminance as luminance_of
 
 GREY = np.full((4, 6), 0.5)
 # One pixel is black: it has no relative error.
@@ -97,8 +98,7 @@ def denoised(folder: Path, *films: dict[str, Array]) -> dict[str, Array]:
 
 def luminance(layers: dict[str, Array], names: tuple[str, ...] = ("R", "G", "B")) -> Array:
     """That of a film, `[height, width]`."""
-    shares = weights(names)
-    return np.asarray(stacked(layers, names) @ np.array([shares[name] for name in names]))
+    return luminance_of(stacked(layers, names), names)
 
 
 def film_of(light: Array, seed: int = 1) -> dict[str, Array]:
@@ -121,7 +121,7 @@ def test_twins_tell_the_noise_that_is_left() -> None:
     # One pair is off by up to 29 % here: few pixels, whose errors go together after the denoiser.
     told = [layers["variance.Y"].mean() / right for layers in twins]
     assert 0.8 < np.mean(told) < 1.25, told
-    assert 0.5 < three["variance.Y"].mean() / right / (2 / 3) < 2
+    assert abs(three["variance.Y"].mean() / right / (2 / 3) - 1) < 0.3, three["variance.Y"].mean()
     np.testing.assert_allclose(luminance(three), np.mean(alone[:3], axis=0), rtol=1e-4, atol=1e-6)
     # And before it was many times as much.
     before = [luminance(film_of(light, seed)) for seed in range(1, 13)]
@@ -137,9 +137,8 @@ def test_bias_is_told_whatever_the_noise() -> None:
     light = np.tile(truth((LEAF, PAPER, STEM)), (8, 8, 1))
     blurred = gaussian_filter(light, (1, 1, 0))
     names = ("R", "G", "B")
-    shares = np.array([weights(names)[name] for name in names])
-    bright = blurred @ shares
-    off = (blurred - light) @ shares / np.sqrt(bright**2 + 0.01 * bright.mean() ** 2)
+    bright = luminance_of(blurred, names)
+    off = luminance_of(blurred - light, names) / np.sqrt(bright**2 + 0.01 * bright.mean() ** 2)
     right = np.mean(off**2)
     for count in (2, 4):
         traced = [noisy(light, seed).astype(np.float32) for seed in range(count)]
@@ -160,14 +159,15 @@ def test_of_unequal_twins_the_one_of_more_samples_counts_more() -> None:
     names = ("R", "G", "B")
     light = np.ones((200, 200, 1), np.float32)
     # Errors of one and of four samples: of the mean by samples they are those of five.
-    clean = [light + spread * rng.standard_normal((200, 200, 1)) for spread in (0.2, 0.1)]
+    clean = [light + spread * rng.standard_normal((200, 200, 1)) for spread in (0.02, 0.01)]
     shares = np.array([0.2, 0.8])
     right = np.var(np.average(clean, axis=0, weights=shares))
     grey = [np.repeat(values, 3, axis=2).astype(np.float32) for values in clean]
     told = left_noise(grey, shares, names)
+    # Three standard errors of the variance of 40,000 numbers are 2.1 %, of a ratio of two 3 %.
     for layer in ("variance.R", "variance.Y"):
-        assert abs(told[layer].mean() / right - 1) < 0.05, (told[layer].mean(), right)
-    assert abs(right / (0.04 / 5) - 1) < 0.05
+        assert abs(told[layer].mean() / right - 1) < 0.03, (told[layer].mean(), right)
+    assert abs(right / (0.0004 / 5) - 1) < 0.021
 
 
 def test_twins_add_up_their_samples_and_leave_all_else_as_it_was() -> None:
@@ -193,13 +193,11 @@ def test_twins_add_up_their_samples_and_leave_all_else_as_it_was() -> None:
 
 def test_twins_without_light_have_no_noise_and_no_bias() -> None:
     with scratch() as folder:
-        black = film_of(np.zeros((32, 32, 3)))
-        black |= {"samples.Y": np.full((32, 32), 16.0)}
-        black = {name: values[:32, :32] for name, values in black.items()}
+        black = film_of(np.zeros(truth((LEAF, PAPER, STEM)).shape))
         made = denoised(folder, black, black)
         note = attributes(folder / "out.exr")[NOTE][1].decode()
     assert (made["variance.Y"] == 0).all() and (made["R"] == 0).all()
-    assert "bias of luminance 0 %" in note or "below 0 %" in note, note
+    assert "bias of luminance 0 %" in note, note
 
 
 def test_what_is_no_twin_is_refused() -> None:

@@ -46,7 +46,8 @@ def left_noise(
 ) -> dict[str, Pixels]:
     """Variances of the mean of denoised pictures, of each channel and of luminance.
 
-    `shares` are those of the pictures in the mean, as of samples: the more, the less the noise.
+    `shares` are those of the pictures in the mean, as of samples: the square of an error is taken
+    to fall as they rise.
     What is averaged over near pixels is relative to luminance: where a noisy leaf ends before a
     bright sky, each would else get the other's noise.
     """
