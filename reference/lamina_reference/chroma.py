@@ -15,9 +15,9 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio
 
 from . import colour
+from .exr import read_channels
 from .program import program
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -77,16 +77,10 @@ position_m = [0.025, 0, 0]
 {ground}{light}"""
 
 
-def pixels(file: Path, channels: list[str] | None = None) -> np.ndarray:
-    """A picture's pixels, `[height, width, 3]`."""
-    image = oiio.ImageInput.open(str(file))
-    if image is None:
-        raise RuntimeError(f"{file}: {oiio.geterror()}")
-    spec = image.spec()
-    values = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
-    image.close()
-    order = [spec.channelnames.index(name) for name in channels] if channels else [0, 1, 2]
-    return values[:, :, order]
+def pixels(file: Path) -> np.ndarray:
+    """A picture's red, green and blue, `[height, width, 3]`."""
+    channels = read_channels(file)
+    return np.stack([channels[name] for name in "RGB"], axis=2)
 
 
 def seen(binary: Path, scene: str) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -102,7 +96,7 @@ def seen(binary: Path, scene: str) -> tuple[tuple[float, float], tuple[float, fl
         )
         if done.returncode != 0:
             raise RuntimeError(f"lamina render failed ({done.returncode}):\n{done.stderr}")
-        linear = pixels(out.with_suffix(".exr"), ["R", "G", "B"])
+        linear = pixels(out.with_suffix(".exr"))
         toned = pixels(out.with_suffix(".png"))
     leaf, white = (np.s_[8:16, 8:16], np.s_[8:16, 32:40])
     share = linear[leaf].mean((0, 1)) / linear[white].mean()

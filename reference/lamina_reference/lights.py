@@ -26,8 +26,8 @@ from typing import Any
 import drjit as dr
 import mitsuba as mi
 import numpy as np
-import OpenImageIO as oiio
 
+from .exr import read_channels
 from .lookup import Table, cell
 
 PRIMARIES = ("red", "green", "blue")
@@ -37,18 +37,13 @@ class Weights:
     """Three or four maps, bilinear between texel centres; rows are clamped, columns too or wrapped."""
 
     def __init__(self, file: Path, wraps: bool) -> None:
-        image = oiio.ImageInput.open(str(file))
-        if image is None:
-            raise RuntimeError(f"{file}: {oiio.geterror()}")
-        names = list(image.spec().channelnames)
-        pixels = np.asarray(image.read_image(oiio.FLOAT))
-        image.close()
-        self.height, self.width = pixels.shape[:2]
+        channels = read_channels(file)
+        self.height, self.width = channels["R"].shape
         # A border, so that there is a cell everywhere.
         mode = "wrap" if wraps else "edge"
         self.tables = []
-        for name in "RGBA"[: 4 if "A" in names else 3]:
-            plane = np.pad(pixels[:, :, names.index(name)], ((0, 0), (1, 1)), mode=mode)
+        for name in "RGBA"[: 4 if "A" in channels else 3]:
+            plane = np.pad(channels[name], ((0, 0), (1, 1)), mode=mode)
             self.tables.append(Table(np.pad(plane, ((1, 1), (0, 0)), mode="edge")))
 
     def at(self, across: Any, down: Any) -> list[Any]:

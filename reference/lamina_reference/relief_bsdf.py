@@ -18,10 +18,10 @@ from typing import Any
 import drjit as dr
 import mitsuba as mi
 import numpy as np
-import OpenImageIO as oiio
 
 from . import solid_bsdf
 from .coat import Coat
+from .exr import read_channels
 from .leaf_bsdf import FACES, Double, LeafBSDF
 from .lookup import Table, cell
 
@@ -50,15 +50,10 @@ class ReliefMap:
     """Moments of slopes over uv: bilinear between texel centres, clamped, row 0 at v = 0."""
 
     def __init__(self, file: Path) -> None:
-        image = oiio.ImageInput.open(str(file))
-        if image is None:
-            raise RuntimeError(f"{file}: {oiio.geterror()}")
-        spec = image.spec()
-        pixels = np.asarray(image.read_image(oiio.FLOAT))
-        image.close()
-        names = list(spec.channelnames)
-        self.size = spec.width, spec.height
-        self.tables = [Table(pixels[:, :, names.index(name)]) for name in MOMENTS]
+        channels = read_channels(file)
+        height, width = channels[MOMENTS[0]].shape
+        self.size = width, height
+        self.tables = [Table(channels[name]) for name in MOMENTS]
 
     def at(self, uv: Any) -> list[Any]:
         """The eight moments."""

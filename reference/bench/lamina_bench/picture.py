@@ -1,4 +1,4 @@
-"""Reads pictures: RGB and the numbers of objects from Lamina's EXR."""
+"""Reads channels of Lamina's EXR."""
 
 from __future__ import annotations
 
@@ -21,8 +21,3 @@ def read_channels(file: Path, names: tuple[str, ...]) -> NDArray[np.float64]:
     pixels = np.asarray(image.read_image(oiio.FLOAT), dtype=np.float64)
     image.close()
     return pixels[:, :, [present.index(name) for name in names]]
-
-
-def read_rgb(file: Path) -> NDArray[np.float64]:
-    """Linear R, G, B, `[height, width, 3]`."""
-    return read_channels(file, ("R", "G", "B"))
