@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Tests of `reference/noise`, and of the noise that `reference/denoise --twin` tells: run by
-`reference/self-test`.
+"""Tests of `reference/noise`, of `reference/print`, and of the noise that `reference/denoise --twin`
+tells: run by `reference/self-test`.
 
 Where Open Image Denoise is missing, what needs it is skipped and told.
 """
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
+import io
 import sys
 import tempfile
 from pathlib import Path
@@ -21,6 +23,7 @@ from denoisetest import (
     BANDS,
     LEAF,
     PAPER,
+    SCENE,
     STEM,
     attributes,
     call,
@@ -35,6 +38,8 @@ from denoisetest import (
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error
+from lamina_reference.prints import between, noise
+from lamina_reference.prints import main as print_scene
 from lamina_reference.testing import run_tests
 from lamina_reference.twins import Bias, bias, left_noise
 from lamina_reference.twins import luminance as luminance_of
@@ -232,6 +237,27 @@ def test_what_is_no_twin_is_refused() -> None:
         assert not (folder / "out.exr").exists()
 
 
+def test_a_print_is_the_mean_of_denoised_renders_and_tells_what_it_took() -> None:
+    with scratch() as folder:
+        scene, said = folder / "leaf.toml", io.StringIO()
+        scene.write_text(SCENE, encoding="utf-8")
+        words = [str(scene), "--out", str(folder), "--twins", "2", "--spp", "8", "--noise", "0"]
+        assert print_scene([*words, "-D", "film.rgb.sizes=[9, 9]"]) == 2
+        assert not (folder / "leaf.exr").exists()
+        with contextlib.redirect_stdout(said):
+            assert print_scene(words) == 0
+        cells = said.getvalue().splitlines()[-1].strip("| ").split(" | ")
+        shown, traced = folder / "leaf.exr", [folder / f"leaf-{seed}.exr" for seed in (1, 2)]
+        within, error = noise(shown)
+        assert cells[0] == "leaf" and cells[2] == "8 + 8", cells
+        assert cells[6] == f"{within:.1f} %, {error:.2f} %", cells
+        errors = [noise(file)[1] for file in traced]
+        assert cells[5].endswith(f", {between(errors, '.2g')}"), cells
+        assert error > 0 and (folder / "leaf.jpg").exists()
+        note = attributes(shown)[NOTE][1].decode()
+        assert "mean of seeds 1 and 2" in note and note.endswith(f"luminance {cells[7]}"), note
+
+
 def run() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
     tests = dict(globals())
@@ -241,6 +267,7 @@ def run() -> int:
             test_twins_tell_the_noise_that_is_left,
             test_twins_add_up_their_samples_and_leave_all_else_as_it_was,
             test_twins_without_light_have_no_noise_and_no_bias,
+            test_a_print_is_the_mean_of_denoised_renders_and_tells_what_it_took,
         ):
             del tests[test.__name__]
     return run_tests(tests, "noise")

@@ -1,0 +1,195 @@
+"""Renders a scene for print: `reference/print SCENE.toml --out FOLDER`.
+
+Several renders of other seeds, the twins, are denoised each alone; their mean is the picture, and
+`twins` tells what is left of its noise, and the bias. What was done is told as a line of a table.
+
+- In: a scene file; seconds for each twin.
+- Out, in FOLDER: NAME-1.exr, NAME-1.json (times, memory) and so on of each twin; NAME.exr, and
+  NAME.jpg to look at; `cache` with grown leaves.
+- Always true: what one twin has rendered stays if another fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio
+
+from . import denoise
+from .noise import PERCENT, relative_error
+from .program import program
+
+LEAST_TWINS = 2
+HEADER = (
+    "| scene | size | samples | seconds | memory, GB | as traced: within 1 %, 95 % within | "
+    "as shown: within 1 %, 95 % within | bias |\n|---|---|---|---|---|---|---|---|"
+)
+
+
+@dataclass
+class Twin:
+    """One render: its picture, and what it took."""
+
+    picture: Path
+    samples: float
+    seconds: float
+    mebibytes: float
+
+
+def name_of(scene: Path) -> str:
+    """What a scene is called: by its folder if the file is `scene.toml`."""
+    return scene.resolve().parent.name if scene.stem == "scene" else scene.stem
+
+
+class Stopped(Exception):
+    """A render ended with this exit status, and said why itself."""
+
+    def __init__(self, status: int) -> None:
+        super().__init__(status)
+        self.status = status
+
+
+def render(options: argparse.Namespace, seed: int) -> Twin:
+    """One twin; what the program says is passed on."""
+    stem = options.out / f"{name_of(options.scene)}-{seed}"
+    stats = stem.with_name(f"{stem.name}.json")
+    words = {
+        "--seed": seed,
+        "--spp": options.spp,
+        "--noise": options.noise,
+        "--time": options.seconds,
+        "--cache": options.out / "cache",
+        "--out": f"{stem}.jpg",
+        "--stats": stats,
+    }
+    line = [str(program()), "render", str(options.scene)]
+    line += [str(word) for pair in words.items() for word in pair]
+    line += [word for key in options.overrides for word in ("-D", key)]
+    try:
+        status = subprocess.run(line, check=False, stdout=subprocess.DEVNULL).returncode
+    except OSError as error:
+        raise denoise.Failed(f"{line[0]}: {error.strerror}: cargo build --release") from error
+    if status != 0:
+        raise Stopped(status)
+    told = json.loads(stats.read_text(encoding="utf-8"))
+    picture = stem.with_name(f"{stem.name}.exr")
+    return Twin(picture, told["spp"], told["seconds"], told["peak_mib"])
+
+
+def noise(picture: Path) -> tuple[float, float]:
+    """Share of pixels within 1 %, and the error that 95 % do not exceed, both in percent."""
+    error, _ = relative_error(str(picture))
+    if not error.size:
+        return 100.0, 0.0
+    return 100 * float((error <= PERCENT).mean()), 100 * float(np.quantile(error, 0.95))
+
+
+def row(name: str, twins: Sequence[Twin], shown: Path) -> str:
+    """What was done, as a line below `HEADER`."""
+    image = oiio.ImageInput.open(str(shown))
+    spec = image.spec()
+    image.close()
+    bias = spec.get_string_attribute(denoise.NOTE).rpartition("bias of luminance ")[2]
+    shares, errors = zip(*(noise(twin.picture) for twin in twins), strict=True)
+    within, error = noise(shown)
+    cells = (
+        name,
+        f"{spec.width} × {spec.height}",
+        " + ".join(f"{twin.samples:.0f}" for twin in twins),
+        f"{sum(twin.seconds for twin in twins):.0f}",
+        f"{max(twin.mebibytes for twin in twins) * 2**20 / 1e9:.1f}",
+        f"{between(shares, '.0f')}, {between(errors, '.2g')}",
+        f"{within:.1f} %, {error:.2f} %",
+        bias,
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def between(values: Sequence[float], digits: str) -> str:
+    """The least and the greatest, in percent, as they are told."""
+    least, most = (format(value, digits) for value in (min(values), max(values)))
+    return f"{least} %" if least == most else f"{least} to {most} %"
+
+
+def arguments(words: list[str] | None) -> argparse.Namespace:
+    """What is to be done."""
+    parser = argparse.ArgumentParser(
+        prog="reference/print",
+        description="Renders a scene for print: the mean of several renders, each denoised, with "
+        "what is left of the noise and the bias.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("scene", type=Path, metavar="SCENE.toml")
+    parser.add_argument("--out", type=Path, default=Path(), metavar="FOLDER")
+    parser.add_argument(
+        "--twins", type=int, default=4, metavar="N", help="number of renders (default: 4)"
+    )
+    parser.add_argument(
+        "--seconds", type=float, default=300.0, help="time for each of them (default: 300)"
+    )
+    parser.add_argument(
+        "--spp", type=int, default=2048, help="most samples a pixel of each (default: 2048)"
+    )
+    parser.add_argument(
+        "--noise",
+        type=float,
+        default=0.02,
+        help="error, before denoising, at which a part of a picture has enough (default: 0.02)",
+    )
+    parser.add_argument(
+        "-D",
+        dest="overrides",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="override a value of the scene, as `lamina render` does",
+    )
+    options = parser.parse_args(words)
+    if options.twins < LEAST_TWINS:
+        parser.error(f"--twins {options.twins}: one picture does not tell its noise; 2 or more")
+    if not options.out.is_dir():
+        parser.error(f"--out {options.out}: there is no such folder")
+    return options
+
+
+def run(options: argparse.Namespace) -> None:
+    """Renders, denoises, and tells what was done."""
+    twins = [render(options, seed) for seed in range(1, options.twins + 1)]
+    name = name_of(options.scene)
+    first, *others = (twin.picture for twin in twins)
+    shown = options.out / f"{name}.exr"
+    denoise.run(
+        argparse.Namespace(
+            picture=first,
+            twin=others,
+            out=shown,
+            png=options.out / f"{name}.jpg",
+            no_guides=False,
+        )
+    )
+    print(f"\n{HEADER}\n{row(name, twins, shown)}")
+
+
+def main(words: list[str] | None = None) -> int:
+    """Renders a scene for print; the exit codes of `lamina`."""
+    try:
+        run(arguments(words))
+    except Stopped as stopped:
+        return stopped.status
+    except (denoise.Refused, denoise.Failed) as error:
+        print(f"reference/print: {error}", file=sys.stderr)
+        return 2 if isinstance(error, denoise.Refused) else 1
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
