@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Tests of `reference/noise`, of `reference/print`, and of the noise that `reference/denoise --twin`
-tells: run by `reference/self-test`.
+"""Tests of `reference/noise`, `reference/print`, and of the noise that is left of twins.
 
+Run by `reference/self-test`.
 Where Open Image Denoise is missing, what needs it is skipped and told.
 """
 
@@ -38,7 +38,7 @@ from denoisetest import (
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error
-from lamina_reference.prints import between, noise
+from lamina_reference.prints import aim, between, errors_of_blocks, noise
 from lamina_reference.prints import main as print_scene
 from lamina_reference.testing import run_tests
 from lamina_reference.twins import Bias, bias, left_noise
@@ -258,6 +258,52 @@ def test_a_print_is_the_mean_of_denoised_renders_and_tells_what_it_took() -> Non
         assert "mean of seeds 1 and 2" in note and note.endswith(f"luminance {cells[7]}"), note
 
 
+def test_the_time_of_a_print_goes_where_the_noise_is() -> None:
+    # Half of the blocks err by 0.2 at 32 samples, half not at all: the mean of 80 is 128 and 32.
+    errors = np.array([0.2, 0.0])
+    target = aim(errors, 80.0, 4096, 0.001)
+    assert 0.1 <= target < 0.1 * 1.011, target
+    # All alike have the same number each; what is affordable beyond the most is left.
+    target = aim(np.full(5, 0.2), 512.0, 4096, 0.001)
+    assert 0.05 <= target < 0.05 * 1.011, target
+    assert aim(errors, 80.0, 64, 0.001) == 0.001
+    # Nothing is aimed at below what was asked for, nor can less than the first samples be had.
+    assert aim(errors, 80.0, 4096, 0.15) == 0.15
+    assert 0.99 < aim(errors, 31.0, 4096, 0.001) <= 1.0
+
+
+def test_blocks_err_as_the_program_judges_them() -> None:
+    # 8 × 8 pixels and a rest of 8 × 2: root of the mean square over a tenth of the picture's mean
+    # and their own.
+    bright, error = np.full((8, 10), 2.0), np.zeros((8, 10))
+    bright[:, 8:], error[:, 8:], error[:4, :8] = 0.0, 0.01, 0.02
+    names = dict.fromkeys(("R", "G", "B"), bright)
+    variance = {f"variance.{name}": error**2 for name in "RGBY"}
+    with scratch() as folder:
+        write_channels(folder / "blocks.exr", names | variance)
+        found = errors_of_blocks(folder / "blocks.exr")
+    expected = [[0.02 * np.sqrt(0.5) / (2 + 0.16), 0.01 / 0.16]]
+    assert np.allclose(found, expected, rtol=1e-5), found
+
+
+def test_a_print_has_first_samples_everywhere_and_goes_on_with_the_rest() -> None:
+    with scratch() as folder:
+        scene, said, warned = folder / "leaf.toml", io.StringIO(), io.StringIO()
+        scene.write_text(SCENE, encoding="utf-8")
+        words = [str(scene), "--out", str(folder), "--twins", "2", "--spp", "64"]
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(warned):
+            assert print_scene([*words, "--noise", "0.0001"]) == 0
+        # There is time for all 64 of the leaf, of which the first 32 were there before; where
+        # there is no noise, 32 are all.
+        cells = said.getvalue().splitlines()[-1].strip("| ").split(" | ")
+        assert all(32 < int(samples) < 64 for samples in cells[2].split(" + ")), cells
+        for seed in (1, 2):
+            samples = read_channels(folder / f"leaf-{seed}.exr")["samples.Y"]
+            assert (samples.min(), samples.max()) == (32, 64), (samples.min(), samples.max())
+        assert "noisy parts can reach 0.01 %" in warned.getvalue(), warned.getvalue()
+        assert not list(folder.glob("*.checkpoint"))
+
+
 def run() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
     tests = dict(globals())
@@ -268,6 +314,7 @@ def run() -> int:
             test_twins_add_up_their_samples_and_leave_all_else_as_it_was,
             test_twins_without_light_have_no_noise_and_no_bias,
             test_a_print_is_the_mean_of_denoised_renders_and_tells_what_it_took,
+            test_a_print_has_first_samples_everywhere_and_goes_on_with_the_rest,
         ):
             del tests[test.__name__]
     return run_tests(tests, "noise")

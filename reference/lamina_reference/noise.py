@@ -26,10 +26,10 @@ def weights(names: Iterable[str]) -> dict[str, float]:
     return {name: 1.0 / len(bands) for name in bands} or LUMINANCE
 
 
-def relative_error(file: str) -> tuple[Array, bool]:
-    """The relative standard error of luminance of each pixel that is not black.
+def luminance_and_error(file: str) -> tuple[Array, Array, bool]:
+    """Luminance of each pixel and its standard error, `[height, width]` each.
 
-    Also whether it is only an upper bound. Raises SystemExit for a file without a variance.
+    Also whether the error is only an upper bound. Raises SystemExit for a file without a variance.
     """
     try:
         channels = read_channels(file)
@@ -47,6 +47,15 @@ def relative_error(file: str) -> tuple[Array, bool]:
     bounded = "variance.Y" not in channels
     if not bounded:
         error = np.sqrt(channels["variance.Y"])
+    return mean, error, bounded
+
+
+def relative_error(file: str) -> tuple[Array, bool]:
+    """The relative standard error of luminance of each pixel that is not black.
+
+    Also whether it is only an upper bound. Raises SystemExit for a file without a variance.
+    """
+    mean, error, bounded = luminance_and_error(file)
     lit = mean > 0.0
     return np.asarray(error[lit] / mean[lit]), bounded
 
