@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of `reference/noise`, `reference/print`, and of the noise that is left of twins.
+"""Tests of `reference/noise`, `reference/channels`, `reference/print`, and of twins.
 
 Run by `reference/self-test`.
 Where Open Image Denoise is missing, what needs it is skipped and told.
@@ -35,6 +35,7 @@ from denoisetest import (
     truth,
     write,
 )
+from lamina_reference.channels import colours
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error
@@ -109,6 +110,20 @@ def luminance(layers: dict[str, Array], names: tuple[str, ...] = ("R", "G", "B")
 def film_of(light: Array, seed: int = 1) -> dict[str, Array]:
     """Layers of a colour film with an error of luminance, whatever it be."""
     return colour_film(light, seed) | {"variance.Y": np.ones(light.shape[:2])}
+
+
+def test_channels_of_a_spectral_film_are_counted_in_its_grey() -> None:
+    with scratch() as folder:
+        file = folder / "bands.exr"
+        write_channels(file, {"A": GREY, BANDS[0]: GREY, BANDS[1]: 3 * GREY})
+        assert np.allclose(colours(file)[0], 2 * GREY[:, :, None].repeat(3, axis=2))
+        write_channels(file, {"A": GREY})
+        try:
+            colours(file)
+        except RuntimeError as error:
+            assert "bands.exr: it has neither channels R, G, B nor bands" in str(error), error
+        else:
+            raise AssertionError("a film without light was taken")
 
 
 def test_twins_tell_the_noise_that_is_left() -> None:

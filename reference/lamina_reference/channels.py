@@ -81,16 +81,21 @@ def run(binary: Path, *words: str) -> None:
 
 
 def colours(file: Path) -> tuple[Array, Array | None, dict[str, str]]:
-    """Colours of a picture, the numbers of objects if it tells them, and its attributes of text."""
+    """Colours of a picture, the numbers of objects if it tells them, and its attributes of text.
+
+    Of a spectral film the mean over its bands thrice, as it is shown in grey.
+    """
     pixels, spec = read(file)
     names = list(spec.channelnames)
     if {"R", "G", "B"} <= set(names):
-        places = [names.index(name) for name in "RGB"]
+        light = pixels[:, :, [names.index(name) for name in "RGB"]]
+    elif bands := [place for place, name in enumerate(names) if name.startswith("S0.")]:
+        light = pixels[:, :, bands].mean(-1, keepdims=True).repeat(3, axis=-1)
     else:
-        raise RuntimeError(f"{file}: it has no channels R, G, B")
+        raise RuntimeError(f"{file}: it has neither channels R, G, B nor bands S0.…nm")
     objects = pixels[:, :, names.index("id.object")] if "id.object" in names else None
     attributes = {entry.name: str(entry.value) for entry in spec.extra_attribs}
-    return pixels[:, :, places], objects, attributes
+    return light, objects, attributes
 
 
 def row(binary: Path, folder: Path, file: Path, name: str, *words: str) -> tuple[str, float]:
@@ -207,12 +212,16 @@ def main() -> int:
     lines, wrong = [], []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        if options.files:
-            lines += HEAD
-            lines += [row(options.lamina, folder, file, file.name)[0] for file in options.files]
-        if options.scenes:
-            found, wrong = of_scenes(options.lamina, folder)
-            lines += found
+        try:
+            if options.files:
+                lines += HEAD
+                lines += [row(options.lamina, folder, file, file.name)[0] for file in options.files]
+            if options.scenes:
+                found, wrong = of_scenes(options.lamina, folder)
+                lines += found
+        except (RuntimeError, OSError) as error:
+            print(f"reference/channels: {error}", file=sys.stderr)
+            return 2
     text = "\n".join(["## Channels", "", *lines])
     print(text)
     if options.record:
