@@ -301,6 +301,17 @@ def test_blocks_err_as_the_program_judges_them() -> None:
     assert np.allclose(found, expected, rtol=1e-5), found
 
 
+def test_a_print_refuses_a_target_noise_that_is_none() -> None:
+    warned = io.StringIO()
+    with scratch() as folder, contextlib.redirect_stderr(warned):
+        try:
+            print_scene(["leaf.toml", "--out", str(folder), "--noise", "2"])
+        except SystemExit as stop:
+            assert stop.code == 2 and "--noise 2.0: from 0 to 1" in warned.getvalue(), warned
+        else:
+            raise AssertionError("it was taken")
+
+
 def test_a_print_has_first_samples_everywhere_and_goes_on_with_the_rest() -> None:
     with scratch() as folder:
         scene, said, warned = folder / "leaf.toml", io.StringIO(), io.StringIO()

@@ -229,6 +229,8 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     options = parser.parse_args(words)
     if options.twins < LEAST_TWINS:
         parser.error(f"--twins {options.twins}: one picture does not tell its noise; 2 or more")
+    if not 0 <= options.noise <= LARGEST_AIM:
+        parser.error(f"--noise {options.noise}: from 0 to 1")
     if not options.out.is_dir():
         parser.error(f"--out {options.out}: there is no such folder")
     return options
