@@ -112,6 +112,18 @@ def film_of(light: Array, seed: int = 1) -> dict[str, Array]:
     return colour_film(light, seed) | {"variance.Y": np.ones(light.shape[:2])}
 
 
+def test_one_sample_a_pixel_does_not_tell_its_noise() -> None:
+    with scratch() as folder:
+        file = folder / "one.exr"
+        write_channels(file, film(("R", "G", "B")) | {"samples.Y": np.ones_like(GREY)})
+        try:
+            relative_error(str(file))
+        except SystemExit as stop:
+            assert "one.exr: one sample a pixel does not tell" in str(stop), stop
+        else:
+            raise AssertionError("its noise was told")
+
+
 def test_channels_of_a_spectral_film_are_counted_in_its_grey() -> None:
     with scratch() as folder:
         file = folder / "bands.exr"

@@ -18,6 +18,7 @@ from .exr import Array, read_channels
 
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 PERCENT = 0.01
+LEAST_SAMPLES = 2
 
 
 def weights(names: Iterable[str]) -> dict[str, float]:
@@ -29,7 +30,8 @@ def weights(names: Iterable[str]) -> dict[str, float]:
 def luminance_and_error(file: str) -> tuple[Array, Array, bool]:
     """Luminance of each pixel and its standard error, `[height, width]` each.
 
-    Also whether the error is only an upper bound. Raises SystemExit for a file without a variance.
+    Also whether the error is only an upper bound. Raises SystemExit for a file without a variance,
+    or of so few samples that its variance is none.
     """
     try:
         channels = read_channels(file)
@@ -39,6 +41,8 @@ def luminance_and_error(file: str) -> tuple[Array, Array, bool]:
     missing = [name for name in shares if {name, f"variance.{name}"} - set(channels)]
     if missing:
         raise SystemExit(f"{file}: has no layer variance of {', '.join(missing)}")
+    if "samples.Y" in channels and channels["samples.Y"].max() < LEAST_SAMPLES:
+        raise SystemExit(f"{file}: one sample a pixel does not tell how noisy it is")
     shape = next(iter(channels.values())).shape
     mean, error = np.zeros(shape), np.zeros(shape)
     for name, weight in shares.items():

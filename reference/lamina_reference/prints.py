@@ -27,7 +27,7 @@ import OpenImageIO as oiio
 
 from . import denoise
 from .exr import Array
-from .noise import PERCENT, luminance_and_error, relative_error, summary
+from .noise import LEAST_SAMPLES, PERCENT, luminance_and_error, relative_error, summary
 from .program import program
 
 LEAST_TWINS = 2
@@ -171,7 +171,9 @@ def row(name: str, twins: Sequence[Twin], shown: Path) -> str:
     spec = image.spec()
     image.close()
     bias = spec.get_string_attribute(denoise.NOTE).rpartition("bias of luminance ")[2]
-    shares, errors = zip(*(noise(twin.picture) for twin in twins), strict=True)
+    # One sample a pixel does not tell its noise.
+    known = [noise(twin.picture) for twin in twins if twin.samples >= LEAST_SAMPLES]
+    shares, errors = zip(*known, strict=True) if known else ((), ())
     within, error = noise(shown)
     cells = (
         name,
@@ -179,7 +181,7 @@ def row(name: str, twins: Sequence[Twin], shown: Path) -> str:
         " + ".join(f"{twin.samples:.0f}" for twin in twins),
         f"{sum(twin.seconds for twin in twins):.0f}",
         f"{max(twin.mebibytes for twin in twins) * 2**20 / 1e9:.1f}",
-        f"{between(shares, '.0f')}, {between(errors, '.2g')}",
+        f"{between(shares, '.0f')}, {between(errors, '.2g')}" if known else "–",
         f"{within:.1f} %, {error:.2f} %",
         bias,
     )
