@@ -21,6 +21,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenImageIO as oiio
@@ -69,7 +70,7 @@ class Stopped(Exception):
         self.status = status
 
 
-def trace(options: argparse.Namespace, seed: int, *words: object) -> dict[str, float]:
+def trace(options: argparse.Namespace, seed: int, *words: object) -> dict[str, Any]:
     """Runs the program with these words too, and returns what it tells of its run.
 
     What it says meanwhile is passed on.
@@ -86,7 +87,7 @@ def trace(options: argparse.Namespace, seed: int, *words: object) -> dict[str, f
         raise denoise.Failed(f"{line[0]}: {error.strerror}: cargo build --release") from error
     if status != 0:
         raise Stopped(status)
-    told: dict[str, float] = json.loads(stats.read_text(encoding="utf-8"))
+    told: dict[str, Any] = json.loads(stats.read_text(encoding="utf-8"))
     return told
 
 
