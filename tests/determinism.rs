@@ -7,7 +7,11 @@ use renderer::image::openexr;
 use renderer::integrator::caption::Caption;
 use renderer::integrator::develop::develop;
 use renderer::integrator::effort::Effort;
-use renderer::integrator::render::{Ended, Halt, Job, Rendered, begin, render_until};
+use renderer::integrator::layers::Layout;
+use renderer::integrator::render::{
+    Contact, Ended, Halt, Job, Rendered, begin, go_on, render_until,
+};
+use renderer::integrator::sample_map::SampleMap;
 use renderer::simd::Level;
 use support::picture::{mean_of, picture_of, world_of};
 
@@ -194,6 +198,63 @@ fn a_block_that_stopped_early_has_the_bits_of_its_first_samples() {
         }
         assert!(same > 0, "no pixel has {spp} samples");
     }
+}
+
+/// The scene rendered by a map of samples, from the first sample or from a target noise on.
+fn rendered_by(map: &SampleMap, threads: usize, aim: Option<f64>) -> Rendered {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("threads");
+    pool.install(|| {
+        let (_, world) = world_of(SCENE);
+        let job = Job {
+            width: 40,
+            height: 30,
+            spp: 60,
+            seed: 5,
+        };
+        let contact = Contact {
+            stop: &AtomicBool::new(false),
+            progress: &|_| (),
+            is_due: &|| false,
+            keep: &|_| (),
+        };
+        let mut begun = begin(&world, &job, aim, contact.stop).expect("it fits");
+        if aim.is_some() {
+            (begun, _) = go_on(&world, &job, begun, None, &contact);
+        }
+        let (begun, ended) = go_on(&world, &job, begun.by_map(map.clone()), None, &contact);
+        assert_eq!(ended, Ended::Samples);
+        Rendered::new(begun, Layout::new(&world.wavelengths), ended)
+    })
+}
+
+#[test]
+fn by_a_map_of_samples_each_block_has_the_bits_of_so_many() {
+    // Five by four blocks, the lowest of fewer pixels; what is beyond the job's 60 counts as 60.
+    let wanted = |x: u32, y: u32| [3, 37, 80][((x / 8 + y / 8) % 3) as usize];
+    let values: Vec<f32> = (0..30)
+        .flat_map(|y| (0..40).map(move |x| wanted(x, y) as f32))
+        .collect();
+    let map = SampleMap::new(40, &values).expect("it is a map");
+    let plain = [3, 37, 60].map(|spp| rendered(2, spp, Halt::default()).0);
+    let check = |by_map: &Rendered, least: u32| {
+        for (x, y) in (0..30).flat_map(|y| (0..40).map(move |x| (x, y))) {
+            let pixel = by_map.film.pixel(x, y);
+            assert_eq!(pixel.samples(), wanted(x, y).min(60).max(least), "{x}, {y}");
+            let same = plain.iter().map(|plain| plain.film.pixel(x, y));
+            for same in same.filter(|same| same.samples() == pixel.samples()) {
+                let of = |pixel: &renderer::film::Pixel<'_>| [0, 1, 2].map(|c| pixel.mean(c));
+                assert_eq!(of(&pixel), of(&same), "{x}, {y}");
+            }
+        }
+    };
+    for threads in [1, 3] {
+        check(&rendered_by(&map, threads, None), 0);
+    }
+    // All blocks stop at 32 samples for an error of 1; then the map leads them on.
+    check(&rendered_by(&map, 2, Some(1.0)), 32);
 }
 
 #[test]

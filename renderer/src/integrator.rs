@@ -57,4 +57,5 @@ pub mod mis;
 pub mod noise;
 pub mod path;
 pub mod render;
+pub mod sample_map;
 mod trial;

@@ -195,6 +195,11 @@ pub struct RenderArguments {
     /// 0.01 is one percent, 0 gives every pixel all its samples
     #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
     pub noise: Option<f64>,
+    /// Samples by a map instead of a target noise: an EXR of the picture's size with a channel
+    /// `samples.Y`, as every picture has one; a block of 8 × 8 pixels gets the most that is named in
+    /// it, and of --spp and the map the fewer
+    #[arg(long, value_name = "MAP.exr", conflicts_with_all = ["noise", "samples"])]
+    pub samples_map: Option<PathBuf>,
     /// Stop rendering after this time, at the end of the pass that is under way
     #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
     pub time: Option<f64>,

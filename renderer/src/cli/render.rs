@@ -81,6 +81,10 @@ pub(super) fn run(arguments: &RenderArguments, line: &[OsString]) -> Result<(), 
             .map_err(Failure::bad)?
             .from_sample(plan.first),
     };
+    let begun = match plan.map {
+        Some(map) => begun.by_map(map),
+        None => begun,
+    };
     let before = [begun.film.drawn(), begun.rays];
     let reporter = Reporter::new(time.map(|time| time.saturating_sub(begun.elapsed)));
     let (begun, ended) = pool.install(|| {

@@ -130,20 +130,6 @@ impl NoiseWatch {
         self.blocks[block].goal.min(self.most)
     }
 
-    /// Greatest number of samples at which a block stops, by present knowledge.
-    pub fn last_goal(&self) -> u32 {
-        let goals = self.blocks.iter().map(|block| block.goal);
-        goals.max().unwrap_or(0).min(self.most)
-    }
-
-    /// Total number of paths, by present knowledge.
-    pub fn expected_paths(&self, film: &Film) -> u64 {
-        let blocks = 0..self.blocks.len();
-        blocks
-            .map(|number| u64::from(self.goal(number)) * u64::from(film.pixels_of(number)))
-            .sum()
-    }
-
     /// Judges the blocks that have come to the border at `samples` samples.
     ///
     /// Blocks that stopped before it keep what is known of them, and so do those that were beyond it
@@ -377,6 +363,5 @@ mod tests {
         let (film, watch) = exposed(0.01, 1000, |_, _, _| 0.0);
         assert_eq!(film.drawn_range(), [32, 32]);
         assert_eq!(watch.reached(&film), Some(0.0));
-        assert_eq!(watch.expected_paths(&film), film.drawn());
     }
 }

@@ -12,6 +12,7 @@ use crate::integrator::features;
 pub use crate::integrator::job::Job;
 use crate::integrator::layers::Layout;
 use crate::integrator::noise::{self, NoiseWatch};
+use crate::integrator::sample_map::SampleMap;
 use crate::integrator::trial;
 use crate::scene::world::World;
 
@@ -28,7 +29,7 @@ pub struct Halt {
 /// Why a render ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// Every pixel has the job's samples.
+    /// Every pixel has the job's samples, or those that the map has for it.
     Samples,
     /// Every block has the samples that it needs for the target error, or the job's.
     Noise,
@@ -53,6 +54,8 @@ pub struct Rendered {
     pub ended: Ended,
     /// The noise reached, if there was a target.
     pub noise: Option<Noise>,
+    /// The map of samples, if there was one.
+    pub map: Option<SampleMap>,
     first: u32,
     watch: Option<NoiseWatch>,
     elapsed: Duration,
@@ -92,6 +95,8 @@ pub struct Begun {
     pub rays: u64,
     /// What is known of the noise, if there is a target.
     pub watch: Option<NoiseWatch>,
+    /// Samples by block, if they are not the same everywhere; then there is no target noise.
+    pub map: Option<SampleMap>,
     /// Time that was spent on it.
     pub elapsed: Duration,
 }
@@ -116,6 +121,7 @@ impl Begun {
             effort,
             rays: 0,
             watch,
+            map: None,
             elapsed: Duration::ZERO,
         })
     }
@@ -147,6 +153,16 @@ impl Begun {
         self
     }
 
+    /// This render, going on to the samples that a map has for each block, or to those of the job
+    /// where they are fewer. Blocks that have more keep them.
+    pub fn by_map(self, map: SampleMap) -> Self {
+        Self {
+            watch: None,
+            map: Some(map),
+            ..self
+        }
+    }
+
     /// Number of the sample behind the last one of a block.
     fn end_of(&self, block: usize) -> u32 {
         self.first + self.film.drawn_of(block)
@@ -154,9 +170,21 @@ impl Begun {
 
     /// Number of the sample at which a block stops.
     fn goal(&self, block: usize, job: &Job) -> u32 {
-        self.watch
-            .as_ref()
-            .map_or(job.spp, |watch| watch.goal(block))
+        match (&self.map, &self.watch) {
+            (Some(map), _) => map.goal(block).min(job.spp),
+            (None, Some(watch)) => watch.goal(block),
+            (None, None) => job.spp,
+        }
+    }
+
+    /// Number of paths from the first one to the end, by present knowledge.
+    fn expected_paths(&self, job: &Job) -> u64 {
+        let blocks = 0..self.film.blocks();
+        let of_block = |block| {
+            let samples = self.goal(block, job).max(self.end_of(block)) - self.first;
+            u64::from(samples) * u64::from(self.film.pixels_of(block))
+        };
+        blocks.map(of_block).sum()
     }
 
     /// Number of the first sample that a block still lacks; `None` if all have theirs.
@@ -269,12 +297,10 @@ pub fn go_on(
         paths: AtomicU64::new(0),
         total: AtomicU64::new(0),
     };
-    let samples = u64::from(job.spp.saturating_sub(begun.first));
-    let all = u64::from(job.width) * u64::from(job.height) * samples;
     let ended = 'passes: loop {
         let Some(next) = begun.next(job) else {
             let [_, most] = begun.film.drawn_range();
-            break if begun.first + most >= job.spp {
+            break if begun.map.is_some() || begun.first + most >= job.spp {
                 Ended::Samples
             } else {
                 Ended::Noise
@@ -288,8 +314,7 @@ pub fn go_on(
             break Ended::Time;
         };
         let end = job.spp.min(next.saturating_add(longest));
-        let watch = begun.watch.as_ref();
-        let total = watch.map_or(all, |watch| watch.expected_paths(&begun.film));
+        let total = begun.expected_paths(job);
         pass.total
             .store(total - drawn.min(total), Ordering::Relaxed);
         // A pass that was left to keep the state goes on where it was.
@@ -332,6 +357,7 @@ impl Rendered {
             ended,
             first: begun.first,
             watch: begun.watch,
+            map: begun.map,
             elapsed: begun.elapsed,
         }
     }
@@ -344,6 +370,7 @@ impl Rendered {
             effort: self.effort,
             rays: self.rays,
             watch: self.watch,
+            map: self.map,
             elapsed: self.elapsed,
         }
     }

@@ -54,6 +54,8 @@ fn bad_arguments_end_with_code_2() {
         "lamina render a.toml --time -1",
         "lamina render a.toml --time inf",
         "lamina render a.toml --time 10s",
+        "lamina render a.toml --samples-map m.exr --noise 0.1",
+        "lamina render a.toml --samples-map m.exr --samples 0..4",
         "lamina render a.toml --samples 5",
         "lamina render a.toml --samples 5..5",
         "lamina render a.toml --samples 8..4",

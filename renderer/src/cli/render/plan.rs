@@ -9,10 +9,15 @@ use crate::cli::picture_files::{kind_of, stem_of, with_ending};
 use crate::cli::places::{Lock, check_outputs};
 use crate::cli::signals::Signals;
 use crate::image::atomic::{Destination, destination};
+use crate::image::openexr;
 use crate::integrator::caption::Caption;
 use crate::integrator::render::{Begun, Job};
+use crate::integrator::sample_map::SampleMap;
 use crate::scene::fingerprint::fingerprint;
 use crate::scene::load::Loaded;
+
+/// The channel of a picture with the number of samples of each pixel.
+const SAMPLES: &str = "samples.Y";
 
 /// The files that a render writes.
 #[derive(Debug)]
@@ -57,7 +62,12 @@ impl Files {
         outputs.extend(arguments.stats.as_deref());
         let mut inputs = loaded.inputs.clone();
         inputs.push(arguments.scene.scene.clone());
-        check_outputs(&outputs, &inputs, "the scene")?;
+        inputs.extend(arguments.samples_map.clone());
+        let reader = match arguments.samples_map {
+            Some(_) => "the render",
+            None => "the scene",
+        };
+        check_outputs(&outputs, &inputs, reader)?;
         // The picture to look at and the statistics go with the first output.
         let mut locks = Vec::new();
         for output in [outputs[0], &checkpoint] {
@@ -101,6 +111,8 @@ pub(super) struct Plan {
     pub(super) heading: Heading,
     /// Number of the first sample.
     pub(super) first: u32,
+    /// Samples by block, if they are not the same everywhere.
+    pub(super) map: Option<SampleMap>,
     /// What an earlier run left.
     pub(super) before: Option<Begun>,
 }
@@ -133,11 +145,20 @@ impl Plan {
         let kept = before.as_ref().map(|(heading, _)| heading);
         let film = &loaded.description.film;
         let first = arguments.samples.map_or(0, |samples| samples.first);
-        // What the command line leaves open is as it was.
-        let spp = arguments.spp.or(kept.map(|kept| kept.job.spp));
+        let size = [film.width, film.height];
+        let map = arguments.samples_map.as_deref();
+        let map = map.map(|path| read_map(path, size)).transpose()?;
+        // What the command line leaves open is as it was; blocks that have more than a map names
+        // keep them.
+        let most = map.as_ref().map(|map| {
+            let drawn = before.as_ref().map(|(_, begun)| begun.film.drawn_range());
+            map.most().max(drawn.map_or(0, |[_, most]| most))
+        });
+        let spp = arguments.spp.or(most).or(kept.map(|kept| kept.job.spp));
         let aim = match (arguments.noise, kept) {
             // 0 on the command line switches off the scene's setting.
             (Some(noise), _) => Some(noise).filter(|&noise| noise > 0.0),
+            (None, _) if map.is_some() => None,
             (None, Some(kept)) => kept.aim,
             (None, None) => film.noise,
         };
@@ -168,9 +189,27 @@ impl Plan {
         Ok(Self {
             heading,
             first,
+            map,
             before: before.map(|(_, begun)| begun),
         })
     }
+}
+
+/// The map of samples in a file, of a picture of this size.
+fn read_map(path: &Path, [width, height]: [u32; 2]) -> Result<SampleMap, Failure> {
+    let told = |what: &str| Failure::bad(format!("--samples-map {}: {what}", path.display()));
+    let picture =
+        openexr::read(path).map_err(|error| Failure::bad(format!("--samples-map {error}")))?;
+    if [picture.width, picture.height] != [width, height] {
+        return Err(told(&format!(
+            "it has {} × {} pixels; the picture has {width} × {height}",
+            picture.width, picture.height
+        )));
+    }
+    let Some(samples) = picture.layer(SAMPLES) else {
+        return Err(told(&format!("it has no channel {SAMPLES}")));
+    };
+    SampleMap::new(width, &samples.data).map_err(|error| told(&format!("{SAMPLES}: {error}")))
 }
 
 /// Whether the samples asked for can be a part of a picture.

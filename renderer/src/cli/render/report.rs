@@ -93,6 +93,14 @@ pub(super) fn tell_samples(rendered: &Rendered) {
             |reached| format!("noise {reached:.4}, aimed at {}", noise.aim),
         );
         eprintln!("{fewest} to {most} samples a pixel, {mean:.1} on average; {reached}");
+    } else if rendered.map.is_some() {
+        let is_over = rendered.ended == Ended::Time;
+        let over = if is_over {
+            ", then the time was over"
+        } else {
+            ""
+        };
+        eprintln!("{fewest} to {most} samples a pixel by the map, {mean:.1} on average{over}");
     } else if rendered.ended == Ended::Time {
         eprintln!("{most} samples a pixel, then the time was over");
     }
