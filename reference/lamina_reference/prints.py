@@ -3,8 +3,9 @@
 Several renders of other seeds, the twins, are denoised each alone; their mean is the picture, and
 `twins` tells what is left of its noise, and the bias. What was done is told as a line of a table.
 
-The first twin begins with a few samples everywhere. They tell by which target noise the time for a
-twin goes where it is needed: what is even has enough of them, what is noisy gets the rest.
+Half of the time goes where single renders are noisy: the first twin begins with a few samples
+everywhere, which tell by which target noise. The rest goes where what is shown still errs, which
+only the twins tell, once they are denoised.
 
 - In: a scene file; seconds for each twin.
 - Out, in FOLDER: NAME-1.exr, NAME-1.json (times, memory) and so on of each twin; NAME.exr, and
@@ -27,20 +28,26 @@ import numpy as np
 import OpenImageIO as oiio
 
 from . import denoise
-from .exr import Array
-from .noise import LEAST_SAMPLES, PERCENT, luminance_and_error, relative_error, summary
+from .allotment import (
+    FIRST,
+    LARGEST_AIM,
+    aim,
+    grown,
+    samples_of,
+    shown_aim,
+    shown_errors,
+    traced_errors,
+    write_map,
+)
+from .noise import LEAST_SAMPLES, PERCENT, relative_error, summary
 from .program import program
 
 LEAST_TWINS = 2
-# How the program judges where there is enough (the book, Adaptive sampling): not before so many
-# samples, in steps of so many, by blocks of so many pixels across, of which dark ones are relative
-# to a share of the picture's mean too.
-FIRST = 32
-STEP = 16
-BLOCK = 8
-FLOOR = 0.1
-# A target that every part meets at once; the greatest that the program takes.
-LARGEST_AIM = 1.0
+# Share of the time that goes where single renders are noisy, before anything is denoised.
+BEFORE = 0.5
+# Errors of blocks are known from few twins, so that some are larger than they seem: what is aimed
+# at is this share of the error that is asked for.
+MARGIN = 0.85
 HEADER = (
     "| scene | size | samples | seconds | memory, GB | as traced: within 1 %, 95 % within | "
     "as shown: within 1 %, 95 % within | bias |\n|---|---|---|---|---|---|---|---|"
@@ -49,12 +56,22 @@ HEADER = (
 
 @dataclass
 class Twin:
-    """One render: its picture, and what it took."""
+    """One render: its picture, and what it took until now."""
 
+    seed: int
     picture: Path
     samples: float
+    # Of all its runs.
     seconds: float
     mebibytes: float
+    # Of the last one: until it could begin to trace, and in all, as `samples` count.
+    building: float
+    tracing: float
+
+    @property
+    def checkpoint(self) -> Path:
+        """From where it goes on."""
+        return self.picture.with_suffix(".checkpoint")
 
 
 def name_of(scene: Path) -> str:
@@ -70,7 +87,7 @@ class Stopped(Exception):
         self.status = status
 
 
-def trace(options: argparse.Namespace, seed: int, *words: object) -> dict[str, Any]:
+def run_program(options: argparse.Namespace, seed: int, *words: object) -> dict[str, Any]:
     """Runs the program with these words too, and returns what it tells of its run.
 
     What it says meanwhile is passed on.
@@ -91,73 +108,70 @@ def trace(options: argparse.Namespace, seed: int, *words: object) -> dict[str, A
     return told
 
 
-def render(options: argparse.Namespace, seed: int, noise: float) -> Twin:
-    """One twin, in one go."""
-    limits = ("--spp", options.spp, "--noise", noise, "--time", options.seconds)
-    told = trace(options, seed, *limits)
+def trace(
+    options: argparse.Namespace, seed: int, time: float, *words: object, before: Twin | None = None
+) -> Twin:
+    """A twin, from its first sample or from where it came before; it can go on."""
     picture = options.out / f"{name_of(options.scene)}-{seed}.exr"
-    return Twin(picture, told["spp"], told["seconds"], told["peak_mib"])
+    limits = ("--time", time, "--checkpoint", picture.with_suffix(".checkpoint"))
+    resumed = ("--resume",) if before else ()
+    told = run_program(options, seed, *words, *limits, *resumed)
+    return Twin(
+        seed=seed,
+        picture=picture,
+        samples=told["spp"],
+        seconds=told["seconds"] + (before.seconds if before else 0.0),
+        mebibytes=max(told["peak_mib"], before.mebibytes if before else 0.0),
+        building=told["build_seconds"],
+        tracing=told["trace_seconds"] + (before.tracing if before else 0.0),
+    )
 
 
-def render_first(options: argparse.Namespace, seed: int) -> tuple[Twin, float]:
-    """The first twin, and the target noise for which the time of a twin is about enough."""
-    if options.noise == 0 or options.spp <= FIRST:
-        return render(options, seed, options.noise), options.noise
-    picture = options.out / f"{name_of(options.scene)}-{seed}.exr"
-    checkpoint = picture.with_suffix(".checkpoint")
-    kept = ("--checkpoint", checkpoint)
-    limits = ("--spp", FIRST, "--noise", LARGEST_AIM, "--time", options.seconds)
-    told = trace(options, seed, *limits, *kept)
-    twin = Twin(picture, told["spp"], told["seconds"], told["peak_mib"])
-    left = options.seconds - twin.seconds
+def first_twin(options: argparse.Namespace, time: float) -> tuple[Twin, float]:
+    """The first twin, and the target noise for which this time is about enough."""
+    twin = trace(options, 1, time, "--spp", FIRST, "--noise", LARGEST_AIM)
+    left = time - twin.seconds
     if twin.samples < FIRST or left < 1:
         return twin, options.noise
-    affordable = FIRST * (1 + left / told["trace_seconds"])
-    noise = aim(errors_of_blocks(picture), affordable, options.spp, options.noise)
+    affordable = FIRST * (1 + left / twin.tracing)
+    noise = aim(traced_errors(twin.picture), affordable, options.spp, options.noise)
     print(
         f"{FIRST} samples everywhere took {twin.seconds:.0f} s; in {left:.0f} s more, noisy parts "
         f"can reach {noise / PERCENT:.2g} %",
         file=sys.stderr,
     )
-    limits = ("--spp", options.spp, "--noise", noise, "--time", left)
-    told = trace(options, seed, *limits, *kept, "--resume")
-    checkpoint.unlink(missing_ok=True)
-    seconds, mebibytes = twin.seconds + told["seconds"], max(twin.mebibytes, told["peak_mib"])
-    return Twin(picture, told["spp"], seconds, mebibytes), noise
+    limits = ("--spp", options.spp, "--noise", noise)
+    return trace(options, 1, left, *limits, before=twin), noise
 
 
-def errors_of_blocks(picture: Path) -> Array:
-    """The relative error of each block of pixels, as the program judges it."""
-    bright, error, _ = luminance_and_error(str(picture))
-    rows, columns = (np.arange(0, length, BLOCK) for length in bright.shape)
-
-    def total(values: Array) -> Array:
-        return np.asarray(np.add.reduceat(np.add.reduceat(values, rows, 0), columns, 1))
-
-    pixels = total(np.ones_like(bright))
-    scale = total(bright) / pixels + FLOOR * bright.mean()
-    return np.asarray(np.sqrt(total(error**2) / pixels) / np.maximum(scale, np.finfo(float).tiny))
-
-
-def aim(errors: Array, affordable: float, most: int, least: float) -> float:
-    """The lowest target noise from `least` on that `affordable` samples a pixel are enough for.
-
-    `affordable` is a mean over blocks, `errors` are the blocks' own at `FIRST` samples and fall
-    with the root of their number; no block gets more samples than `most`. Noisy parts take longer
-    a sample than even ones, of which this knows nothing: the limit of time holds all the same.
-    """
-
-    def samples(noise: float) -> float:
-        needed = STEP * np.ceil(FIRST * (errors / noise) ** 2 / STEP)
-        return float(np.clip(needed, FIRST, most).mean())
-
-    low, high = least, LARGEST_AIM
-    if samples(low) <= affordable:
-        return low
-    while high / low > 1 + PERCENT:
-        middle = float(np.sqrt(low * high))
-        low, high = (low, middle) if samples(middle) <= affordable else (middle, high)
-    return high
+def improved(options: argparse.Namespace, twins: list[Twin], shown: Path) -> list[Twin]:
+    """The twins with more samples where what is shown of them errs; as they are if it does not."""
+    left = min(options.seconds - twin.seconds - twin.building for twin in twins)
+    if left < 1:
+        return twins
+    errors, samples = shown_errors(shown), [samples_of(twin.picture) for twin in twins]
+    affordable = float(np.mean([twin.samples * left / twin.tracing for twin in twins]))
+    least = MARGIN * options.error
+    target = shown_aim(samples, errors, affordable, options.spp, least)
+    wanted = [grown(had, errors, target, options.spp) for had in samples]
+    if all((more == had).all() for more, had in zip(wanted, samples, strict=True)):
+        return twins
+    print(
+        f"of what is shown, 95 % of the pixels are within {noise(shown)[1]:.2g} %; in {left:.0f} s "
+        f"more for each render, what errs most can come to {target / PERCENT:.2g} %",
+        file=sys.stderr,
+    )
+    image = oiio.ImageInput.open(str(shown))
+    shape = image.spec().height, image.spec().width
+    image.close()
+    made = []
+    for twin, more in zip(twins, wanted, strict=True):
+        file = twin.picture.with_suffix(".map.exr")
+        write_map(file, more, shape)
+        words = ("--spp", options.spp, "--samples-map", file)
+        made.append(trace(options, twin.seed, left, *words, before=twin))
+        file.unlink()
+    return made
 
 
 def noise(picture: Path) -> tuple[float, float]:
@@ -222,6 +236,12 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         "there is no time for it (default: 0.02; 0: samples are the same everywhere)",
     )
     parser.add_argument(
+        "--error",
+        type=float,
+        default=0.01,
+        help="error of what is shown at which a part of it has enough (default: 0.01)",
+    )
+    parser.add_argument(
         "-D",
         dest="overrides",
         action="append",
@@ -234,20 +254,18 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         parser.error(f"--twins {options.twins}: one picture does not tell its noise; 2 or more")
     if not 0 <= options.noise <= LARGEST_AIM:
         parser.error(f"--noise {options.noise}: from 0 to 1")
+    if not 0 < options.error <= LARGEST_AIM:
+        parser.error(f"--error {options.error}: above 0, at most 1")
     if not options.out.is_dir():
         parser.error(f"--out {options.out}: there is no such folder")
     return options
 
 
-def run(options: argparse.Namespace) -> None:
-    """Renders, denoises, and tells what was done."""
-    # Whether it is there is known before the renders, which take many minutes.
-    denoise.Denoiser()
-    twin, target = render_first(options, 1)
-    twins = [twin, *(render(options, seed, target) for seed in range(2, options.twins + 1))]
+def mean_of(options: argparse.Namespace, twins: Sequence[Twin]) -> Path:
+    """The mean of denoised twins, as an EXR and a JPEG."""
     name = name_of(options.scene)
     first, *others = (twin.picture for twin in twins)
-    shown = options.out / f"{name}.exr"
+    shown: Path = options.out / f"{name}.exr"
     denoise.run(
         argparse.Namespace(
             picture=first,
@@ -257,7 +275,31 @@ def run(options: argparse.Namespace) -> None:
             no_guides=False,
         )
     )
-    print(f"\n{HEADER}\n{row(name, twins, shown)}")
+    return shown
+
+
+def run(options: argparse.Namespace) -> None:
+    """Renders, denoises, and tells what was done."""
+    # Whether it is there is known before the renders, which take many minutes.
+    denoise.Denoiser()
+    seeds = range(1, options.twins + 1)
+    if options.noise == 0 or options.spp <= FIRST:
+        alike = ("--spp", options.spp, "--noise", 0)
+        twins = [trace(options, seed, options.seconds, *alike) for seed in seeds]
+        shown = mean_of(options, twins)
+    else:
+        time = BEFORE * options.seconds
+        twin, target = first_twin(options, time)
+        limits = ("--spp", options.spp, "--noise", target)
+        twins = [twin, *(trace(options, seed, time, *limits) for seed in seeds[1:])]
+        shown = mean_of(options, twins)
+        more = improved(options, twins, shown)
+        if more is not twins:
+            twins = more
+            shown = mean_of(options, twins)
+    for twin in twins:
+        twin.checkpoint.unlink(missing_ok=True)
+    print(f"\n{HEADER}\n{row(name_of(options.scene), twins, shown)}")
 
 
 def main(words: list[str] | None = None) -> int:
