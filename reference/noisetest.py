@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
+import json
 import sys
 import tempfile
 from pathlib import Path
@@ -419,6 +420,42 @@ def test_a_print_goes_on_where_what_is_shown_errs() -> None:
         assert (samples == 32).all(), samples.max()
 
 
+def test_a_print_that_was_kept_goes_on() -> None:
+    with scratch() as folder:
+        scene, said, warned = folder / "leaf.toml", io.StringIO(), io.StringIO()
+        scene.write_text(SCENE, encoding="utf-8")
+        words = [str(scene), "--out", str(folder), "--twins", "2", "--noise", "1"]
+        resumed = [str(scene), "--out", str(folder), "--resume", "--error", "0.0001"]
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(warned):
+            assert print_scene(resumed) == 2
+            assert print_scene([*words, "--error", "1", "--keep"]) == 0
+            memory = folder / "leaf.twins.json"
+            before = json.loads(memory.read_text(encoding="utf-8"))
+            assert print_scene(resumed) == 0
+            after = json.loads(memory.read_text(encoding="utf-8"))
+        for one, other in zip(before, after, strict=True):
+            samples = read_channels(folder / one["picture"])["samples.Y"]
+            assert (samples.min(), samples.max()) == (32, 128), (samples.min(), samples.max())
+            # Its time is that of both.
+            assert one["samples"] == 32 and other["samples"] == samples.mean()
+            assert other["seconds"] > one["seconds"] and other["tracing"] > one["tracing"]
+        # What is missing is told.
+        (folder / "leaf-2.checkpoint").unlink()
+        with contextlib.redirect_stderr(warned):
+            assert print_scene(resumed) == 2
+            memory.write_text("{}", encoding="utf-8")
+            (folder / "leaf-2.checkpoint").touch()
+            assert print_scene(resumed) == 2
+            memory.write_text('[{"seed": 1}]', encoding="utf-8")
+            assert print_scene(resumed) == 2
+        for problem in (
+            "leaf.twins.json: No such file or directory: a print with --keep writes it",
+            "leaf-2.checkpoint: it is missing",
+            "leaf.twins.json: it was not written by reference/print",
+        ):
+            assert problem in warned.getvalue(), warned.getvalue()
+
+
 def run() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
     tests = dict(globals())
@@ -431,6 +468,7 @@ def run() -> int:
             test_a_print_is_the_mean_of_denoised_renders_and_tells_what_it_took,
             test_a_print_has_first_samples_everywhere_and_goes_on_with_the_rest,
             test_a_print_goes_on_where_what_is_shown_errs,
+            test_a_print_that_was_kept_goes_on,
         ):
             del tests[test.__name__]
     return run_tests(tests, "noise")

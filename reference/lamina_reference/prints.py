@@ -9,7 +9,8 @@ only the twins tell, once they are denoised.
 
 - In: a scene file; seconds for each twin.
 - Out, in FOLDER: NAME-1.exr, NAME-1.json (times, memory) and so on of each twin; NAME.exr, and
-  NAME.jpg to look at; `cache` with grown leaves.
+  NAME.jpg to look at; `cache` with grown leaves. If it is to go on later, what each twin needs for
+  that: NAME-1.checkpoint and so on, NAME.twins.json.
 - Always true: what one twin has rendered stays if another fails.
 """
 
@@ -20,7 +21,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +60,7 @@ class Twin:
     """One render: its picture, and what it took until now."""
 
     seed: int
+    # An EXR.
     picture: Path
     samples: float
     # Of all its runs.
@@ -72,6 +74,39 @@ class Twin:
     def checkpoint(self) -> Path:
         """From where it goes on."""
         return self.picture.with_suffix(".checkpoint")
+
+
+def memory_of(options: argparse.Namespace) -> Path:
+    """The file from which a print goes on later."""
+    file: Path = options.out / f"{name_of(options.scene)}.twins.json"
+    return file
+
+
+def remember(options: argparse.Namespace, twins: Sequence[Twin]) -> None:
+    """Writes what twins took."""
+    told = [asdict(twin) | {"picture": twin.picture.name} for twin in twins]
+    memory_of(options).write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+
+
+def remembered(options: argparse.Namespace) -> list[Twin]:
+    """The twins of an earlier print that can go on."""
+    file = memory_of(options)
+    try:
+        told = json.loads(file.read_text(encoding="utf-8"))
+        twins = [Twin(**twin | {"picture": options.out / twin["picture"]}) for twin in told]
+        if len(twins) < LEAST_TWINS:
+            raise ValueError(f"it names {len(twins)} renders")
+    except OSError as error:
+        raise denoise.Refused(
+            f"{file}: {error.strerror}: a print with --keep writes it, and --resume goes on from it"
+        ) from error
+    except (ValueError, TypeError, KeyError) as error:
+        raise denoise.Refused(f"{file}: it was not written by reference/print: {error}") from error
+    for twin in twins:
+        for part in (twin.picture, twin.checkpoint):
+            if not part.exists():
+                raise denoise.Refused(f"{part}: it is missing, and without it no print goes on")
+    return twins
 
 
 def name_of(scene: Path) -> str:
@@ -144,9 +179,13 @@ def first_twin(options: argparse.Namespace, time: float) -> tuple[Twin, float]:
     return trace(options, 1, left, *limits, before=twin), noise
 
 
-def improved(options: argparse.Namespace, twins: list[Twin], shown: Path) -> list[Twin]:
-    """The twins with more samples where what is shown of them errs; as they are if it does not."""
-    left = min(options.seconds - twin.seconds - twin.building for twin in twins)
+def improved(
+    options: argparse.Namespace, twins: list[Twin], shown: Path, left: float
+) -> list[Twin]:
+    """The twins with more samples where what is shown of them errs; as they are if it does not.
+
+    Each has so many seconds left for it.
+    """
     if left < 1:
         return twins
     errors, samples = shown_errors(shown), [samples_of(twin.picture) for twin in twins]
@@ -242,6 +281,17 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         help="error of what is shown at which a part of it has enough (default: 0.01)",
     )
     parser.add_argument(
+        "--keep",
+        action="store_true",
+        help="keep what it takes to go on later: 60 to 110 bytes a pixel of each render",
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from an earlier print that was kept, where what is shown of it errs, for "
+        "--seconds more for each render; it is kept again",
+    )
+    parser.add_argument(
         "-D",
         dest="overrides",
         action="append",
@@ -282,24 +332,35 @@ def run(options: argparse.Namespace) -> None:
     """Renders, denoises, and tells what was done."""
     # Whether it is there is known before the renders, which take many minutes.
     denoise.Denoiser()
+    twins, shown, left = remembered_or_first(options)
+    more = improved(options, twins, shown, left)
+    if more is not twins:
+        twins = more
+        shown = mean_of(options, twins)
+    if options.keep or options.resume:
+        remember(options, twins)
+    else:
+        for twin in twins:
+            twin.checkpoint.unlink(missing_ok=True)
+    print(f"\n{HEADER}\n{row(name_of(options.scene), twins, shown)}")
+
+
+def remembered_or_first(options: argparse.Namespace) -> tuple[list[Twin], Path, float]:
+    """Twins as they are before what is shown tells more; their mean; seconds left for each."""
+    if options.resume:
+        twins = remembered(options)
+        return twins, mean_of(options, twins), options.seconds
     seeds = range(1, options.twins + 1)
     if options.noise == 0 or options.spp <= FIRST:
         alike = ("--spp", options.spp, "--noise", 0)
         twins = [trace(options, seed, options.seconds, *alike) for seed in seeds]
-        shown = mean_of(options, twins)
-    else:
-        time = BEFORE * options.seconds
-        twin, target = first_twin(options, time)
-        limits = ("--spp", options.spp, "--noise", target)
-        twins = [twin, *(trace(options, seed, time, *limits) for seed in seeds[1:])]
-        shown = mean_of(options, twins)
-        more = improved(options, twins, shown)
-        if more is not twins:
-            twins = more
-            shown = mean_of(options, twins)
-    for twin in twins:
-        twin.checkpoint.unlink(missing_ok=True)
-    print(f"\n{HEADER}\n{row(name_of(options.scene), twins, shown)}")
+        return twins, mean_of(options, twins), 0.0
+    time = BEFORE * options.seconds
+    twin, target = first_twin(options, time)
+    limits = ("--spp", options.spp, "--noise", target)
+    twins = [twin, *(trace(options, seed, time, *limits) for seed in seeds[1:])]
+    left = min(options.seconds - twin.seconds - twin.building for twin in twins)
+    return twins, mean_of(options, twins), left
 
 
 def main(words: list[str] | None = None) -> int:
