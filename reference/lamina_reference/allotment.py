@@ -53,14 +53,9 @@ def traced_errors(picture: Path) -> Array:
     return np.asarray(np.sqrt(square) / np.maximum(scale, np.finfo(float).tiny))
 
 
-def shown_errors(picture: Path) -> Array:
-    """The relative error of each block of the mean of denoised twins, by what is left of the noise.
-
-    What is black has none, as for `reference/noise`.
-    """
-    bright, error, _ = luminance_and_error(str(picture))
-    relative = np.divide(error, bright, out=np.zeros_like(error), where=bright > 0)
-    return np.asarray(np.nanquantile(blocks_of(relative), MOST_PIXELS, axis=2))
+def shown_errors(errors: Array) -> Array:
+    """The relative error of each block of what is shown, by those of its pixels."""
+    return np.asarray(np.nanquantile(blocks_of(errors), MOST_PIXELS, axis=2))
 
 
 def samples_of(picture: Path) -> Array:
@@ -97,7 +92,7 @@ def aim(errors: Array, affordable: float, most: int, least: float) -> float:
 
 
 def grown(samples: Array, errors: Array, target: float, most: int) -> Array:
-    """Samples of each block of a twin by which what is shown comes to a target error.
+    """Samples of each block of a twin, if of all alike, by which what is shown comes to a target.
 
     `samples` are those that it has; the square of `errors` falls as they grow.
     """
@@ -107,15 +102,19 @@ def grown(samples: Array, errors: Array, target: float, most: int) -> Array:
 
 
 def shown_aim(
-    samples: Sequence[Array], errors: Array, affordable: float, most: int, least: float
+    samples: Sequence[Array], errors: Sequence[Array], affordable: float, most: int, least: float
 ) -> float:
     """The lowest target error of what is shown, from `least` on, that there is time for.
 
-    `affordable` are samples a pixel that can be added, the mean over blocks and twins.
+    `samples` are those that each twin has, `errors` those by which it gets more; `affordable` can
+    be added a pixel, the mean over blocks and twins.
     """
 
     def added(target: float) -> float:
-        return float(np.mean([(grown(had, errors, target, most) - had).mean() for had in samples]))
+        twins = zip(samples, errors, strict=True)
+        return float(
+            np.mean([(grown(had, error, target, most) - had).mean() for had, error in twins])
+        )
 
     return lowest(added, affordable, least)
 

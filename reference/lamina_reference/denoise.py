@@ -236,8 +236,20 @@ def cleaned(film: Film, denoiser: Denoiser, guides: dict[str, Pixels]) -> Pixels
     return made
 
 
-def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> tuple[Film, str]:
-    """The first film with denoised radiance and the note; and what is to be said.
+@dataclass
+class Mean:
+    """Denoised films as one, and each alone."""
+
+    film: Film
+    # What is to be said of it.
+    told: str
+    # Radiance of each, and its share in the film's.
+    clean: list[Pixels]
+    shares: NDArray[np.float64]
+
+
+def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> Mean:
+    """The first film with denoised radiance and the note.
 
     Of twins the radiance is the mean of all, by their samples, and the variance is of that.
     """
@@ -274,7 +286,7 @@ def denoise(films: list[Film], denoiser: Denoiser, with_guides: bool) -> tuple[F
         f"{denoiser.version}; guides: {', '.join(layers) or 'none'}; each channel alone; "
         f"biased, no measurement; {error}",
     )
-    return Film(spec, pixels), how
+    return Mean(Film(spec, pixels), how, clean, shares)
 
 
 def write(film: Film, out: Path) -> None:
@@ -369,8 +381,8 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     return parser.parse_args(words)
 
 
-def run(options: argparse.Namespace) -> None:
-    """Reads, denoises, writes, and says what was done."""
+def run(options: argparse.Namespace) -> Mean:
+    """Reads, denoises, writes, says what was done, and returns it."""
     sources: list[Path] = [options.picture, *options.twin]
     films = []
     for source in sources:
@@ -381,13 +393,14 @@ def run(options: argparse.Namespace) -> None:
     check_twins(films, sources)
     denoiser = Denoiser()
     began = perf_counter()
-    clean, how = denoise(films, denoiser, not options.no_guides)
-    write(clean, options.out)
-    print(f"{denoiser.version}, {how}, {perf_counter() - began:.1f} s", file=sys.stderr)
+    mean = denoise(films, denoiser, not options.no_guides)
+    write(mean.film, options.out)
+    print(f"{denoiser.version}, {mean.told}, {perf_counter() - began:.1f} s", file=sys.stderr)
     print(options.out)
     if options.png:
         tonemap(options.out, options.png)
         print(options.png)
+    return mean
 
 
 def main(words: list[str] | None = None) -> int:

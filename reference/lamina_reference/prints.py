@@ -40,8 +40,10 @@ from .allotment import (
     traced_errors,
     write_map,
 )
+from .exr import Array
 from .noise import LEAST_SAMPLES, PERCENT, relative_error, summary
 from .program import program
+from .twins import noise_told_by_others
 
 LEAST_TWINS = 2
 # Share of the time that goes where single renders are noisy, before anything is denoised.
@@ -74,6 +76,17 @@ class Twin:
     def checkpoint(self) -> Path:
         """From where it goes on."""
         return self.picture.with_suffix(".checkpoint")
+
+
+@dataclass
+class Shown:
+    """The mean of denoised twins."""
+
+    # An EXR.
+    picture: Path
+    # How each of its blocks errs, for each twin as the others tell it, and by which it gets more
+    # samples.
+    errors: list[Array]
 
 
 def memory_of(options: argparse.Namespace) -> Path:
@@ -180,7 +193,7 @@ def first_twin(options: argparse.Namespace, time: float) -> tuple[Twin, float]:
 
 
 def improved(
-    options: argparse.Namespace, twins: list[Twin], shown: Path, left: float
+    options: argparse.Namespace, twins: list[Twin], shown: Shown, left: float
 ) -> list[Twin]:
     """The twins with more samples where what is shown of them errs; as they are if it does not.
 
@@ -188,19 +201,22 @@ def improved(
     """
     if left < 1:
         return twins
-    errors, samples = shown_errors(shown), [samples_of(twin.picture) for twin in twins]
+    samples = [samples_of(twin.picture) for twin in twins]
     affordable = float(np.mean([twin.samples * left / twin.tracing for twin in twins]))
     least = MARGIN * options.error
-    target = shown_aim(samples, errors, affordable, options.spp, least)
-    wanted = [grown(had, errors, target, options.spp) for had in samples]
+    target = shown_aim(samples, shown.errors, affordable, options.spp, least)
+    wanted = [
+        grown(had, errors, target, options.spp)
+        for had, errors in zip(samples, shown.errors, strict=True)
+    ]
     if all((more == had).all() for more, had in zip(wanted, samples, strict=True)):
         return twins
     print(
-        f"of what is shown, 95 % of the pixels are within {noise(shown)[1]:.2g} %; in {left:.0f} s "
-        f"more for each render, what errs most can come to {target / PERCENT:.2g} %",
+        f"of what is shown, 95 % of the pixels are within {noise(shown.picture)[1]:.2g} %; in "
+        f"{left:.0f} s more for each render, what errs most can come to {target / PERCENT:.2g} %",
         file=sys.stderr,
     )
-    image = oiio.ImageInput.open(str(shown))
+    image = oiio.ImageInput.open(str(shown.picture))
     shape = image.spec().height, image.spec().width
     image.close()
     made = []
@@ -259,7 +275,11 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument("scene", type=Path, metavar="SCENE.toml")
     parser.add_argument("--out", type=Path, default=Path(), metavar="FOLDER")
     parser.add_argument(
-        "--twins", type=int, default=4, metavar="N", help="number of renders (default: 4)"
+        "--twins",
+        type=int,
+        default=4,
+        metavar="N",
+        help="number of renders (default: 4); of two the error is told too small",
     )
     parser.add_argument(
         "--seconds", type=float, default=300.0, help="time for each of them (default: 300)"
@@ -311,21 +331,22 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     return options
 
 
-def mean_of(options: argparse.Namespace, twins: Sequence[Twin]) -> Path:
-    """The mean of denoised twins, as an EXR and a JPEG."""
+def mean_of(options: argparse.Namespace, twins: Sequence[Twin]) -> Shown:
+    """The mean of denoised twins, as an EXR and a JPEG, and how it errs."""
     name = name_of(options.scene)
     first, *others = (twin.picture for twin in twins)
-    shown: Path = options.out / f"{name}.exr"
-    denoise.run(
+    picture: Path = options.out / f"{name}.exr"
+    mean = denoise.run(
         argparse.Namespace(
             picture=first,
             twin=others,
-            out=shown,
+            out=picture,
             png=options.out / f"{name}.jpg",
             no_guides=False,
         )
     )
-    return shown
+    errors = noise_told_by_others(mean.clean, mean.shares, mean.film.light())
+    return Shown(picture, [shown_errors(error) for error in errors])
 
 
 def run(options: argparse.Namespace) -> None:
@@ -342,10 +363,10 @@ def run(options: argparse.Namespace) -> None:
     else:
         for twin in twins:
             twin.checkpoint.unlink(missing_ok=True)
-    print(f"\n{HEADER}\n{row(name_of(options.scene), twins, shown)}")
+    print(f"\n{HEADER}\n{row(name_of(options.scene), twins, shown.picture)}")
 
 
-def remembered_or_first(options: argparse.Namespace) -> tuple[list[Twin], Path, float]:
+def remembered_or_first(options: argparse.Namespace) -> tuple[list[Twin], Shown, float]:
     """Twins as they are before what is shown tells more; their mean; seconds left for each."""
     if options.resume:
         twins = remembered(options)

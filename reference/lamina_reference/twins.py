@@ -18,9 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter
 
+from .exr import Array
 from .noise import PERCENT, weights
 
 Pixels = NDArray[np.float32]
+# One picture does not differ from itself.
+LEAST = 2
 # A pixel's own difference is one number, too few to tell an error by: squares are averaged over
 # this many pixels across and down.
 NEAR = 5
@@ -56,12 +59,44 @@ def left_noise(
     )
     pixels["variance.Y"] = np.stack([luminance(light, names) for light in clean])
     bright = luminance(np.average(clean, axis=0, weights=shares), names)
-    scale = np.maximum(bright, max(DARKEST * bright.mean(), TINY))
-    made = {}
-    for name, values in pixels.items():
-        mean = np.average(values, axis=0, weights=shares)
-        squares = np.average((values - mean) ** 2, axis=0, weights=shares) / (len(clean) - 1)
-        made[name] = uniform_filter(squares / scale**2, NEAR, mode="nearest") * scale**2
+    scale = scale_of(bright)
+    return {name: variance(values, shares, scale) for name, values in pixels.items()}
+
+
+def noise_told_by_others(
+    clean: list[Pixels], shares: NDArray[np.float64], names: tuple[str, ...]
+) -> list[Array]:
+    """The relative standard error of luminance of the mean of all, for each as the others tell it.
+
+    Who gives a picture more samples where its own difference from the others is large leaves it
+    alone where it is near to them by chance, and the noise that is told afterwards is too small.
+    What the others tell knows nothing of its own. Of two pictures both tell it together.
+    What is black has no error.
+    """
+    pixels = np.stack([luminance(light, names) for light in clean])
+    bright = np.average(pixels, axis=0, weights=shares)
+    scale = scale_of(bright)
+    made = []
+    for left_out in range(len(clean)):
+        told_by = np.arange(len(clean)) != left_out
+        if told_by.sum() < LEAST:
+            told_by[:] = True
+        square = variance(pixels[told_by], shares[told_by], scale) * shares[told_by].sum()
+        error = np.sqrt(square)
+        made.append(np.divide(error, bright, out=np.zeros_like(error), where=bright > 0))
+    return made
+
+
+def scale_of(bright: Pixels) -> Pixels:
+    """What errors are relative to while they are averaged: luminance, if it is not black."""
+    return np.maximum(bright, max(DARKEST * bright.mean(), TINY))
+
+
+def variance(pixels: Pixels, shares: NDArray[np.float64], scale: Pixels) -> Pixels:
+    """That of the mean of pictures `[picture, height, width]`, averaged over near pixels."""
+    mean = np.average(pixels, axis=0, weights=shares)
+    squares = np.average((pixels - mean) ** 2, axis=0, weights=shares) / (len(pixels) - 1)
+    made: Pixels = uniform_filter(squares / scale**2, NEAR, mode="nearest") * scale**2
     return made
 
 
