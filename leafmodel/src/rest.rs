@@ -69,6 +69,7 @@ pub fn support(contacts: &[Contact]) -> Option<Support> {
         return None;
     }
     let span = (most - least) + reach;
+    let corners = Corners::of(contacts);
     // Three far corners that nothing holds begin.
     let far = [(0.0, 1.0), (-0.8, -0.6), (0.8, -0.6)]
         .map(|(x, y)| DVec3::new(100.0 * reach * x, 100.0 * reach * y, least - 1e4 * span));
@@ -77,13 +78,11 @@ pub fn support(contacts: &[Contact]) -> Option<Support> {
     let tolerance = 1e-9 * span;
     let mut plane = through(&triple)?;
     for _ in 0..EXCHANGES {
-        let depth = |c: &Contact| c.lift - (plane.z + plane.truncate().dot(c.at));
-        let deepest = contacts
-            .iter()
-            .max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
-        if depth(deepest) <= tolerance {
+        let (deepest, depth) = corners.deepest_below(plane)?;
+        if depth <= tolerance {
             break;
         }
+        let deepest = &contacts[deepest];
         let corner = deepest.at.extend(deepest.lift);
         // Of the exchanges after which the origin is still inside, the one that lifts most.
         let exchanged = (0..3).filter_map(|leaves| {
@@ -110,6 +109,76 @@ pub fn support(contacts: &[Contact]) -> Option<Support> {
     })
 }
 
+/// Corners by coordinate, so that some are looked at at once.
+struct Corners {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    lift: Vec<f64>,
+}
+
+/// Corners of which the deepest is found before it is known which one it is.
+const BLOCK: usize = 256;
+/// Corners that are looked at at once.
+const LANES: usize = 4;
+
+impl Corners {
+    fn of(contacts: &[Contact]) -> Self {
+        Self {
+            x: contacts.iter().map(|contact| contact.at.x).collect(),
+            y: contacts.iter().map(|contact| contact.at.y).collect(),
+            lift: contacts.iter().map(|contact| contact.lift).collect(),
+        }
+    }
+
+    /// The number of the corner that lies deepest below a plane, the last one of several, and how
+    /// deep.
+    fn deepest_below(&self, plane: DVec3) -> Option<(usize, f64)> {
+        let mut found: Option<(usize, f64)> = None;
+        for first in (0..self.lift.len()).step_by(BLOCK) {
+            let depth = self.greatest_depth(first, plane);
+            if found.is_none_or(|(_, most)| depth >= most) {
+                found = Some((first, depth));
+            }
+        }
+        let (first, most) = found?;
+        let last = (first + BLOCK).min(self.lift.len());
+        let number = (first..last).rfind(|&number| self.depth(number, plane) >= most)?;
+        Some((number, most))
+    }
+
+    fn depth(&self, number: usize, plane: DVec3) -> f64 {
+        depth(self.x[number], self.y[number], self.lift[number], plane)
+    }
+
+    /// That of the deepest corner of a block.
+    fn greatest_depth(&self, first: usize, plane: DVec3) -> f64 {
+        let last = (first + BLOCK).min(self.lift.len());
+        let [x, y, lift] = [&self.x, &self.y, &self.lift].map(|values| &values[first..last]);
+        let mut most = [f64::NEG_INFINITY; LANES];
+        let (x, x_rest) = x.as_chunks::<LANES>();
+        let (y, y_rest) = y.as_chunks::<LANES>();
+        let (lift, lift_rest) = lift.as_chunks::<LANES>();
+        for ((x, y), lift) in x.iter().zip(y).zip(lift) {
+            for lane in 0..LANES {
+                let depth = depth(x[lane], y[lane], lift[lane], plane);
+                most[lane] = if depth > most[lane] {
+                    depth
+                } else {
+                    most[lane]
+                };
+            }
+        }
+        let rest = x_rest.iter().zip(y_rest).zip(lift_rest);
+        let rest = rest.map(|((x, y), lift)| depth(*x, *y, *lift, plane));
+        rest.chain(most).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// How deep a corner lies below a plane.
+fn depth(x: f64, y: f64, lift: f64, plane: DVec3) -> f64 {
+    lift - (plane.z + (plane.x * x + plane.y * y))
+}
+
 /// The plane a x + b y + t through three points, as (a, b, t); `None` if their plans are in line.
 fn through([p, q, r]: &[DVec3; 3]) -> Option<DVec3> {
     let (u, v) = (*q - *p, *r - *p);
@@ -124,4 +193,63 @@ fn holds_origin([p, q, r]: &[DVec3; 3]) -> bool {
     let side = |a: &DVec3, b: &DVec3| a.truncate().perp_dot(b.truncate());
     let sides = [side(p, q), side(q, r), side(r, p)];
     sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_corners_it_lies_on_those_that_let_it_lowest() {
+        // A place for each corner by a sequence of low discrepancy, on ground with waves.
+        for count in [3, 100, BLOCK, BLOCK + 1, 3 * BLOCK + 17] {
+            let contacts: Vec<Contact> = (0..count)
+                .map(|number| {
+                    let at = [0.754_877_666, 0.569_840_291].map(|step| number as f64 * step % 1.0);
+                    let at = DVec2::from_array(at) - 0.5;
+                    let lift = 0.1 * libm::sin(9.0 * at.x) * libm::cos(7.0 * at.y) + 0.05 * at.x;
+                    Contact {
+                        at,
+                        lift,
+                        height: 0.0,
+                    }
+                })
+                .collect();
+            let lifted = |slope: DVec2| {
+                let lifts = contacts.iter().map(|c| c.lift - slope.dot(c.at));
+                lifts.fold(f64::NEG_INFINITY, f64::max)
+            };
+            let Some(found) = support(&contacts) else {
+                assert_eq!(count, 3, "its centre is among so many");
+                continue;
+            };
+            let least = lifted(found.slope);
+            for angle in 0..24 {
+                let (sin, cos) = libm::sincos(f64::from(angle) * std::f64::consts::TAU / 24.0);
+                for step in [1e-6, 1e-3, 0.1] {
+                    let other = lifted(found.slope + step * DVec2::new(cos, sin));
+                    assert!(other > least - 1e-12, "{count}: {other} below {least}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_deepest_corner_is_the_last_one_of_several() {
+        for (count, deepest) in [
+            (5, vec![1, 3]),
+            (2 * BLOCK + 3, vec![7, BLOCK, 2 * BLOCK + 2]),
+        ] {
+            let contact = |number: usize| Contact {
+                at: DVec2::new(number as f64, 1.0),
+                lift: if deepest.contains(&number) { 2.0 } else { 1.0 },
+                height: 0.0,
+            };
+            let corners = Corners::of(&(0..count).map(contact).collect::<Vec<_>>());
+            let level = DVec3::new(0.0, 0.5, 0.25);
+            let last = deepest[deepest.len() - 1];
+            assert_eq!(corners.deepest_below(level), Some((last, 1.25)));
+        }
+        assert_eq!(Corners::of(&[]).deepest_below(DVec3::ZERO), None);
+    }
 }

@@ -39,8 +39,28 @@ pub(super) struct Pile {
 #[derive(Clone, Copy, Debug)]
 struct Covered {
     index: usize,
+    cell: [u32; 2],
     low: f64,
     high: f64,
+}
+
+/// A triangle over the cells that its plan may touch.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    /// In cells.
+    corners: [DVec2; 3],
+    heights: [f64; 3],
+    /// First and last column and row.
+    least: [u32; 2],
+    most: [u32; 2],
+}
+
+impl Plan {
+    /// The least and the greatest height of its corners.
+    fn ends(&self) -> (f64, f64) {
+        let [a, b, c] = self.heights;
+        (a.min(b).min(c), a.max(b).max(c))
+    }
 }
 
 impl Pile {
@@ -80,9 +100,24 @@ impl Pile {
 
     /// Adds a triangle of the world.
     pub(super) fn add(&mut self, triangle: [DVec3; 3]) {
+        let Some(plan) = self.plan(triangle) else {
+            return;
+        };
+        // What is sunk or turned down raises nothing.
+        let (_, top) = plan.ends();
+        let ([first, _], [last, _]) = (plan.least, plan.most);
+        let is_below = |row: u32| {
+            let [first, last] = [first, last].map(|column| self.index([column, row]));
+            self.heights[first..=last]
+                .iter()
+                .all(|height| *height >= top)
+        };
+        if (plan.least[1]..=plan.most[1]).all(is_below) {
+            return;
+        }
         let mut covered = std::mem::take(&mut self.covered);
         covered.clear();
-        self.cover(triangle, &mut covered);
+        self.cover(&plan, &mut covered);
         self.raise(&covered, 0.0);
         self.covered = covered;
     }
@@ -104,20 +139,32 @@ impl Pile {
         }
     }
 
-    /// Cells that the plan of a triangle touches, with the least and greatest height of its plane
-    /// there, within those of the triangle.
-    fn cover(&self, triangle: [DVec3; 3], covered: &mut Vec<Covered>) {
+    fn index(&self, [x, y]: [u32; 2]) -> usize {
+        y as usize * self.size[0] + x as usize
+    }
+
+    /// The plan of a triangle; `None` if all of it lies beside the pile.
+    fn plan(&self, triangle: [DVec3; 3]) -> Option<Plan> {
         let corners = triangle.map(|corner| (corner.truncate() - self.origin) / self.cell);
         let [a, b, c] = corners;
         let least = a.min(b).min(c).floor().max(DVec2::ZERO);
         let most = a.max(b).max(c).floor();
         let last = DVec2::new(self.size[0] as f64 - 1.0, self.size[1] as f64 - 1.0);
         let most = most.min(last);
-        if least.x > most.x || least.y > most.y {
-            return;
-        }
-        let [z0, z1, z2] = triangle.map(|corner| corner.z);
-        let (bottom, top) = (z0.min(z1).min(z2), z0.max(z1).max(z2));
+        (least.x <= most.x && least.y <= most.y).then(|| Plan {
+            corners,
+            heights: triangle.map(|corner| corner.z),
+            least: least.to_array().map(|n| n as u32),
+            most: most.to_array().map(|n| n as u32),
+        })
+    }
+
+    /// Cells that a triangle's plan touches, with the least and greatest height of its plane there,
+    /// within those of the triangle.
+    fn cover(&self, plan: &Plan, covered: &mut Vec<Covered>) {
+        let [a, b, c] = plan.corners;
+        let [z0, z1, z2] = plan.heights;
+        let (bottom, top) = plan.ends();
         let double_area = (b - a).perp_dot(c - a);
         // Height per cell along x and y; of an upright triangle nothing but its ends is known.
         let slope = DVec2::new(
@@ -126,15 +173,16 @@ impl Pile {
         ) / double_area;
         let is_upright = !slope.is_finite();
         let within = 0.5 * (slope.x.abs() + slope.y.abs());
-        let edges = [[a, b], [b, c], [c, a]];
-        for y in least.y as usize..=most.y as usize {
-            for x in least.x as usize..=most.x as usize {
-                let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                let touches = edges.iter().all(|[from, to]| {
-                    let along = (*to - *from) * double_area.signum();
-                    let inside = along.perp_dot(middle - *from);
-                    inside + 0.5 * (along.x.abs() + along.y.abs()) >= -1e-9
-                });
+        let edges = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+            let along = (to - from) * double_area.signum();
+            (from, along, 0.5 * (along.x.abs() + along.y.abs()))
+        });
+        for y in plan.least[1]..=plan.most[1] {
+            for x in plan.least[0]..=plan.most[0] {
+                let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                let touches = edges
+                    .iter()
+                    .all(|(from, along, reach)| along.perp_dot(middle - *from) + reach >= -1e-9);
                 if !touches {
                     continue;
                 }
@@ -146,7 +194,8 @@ impl Pile {
                     (low, (height + within).clamp(bottom, top))
                 };
                 covered.push(Covered {
-                    index: y * self.size[0] + x,
+                    index: self.index([x, y]),
+                    cell: [x, y],
                     low,
                     high,
                 });
@@ -154,16 +203,26 @@ impl Pile {
         }
     }
 
+    /// The cells of a body whose centre of mass is at a place.
+    fn cover_all(&self, body: &Body, posture: DMat3, place: DVec3, covered: &mut Vec<Covered>) {
+        covered.clear();
+        for triangle in body.triangles() {
+            let triangle = triangle.map(|corner| posture * corner + place);
+            if let Some(plan) = self.plan(triangle) {
+                self.cover(&plan, covered);
+            }
+        }
+    }
+
     /// How far what covers a cell must be lifted; `None` if nothing lies below.
     fn contact(&self, covered: &Covered, at: DVec2) -> Option<Contact> {
-        let lift = self.heights[covered.index] - covered.low;
-        let [across, _] = self.size;
-        let cell = [covered.index % across, covered.index / across];
-        let middle = DVec2::from_array(cell.map(|n| n as f64 + 0.5));
+        let height = self.heights[covered.index];
+        let lift = height - covered.low;
+        let middle = DVec2::from_array(covered.cell.map(|n| f64::from(n) + 0.5));
         lift.is_finite().then(|| Contact {
             at: self.origin + self.cell * middle - at,
             lift,
-            height: self.heights[covered.index],
+            height,
         })
     }
 
@@ -188,11 +247,7 @@ impl Pile {
         for turns in 0..TURNS {
             contacts.clear();
             if is_fine {
-                covered.clear();
-                for triangle in body.triangles() {
-                    let triangle = triangle.map(|corner| posture * corner + place);
-                    self.cover(triangle, &mut covered);
-                }
+                self.cover_all(body, posture, place, &mut covered);
                 let cells = covered
                     .iter()
                     .filter_map(|covered| self.contact(covered, at));
@@ -231,11 +286,7 @@ impl Pile {
         if steep > UNSTEADY || steepness > FRICTION {
             return Err(NoPlace::Steep);
         }
-        covered.clear();
-        for triangle in body.triangles() {
-            let triangle = triangle.map(|corner| posture * corner + place);
-            self.cover(triangle, &mut covered);
-        }
+        self.cover_all(body, posture, place, &mut covered);
         let lifts = covered.iter();
         let lifts = lifts.map(|covered| self.heights[covered.index] - covered.low);
         let lift = lifts.fold(f64::NEG_INFINITY, f64::max) + gap;

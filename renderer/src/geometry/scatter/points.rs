@@ -61,6 +61,10 @@ impl Ground {
         for triangle in &self.triangles {
             match within {
                 None => measure.add(*triangle, plan),
+                Some([least, most]) if is_within(triangle, least, most) => {
+                    measure.add(*triangle, plan);
+                }
+                Some(rectangle) if is_beside(triangle, rectangle) => {}
                 Some(rectangle) => {
                     let polygon = clipped(triangle, rectangle);
                     for pair in polygon.windows(2).skip(1) {
@@ -71,6 +75,18 @@ impl Ground {
         }
         measure
     }
+}
+
+/// Whether all of a triangle lies over a rectangle of the plan.
+fn is_within(triangle: &[DVec3; 3], least: DVec2, most: DVec2) -> bool {
+    let mut corners = triangle.iter().map(|corner| corner.truncate());
+    corners.all(|at| at.cmpge(least).all() && at.cmple(most).all())
+}
+
+/// Whether a triangle lies wholly beyond one side of a rectangle of the plan.
+fn is_beside(triangle: &[DVec3; 3], [least, most]: [DVec2; 2]) -> bool {
+    let [a, b, c] = triangle.map(DVec3::truncate);
+    a.min(b).min(c).cmpgt(most).any() || a.max(b).max(c).cmplt(least).any()
 }
 
 /// The part of a triangle over a rectangle of the plan: a convex polygon, perhaps empty

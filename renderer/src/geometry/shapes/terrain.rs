@@ -54,25 +54,47 @@ impl Terrain {
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         let waves = self.spectrum();
         let [across, along] = self.squares().map(|count| count as u32);
-        let vertex = |x: u32, y: u32| {
+        let place = |x: u32, y: u32| {
             let uv = DVec2::new(
                 f64::from(x) / f64::from(across),
                 f64::from(y) / f64::from(along),
             );
-            let at = (uv - 0.5) * DVec2::from_array(self.size);
+            (uv, (uv - 0.5) * DVec2::from_array(self.size))
+        };
+        // A wave at (x, y) by sine and cosine of its part along x and of its part along y: of those
+        // there are as many as columns and rows, not as vertices.
+        let columns: Vec<(f64, f64)> = (0..=across)
+            .into_par_iter()
+            .flat_map_iter(|x| {
+                let (_, at) = place(x, 0);
+                let waves = waves.iter();
+                waves.map(move |wave| libm::sincos(wave.vector.x * at.x))
+            })
+            .collect();
+        let vertex = |x: u32, y: u32, row: &[(f64, f64)]| {
+            let (uv, at) = place(x, y);
+            let column = &columns[x as usize * waves.len()..][..waves.len()];
             let (mut height, mut slope) = (0.0, DVec2::ZERO);
-            for wave in &waves {
-                let (sin, cos) = libm::sincos(wave.vector.dot(at) + wave.phase);
-                height += wave.amplitude * cos;
-                slope -= wave.amplitude * sin * wave.vector;
+            for ((wave, (sin_x, cos_x)), (sin_y, cos_y)) in waves.iter().zip(column).zip(row) {
+                height += cos_x * cos_y - sin_x * sin_y;
+                slope -= (sin_x * cos_y + cos_x * sin_y) * wave.vector;
             }
             let normal = (-slope).extend(1.0).normalize();
             (at.extend(height).as_vec3(), normal.as_vec3(), uv.as_vec2())
         };
         let rows = (0..=along).into_par_iter();
         let vertices: Vec<(Vec3, Vec3, Vec2)> = rows
-            .flat_map_iter(|y| (0..=across).map(move |x| (x, y)))
-            .map(|(x, y)| vertex(x, y))
+            .flat_map_iter(|y| {
+                let (_, at) = place(0, y);
+                let waves = waves.iter();
+                let row: Vec<(f64, f64)> = waves
+                    .map(|wave| {
+                        let (sin, cos) = libm::sincos(wave.vector.y * at.y + wave.phase);
+                        (wave.amplitude * sin, wave.amplitude * cos)
+                    })
+                    .collect();
+                (0..=across).map(move |x| vertex(x, y, &row))
+            })
             .collect();
         let positions = vertices.iter().map(|vertex| vertex.0).collect();
         let normals = vertices.iter().map(|vertex| vertex.1).collect();
