@@ -45,8 +45,13 @@ pub(super) fn build_lights<'i>(
             white,
         } => {
             let picture = picture(name, file, notes)?;
+            let mut texels = picture.texels;
+            // Seen from within, the azimuth grows to the left.
+            for row in texels.chunks_mut(picture.width) {
+                row.reverse();
+            }
             Light::Environment(EnvironmentLight::new(
-                picture.texels,
+                texels,
                 picture.width,
                 Curve::from_description(white).scaled(*scale as f32),
                 *rotation as f32,
@@ -147,4 +152,77 @@ fn corners<T>(mesh: &TriangleMesh, mirrored: bool, of: impl Fn(usize) -> T) -> V
             face.map(|vertex| of(vertex as usize))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use crate::image::{Layer, Picture, openexr};
+    use crate::integrator::caption::Caption;
+    use crate::integrator::develop::develop;
+    use crate::integrator::render::{Job, render};
+    use crate::scene::load::parse;
+    use crate::scene::world::World;
+
+    /// Looks into the middle of the picture.
+    const SCENE: &str = "format = 1\n[film.rgb]\nsize = [2, 2]\nspp = 1\n[camera.perspective]\n\
+        position_m = [0, 0, 0]\nlook_at_m = [-1, 0, 0]\nvertical_fov_deg = 40\n\
+        [lights.sky.environment]\npath = \"sky.exr\"\n\
+        [meshes.dot.sphere]\nradius_m = 0.001\n[materials.black.diffuse]\nreflectance = 0\n\
+        [objects.behind]\nmesh = \"dot\"\nmaterial = \"black\"\nposition_m = [1, 0, 0]\n";
+
+    #[test]
+    fn what_is_left_and_above_in_a_picture_of_the_surroundings_is_seen_there() {
+        let folder = tempfile::tempdir().expect("a place for temporary files");
+        let (width, height) = (16, 8);
+        // Left is red, right is green, what is above is twice as bright.
+        let layers = ["R", "G", "B"].map(|name| {
+            let value = |at: usize| {
+                let is_lit = match name {
+                    "R" => at % width < width / 2,
+                    "G" => at % width >= width / 2,
+                    _ => false,
+                };
+                let above = if at / width < height / 2 { 2.0 } else { 1.0 };
+                0.1 + if is_lit { above } else { 0.0 }
+            };
+            Layer {
+                name: name.to_owned(),
+                data: (0..width * height).map(value).collect(),
+            }
+        });
+        let sky = Picture {
+            width: width as u32,
+            height: height as u32,
+            layers: layers.into(),
+            attributes: Vec::new(),
+        };
+        openexr::write(&sky, &folder.path().join("sky.exr")).expect("it can be written");
+        let loaded = parse(SCENE, "scene.toml", folder.path(), &[]);
+        let scene = loaded
+            .unwrap_or_else(|errors| panic!("{errors}"))
+            .description;
+        let world = World::build(&scene).expect("it can be built");
+        let job = Job {
+            width: 2,
+            height: 2,
+            spp: 256,
+            seed: 1,
+        };
+        let go = AtomicBool::new(false);
+        let rendered = render(&world, &job, &go, &|_| ()).expect("a small film");
+        let caption = Caption::of(&scene, &world.view, &world.light_colours);
+        let seen = develop(&caption, &job, &rendered);
+        let [red, green] = ["R", "G"].map(|name| &seen.layer(name).expect("it is there").data);
+        for row in 0..2 {
+            let [left, right] = [2 * row, 2 * row + 1];
+            assert!(red[left] > 1.5 * green[left], "{red:?} {green:?}");
+            assert!(green[right] > 1.5 * red[right], "{red:?} {green:?}");
+        }
+        assert!(
+            red[0] > 1.2 * red[2] && green[1] > 1.2 * green[3],
+            "{red:?} {green:?}"
+        );
+    }
 }
