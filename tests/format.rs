@@ -69,6 +69,10 @@ fn folder() -> TempDir {
         "places.csv",
         "x_m, y_m, z_m, rotate_z_deg, scale, shape\n0, 0, 0, 0, 1, floor\n1, 2, 3, 90, 0.5, ball\n",
     );
+    write(
+        "quoted.csv",
+        "\"x_m\",\"y_m\",\"z_m\",\"rotate_z_deg\",\"scale\",\"shape\"\n0,0,0,0,1,\"floor\"\n\"1\",2,3,90,0.5,\"ball\"\n",
+    );
     write("no_header.csv", "0, 0, 0\n");
     write("no_rows.csv", "x_m, y_m, z_m\n# to come\n");
     write(

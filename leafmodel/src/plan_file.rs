@@ -81,8 +81,15 @@ use crate::species;
 /// Where PROSPECT-D's table has figures, nm.
 const PROSPECT_NM: [f64; 2] = [400.0, 2500.0];
 
-/// Keys of a leaf's block that belong to a scene: how its surface reflects.
-const SURFACE: [&str; 3] = ["abaxial_ratio", "adaxial", "abaxial"];
+/// Keys of a leaf's block that belong to a scene: how it scatters light.
+const SURFACE: [&str; 6] = [
+    "abaxial_ratio",
+    "adaxial",
+    "abaxial",
+    "optics",
+    "fluorescence",
+    "light_spread",
+];
 
 /// Reads the leaves of the file at `path`, with overrides `key=value` written as in the file.
 ///
@@ -151,16 +158,18 @@ fn whole_leaf(plan: &mut LeafPlan, keys: &mut Keys<'_>) {
 }
 
 /// The other keys at the top of a scene, which a file of leaves may have.
-const SECTIONS: [&str; 11] = [
+pub const SECTIONS: [&str; 13] = [
     "name",
     "film",
     "picture",
     "camera",
     "integrator",
+    "instruments",
     "media",
     "materials",
     "meshes",
     "solids",
+    "plants",
     "lights",
     "objects",
 ];

@@ -75,8 +75,10 @@ pub enum FilmError {
     },
     /// It would be too large.
     #[error(
-        "a film of {width} × {height} pixels and {channels} channels needs {bytes} bytes, more than {MOST_BYTES} \
-         (or has more than {MOST_PIXELS} pixels)"
+        "a film of {width} × {height} pixels and {channels} channels needs {:.1} GiB, and a film may have {} GiB and \
+         {MOST_PIXELS} pixels at most: make `size` smaller",
+        *bytes as f64 / f64::from(1 << 30),
+        MOST_BYTES >> 30
     )]
     TooLarge {
         /// Pixels across.

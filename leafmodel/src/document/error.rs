@@ -61,11 +61,13 @@ pub enum DocumentError {
         /// What to write.
         wanted: String,
     },
-    /// None, or more than one, of keys of which exactly one is needed.
-    #[error("{block} needs exactly one of {alternatives}, it has {found}")]
+    /// None of keys of which one is needed, or more than one of keys that exclude each other.
+    #[error("{block} {allows} one of {alternatives}, it has {found}")]
     NotOne {
         /// The block.
         block: String,
+        /// What it needs or takes.
+        allows: &'static str,
         /// The keys to choose from.
         alternatives: String,
         /// Which are there.

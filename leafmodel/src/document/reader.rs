@@ -187,7 +187,7 @@ impl<'a> Block<'a> {
                 Some((key, Block::new(self.cx, &NOTHING, path, self.at.clone())))
             }
             Choice::None | Choice::Several(_) => {
-                self.report_choice(variants, &chosen);
+                self.report_choice(variants, &chosen, "needs exactly");
                 None
             }
         }
@@ -195,6 +195,15 @@ impl<'a> Block<'a> {
 
     /// The one key among `keys` that is there, reported if it is not one.
     pub fn exactly_one(&self, keys: &[&'static str]) -> Option<&'static str> {
+        self.one_alone(keys, "needs exactly")
+    }
+
+    /// As [`Block::exactly_one`], for keys of which there may be none.
+    pub fn at_most_one(&self, keys: &[&'static str]) -> Option<&'static str> {
+        self.one_alone(keys, "takes at most")
+    }
+
+    fn one_alone(&self, keys: &[&'static str], allows: &'static str) -> Option<&'static str> {
         let chosen = self.one_of(keys);
         if let Choice::One(key) = chosen {
             return Some(key);
@@ -204,7 +213,7 @@ impl<'a> Block<'a> {
                 && nearest(&entry.key, keys.iter().copied()).is_some()
         };
         if matches!(chosen, Choice::Several(_)) || !self.first_entries().any(misspelt) {
-            self.report_choice(keys, &chosen);
+            self.report_choice(keys, &chosen, allows);
         }
         None
     }
@@ -227,13 +236,14 @@ impl<'a> Block<'a> {
         }
     }
 
-    fn report_choice(&self, keys: &[&'static str], chosen: &Choice) {
+    fn report_choice(&self, keys: &[&'static str], chosen: &Choice, allows: &'static str) {
         let found = match chosen {
             Choice::None | Choice::One(_) => NONE.to_owned(),
             Choice::Several(found) => listed(found.iter().copied()),
         };
         let error = DocumentError::NotOne {
             block: self.title(),
+            allows,
             alternatives: listed(keys.iter().copied()),
             found,
         };

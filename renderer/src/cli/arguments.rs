@@ -174,7 +174,7 @@ pub struct CheckArguments {
     #[arg(long)]
     pub build: bool,
     /// Memory that a render may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
     pub memory: Option<f64>,
 }
 
@@ -193,15 +193,16 @@ pub struct RenderArguments {
     pub spp: Option<u32>,
     /// Relative error at which a part of the picture has enough samples, instead of the scene's:
     /// 0.01 is one percent, 0 gives every pixel all its samples
-    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>)]
+    #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>, allow_negative_numbers = true)]
     pub noise: Option<f64>,
     /// Samples by a map instead of a target noise: an EXR of the picture's size with a channel
     /// `samples.Y`, as every picture has one; a block of 8 × 8 pixels gets the most that is named in
     /// it, and of --spp and the map the fewer
     #[arg(long, value_name = "MAP.exr", conflicts_with_all = ["noise", "samples"])]
     pub samples_map: Option<PathBuf>,
-    /// Stop rendering after this time, at the end of the pass that is under way
-    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>)]
+    /// Stop rendering after this time, at the end of the pass that is under way; the checkpoint
+    /// stays, so that --resume goes on
+    #[arg(long, value_name = "SECONDS", value_parser = between::<0, MOST_SECONDS>, allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// Seed of every random number, instead of the scene's
     #[arg(long, value_name = "N")]
@@ -220,11 +221,11 @@ pub struct RenderArguments {
     #[arg(long)]
     pub resume: bool,
     /// The checkpoint, which then stays when the picture is done, for more samples later; the
-    /// default is STEM.checkpoint, which is removed
+    /// default is STEM.checkpoint, which is removed unless --time ended the render
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Time between checkpoints; longer if to write one takes more than a fiftieth of it
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = between::<0, MOST_SECONDS>, allow_negative_numbers = true)]
     pub checkpoint_every: f64,
     /// Write the picture to look at anew while it is rendered, every 5 seconds or as many as are
     /// given; less often if that takes more than a fiftieth of the time
@@ -235,6 +236,7 @@ pub struct RenderArguments {
         require_equals = true,
         default_missing_value = "5",
         value_parser = between::<0, MOST_SECONDS>,
+        allow_negative_numbers = true,
         conflicts_with = "samples"
     )]
     pub preview: Option<f64>,
@@ -243,7 +245,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "HOST:PORT")]
     pub tev: Option<String>,
     /// Memory that the render may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
     pub memory: Option<f64>,
     /// Render only the samples number A to B − 1 of each pixel, into STEM.part for lamina merge
     #[arg(long, value_name = "A..B", value_parser = SampleRange::parse)]
@@ -307,7 +309,7 @@ pub struct MitsubaArguments {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Memory that building the scene may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
     pub memory: Option<f64>,
 }
 

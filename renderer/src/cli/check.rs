@@ -5,6 +5,7 @@ use leafmodel::document::error::{DocumentError, LocatedError};
 
 use crate::cli::arguments::{CheckArguments, SceneArguments};
 use crate::cli::progress::Patience;
+use crate::cli::signals::Signals;
 use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
@@ -47,6 +48,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let description = load_scene(scene)?.description;
     needs::check(&description, *memory)?;
     if *build {
+        let _signals = Signals::listen()?;
         return tell_world(scene, &description);
     }
     read_files(&description)?;

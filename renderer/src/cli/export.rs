@@ -2,17 +2,33 @@
 
 use crate::cli::arguments::MitsubaArguments;
 use crate::cli::progress::Patience;
-use crate::cli::{Failure, load_scene, needs, say};
-use crate::export::mitsuba;
+use std::path::Path;
+
+use crate::cli::signals::Signals;
+use crate::cli::{Failure, check_writable, load_scene, needs, say};
+use crate::export::mitsuba::{self, ExportError};
 use crate::scene::world::World;
 
 pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
+    let signals = Signals::listen()?;
+    check_folder(&arguments.out)?;
     let scene = load_scene(&arguments.scene)?.description;
     needs::check_geometry(&scene, "export", arguments.memory)?;
     let patience = Patience::building(scene.leaves.len());
     let world = World::build_with(&scene, &patience.options()).map_err(Failure::bad)?;
     drop(patience);
-    mitsuba::write(&scene, &world, &arguments.out).map_err(Failure::system)?;
+    // What is begun is written to its end, or not at all.
+    signals.begin_work();
+    mitsuba::write(&scene, &world, &arguments.out).map_err(|error| match error {
+        ExportError::Write { .. } | ExportError::Image(_) => Failure::system(error),
+        ExportError::Asset(_)
+        | ExportError::Fluorescence
+        | ExportError::Lens { .. }
+        | ExportError::Nested { .. }
+        | ExportError::CameraInside
+        | ExportError::Layers { .. }
+        | ExportError::NotOurs { .. } => Failure::bad(error),
+    })?;
     say(arguments.out.display());
     if world.objects.have_drops() {
         eprintln!(
@@ -21,4 +37,15 @@ pub(super) fn run(arguments: &MitsubaArguments) -> Result<(), Failure> {
         );
     }
     Ok(())
+}
+
+/// Refuses a folder that cannot be written, before anything is grown.
+fn check_folder(out: &Path) -> Result<(), Failure> {
+    mitsuba::check_ours(out).map_err(Failure::bad)?;
+    // Within the folder if it is there, else beside it.
+    check_writable(&if out.is_dir() {
+        out.join("lamina.json")
+    } else {
+        out.to_owned()
+    })
 }

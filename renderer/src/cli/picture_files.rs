@@ -9,6 +9,11 @@ use crate::integrator::caption::Caption;
 use crate::integrator::develop::develop;
 use crate::integrator::render::{Job, Rendered};
 
+/// Endings of pictures that are not written; another one is part of a stem.
+const OTHER_PICTURES: [&str; 13] = [
+    "avif", "bmp", "dds", "gif", "hdr", "heic", "jp2", "jxl", "pfm", "tga", "tif", "tiff", "webp",
+];
+
 /// The stem given by `--out`, which may have one of these endings or that of a picture to look at,
 /// and the ending of that picture.
 pub(super) fn stem_of<'a>(out: &'a Path, endings: &[&str]) -> Result<(PathBuf, &'a str), Failure> {
@@ -21,6 +26,14 @@ pub(super) fn stem_of<'a>(out: &'a Path, endings: &[&str]) -> Result<(PathBuf, &
         )));
     }
     let ending = out.extension().and_then(|ending| ending.to_str());
+    if let Some(ending) = ending
+        && OTHER_PICTURES.contains(&ending.to_ascii_lowercase().as_str())
+    {
+        return Err(Failure::bad(format!(
+            "{}: pictures are written as exr and png or jpg, not as {ending}",
+            out.display()
+        )));
+    }
     Ok(match (FileKind::of(out), ending) {
         (Some(_), Some(ending)) => (out.with_extension(""), ending),
         (None, Some(ending)) if endings.contains(&ending) => (out.with_extension(""), "png"),

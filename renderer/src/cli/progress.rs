@@ -23,6 +23,7 @@ pub(super) struct Reporter {
 /// Prints a line every ten seconds about work whose length nobody knows, until it is dropped.
 pub(super) struct Patience {
     grown: Arc<AtomicUsize>,
+    at_rest: Arc<AtomicUsize>,
     /// Nothing is sent: the thread ends when this is dropped.
     _until: Sender<()>,
 }
@@ -40,22 +41,28 @@ impl Patience {
 
     fn new(work: &'static str, leaves: usize) -> Self {
         let (until, dropped) = channel();
-        let grown = Arc::new(AtomicUsize::new(0));
-        let counted = Arc::clone(&grown);
+        let [grown, at_rest] = [(); 2].map(|()| Arc::new(AtomicUsize::new(0)));
+        let counted = [&grown, &at_rest].map(Arc::clone);
         std::thread::spawn(move || {
             let started = Instant::now();
             while dropped.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
                 let seconds = started.elapsed().as_secs_f64();
+                let [grown, at_rest] = counted
+                    .each_ref()
+                    .map(|count| count.load(Ordering::Relaxed));
+                let mut line = format!("{work}: {seconds:.0} s");
                 if leaves > 0 {
-                    let grown = counted.load(Ordering::Relaxed);
-                    eprintln!("{work}: {seconds:.0} s, {grown} of {leaves} leaves");
-                } else {
-                    eprintln!("{work}: {seconds:.0} s");
+                    line += &format!(", {grown} of {leaves} leaves");
                 }
+                if at_rest > 0 {
+                    line += &format!(", {at_rest} things at rest");
+                }
+                eprintln!("{line}");
             }
         });
         Self {
             grown,
+            at_rest,
             _until: until,
         }
     }
@@ -65,6 +72,7 @@ impl Patience {
         BuildOptions {
             cache: None,
             grown: Some(&self.grown),
+            at_rest: Some(&self.at_rest),
             wavelengths: None,
         }
     }

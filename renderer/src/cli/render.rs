@@ -154,6 +154,7 @@ impl Traced<'_> {
         let written = self.write_pictures(&rendered);
         self.preview.show_last(&rendered.film);
         let stats = report(self, &rendered, times);
+        let ended = rendered.ended;
         tell_speed(&rendered, times);
         tell_samples(&rendered);
         let rejected = rendered.film.rejected();
@@ -178,9 +179,15 @@ impl Traced<'_> {
             eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
             return Err(Failure::Interrupted);
         }
-        self.keeping.finish(&begun).map_err(Failure::system)?;
+        let goes_on = self
+            .keeping
+            .finish(&begun, ended)
+            .map_err(Failure::system)?;
         for path in self.files.results() {
             say(path.display());
+        }
+        if goes_on {
+            eprintln!("{}", how_to_go_on(&self.files.checkpoint, self.line));
         }
         if rejected > 0 {
             eprintln!("note: {rejected} samples were not finite and are left out");

@@ -1,5 +1,7 @@
 //! Signals: to end with the work saved, and to save it and go on.
 
+#[cfg(unix)]
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -77,6 +79,8 @@ impl Signals {
         for file in fleeting.unwrap_or_else(PoisonError::into_inner).iter() {
             let _ = std::fs::remove_file(file);
         }
+        // Nobody may read it any more.
+        let _ = writeln!(std::io::stderr(), "interrupted: nothing is written");
         std::process::exit(130)
     }
 }

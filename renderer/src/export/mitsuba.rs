@@ -136,6 +136,20 @@ fn absorption_table(pigments: &Pigments) -> String {
     text
 }
 
+/// Refuses a folder that holds something else.
+///
+/// # Errors
+///
+/// [`ExportError::NotOurs`].
+pub fn check_ours(dir: &Path) -> Result<(), ExportError> {
+    if dir.exists() && !dir.join("lamina.json").is_file() {
+        return Err(ExportError::NotOurs {
+            path: dir.to_owned(),
+        });
+    }
+    Ok(())
+}
+
 /// Writes the folder `dir` completely or not at all; an earlier export there is replaced.
 ///
 /// # Errors
@@ -150,11 +164,7 @@ pub fn write(scene: &Description, world: &World, dir: &Path) -> Result<(), Expor
         let path = path.to_owned();
         move |source| ExportError::Write { path, source }
     };
-    if dir.exists() && !dir.join("lamina.json").is_file() {
-        return Err(ExportError::NotOurs {
-            path: dir.to_owned(),
-        });
-    }
+    check_ours(dir)?;
     if let Some(key) = sensor::foreign_key(&world.view) {
         return Err(ExportError::Lens { key });
     }

@@ -221,6 +221,25 @@ impl Scatter {
         others: impl IntoIterator<Item = [DVec3; 3]>,
         bodies: &[Body],
     ) -> Result<Vec<Strewn>, ScatterError> {
+        self.places_told(ground, others, bodies, &|| {})
+    }
+
+    /// As [`Scatter::places`]; `told` is called for each thing that has come to rest.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scatter::places`].
+    ///
+    /// # Panics
+    ///
+    /// As [`Scatter::places`].
+    pub fn places_told(
+        &self,
+        ground: &Ground,
+        others: impl IntoIterator<Item = [DVec3; 3]>,
+        bodies: &[Body],
+        told: &dyn Fn(),
+    ) -> Result<Vec<Strewn>, ScatterError> {
         assert!(!bodies.is_empty(), "something is strewn");
         let rests = matches!(self.rest, Rest::Settled { .. });
         let measure = ground.measure(self.within, rests);
@@ -274,6 +293,7 @@ impl Scatter {
                     let body = &bodies[shape];
                     match pile.settle(body, turn * scale, point.truncate(), gap) {
                         Ok((turn, at)) => {
+                            told();
                             DAffine3::from_mat3_translation(turn, at - turn * body.middle())
                         }
                         Err(why) => {

@@ -72,7 +72,7 @@ pub enum FileKind {
 impl FileKind {
     /// The kind of a file with this ending, if it is one.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()? {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "png" => Some(Self::Png),
             "jpg" | "jpeg" => Some(Self::Jpeg),
             _ => None,

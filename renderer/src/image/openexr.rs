@@ -13,7 +13,7 @@ use exr::meta::attribute::{
     AttributeValue, ChannelDescription, Chromaticities, LineOrder, SampleType, Text,
 };
 use exr::meta::header::{Header, LayerAttributes};
-use exr::meta::{BlockDescription, MetaData};
+use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{Compression, ReadChannels, ReadLayers, Vec2};
 
 use super::{
@@ -257,6 +257,9 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, ImageError> {
 
 fn decode_within(bytes: &[u8], most: u64) -> Result<Picture, ImageError> {
     let malformed = |what: String| ImageError::Malformed { what };
+    if !bytes.starts_with(&magic_number::BYTES) {
+        return Err(malformed("it is no EXR".to_owned()));
+    }
     let meta =
         guard(|| MetaData::read_from_buffered(Cursor::new(bytes), false)).map_err(malformed)?;
     let (mut total, mut claimed) = (0_u64, 0_u64);

@@ -114,11 +114,7 @@ pub(crate) fn read(
 /// Reads only the leaves of a file, which may lack everything else. Errors are left in the context.
 pub(crate) fn read_only_leaves(cx: &Context, tree: &Table) -> Option<Vec<Named<Leaf>>> {
     // The other sections of a scene are not checked here.
-    let others: Vec<&'static str> = SECTIONS
-        .into_iter()
-        .filter(|section| !["format", "extrapolate", "leaves"].contains(section))
-        .collect();
-    read_leaves(cx, tree, &others, leaf::leaf)
+    read_leaves(cx, tree, &plan_file::SECTIONS, leaf::leaf)
 }
 
 /// Reads only `[picture]` of a file. Errors are left in the context.

@@ -221,6 +221,8 @@ pub struct BuildOptions<'a> {
     pub cache: Option<&'a PlantCache>,
     /// Counts the leaves that have grown.
     pub grown: Option<&'a AtomicUsize>,
+    /// Counts what has come to rest of all that falls.
+    pub at_rest: Option<&'a AtomicUsize>,
     /// Wavelengths of paths that are not the film's.
     pub wavelengths: Option<&'a WavelengthSampler>,
 }
@@ -319,7 +321,7 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let strewn = Strewing::new(&meshes, &pieces, objects_as_written).all()?;
+        let strewn = Strewing::new(&meshes, &pieces, objects_as_written, options.at_rest).all()?;
         let strewn_around = strewing::around(&strewn, origin);
         let Placed {
             instances,

@@ -147,7 +147,12 @@ impl Keys<'_> {
                     let looked_into = block.cx.survey.borrow().is_some();
                     return current.filter(|_| looked_into).into_iter().collect();
                 }
-                block.exactly_one(names).into_iter().collect()
+                let one = if required {
+                    block.exactly_one(names)
+                } else {
+                    block.at_most_one(names)
+                };
+                one.into_iter().collect()
             }
             Pass::Write { .. } => current.into_iter().collect(),
             Pass::Describe(schema) => {

@@ -47,7 +47,7 @@ pub struct InstrumentsArguments {
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Memory that building the scene may take; the default is what the machine has free
-    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>)]
+    #[arg(long, value_name = "GIB", value_parser = between::<0, MOST_GIB>, allow_negative_numbers = true)]
     pub memory: Option<f64>,
 }
 

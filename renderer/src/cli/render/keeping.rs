@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use crate::checkpoint::{self, Heading};
 use crate::cli::signals::Signals;
 use crate::image::ImageError;
-use crate::integrator::render::Begun;
+use crate::integrator::render::{Begun, Ended};
 
 /// Keeping may take one part in so many of the time.
 const SHARE: u32 = 50;
@@ -123,15 +123,18 @@ impl<'a> Keeping<'a> {
         result
     }
 
-    /// The pictures are written: the file is brought up to date if it stays, else removed.
-    pub(super) fn finish(&self, begun: &Begun) -> Result<(), ImageError> {
-        if self.stays {
-            return self.save(begun);
+    /// The pictures are written: the file is brought up to date if it stays, as it does too if only
+    /// the time was over, else removed. Whether it stays without having been asked for.
+    pub(super) fn finish(&self, begun: &Begun, ended: Ended) -> Result<bool, ImageError> {
+        let goes_on = ended == Ended::Time;
+        if self.stays || goes_on {
+            self.save(begun)?;
+            return Ok(!self.stays);
         }
         if self.file().is_some() {
             // What is left does no harm.
             let _ = std::fs::remove_file(&self.path);
         }
-        Ok(())
+        Ok(false)
     }
 }

@@ -13,6 +13,7 @@ use leafmodel::document::values::{
 
 use super::sensitivities::Sensitivities;
 use crate::scene::description::{Band, Film, FilmKind};
+use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
 
 /// Range of wavelengths of the renderer, nm.
@@ -44,6 +45,7 @@ const KINDS: [Variant<Film>; 2] = [
                     range_nm: *range_nm,
                 };
                 keys.key("sensitivities", observer, kind, about);
+                tell_unseen(*range_nm, observer, keys);
             }
             tell_range(film, keys);
         },
@@ -141,6 +143,29 @@ fn tell_range(film: &Film, keys: &Keys<'_>) {
     };
     block.cx.range_nm.set(range);
 }
+
+/// Warns of a film that leaves out much of what the eye sees.
+fn tell_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
+    let given = keys
+        .reader()
+        .and_then(|block| Some((block.cx, block.node("range_nm")?)));
+    let (Some((cx, node)), Observer::Cie1931) = (given, observer) else {
+        return;
+    };
+    let [low, high] = range_nm;
+    let [_, seen, _] = cie::xyz_of(|nm| if (low..=high).contains(&nm) { 1.0 } else { 0.0 });
+    if seen < LEAST_SEEN {
+        let message = format!(
+            "`range_nm` leaves out {:.0} % of the light that the eye sees: colours are not those of the scene",
+            100.0 * (1.0 - seen)
+        );
+        let help = "widen it; a picture in the infrared or ultraviolet needs `[film.spectral]`, which is shown as grey";
+        cx.warn(&node.at, "scene::range", message, help);
+    }
+}
+
+/// Share of luminance below which a film's wavelengths are taken for a mistake.
+const LEAST_SEEN: f64 = 0.95;
 
 /// Pixels across and down.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,7 @@
 //! Places for objects that are strewn on others, or float in a box.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat4, DVec3};
 
@@ -33,6 +34,8 @@ pub(super) struct Strewing<'a> {
     meshes: &'a [TriangleMesh],
     pieces: &'a Pieces,
     objects: &'a [Named<Object>],
+    /// Counts what has come to rest.
+    at_rest: Option<&'a AtomicUsize>,
     /// Places found so far.
     found: Places,
 }
@@ -42,11 +45,13 @@ impl<'a> Strewing<'a> {
         meshes: &'a [TriangleMesh],
         pieces: &'a Pieces,
         objects: &'a [Named<Object>],
+        at_rest: Option<&'a AtomicUsize>,
     ) -> Self {
         Self {
             meshes,
             pieces,
             objects,
+            at_rest,
             found: BTreeMap::new(),
         }
     }
@@ -86,7 +91,12 @@ impl<'a> Strewing<'a> {
         };
         let body = |shape: &ObjectShape| Body::of(self.parts(*shape, object.to_world));
         let bodies: Vec<Body> = shapes.iter().map(body).collect();
-        let places = strewn.plan.places(&ground, others, &bodies)?;
+        let tell = || {
+            if let Some(at_rest) = self.at_rest {
+                at_rest.fetch_add(1, Ordering::Relaxed);
+            }
+        };
+        let places = strewn.plan.places_told(&ground, others, &bodies, &tell)?;
         let parts = group.map_or(1, <[_]>::len);
         if places.len() * parts > MOST_THINGS {
             return Err(ScatterError::TooMany {

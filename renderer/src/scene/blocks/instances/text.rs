@@ -95,10 +95,16 @@ fn pieces(text: &str) -> Vec<&str> {
     pieces
 }
 
-/// The fields of a line before its comment.
+/// The fields of a line before its comment, without the quotes that spreadsheets write.
 fn fields(line: &str) -> impl Iterator<Item = &str> {
     let line = line.split_once('#').map_or(line, |(fields, _)| fields);
-    line.split(SEPARATORS).filter(|field| !field.is_empty())
+    let fields = line.split(SEPARATORS).filter(|field| !field.is_empty());
+    fields.map(|field| {
+        let inner = field
+            .strip_prefix('"')
+            .and_then(|rest| rest.strip_suffix('"'));
+        inner.filter(|inner| !inner.is_empty()).unwrap_or(field)
+    })
 }
 
 fn read_header(cx: &Context, table: &Table<'_>, line: &str, number: usize) -> Option<Header> {
