@@ -57,6 +57,8 @@ use features::{Coverage, Words};
 
 /// Greatest number of pixels of a film.
 pub const MOST_PIXELS: u64 = 1 << 28;
+/// Most samples of a pixel.
+pub const MOST_SAMPLES: u32 = 1_048_576;
 /// Greatest memory of a film, bytes.
 pub const MOST_BYTES: u64 = 8 << 30;
 

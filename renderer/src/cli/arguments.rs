@@ -18,6 +18,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::film::MOST_SAMPLES;
+
 pub use check_bsdf::CheckBsdfArguments;
 pub use compare_networks::{Alignment, CompareNetworksArguments, Group, Groups};
 pub use fit::FitArguments;
@@ -178,6 +180,11 @@ pub struct CheckArguments {
     pub memory: Option<f64>,
 }
 
+/// Numbers of samples of a pixel.
+fn samples() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES))
+}
+
 /// `lamina render`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct RenderArguments {
@@ -189,7 +196,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "STEM")]
     pub out: Option<PathBuf>,
     /// Samples a pixel, instead of the scene's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    #[arg(long, value_name = "N", value_parser = samples())]
     pub spp: Option<u32>,
     /// Relative error at which a part of the picture has enough samples, instead of the scene's:
     /// 0.01 is one percent, 0 gives every pixel all its samples

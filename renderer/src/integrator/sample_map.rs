@@ -10,10 +10,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::film::BLOCK_SIDE;
-
-/// Most samples that a map may name.
-pub const MOST_SAMPLES: u32 = 1_048_576;
+use crate::film::{BLOCK_SIDE, MOST_SAMPLES};
 
 /// Numbers of samples by block.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -17,9 +17,7 @@ use leafmodel::document::write::value_to_toml;
 
 use super::range::{self, Range};
 use super::{Axis, Cell, Draft, Key, MOST_TASKS, Sweep, Target, Words, impossible, latin, rows};
-
-/// Most samples a pixel.
-const MOST_SAMPLES: u64 = 1_048_576;
+use crate::film::MOST_SAMPLES;
 
 /// Sections of scenes and of files of leaves, one of which each of them has.
 const SECTIONS: [&str; 6] = ["leaves", "objects", "lights", "film", "camera", "materials"];
@@ -76,7 +74,7 @@ impl Draft {
         }
         self.target = target(&root);
         if let Some(node) = root.node("spp") {
-            self.spp = integer_at(cx, node, "spp", 1, MOST_SAMPLES).map(|spp| spp as u32);
+            self.spp = integer_at(cx, node, "spp", 1, MOST_SAMPLES.into()).map(|spp| spp as u32);
         }
         if let Some(node) = root.node("noise") {
             self.noise = number_at(cx, node, "noise", Limits::closed(0.0, 1.0));

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::film::MOST_SAMPLES;
+
 /// Numbers of the samples of a part of a picture: from `first` to `end − 1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleRange {
@@ -11,17 +13,14 @@ pub struct SampleRange {
     pub end: u32,
 }
 
-/// Greatest number of samples of a pixel.
-const MOST: u32 = 1_048_576;
-
 impl SampleRange {
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let ends = text.split_once("..");
         let ends = ends.and_then(|(first, end)| first.parse().ok().zip(end.parse().ok()));
         match ends {
-            Some((first, end)) if first < end && end <= MOST => Ok(Self { first, end }),
+            Some((first, end)) if first < end && end <= MOST_SAMPLES => Ok(Self { first, end }),
             Some(_) | None => Err(format!(
-                "write A..B, as in 0..64 for the first 64 samples, with A < B up to {MOST}"
+                "write A..B, as in 0..64 for the first 64 samples, with A < B up to {MOST_SAMPLES}"
             )),
         }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::between;
+use super::{between, samples};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -31,7 +31,7 @@ pub struct SweepArguments {
     #[arg(short = 'D', value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Samples a pixel of each picture, instead of the scene's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    #[arg(long, value_name = "N", value_parser = samples())]
     pub spp: Option<u32>,
     /// Target noise of each picture, instead of the scene's
     #[arg(long, value_name = "SHARE", value_parser = between::<0, 1>, allow_negative_numbers = true)]

@@ -12,6 +12,7 @@ use leafmodel::document::values::{
 };
 
 use super::sensitivities::Sensitivities;
+use crate::film::MOST_SAMPLES;
 use crate::scene::description::{Band, Film, FilmKind};
 use crate::spectrum::cie;
 use crate::spectrum::observer::Observer;
@@ -20,8 +21,6 @@ use crate::spectrum::observer::Observer;
 pub(super) const WAVELENGTHS_NM: Limits = Limits::closed(360.0, 2500.0);
 /// Most pixels along one side; both sides at most give 2^28 pixels.
 const MOST_PIXELS: u64 = 16384;
-/// Most samples a pixel.
-const MOST_SAMPLES: u64 = 65536 * 16;
 const MOST_BANDS: usize = 32;
 
 const KINDS: [Variant<Film>; 2] = [
@@ -102,7 +101,7 @@ fn sampling(film: &mut Film, keys: &mut Keys<'_>) {
     let mut size = [film.width, film.height];
     keys.required("size", &mut size, Pixels, "Pixels across and down.");
     [film.width, film.height] = size;
-    let count = Integer::within(1, MOST_SAMPLES);
+    let count = Integer::within(1, MOST_SAMPLES.into());
     let about = "Samples a pixel; with `noise` the most.";
     keys.required("spp", &mut film.spp, count, about);
     let mut noise = film.noise.unwrap_or(0.0);

@@ -45,6 +45,14 @@ pub(super) fn build_lights<'i>(
             white,
         } => {
             let picture = picture(name, file, notes)?;
+            let (width, height) = (picture.width, picture.texels.len() / picture.width);
+            if width != 2 * height {
+                notes.push(format!(
+                    "lights.{name}: {}: a picture of {width} × {height} pixels is not twice as wide as high; \
+                     it is stretched over the whole sphere",
+                    file.display()
+                ));
+            }
             let mut texels = picture.texels;
             // Seen from within, the azimuth grows to the left.
             for row in texels.chunks_mut(picture.width) {
@@ -204,6 +212,7 @@ mod tests {
             .unwrap_or_else(|errors| panic!("{errors}"))
             .description;
         let world = World::build(&scene).expect("it can be built");
+        assert!(world.notes.is_empty(), "{:?}", world.notes);
         let job = Job {
             width: 2,
             height: 2,
