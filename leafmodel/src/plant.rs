@@ -245,6 +245,9 @@ pub struct Plant {
     pub organs: Vec<(Organ, StalkMesh)>,
     /// Crumbs on the soil of its pot.
     pub crumbs: Vec<Crumb>,
+    /// How many leaves cut another one or an axis after all; `None` where not all were looked at:
+    /// of plants that climb, of very many leaves, and without `evasions`.
+    pub crossing: Option<usize>,
 }
 
 /// Why a plant cannot be grown.

@@ -108,15 +108,16 @@ impl Wood {
     }
 }
 
-/// Turns the leaves of a plant that cut others or its axes.
+/// Turns the leaves of a plant that cut others or its axes. How many still do; `None` if not all
+/// were looked at.
 pub(super) fn keep_apart(
     plan: &PlantPlan,
     feet: &[Vec<Foot>],
     (standing, wood): (&[Standing], &[Wood]),
     leaves: &mut [BorneLeaf],
-) {
+) -> Option<usize> {
     if plan.evasions == 0 || leaves.len() > MOST_TURNED {
-        return;
+        return None;
     }
     let foot = |leaf: &BorneLeaf| &feet[leaf.kind][leaf.individual as usize];
     let mut bodies: Vec<Body> = leaves
@@ -126,11 +127,13 @@ pub(super) fn keep_apart(
         .collect();
     let near = neighbours(leaves, &bodies, wood);
     let mut work = 0;
+    let mut crossing = 0;
     for _ in 0..SWEEPS {
         let mut has_turned = false;
+        crossing = 0;
         for stand in standing {
             if work > MOST_WORK {
-                return;
+                return None;
             }
             let leaf = leaves[stand.leaf];
             let mut cuts = |body: &Body| -> usize {
@@ -159,11 +162,13 @@ pub(super) fn keep_apart(
                 bodies[stand.leaf] = body;
                 has_turned = true;
             }
+            crossing += usize::from(least > 0);
         }
         if !has_turned {
             break;
         }
     }
+    Some(crossing)
 }
 
 /// The place of a leaf that has turned, the try of this number; none if its petiole would bend into
@@ -238,7 +243,7 @@ mod tests {
 
     /// Leaves of a plant's preset with the leaf of a name, and how many of its pairs of leaves cut
     /// each other.
-    fn grown(preset: &str, leaf: &str, evasions: u32) -> (Vec<BorneLeaf>, usize) {
+    fn grown(preset: &str, leaf: &str, evasions: u32) -> (Plant, usize) {
         let mut plan = presets::find(preset).expect("a preset").plan();
         (plan.evasions, plan.individuals) = (evasions, 4);
         let leaf = species::find(leaf).expect("a preset").plan();
@@ -257,7 +262,7 @@ mod tests {
                 .filter(|o| body.cuts(o, &mut 0) > 0)
                 .count();
         }
-        (plant.leaves, cut)
+        (plant, cut)
     }
 
     #[test]
@@ -270,6 +275,12 @@ mod tests {
         ] {
             let [(before, many), (after, few)] = [0, 24].map(|n| grown(preset, leaf, n));
             assert!(many > 0 && few * 8 <= many, "{preset}: {many}, then {few}");
+            // Some that cut no other leaf cut an axis.
+            let crossing = after.crossing.expect("all were looked at");
+            assert!((few > 0) <= (crossing > 0), "{preset}: {few}, {crossing}");
+            assert!(20 * crossing <= after.leaves.len(), "{preset}: {crossing}");
+            assert_eq!(before.crossing, None);
+            let (before, after) = (before.leaves, after.leaves);
             let stayed = before.iter().zip(&after).filter(|(a, b)| a == b).count();
             assert!(2 * stayed > before.len(), "{preset}: {stayed} stay");
             for (a, b) in before.iter().zip(&after) {

@@ -73,6 +73,7 @@ pub(super) fn grow(
             leaves: Vec::new(),
             organs: Vec::new(),
             crumbs: Vec::new(),
+            crossing: None,
         },
         standing: Vec::new(),
         wood: Vec::new(),
@@ -86,7 +87,7 @@ pub(super) fn grow(
     let mut plant = builder.plant;
     if plan.climbing.is_none() {
         let bodies = (&*builder.standing, &*builder.wood);
-        keep_apart(plan, feet, bodies, &mut plant.leaves);
+        plant.crossing = keep_apart(plan, feet, bodies, &mut plant.leaves);
     }
     if let Some(pot) = &plan.pot {
         plant.organs.push((Organ::Pot, pot.vessel()));

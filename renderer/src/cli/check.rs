@@ -9,7 +9,7 @@ use crate::cli::signals::Signals;
 use crate::cli::{Failure, colour, load_scene, needs, say};
 use crate::geometry;
 use crate::scene::assets;
-use crate::scene::description::{Description, Held, Mesh, Reflectance};
+use crate::scene::description::{Description, Held, Mesh, Named, Reflectance};
 use crate::scene::load;
 use crate::scene::world::World;
 
@@ -123,6 +123,16 @@ fn tell_world(scene: &SceneArguments, description: &Description) -> Result<(), F
     drop(patience);
     for note in &world.notes {
         eprintln!("note: {note}");
+    }
+    for Named { name, value } in &description.plants {
+        if let Some([crossing, leaves]) = value.crossing
+            && crossing > 0
+        {
+            eprintln!(
+                "note: plants.{name}: {crossing} of {leaves} leaves cut another one or an axis; a greater `evasions` \
+                 lets them try more turns"
+            );
+        }
     }
     let (low, high) = world.geometry.bounds();
     let size = high - low;

@@ -255,6 +255,7 @@ fn sections(scene: &mut Description, keys: &mut Keys<'_>, purpose: Purpose) {
         perianth: [None; 2],
         potting: [None; 2],
         walls: Vec::new(),
+        crossing: None,
     };
     section(keys, "plants", &mut scene.plants, &new, about, plant::plant);
     if purpose == Purpose::Instruments

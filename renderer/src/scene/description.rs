@@ -417,6 +417,9 @@ pub struct Plant {
     pub potting: [Option<usize>; 2],
     /// The objects on which it climbs: indices into [`Description::objects`].
     pub walls: Vec<usize>,
+    /// Once it is grown: how many of its leaves cut another one or an axis, and how many it has;
+    /// `None` where that was not looked at.
+    pub crossing: Option<[usize; 2]>,
 }
 
 /// A light.

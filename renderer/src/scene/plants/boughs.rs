@@ -77,7 +77,10 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
                     name.clone()
                 };
                 match parts(scene, &own, &value, wall.as_ref()) {
-                    Ok(parts) => place.insert(parts),
+                    Ok((parts, crossing)) => {
+                        scene.plants[plant].value.crossing = crossing;
+                        place.insert(parts)
+                    }
                     Err(error) => {
                         let (key, help) = match error {
                             PlantError::NotBorne(_) | PlantError::NoLeaf => {
@@ -123,13 +126,14 @@ pub(in crate::scene) fn place(scene: &mut Description, keys: &Keys<'_>) {
     }
 }
 
-/// Grows a plant and adds its leaves, its axes and their bark to the scene.
+/// Grows a plant and adds its leaves, its axes and their bark to the scene; also how many leaves cut
+/// something, of how many.
 fn parts(
     scene: &mut Description,
     name: &str,
     plant: &Plant,
     wall: Option<&Wall>,
-) -> Result<Parts, PlantError> {
+) -> Result<(Parts, Option<[usize; 2]>), PlantError> {
     let mut kinds = plant.leaves.clone();
     if plant.plan.flower.is_some() {
         kinds.extend(plant.perianth.iter().flatten());
@@ -159,7 +163,8 @@ fn parts(
         add_crumbs(scene, &mut parts, (name, soil), &grown.crumbs);
     }
     add_leaves(scene, &mut parts, name, (&kinds, &individuals), &grown);
-    Ok(parts)
+    let crossing = grown.crossing.map(|some| [some, grown.leaves.len()]);
+    Ok((parts, crossing))
 }
 
 /// Adds axes and organs of a plant, with their materials; the material of its soil.
