@@ -1,9 +1,9 @@
 //! `lamina export`: a scene for another renderer.
 
-use crate::cli::arguments::MitsubaArguments;
-use crate::cli::progress::Patience;
 use std::path::Path;
 
+use crate::cli::arguments::MitsubaArguments;
+use crate::cli::progress::Patience;
 use crate::cli::signals::Signals;
 use crate::cli::{Failure, check_writable, load_scene, needs, say};
 use crate::export::mitsuba::{self, ExportError};

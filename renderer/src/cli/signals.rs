@@ -80,7 +80,15 @@ impl Signals {
             let _ = std::fs::remove_file(file);
         }
         // Nobody may read it any more.
-        let _ = writeln!(std::io::stderr(), "interrupted: nothing is written");
+        let _ = writeln!(
+            std::io::stderr(),
+            "{}",
+            if self.at_work.load(Ordering::SeqCst) {
+                "interrupted at once: what was not saved yet is lost"
+            } else {
+                "interrupted"
+            }
+        );
         std::process::exit(130)
     }
 }
