@@ -7,7 +7,6 @@ Where Open Image Denoise is missing, what needs it is skipped and told.
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 import tempfile
 from pathlib import Path
@@ -34,7 +33,7 @@ from lamina_reference.channels import colours
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error
-from lamina_reference.testing import run_tests
+from lamina_reference.testing import run_tests, without_denoiser
 from lamina_reference.twins import Bias, bias, left_noise
 from lamina_reference.twins import luminance as luminance_of
 from scipy.ndimage import gaussian_filter
@@ -258,18 +257,16 @@ def test_what_is_no_twin_is_refused() -> None:
         assert not (folder / "out.exr").exists()
 
 
+NEED_THE_DENOISER = """
+    twins_tell_the_noise_that_is_left
+    twins_add_up_their_samples_and_leave_all_else_as_it_was
+    twins_without_light_have_no_noise_and_no_bias
+""".split()
+
+
 def run() -> int:
     """Runs every test of this file, or those whose names hold the arguments."""
-    tests = dict(globals())
-    if importlib.util.find_spec("mitsuba_oidn") is None:
-        print("skip  what denoises: mitsuba-oidn is missing in this Python", file=sys.stderr)
-        for test in (
-            test_twins_tell_the_noise_that_is_left,
-            test_twins_add_up_their_samples_and_leave_all_else_as_it_was,
-            test_twins_without_light_have_no_noise_and_no_bias,
-        ):
-            del tests[test.__name__]
-    return run_tests(tests, "noise")
+    return run_tests(without_denoiser(globals(), *NEED_THE_DENOISER), "noise")
 
 
 if __name__ == "__main__":

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 import traceback
 from collections.abc import Mapping
 from time import perf_counter
 from typing import Any
+
+
+def without_denoiser(tests: Mapping[str, Any], *needing: str) -> dict[str, Any]:
+    """Tests without those of these names if Open Image Denoise is missing, which is told."""
+    if importlib.util.find_spec("mitsuba_oidn") is not None:
+        return dict(tests)
+    print("skip  what denoises: mitsuba-oidn is missing in this Python", file=sys.stderr)
+    left_out = {f"test_{name}" for name in needing}
+    assert left_out <= set(tests), left_out - set(tests)
+    return {name: test for name, test in tests.items() if name not in left_out}
 
 
 def run_tests(names: Mapping[str, Any], label: str) -> int:

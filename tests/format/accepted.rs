@@ -1,7 +1,5 @@
 //! What valid scenes mean: the values that they resolve to.
 
-use std::path::Path;
-
 use glam::{DMat4, DVec3};
 use renderer::camera::thin_lens::ThinLens;
 use renderer::camera::view::Projection;
@@ -9,7 +7,6 @@ use renderer::scene::description::{
     Band, Depth, Description, FilmKind, LeafTissue, Light, Material, Mesh, ObjectShape,
     Reflectance, Spectrum, Tone, Wrap,
 };
-use renderer::scene::load::{count_veins, load_for_instruments};
 
 use super::{accept, folder, load, text_of};
 
@@ -229,31 +226,6 @@ fn a_spreadsheet_may_put_quotes_around_its_fields() {
         scene.objects[9].value.instances.clone()
     };
     assert_eq!(places("quoted.csv"), places("places.csv"));
-}
-
-#[test]
-fn leaves_of_all_scenes_of_the_repository_can_be_grown_alone() {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    let folders = std::fs::read_dir(scenes).expect("there are scenes");
-    let files = folders.flat_map(|folder| {
-        let folder = folder.expect("it can be read").path();
-        let files = std::fs::read_dir(folder).into_iter().flatten();
-        files.map(|file| file.expect("it can be read").path())
-    });
-    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
-    let mut count = 0;
-    for file in files {
-        let Ok(scene) = load_for_instruments(&file, &[]) else {
-            continue;
-        };
-        let leaves = scene.description.leaves.len();
-        let alone = count_veins(&file, &[]);
-        // A leaf may stand in a picture at several ages.
-        let is_read = alone.is_some_and(|alone| (1..=leaves).contains(&alone));
-        assert!(leaves == 0 || is_read, "{}", file.display());
-        count += alone.unwrap_or_default();
-    }
-    assert!(count > 100, "{count} leaves");
 }
 
 #[test]

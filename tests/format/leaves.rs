@@ -1,5 +1,7 @@
 //! Leaves are planned as the file says.
 
+use std::path::Path;
+
 use leafmodel::leaf::LeafPlan;
 use leafmodel::leaf::outline_plan::{Contour, OutlinePlan};
 use leafmodel::shape::growth::RateCurve;
@@ -8,7 +10,7 @@ use leafmodel::venation::plan::{
 };
 
 use leafmodel::compound::{Arrangement, Feather};
-use renderer::scene::load::load_leaves;
+use renderer::scene::load::{count_veins, load_for_instruments, load_leaves};
 
 use super::accepted::assert_near;
 use super::{accept, codes, folder, text_of};
@@ -204,4 +206,29 @@ fn petioles_and_compound_leaves_mean_what_the_book_says() {
     assert!(leaflets.terminal && leaflets.sizes == [1.0; 3]);
     assert!(scene.leaves[0].value.plan.petiole.is_none());
     assert!(scene.leaves[0].value.plan.compound.is_none());
+}
+
+#[test]
+fn leaves_of_all_scenes_of_the_repository_can_be_grown_alone() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let folders = std::fs::read_dir(scenes).expect("there are scenes");
+    let files = folders.flat_map(|folder| {
+        let folder = folder.expect("it can be read").path();
+        let files = std::fs::read_dir(folder).into_iter().flatten();
+        files.map(|file| file.expect("it can be read").path())
+    });
+    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    let mut count = 0;
+    for file in files {
+        let Ok(scene) = load_for_instruments(&file, &[]) else {
+            continue;
+        };
+        let leaves = scene.description.leaves.len();
+        let alone = count_veins(&file, &[]);
+        // A leaf may stand in a picture at several ages.
+        let is_read = alone.is_some_and(|alone| (1..=leaves).contains(&alone));
+        assert!(leaves == 0 || is_read, "{}", file.display());
+        count += alone.unwrap_or_default();
+    }
+    assert!(count > 100, "{count} leaves");
 }

@@ -11,7 +11,7 @@ use leafmodel::document::values::{
     integers_at, list, number, number_at, numbers_at, wrong_length, wrong_type,
 };
 
-use super::sensitivities::Sensitivities;
+use super::sensitivities::{LEAST_SHARE, Sensitivities};
 use crate::film::MOST_SAMPLES;
 use crate::scene::description::{Band, Film, FilmKind};
 use crate::spectrum::cie;
@@ -153,7 +153,7 @@ fn tell_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
     };
     let [low, high] = range_nm;
     let [_, seen, _] = cie::xyz_of(|nm| if (low..=high).contains(&nm) { 1.0 } else { 0.0 });
-    if seen < LEAST_SEEN {
+    if seen < LEAST_SHARE {
         let message = format!(
             "`range_nm` leaves out {:.0} % of the light that the eye sees: colours are not those of the scene",
             100.0 * (1.0 - seen)
@@ -162,9 +162,6 @@ fn tell_unseen(range_nm: [f64; 2], observer: &Observer, keys: &Keys<'_>) {
         cx.warn(&node.at, "scene::range", message, help);
     }
 }
-
-/// Share of luminance below which a film's wavelengths are taken for a mistake.
-const LEAST_SEEN: f64 = 0.95;
 
 /// Pixels across and down.
 #[derive(Clone, Copy, Debug)]

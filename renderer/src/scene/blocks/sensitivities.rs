@@ -22,7 +22,7 @@ use crate::spectrum::observer::{CHANNELS, Camera, NotACamera, Observer};
 const MOST_BYTES: u64 = 1 << 20;
 
 /// Least share of a channel's response that a film should record.
-const LEAST_SHARE: f64 = 0.95;
+pub(super) const LEAST_SHARE: f64 = 0.95;
 
 /// Share of a channel's greatest sensitivity that may be left where a table ends.
 const MOST_AT_END: f64 = 0.05;
