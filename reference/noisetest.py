@@ -30,7 +30,7 @@ from denoisetest import (
     write,
 )
 from lamina_reference.channels import colours
-from lamina_reference.denoise import NOTE
+from lamina_reference.denoise import NOTE, traced_scene
 from lamina_reference.exr import Array, read_channels, write_channels
 from lamina_reference.noise import relative_error
 from lamina_reference.testing import run_tests, without_denoiser
@@ -225,6 +225,24 @@ def test_twins_without_light_have_no_noise_and_no_bias() -> None:
     assert "bias of luminance 0 %" in note, note
 
 
+def test_twins_may_be_developed_otherwise_and_have_other_numbers_of_samples() -> None:
+    film = "[film.rgb]\nsize = [64, 48]\n"
+    first = f"format = 1\n{film}spp = 16\n[picture]\nexposure_ev = 1\n"
+    for same in (
+        f"format = 1\n{film}spp = 16\n",
+        f"# Later.\nformat = 1\n{film}spp = 64\nnoise = 0.01\nseed = 3\n[picture]\ncontrast = 2\n",
+    ):
+        assert traced_scene(same) == traced_scene(first), same
+    for other in (
+        first.replace("48", "32"),
+        f"{first}[integrator]\nmax_depth = 4\n",
+        "format = ",
+        "",
+    ):
+        assert traced_scene(other) != traced_scene(first), other
+    assert traced_scene("no scene") == "no scene"
+
+
 def test_what_is_no_twin_is_refused() -> None:
     film = colour_film(truth((LEAF, PAPER, STEM)))
     with scratch() as folder:
@@ -240,7 +258,7 @@ def test_what_is_no_twin_is_refused() -> None:
             {"lamina:seed": "2"},
         )
         scene = write(
-            folder / "scene.exr", film, {"lamina:seed": "2", "lamina:scene": "format = 1\n"}
+            folder / "scene.exr", film, {"lamina:seed": "2", "lamina:scene": "format = 2\n"}
         )
         for twin, problem in (
             (first, "first.exr is of seed 18446744073709551615 too; render with another"),

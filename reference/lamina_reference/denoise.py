@@ -20,6 +20,7 @@ import argparse
 import os
 import subprocess
 import sys
+import tomllib
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -140,6 +141,22 @@ def check(film: Film, file: Path, guides: bool) -> None:
                     )
 
 
+def traced_scene(text: str) -> object:
+    """What samples depend on in a scene file: neither their number, the target noise and the seed
+    nor how the picture is developed. A text that is no TOML stands for itself.
+    """
+    try:
+        scene = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return text
+    scene.pop("picture", None)
+    films = scene.get("film", {})
+    for film in films.values() if isinstance(films, dict) else ():
+        for key in ("spp", "noise", "seed") if isinstance(film, dict) else ():
+            film.pop(key, None)
+    return scene
+
+
 def check_twins(films: list[Film], files: list[Path]) -> None:
     """Refuses a further picture that is not of the same scene, or not of other random numbers."""
     seeds: dict[str, Path] = {}
@@ -147,7 +164,10 @@ def check_twins(films: list[Film], files: list[Path]) -> None:
         first, other = films[0].spec, film.spec
         if first.channelnames != other.channelnames or films[0].pixels.shape != film.pixels.shape:
             raise Refused(f"{file}: it is no twin: it has another size or other layers")
-        if len({spec.get_string_attribute(SCENE) for spec in (first, other)}) > 1:
+        of_first, of_other = (
+            traced_scene(spec.get_string_attribute(SCENE)) for spec in (first, other)
+        )
+        if of_first != of_other:
             raise Refused(f"{file}: it is no twin: it is of another scene")
         seed = other.get_string_attribute(SEED)
         if seed in seeds:
