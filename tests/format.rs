@@ -52,7 +52,8 @@ fn folder() -> TempDir {
     write(
         "margin.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"blade\" d=\"M50 90C90 80 90 30 50 10C10 30 10 80 50 90Z\"/>\
-         <path id=\"bow\" d=\"M50 90L90 90L10 20L70 10Z\"/><path id=\"ring\" d=\"M0 0H9V9ZM1 1H2V2Z\"/></svg>",
+         <path id=\"bow\" d=\"M50 90L90 90L10 20L70 10Z\"/><path id=\"ring\" d=\"M0 0H9V9ZM1 1H2V2Z\"/>\
+         <path id=\"open\" d=\"M50 90C90 80 90 30 50 10C10 30 10 60 20 70\"/></svg>",
     );
     // A tetrahedron, and three faces at one edge.
     let corners = "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n";

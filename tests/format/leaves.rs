@@ -104,6 +104,31 @@ fn an_outline_may_be_drawn_or_traced_and_toothed() {
 }
 
 #[test]
+fn what_a_drawing_leaves_open_is_told() {
+    let warnings = |id: &str| {
+        let text = text_of("broken/outline_svg_parts.toml").replace("id = \"ring\"", id);
+        let loaded = accept(&text, "drawn.toml", &[]);
+        let messages = loaded.warnings.iter();
+        messages
+            .map(|warning| warning.message().to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert!(warnings("id = \"blade\"").is_empty());
+    let [several] = &warnings("")[..] else {
+        panic!("one warning");
+    };
+    assert!(
+        several.contains("4 paths that are drawn, of which the first"),
+        "{several}"
+    );
+    // From (20, 70) to (50, 90), of 80 in height; curves stay within 80 in width.
+    let [open] = &warnings("id = \"open\"")[..] else {
+        panic!("one warning");
+    };
+    assert!(open.contains("over 0.45 of its extent"), "{open}");
+}
+
+#[test]
 fn veins_are_planned_as_written() {
     let scene = accept(&text_of("whole.toml"), "whole.toml", &[]).description;
     let drawn = auxin(&scene.leaves[2].value.plan);

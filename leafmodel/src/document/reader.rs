@@ -4,7 +4,7 @@
 //! file finds all of its errors. Blocks are read in full before anything is put together from
 //! them; [`Block::finish`] then reports the keys that nobody asked for.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use super::context::{Context, ENOUGH, KnownKey, QUOTED};
 use super::error::{DocumentError, NONE};
@@ -30,6 +30,8 @@ pub struct Block<'a> {
     pub at: Place,
     asked: RefCell<Vec<&'static str>>,
     missing: RefCell<Vec<(&'static str, String)>>,
+    /// Whether keys stand here that exclude each other, so that nobody knows which others belong.
+    is_ambiguous: Cell<bool>,
     /// What to say of keys that are missing since nothing is taken from the preset.
     anew: Option<String>,
 }
@@ -44,6 +46,7 @@ impl<'a> Block<'a> {
             at,
             asked: RefCell::default(),
             missing: RefCell::default(),
+            is_ambiguous: Cell::default(),
             anew: None,
         }
     }
@@ -212,9 +215,11 @@ impl<'a> Block<'a> {
             !self.asked.borrow().contains(&entry.key.as_str())
                 && nearest(&entry.key, keys.iter().copied()).is_some()
         };
-        if matches!(chosen, Choice::Several(_)) || !self.first_entries().any(misspelt) {
+        let several = matches!(chosen, Choice::Several(_));
+        if several || !self.first_entries().any(misspelt) {
             self.report_choice(keys, &chosen, allows);
         }
+        self.is_ambiguous.set(self.is_ambiguous.get() || several);
         None
     }
 
@@ -263,7 +268,8 @@ impl<'a> Block<'a> {
 
     /// Reports what nobody asked for, and what is missing.
     ///
-    /// A missing key is left out if an unknown one is most probably just that, misspelt.
+    /// A missing key is left out if an unknown one is most probably just that, misspelt; unknown
+    /// keys are, where others exclude each other: each of those has keys of its own beside it.
     pub fn finish(&self) {
         self.note_known_keys();
         let asked = self.asked.borrow();
@@ -277,7 +283,7 @@ impl<'a> Block<'a> {
         let absent: Vec<&str> = known.iter().copied().filter(is_absent).collect();
         let mut missing = self.missing.borrow().clone();
         for entry in &self.table.0 {
-            if known.contains(&entry.key.as_str()) {
+            if known.contains(&entry.key.as_str()) || self.is_ambiguous.get() {
                 continue;
             }
             if self.cx.is_full() {

@@ -22,7 +22,7 @@ use crate::shape::contour_curve::{ContourCurve, ControlPoint};
 use crate::shape::cubic_margin::CubicMargin;
 use crate::shape::outline::Outline;
 use crate::shape::specimen::Specimen;
-use crate::shape::svg_path::{SvgContour, SvgError};
+use crate::shape::svg_path::{SvgContour, SvgError, SvgReading};
 use crate::shape::teeth::ToothWave;
 use crate::transport::{Ladder, TransportError, TransportPlan};
 use crate::variant;
@@ -298,12 +298,43 @@ fn read_svg(named: &SvgContour, keys: &Keys<'_>) -> Option<SvgContour> {
         .map_err(|error| format!("cannot be read: {error}"))
         .map_err(|problem| (problem, "make it a readable UTF-8 file"));
     let parsed = text.and_then(|text| {
-        let contour = SvgContour::parse(path, &text, named.id.as_deref());
-        contour.map_err(|error| (error.to_string(), help(&error)))
+        let reading = SvgContour::read(path, &text, named.id.as_deref());
+        reading.map_err(|error| (error.to_string(), help(&error)))
     });
-    parsed
-        .map_err(|(problem, help)| bad_file(block.cx, at, path, &problem, help))
-        .ok()
+    match parsed {
+        Ok(reading) => {
+            warn_of_guesses(block.cx, at, &reading);
+            Some(reading.contour)
+        }
+        Err((problem, help)) => {
+            bad_file(block.cx, at, path, &problem, help);
+            None
+        }
+    }
+}
+
+/// Least gap between the ends of a path, as a share of its extent, that is no rounding.
+const GAP: f64 = 1e-3;
+
+/// Tells what was done to a drawing to have a contour.
+fn warn_of_guesses(cx: &Context, at: &Place, reading: &SvgReading) {
+    let path = escaped(&reading.contour.file, 2 * QUOTED);
+    if reading.passed_over > 0 {
+        let message = format!(
+            "\"{path}\" has {} paths that are drawn, of which the first is taken",
+            reading.passed_over + 1
+        );
+        let help = "name the margin's path by its `id`";
+        cx.warn(at, "scene::first_path", message, help);
+    }
+    if reading.gap > GAP {
+        let message = format!(
+            "the path in \"{path}\" is open; a straight line over {:.2} of its extent closes it",
+            reading.gap
+        );
+        let help = "close the path in the drawing program if the margin goes on there";
+        cx.warn(at, "scene::open_path", message, help);
+    }
 }
 
 /// Reports a file that is of no use.

@@ -40,6 +40,18 @@ pub struct SvgContour {
     pub apex: [f64; 2],
 }
 
+/// A contour, and what was done to the drawing to have one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SvgReading {
+    /// The contour.
+    pub contour: SvgContour,
+    /// Distance between the ends of an open path, which a straight line joins, as a share of the
+    /// path's extent; 0 for a closed one.
+    pub gap: f64,
+    /// How many other paths are drawn, of which none was asked for by its `id`.
+    pub passed_over: usize,
+}
+
 /// Why a file gives no contour.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SvgError {
@@ -92,6 +104,15 @@ impl SvgContour {
     ///
     /// \[svg2\], chapters 8.5 (transforms) and 9.3 (path data).
     pub fn parse(file: &str, text: &str, id: Option<&str>) -> Result<Self, SvgError> {
+        Ok(Self::read(file, text, id)?.contour)
+    }
+
+    /// As [`SvgContour::parse`], with what a careful reader tells of it.
+    ///
+    /// # Errors
+    ///
+    /// [`SvgError`]; its messages are written to follow the name of the file.
+    pub fn read(file: &str, text: &str, id: Option<&str>) -> Result<SvgReading, SvgError> {
         // Drawing programs write a document type with entities into their files.
         let options = ParsingOptions {
             allow_dtd: true,
@@ -103,6 +124,12 @@ impl SvgContour {
             SvgError::NotXml { problem }
         })?;
         let path = find(&document, id)?;
+        let passed_over = match id {
+            Some(_) => 0,
+            None => paths(&document)
+                .filter(|&other| other != path && is_drawn(other))
+                .count(),
+        };
         let data = path.attribute("d").unwrap_or_default();
         let parts = path_data::parts(data).map_err(|problem| SvgError::BadAttribute {
             attribute: "d",
@@ -127,7 +154,8 @@ impl SvgContour {
                 (low, high) = (low.min(p), high.max(p));
             }
         }
-        let tolerance = FLATNESS * (high - low).max_element();
+        let extent = (high - low).max_element();
+        let tolerance = FLATNESS * extent;
         let mut points = vec![cubics[0].0[0]];
         for cubic in &cubics {
             cubic.flatten(tolerance, &mut points);
@@ -136,17 +164,23 @@ impl SvgContour {
                 return Err(SvgError::TooLarge { problem });
             }
         }
+        let apart = points[0].distance(points[points.len() - 1]);
         while points.len() > 1 && points.first() == points.last() {
             points.pop();
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(DVec2::into).collect();
         let [base, apex] = Self::ends_of(&points);
-        Ok(Self {
+        let contour = Self {
             file: file.to_owned(),
             id: id.map(str::to_owned),
             points,
             base,
             apex,
+        };
+        Ok(SvgReading {
+            contour,
+            gap: if apart > 0.0 { apart / extent } else { 0.0 },
+            passed_over,
         })
     }
 
@@ -188,11 +222,16 @@ impl SvgContour {
     }
 }
 
+/// All paths of a file.
+fn paths<'d>(document: &'d Document<'_>) -> impl Iterator<Item = Node<'d, 'd>> {
+    document
+        .descendants()
+        .filter(|node| node.is_element() && node.tag_name().name() == "path")
+}
+
 /// The path of that `id`, or else the first that is drawn.
 fn find<'d>(document: &'d Document<'_>, id: Option<&str>) -> Result<Node<'d, 'd>, SvgError> {
-    let mut paths = document
-        .descendants()
-        .filter(|node| node.is_element() && node.tag_name().name() == "path");
+    let mut paths = paths(document);
     match id {
         Some(id) => paths
             .find(|node| node.attribute("id") == Some(id))

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::network::VeinEdge;
 use super::planar::EdgeGrid;
 use super::topology::Topology;
-use net::Net;
+use net::{Net, reach, steps};
 
 mod net;
 
@@ -97,7 +97,7 @@ fn hold(moves: &mut [bool], edges: &[VeinEdge], held: &[u32], reach: u32) {
 
 /// Brings `now` to what [`moved`] gives once the nodes `stopped` move no more.
 ///
-/// What happens at a node reaches one edge farther in each round, of which nothing is left far away:
+/// What happens at a node reaches one edge farther in each step, of which nothing is left far away:
 /// see [`reach`]. So places farther away stay, and those nearer are found on the net up to twice as
 /// far. Gives the nodes that have new places, or none if all have.
 fn renew(
@@ -108,7 +108,7 @@ fn renew(
     (rounds, stopped): (u32, &[u32]),
 ) -> Option<Vec<u32>> {
     const FAR: u32 = u32::MAX;
-    let reach = reach(rounds);
+    let reach = reach(&steps(rounds));
     let mut away = vec![FAR; positions.len()];
     let mut near = stopped.to_vec();
     for &node in stopped {
@@ -163,16 +163,6 @@ fn renew(
     Some(near)
 }
 
-/// How many edges away what happens at a node is felt after `rounds`.
-///
-/// In a round a node goes a quarter of its way, as if a quarter of what it feels came from its
-/// neighbours: so what is felt spreads like a walk of `rounds` steps of variance 1/4. Nine times its
-/// standard deviation away less is left than a number has bits.
-fn reach(rounds: u32) -> u32 {
-    let deviation = (net::STEP * f64::from(rounds)).sqrt();
-    rounds.min((9.0 * deviation).ceil() as u32)
-}
-
 fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -> Vec<DVec2> {
     let shortest = SHORTEST * mean_length(positions, edges);
     moved_from(positions, edges, moves, rounds, shortest)
@@ -182,7 +172,7 @@ fn moved(positions: &[DVec2], edges: &[VeinEdge], moves: &[bool], rounds: u32) -
 ///
 /// Each node gathers the pulls on itself in the order of `edges`, so the bits are those of one
 /// thread. Nodes are worked on in the order of their places, since what lies near in memory is fetched
-/// sooner: three times as fast as in the order of birth. Patches of them go through several rounds at
+/// sooner: three times as fast as in the order of birth. Patches of them go through several steps at
 /// once, in the cache.
 fn moved_from(
     positions: &[DVec2],
@@ -198,7 +188,8 @@ fn moved_from(
     }
     let net = Net::new(&places, edges, |place| moves[sorted[place] as usize]);
     let at_place = |node: &u32| positions[*node as usize];
-    let now = net.after(sorted.iter().map(at_place).collect(), rounds, shortest);
+    let start = sorted.iter().map(at_place).collect();
+    let now = net.after(start, &steps(rounds), shortest);
     places.iter().map(|&place| now[place as usize]).collect()
 }
 
@@ -402,7 +393,7 @@ mod tests {
         let (positions, edges) = crooked(wide, 8);
         let mut moves = vec![true; positions.len()];
         let rounds = 9;
-        assert_eq!(reach(rounds), rounds);
+        assert_eq!(reach(&steps(rounds)), 6);
         let mut now = moved(&positions, &edges, &moves, rounds);
         let first = now.clone();
         for stopped in [[65, 66], [188, 3 * wide + 9]] {
@@ -445,7 +436,7 @@ mod tests {
         let (positions, edges) = crooked(320, 4);
         let mut moves = vec![true; positions.len()];
         let rounds = 120;
-        assert_eq!(reach(rounds), 50);
+        assert_eq!(reach(&steps(rounds)), 50);
         let mut now = moved(&positions, &edges, &moves, rounds);
         let stopped = [1];
         moves[1] = false;

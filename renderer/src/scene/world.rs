@@ -321,7 +321,9 @@ impl World {
         }
         notes.extend(notes::on_coats(scene, &materials, &owners, range_nm));
         let pieces = Pieces { leaves, solids };
-        let strewn = Strewing::new(&meshes, &pieces, objects_as_written, options.at_rest).all()?;
+        let (strewn, told) =
+            Strewing::new(&meshes, &pieces, objects_as_written, options.at_rest).all()?;
+        notes.extend(told);
         let strewn_around = strewing::around(&strewn, origin);
         let Placed {
             instances,

@@ -88,6 +88,25 @@ fn a_path_is_found_by_its_id_and_what_is_not_drawn_is_passed_over() {
 }
 
 #[test]
+fn what_a_drawing_lacks_is_told() {
+    let read = |inside: &str, id| {
+        let reading = SvgContour::read("leaf.svg", &svg(inside), id).expect("a kite");
+        assert_eq!(reading.contour.points.len(), 4);
+        (reading.gap, reading.passed_over)
+    };
+    let closed = format!("<path id=\"kite\" d=\"{KITE}\"/>");
+    assert_eq!(read(&closed, None), (0.0, 0));
+    // From (4, 7) back to (5, 9) of a kite that is 4 high.
+    let (gap, _) = read("<path d=\"M5 9 L6 7 L5 5 L4 7\"/>", None);
+    assert!((gap - 5.0_f64.sqrt() / 4.0).abs() < 1e-12, "{gap}");
+    assert_eq!(read("<path d=\"M5 9 L6 7 L5 5 L4 7 L5 9\"/>", None).0, 0.0);
+    // What is not drawn does not count, nor does anything where the path is named.
+    let several = format!("{closed}<path d=\"M0 0H1\"/><defs><path d=\"M0 0H1\"/></defs>");
+    assert_eq!(read(&several, None), (0.0, 1));
+    assert_eq!(read(&several, Some("kite")), (0.0, 0));
+}
+
+#[test]
 fn a_circle_of_arcs_has_the_area_of_a_circle() {
     let contour = parsed("<path d=\"M5 10 A5 5 0 0 1 5 0 A5 5 0 0 1 5 10 Z\"/>").expect("a circle");
     let outline = contour.grow(2.0).expect("a circle");

@@ -1,9 +1,9 @@
 //! The rounds of veins under tension.
 //!
 //! - **In**: nodes by place, so that what lies near in the blade lies near in memory; the edges.
-//! - **Out**: where the nodes are after some rounds.
-//! - **Always true**: bits are those of one round after the other on one thread. Patches of nodes go
-//!   through several rounds at once, in the cache.
+//! - **Out**: where the nodes are after some steps.
+//! - **Always true**: bits are those of one step after the other on one thread. Patches of nodes go
+//!   through several steps at once, in the cache.
 
 use std::ops::Range;
 
@@ -12,15 +12,39 @@ use rayon::prelude::*;
 
 use super::VeinEdge;
 
-/// Share of the way to balance that a node goes in a round.
-pub(super) const STEP: f64 = 0.25;
+/// Share of the way to balance for which a plan's round stands.
+const QUARTER: f64 = 0.25;
+
+/// Share of the way to balance that nodes go at a time. With 0.5 one edge in a hundred shrinks to a
+/// tenth, and with 0.75 veins begin to cross; quarters take 1.6 times as long, and as many veins cross.
+const STEP: f64 = 0.4;
+
+/// The share of the way to balance that nodes go in each step of so many rounds: together as far.
+pub(super) fn steps(rounds: u32) -> Vec<f64> {
+    let way = QUARTER * f64::from(rounds);
+    let whole = (way / STEP) as usize;
+    let rest = way - STEP * whole as f64;
+    let mut steps = vec![STEP; whole];
+    steps.extend((rest > 1e-9).then_some(rest));
+    steps
+}
+
+/// How many edges away what happens at a node is felt after these steps.
+///
+/// In a step a node goes a share of its way, as if that share of what it feels came from its
+/// neighbours: so what is felt spreads like a walk of as many steps, of that variance each. Nine times
+/// its standard deviation away less is left than a number has bits.
+pub(super) fn reach(steps: &[f64]) -> u32 {
+    let deviation = steps.iter().sum::<f64>().sqrt();
+    (steps.len() as u32).min((9.0 * deviation).ceil() as u32)
+}
 
 /// Nodes of a patch. With what pulls at them they fill half a megabyte, a second cache.
 const PATCH: usize = 8192;
 
-/// Rounds that a patch goes through at once. Around it as many edges are worked on by its neighbours
+/// Steps that a patch goes through at once. Around it as many edges are worked on by its neighbours
 /// too.
-const AT_ONCE: u32 = 8;
+const AT_ONCE: usize = 8;
 
 /// Nodes by place, and what pulls at them.
 pub(super) struct Net {
@@ -38,23 +62,20 @@ impl Net {
         }
     }
 
-    /// Where what is at each place is after `rounds`; edges shorter than `shortest` do not pull.
-    pub(super) fn after(&self, mut now: Vec<DVec2>, rounds: u32, shortest: f64) -> Vec<DVec2> {
-        let patches = self.patches(rounds.min(AT_ONCE));
+    /// Where what is at each place is after these steps; edges shorter than `shortest` do not pull.
+    pub(super) fn after(&self, mut now: Vec<DVec2>, steps: &[f64], shortest: f64) -> Vec<DVec2> {
+        let patches = self.patches(steps.len().min(AT_ONCE));
         let mut next = now.clone();
-        let mut left = rounds;
-        while left > 0 {
-            let rounds = left.min(AT_ONCE);
+        for steps in steps.chunks(AT_ONCE) {
             let moved = next.par_chunks_mut(PATCH).zip(&patches);
-            moved.for_each(|(next, patch)| patch.advance(&now, next, rounds, shortest));
+            moved.for_each(|(next, patch)| patch.advance(&now, next, steps, shortest));
             std::mem::swap(&mut now, &mut next);
-            left -= rounds;
         }
         now
     }
 
     /// All places in patches of [`PATCH`], each with what lies at most `reach` edges from it.
-    fn patches(&self, reach: u32) -> Vec<Patch> {
+    fn patches(&self, reach: usize) -> Vec<Patch> {
         let count = self.is_free.len();
         let patches = count.div_ceil(PATCH);
         let unknown = || vec![u32::MAX; count];
@@ -69,7 +90,7 @@ impl Net {
     }
 
     /// A patch; `local` is [`u32::MAX`] for all places, before and after.
-    fn patch(&self, own: Range<u32>, reach: u32, local: &mut [u32]) -> Patch {
+    fn patch(&self, own: Range<u32>, reach: usize, local: &mut [u32]) -> Patch {
         let mut places: Vec<u32> = own.collect();
         let own = places.len();
         let (mut rings, mut pulls) = (Vec::new(), PullsByPlace::default());
@@ -80,7 +101,7 @@ impl Net {
             for (number, &place) in ring.clone().zip(&places[ring.clone()]) {
                 local[place as usize] = number as u32;
             }
-            if rings.len() == reach as usize {
+            if rings.len() == reach {
                 break;
             }
             let from = ring.start;
@@ -142,7 +163,7 @@ enum Kind {
     Held,
 }
 
-/// Places that go through several rounds at once: their own, and what they feel in that time.
+/// Places that go through several steps at once: their own, and what they feel in that time.
 struct Patch {
     /// Number of its own places.
     own: usize,
@@ -163,19 +184,19 @@ struct Ring {
 }
 
 impl Patch {
-    /// Writes where its own places, which follow one another in the net, are after `rounds`.
-    fn advance(&self, before: &[DVec2], after: &mut [DVec2], rounds: u32, shortest: f64) {
+    /// Writes where its own places, which follow one another in the net, are after these steps.
+    fn advance(&self, before: &[DVec2], after: &mut [DVec2], steps: &[f64], shortest: f64) {
         let place = |place: &u32| before[*place as usize];
         let mut now: Vec<DVec2> = self.places.iter().map(place).collect();
         let mut next = now.clone();
-        for left in (0..rounds as usize).rev() {
+        for (left, &step) in (0..steps.len()).rev().zip(steps) {
             // Farther ones have no effect on its own any more.
             for ring in &self.rings[..=left] {
-                self.pull::<1>(ring.one_pair.clone(), &now, &mut next, shortest);
-                self.pull::<2>(ring.two_pairs.clone(), &now, &mut next, shortest);
+                self.pull::<1>(ring.one_pair.clone(), &now, &mut next, [step, shortest]);
+                self.pull::<2>(ring.two_pairs.clone(), &now, &mut next, [step, shortest]);
                 for node in ring.more.clone() {
                     let pulls = self.pulls.of(node as u32);
-                    next[node] = pulled(now[node], pulls, &now, shortest);
+                    next[node] = pulled(now[node], pulls, &now, [step, shortest]);
                 }
             }
             std::mem::swap(&mut now, &mut next);
@@ -186,29 +207,29 @@ impl Patch {
         }
     }
 
-    /// One round of nodes that have as many pairs of pulls each.
+    /// One step of nodes that have as many pairs of pulls each.
     fn pull<const PAIRS: usize>(
         &self,
         nodes: Range<usize>,
         now: &[DVec2],
         next: &mut [DVec2],
-        shortest: f64,
+        [step, shortest]: [f64; 2],
     ) {
         let pulls = &self.pulls.pulls[self.pulls.starts[nodes.start] as usize..];
         let (pulls, _) = pulls.as_chunks::<PAIRS>();
         let here = &now[nodes.clone()];
         for ((next, &here), pulls) in next[nodes].iter_mut().zip(here).zip(pulls) {
-            *next = pulled(here, pulls, now, shortest);
+            *next = pulled(here, pulls, now, [step, shortest]);
         }
     }
 }
 
-/// Where a node goes in a round: a share of the way along Σ r w / l over Σ r / l, for ways w of
+/// Where a node goes in a step: a share of the way along Σ r w / l over Σ r / l, for ways w of
 /// lengths l to the other ends of veins of radii r.
 ///
 /// Numerator and denominator are kept times the product of the lengths, so that one division is left.
 #[inline(always)]
-fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
+fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], [step, shortest]: [f64; 2]) -> DVec2 {
     let (mut pull, mut sum, mut scale) = (DVec2::ZERO, 0.0, 1.0);
     for pair in pulls {
         let ways = pair.to.map(|other| now[other as usize] - here);
@@ -225,7 +246,7 @@ fn pulled(here: DVec2, pulls: &[Pulls], now: &[DVec2], shortest: f64) -> DVec2 {
         scale *= lengths;
     }
     if sum > 0.0 {
-        here + pull * (STEP / sum)
+        here + pull * (step / sum)
     } else {
         here
     }
@@ -303,7 +324,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patches_give_the_bits_of_one_round_after_the_other() {
+    fn steps_go_as_far_as_rounds() {
+        for rounds in [0, 1, 2, 8, 40, 120, 1000] {
+            let steps = steps(rounds);
+            let way: f64 = steps.iter().sum();
+            assert!(
+                (way - QUARTER * f64::from(rounds)).abs() < 1e-9,
+                "{rounds}: {way}"
+            );
+            assert!(steps.iter().all(|&step| step > 0.0 && step <= STEP));
+        }
+        assert_eq!((steps(8).len(), steps(120).len()), (5, 75));
+        assert_eq!([8, 120].map(|rounds| reach(&steps(rounds))), [5, 50]);
+    }
+
+    #[test]
+    fn patches_give_the_bits_of_one_step_after_the_other() {
         // A crooked net of more nodes than a patch has, some of which are held.
         let (wide, high) = (210_u32, 170_u32);
         let places: Vec<u32> = (0..wide * high).collect();
@@ -330,7 +366,9 @@ mod tests {
                 [right, up].into_iter().flatten()
             })
             .collect();
-        let (rounds, shortest) = (AT_ONCE * 2 + 3, 0.8);
+        let shortest = 0.8;
+        let steps = steps(31);
+        assert!(steps.len() > 2 * AT_ONCE && steps[19] < 0.9 * STEP);
         let net = Net::new(&places, &edges, |place| place % 11 != 0);
         let mut at_node = vec![Vec::new(); places.len()];
         for edge in &edges {
@@ -338,7 +376,7 @@ mod tests {
             at_node[edge.to as usize].push((edge.from, edge.radius_to));
         }
         let mut expected = start.clone();
-        for _ in 0..rounds {
+        for step in &steps {
             let before = expected.clone();
             for (node, pulls) in at_node
                 .iter()
@@ -354,15 +392,16 @@ mod tests {
                     }
                 }
                 if sum > 0.0 {
-                    expected[node] = before[node] + pull * (STEP / sum);
+                    expected[node] = before[node] + pull * (step / sum);
                 }
             }
         }
-        let at_once = net.after(start.clone(), rounds, shortest);
+        let at_once = net.after(start.clone(), &steps, shortest);
         for (found, expected) in at_once.iter().zip(&expected) {
             assert!((*found - *expected).length() < 1e-11);
         }
-        let one_by_one = (0..rounds).fold(start, |now, _| net.after(now, 1, shortest));
+        let one_by_one = steps.chunks(1);
+        let one_by_one = one_by_one.fold(start, |now, step| net.after(now, step, shortest));
         assert_eq!(at_once, one_by_one);
     }
 }

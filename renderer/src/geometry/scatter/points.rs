@@ -42,11 +42,29 @@ impl Ground {
         parts: impl IntoIterator<Item = (&'a TriangleMesh, DAffine3)>,
     ) -> Result<Self, ScatterError> {
         let triangles: Vec<_> = triangles(parts).take(MOST_TRIANGLES + 1).collect();
-        if triangles.len() > MOST_TRIANGLES {
+        Self::check_size(triangles.len())?;
+        Ok(Self { triangles })
+    }
+
+    /// Refuses a surface of so many triangles.
+    ///
+    /// # Errors
+    ///
+    /// [`ScatterError::TooFine`] if they are more than 20 million.
+    pub fn check_size(triangles: usize) -> Result<(), ScatterError> {
+        if triangles > MOST_TRIANGLES {
             let most = MOST_TRIANGLES;
             return Err(ScatterError::TooFine { most });
         }
-        Ok(Self { triangles })
+        Ok(())
+    }
+
+    /// Its greatest height, m; −∞ without any triangle.
+    pub fn top(&self) -> f64 {
+        let corners = self.triangles.iter().flatten();
+        corners
+            .map(|corner| corner.z)
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Its triangles.

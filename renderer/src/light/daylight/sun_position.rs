@@ -28,6 +28,15 @@ impl Moment {
         }
     }
 
+    /// Another time of the same day, hours since midnight UTC.
+    pub fn at_hours(self, hours: f64) -> Self {
+        Self {
+            days: self.days + (hours - self.hours) / 24.0,
+            hours,
+            ..self
+        }
+    }
+
     /// Day of the year, 1 to 366.
     pub fn day_of_year(self) -> u32 {
         self.day_of_year

@@ -107,19 +107,34 @@ fn place_and_time(day: &mut Daylight, keys: &mut Keys<'_>) {
             elevation.to_degrees(),
             ELEVATIONS_DEG[0]
         );
-        // Within 17 minutes: the equation of time is left out.
-        let minutes = (720.0 - 4.0 * longitude.to_degrees()).rem_euclid(1440.0) as u32;
-        let help = format!(
-            "choose another time, noon there is at about {:02}:{:02} UTC; or write \
-             `elevation_deg` instead",
-            minutes / 60,
-            minutes % 60
-        );
+        let help = help_for_the_dark(moment, latitude, longitude);
         return keys.refuse(&["time"], problem, &help);
     }
     day.elevation = elevation;
     day.azimuth = north - compass;
     day.atmosphere.distance_factor = distance_factor(moment.day_of_year());
+}
+
+/// Where to look for daylight when the sun does not stand high enough: near noon of that day, if
+/// it does then.
+fn help_for_the_dark(moment: Moment, latitude: f64, longitude: f64) -> String {
+    // Within 17 minutes: the equation of time is left out.
+    let minutes = (720.0 - 4.0 * longitude.to_degrees()).rem_euclid(1440.0) as u32;
+    let noon = moment.at_hours(f64::from(minutes) / 60.0);
+    let [highest, _] = sun_position(noon, latitude, longitude);
+    if highest.to_degrees() < ELEVATIONS_DEG[0] {
+        return format!(
+            "choose another day or place, for at noon of that day it stands at {:.1}°; or write \
+             `elevation_deg` instead",
+            highest.to_degrees()
+        );
+    }
+    format!(
+        "choose another time, noon there is at about {:02}:{:02} UTC; or write `elevation_deg` \
+         instead",
+        minutes / 60,
+        minutes % 60
+    )
 }
 
 /// The moment of a time as written; what is wrong with it otherwise.
@@ -168,6 +183,26 @@ mod tests {
                 "{same}"
             );
         }
+    }
+
+    #[test]
+    fn noon_is_named_only_where_the_sun_stands_high_enough_then() {
+        let svalbard = [78.2_f64, 15.6].map(f64::to_radians);
+        let help = |time| {
+            let moment = moment_of(time).expect("it is a time");
+            help_for_the_dark(moment, svalbard[0], svalbard[1])
+        };
+        let in_march = help("2026-03-29T23:00:00Z");
+        assert!(
+            in_march.contains("noon there is at about 10:57 UTC"),
+            "{in_march}"
+        );
+        // 90° - 78.2° - 23.4° = -11.6°, and refraction lifts it by half a degree.
+        let in_december = help("2026-12-21T12:00:00+01:00");
+        assert!(
+            in_december.contains("at noon of that day it stands at -11"),
+            "{in_december}"
+        );
     }
 
     #[test]

@@ -9,12 +9,15 @@ use super::WorldError;
 use super::placing::Pieces;
 use crate::geometry::TriangleMesh;
 use crate::geometry::scatter::{
-    Body, Ground, MOST_THINGS, ScatterError, Volume, VolumeError, triangles,
+    Amount, Body, Ground, MOST_THINGS, Rest, ScatterError, Strewn, Volume, VolumeError, triangles,
 };
 use crate::scene::description::{InstancePlace, Named, Object, ObjectShape, StrewnOn};
 
-/// The shape of each copy and its place in the scene's frame, by object.
-pub type Places = BTreeMap<usize, Vec<(u32, DMat4)>>;
+/// The shape of each copy of an object, and its place in the scene's frame.
+type Copies = Vec<(u32, DMat4)>;
+
+/// The copies of each object, by its number.
+pub type Places = BTreeMap<usize, Copies>;
 
 /// Places in single precision, with the origin at `origin` in the scene.
 pub(super) fn around(places: &Places, origin: DVec3) -> BTreeMap<usize, Vec<InstancePlace>> {
@@ -38,7 +41,13 @@ pub(super) struct Strewing<'a> {
     at_rest: Option<&'a AtomicUsize>,
     /// Places found so far.
     found: Places,
+    /// What to tell of them.
+    notes: Vec<String>,
 }
+
+/// Height of a heap over the radius of the largest thing in it from which on it is told: litter is
+/// lower than a leaf is long.
+const HEAP: f64 = 4.0;
 
 impl<'a> Strewing<'a> {
     pub(super) fn new(
@@ -53,18 +62,34 @@ impl<'a> Strewing<'a> {
             objects,
             at_rest,
             found: BTreeMap::new(),
+            notes: Vec::new(),
         }
     }
 
-    /// The places of each object that is strewn or floats, by its number.
-    pub(super) fn all(mut self) -> Result<Places, WorldError> {
+    /// The places of each object that is strewn or floats, by its number, and notes on them.
+    pub(super) fn all(mut self) -> Result<(Places, Vec<String>), WorldError> {
+        let named = |name: &str| {
+            let name = name.to_owned();
+            |source| WorldError::Scatter { name, source }
+        };
+        // Things take long to come to rest; what cannot be strewn on them is told before.
+        for object in self.objects {
+            if let Some(strewn) = &object.value.strewn {
+                self.check_fineness(strewn).map_err(named(&object.name))?;
+            }
+        }
         for (number, object) in self.objects.iter().enumerate() {
             if let Some(strewn) = &object.value.strewn {
-                let places = self.strew(&object.value, strewn);
-                let places = places.map_err(|source| WorldError::Scatter {
-                    name: object.name.clone(),
-                    source,
-                })?;
+                let (places, heap) = self
+                    .strew(&object.value, strewn)
+                    .map_err(named(&object.name))?;
+                self.notes.extend(heap.map(|height| {
+                    format!(
+                        "objects.{}: its things are heaped {height:.2} m high: strew fewer, or \
+                         over a wider `within_m`",
+                        object.name
+                    )
+                }));
                 self.found.insert(number, places);
             }
             if let Some(volume) = &object.value.volume {
@@ -76,10 +101,42 @@ impl<'a> Strewing<'a> {
                 self.found.insert(number, places);
             }
         }
-        Ok(self.found)
+        Ok((self.found, self.notes))
     }
 
-    fn strew(&self, object: &Object, strewn: &StrewnOn) -> Result<Vec<(u32, DMat4)>, ScatterError> {
+    /// Refuses to strew on things that will be too many for their triangles, whichever are drawn.
+    fn check_fineness(&self, strewn: &StrewnOn) -> Result<(), ScatterError> {
+        let below = &self.objects[strewn.on].value;
+        let Some(StrewnOn { plan, .. }) = below.strewn.as_deref() else {
+            return Ok(());
+        };
+        // How many a density comes to depends on what lies below.
+        let Amount::Count(count) = plan.amount else {
+            return Ok(());
+        };
+        let of_shape = |shape: ObjectShape| -> usize {
+            let parts = self.parts(shape, DMat4::IDENTITY);
+            parts.map(|(mesh, _)| mesh.triangles().len()).sum()
+        };
+        let least = if let Some(group) = &below.instances {
+            let parts = group.iter();
+            parts
+                .map(|part| of_shape(below.shapes[part.shape as usize]))
+                .sum()
+        } else {
+            let shapes = below.shapes.iter();
+            shapes.map(|shape| of_shape(*shape)).min().unwrap_or(0)
+        };
+        Ground::check_size(least.saturating_mul(count as usize))
+    }
+
+    /// Places of things on an object, and how high they are heaped if that is more than one would
+    /// expect, m.
+    fn strew(
+        &self,
+        object: &Object,
+        strewn: &StrewnOn,
+    ) -> Result<(Copies, Option<f64>), ScatterError> {
         let ground = Ground::of(self.standing(strewn.on))?;
         let others = strewn.over.iter();
         let others = others.flat_map(|over| triangles(self.standing(*over)));
@@ -104,6 +161,7 @@ impl<'a> Strewing<'a> {
                 most: MOST_THINGS,
             });
         }
+        let heap = heap(strewn, &ground, &bodies, &places);
         let found = places.iter().flat_map(|place| {
             let stand = DMat4::from(place.to_world);
             let own = (place.body, stand * object.to_world);
@@ -112,10 +170,10 @@ impl<'a> Strewing<'a> {
             let alone = object.instances.is_none().then_some(own);
             alone.into_iter().chain(parts)
         });
-        Ok(found.collect())
+        Ok((found.collect(), heap))
     }
 
-    fn fill(&self, object: &Object, volume: &Volume) -> Result<Vec<(u32, DMat4)>, VolumeError> {
+    fn fill(&self, object: &Object, volume: &Volume) -> Result<Copies, VolumeError> {
         let area = |shape: &ObjectShape| -> f64 {
             triangles(self.parts(*shape, object.to_world))
                 .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length())
@@ -159,3 +217,18 @@ impl<'a> Strewing<'a> {
         parts.collect::<Vec<_>>().into_iter().flatten()
     }
 }
+
+/// How high things that have come to rest are heaped above the top of what they lie on, m, if that
+/// is more than a litter is.
+fn heap(strewn: &StrewnOn, ground: &Ground, bodies: &[Body], places: &[Strewn]) -> Option<f64> {
+    let Rest::Settled { .. } = strewn.plan.rest else {
+        return None;
+    };
+    let largest = bodies.iter().map(Body::radius).fold(0.0, f64::max) * strewn.plan.scale[1];
+    let heights = places.iter().map(|place| place.to_world.translation.z);
+    let height = heights.fold(f64::NEG_INFINITY, f64::max) - ground.top();
+    (height > HEAP * largest).then_some(height)
+}
+
+#[cfg(test)]
+mod tests;

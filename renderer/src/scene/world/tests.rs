@@ -213,97 +213,6 @@ fn a_leaf_a_million_metres_away_looks_as_at_the_origin() {
     }
 }
 
-const STREWN: &str = r#"
-format = 1
-[film.rgb]
-size = [16, 16]
-spp = 1
-[camera.perspective]
-position_m = [0, -1, 1]
-look_at_m = [0, 0, 0]
-vertical_fov_deg = 40
-[lights.sky.constant]
-radiance_w_m2_sr_nm = 1
-[materials.grey.diffuse]
-reflectance = 0.4
-[meshes.floor.rectangle]
-width_m = 0.6
-height_m = 0.6
-[meshes.crumb.lump]
-radius_m = 0.004
-[meshes.card.rectangle]
-width_m = 0.05
-height_m = 0.08
-[objects.floor]
-mesh = "floor"
-material = "grey"
-position_m = [2, 0, 0.5]
-[objects.crumbs]
-mesh = "crumb"
-material = "grey"
-scatter = { on = "floor", count = 300, settle = true, seed = 3 }
-[objects.cards]
-mesh = ["card", "crumb"]
-material = "grey"
-rotate_deg = [0, 0, 30]
-scale = 0.8
-scatter = { on = "floor", over = "crumbs", per_m2 = 50, settle = true, tilt_deg = 20 }
-"#;
-
-fn strewn(overrides: &[String]) -> Result<World, String> {
-    let loaded = parse(STREWN, "scene.toml", Path::new("."), overrides);
-    let scene = loaded
-        .unwrap_or_else(|errors| panic!("{errors}"))
-        .description;
-    World::build(&scene).map_err(|error| error.to_string())
-}
-
-#[test]
-fn things_lie_on_the_floor_and_on_those_before_them() {
-    let world = strewn(&[]).expect("there is room");
-    let [crumbs, cards] = [1, 2].map(|object| &world.strewn[&object]);
-    assert_eq!((crumbs.len(), cards.len()), (300, 18));
-    assert_eq!(world.objects.len(), 1 + 300 + 18);
-    for (_, place) in crumbs {
-        let at = place.w_axis;
-        assert!((1.7..=2.3).contains(&at.x) && at.y.abs() <= 0.3, "{at}");
-        assert!((0.5..0.52).contains(&at.z), "{at}");
-    }
-    let on_crumbs = cards.iter().filter(|(_, place)| place.w_axis.z > 0.503);
-    assert!(on_crumbs.count() > 2);
-    for (_, place) in cards {
-        let scale = place.x_axis.length();
-        assert!((scale - 0.8).abs() < 1e-6, "{scale}");
-    }
-}
-
-#[test]
-fn what_is_strewn_lies_the_same_wherever_the_camera_stands() {
-    let near = strewn(&[]).expect("there is room");
-    let far = ["camera.perspective.position_m=[1000,-1,1]".to_owned()];
-    let far = strewn(&far).expect("there is room");
-    assert_ne!(far.origin, glam::DVec3::ZERO);
-    assert_eq!(near.strewn, far.strewn);
-    for instance in 0..near.objects.len() as u32 {
-        let [near_at, far_at] = [&near, &far].map(|world| {
-            let own = world.geometry.instance(instance).to_world.translation;
-            own.as_dvec3() + world.origin
-        });
-        // Single precision at a kilometre.
-        assert!(near_at.distance(far_at) < 1e-4, "{near_at} {far_at}");
-    }
-}
-
-#[test]
-fn a_floor_that_is_full_is_told() {
-    let crowd = ["objects.crumbs.scatter.least_distance_mm=100".to_owned()];
-    let error = strewn(&crowd).expect_err("there is no room");
-    assert!(
-        error.starts_with("objects.crumbs.scatter: there is room for ") && error.contains("of 300"),
-        "{error}"
-    );
-}
-
 const FOCUS: &str = r#"
 format = 1
 [film.rgb]
@@ -423,7 +332,7 @@ fn below_a_sky(dark: usize, value: f32) -> Result<World, String> {
     };
     openexr::write(&sky, &folder.path().join("sky.exr")).expect("it can be written");
     let constant = "[lights.sky.constant]\nradiance_w_m2_sr_nm = 1";
-    let text = STREWN.replace(constant, "[lights.sky.environment]\npath = \"sky.exr\"");
+    let text = SCENE.replace(constant, "[lights.sky.environment]\npath = \"sky.exr\"");
     let loaded = parse(&text, "scene.toml", folder.path(), &[]);
     let scene = loaded
         .unwrap_or_else(|errors| panic!("{errors}"))
