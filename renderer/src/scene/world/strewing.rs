@@ -41,8 +41,6 @@ pub(super) struct Strewing<'a> {
     at_rest: Option<&'a AtomicUsize>,
     /// Places found so far.
     found: Places,
-    /// What to tell of them.
-    notes: Vec<String>,
 }
 
 /// Height of a heap over the radius of the largest thing in it from which on it is told: litter is
@@ -62,7 +60,6 @@ impl<'a> Strewing<'a> {
             objects,
             at_rest,
             found: BTreeMap::new(),
-            notes: Vec::new(),
         }
     }
 
@@ -72,6 +69,7 @@ impl<'a> Strewing<'a> {
             let name = name.to_owned();
             |source| WorldError::Scatter { name, source }
         };
+        let mut notes = Vec::new();
         // Things take long to come to rest; what cannot be strewn on them is told before.
         for object in self.objects {
             if let Some(strewn) = &object.value.strewn {
@@ -83,7 +81,7 @@ impl<'a> Strewing<'a> {
                 let (places, heap) = self
                     .strew(&object.value, strewn)
                     .map_err(named(&object.name))?;
-                self.notes.extend(heap.map(|height| {
+                notes.extend(heap.map(|height| {
                     format!(
                         "objects.{}: its things are heaped {height:.2} m high: strew fewer, or \
                          over a wider `within_m`",
@@ -101,7 +99,7 @@ impl<'a> Strewing<'a> {
                 self.found.insert(number, places);
             }
         }
-        Ok((self.found, self.notes))
+        Ok((self.found, notes))
     }
 
     /// Refuses to strew on things that will be too many for their triangles, whichever are drawn.

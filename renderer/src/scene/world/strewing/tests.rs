@@ -118,7 +118,6 @@ fn a_heap_is_told_and_a_litter_is_not() {
 fn what_is_too_fine_to_strew_on_is_told_before_anything_falls() {
     // A lump has hundreds of triangles; more than a hundred thousand do not come to rest.
     let fine = [
-        "meshes.crumb.lump.radius_m=0.004".to_owned(),
         "objects.crumbs.scatter.count=100000".to_owned(),
         "objects.cards.scatter.on=\"crumbs\"".to_owned(),
     ];
