@@ -29,7 +29,14 @@ from lamina_reference.allotment import (
 )
 from lamina_reference.denoise import NOTE
 from lamina_reference.exr import Array, read_channels, write_channels
-from lamina_reference.prints import between, noise
+from lamina_reference.prints import (
+    arguments,
+    between,
+    errors_of,
+    noise,
+    remembered,
+    remembered_mean,
+)
 from lamina_reference.prints import main as print_scene
 from lamina_reference.testing import run_tests, without_denoiser
 from lamina_reference.twins import Pixels, left_noise, noise_told_by_others
@@ -241,6 +248,36 @@ def test_a_print_that_was_kept_goes_on() -> None:
             # Its time is that of both.
             assert one["samples"] == 32 and other["samples"] == samples.mean()
             assert other["seconds"] > one["seconds"] and other["tracing"] > one["tracing"]
+        # What was shown tells enough to go on, unless a render has since gone on by itself.
+        options = arguments(resumed)
+        twins = remembered(options)
+        shown = remembered_mean(options, twins)
+        assert shown and shown.picture == folder / "leaf.exr" and len(shown.errors) == 2
+        assert shown.errors[0].shape == samples_of(twins[0].picture).shape
+        whole = errors_of(options).read_bytes()
+        errors_of(options).write_bytes(whole[: len(whole) // 2])
+        assert remembered_mean(options, twins) is None
+        errors_of(options).write_bytes(whole)
+        assert remembered_mean(options, twins) is not None
+        # Nothing is left to do, and nothing is denoised.
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(warned):
+            was = shown.picture.stat().st_mtime_ns
+            assert print_scene([*resumed, "--error", "1"]) == 0
+            assert shown.picture.stat().st_mtime_ns == was
+        twins[1].picture.touch()
+        assert remembered_mean(options, twins) is None
+        # More renders, with samples where the others have theirs; fewer there cannot be.
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(warned):
+            assert print_scene([*resumed, "--twins", "3"]) == 0
+            assert print_scene([*resumed, "--twins", "2"]) == 2
+        cells = said.getvalue().splitlines()[-1].strip("| ").split(" | ")
+        assert len(cells[2].split(" + ")) == 3, cells
+        assert "--twins 2: there are 3" in warned.getvalue(), warned.getvalue()
+        third = samples_of(folder / "leaf-3.exr")
+        both = np.mean([samples_of(twin.picture) for twin in twins], axis=0)
+        assert (both == 32).any() and (both == 128).any()
+        assert (third[both == 32] < third.max()).all() and third[both == 128].min() == third.max()
+        assert not list(folder.glob("*.map.exr"))
         # What is missing is told.
         (folder / "leaf-2.checkpoint").unlink()
         with contextlib.redirect_stderr(warned):

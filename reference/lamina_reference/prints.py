@@ -10,7 +10,7 @@ only the twins tell, once they are denoised.
 - In: a scene file; seconds for each twin.
 - Out, in FOLDER: NAME-1.exr, NAME-1.json (times, memory) and so on of each twin; NAME.exr, and
   NAME.jpg to look at; `cache` with grown leaves. If it is to go on later, what each twin needs for
-  that: NAME-1.checkpoint and so on, NAME.twins.json.
+  that: NAME-1.checkpoint and so on, NAME.twins.json, and NAME.errors.npz: how the mean errs.
 - Always true: what one twin has rendered stays if another fails.
 """
 
@@ -20,6 +20,8 @@ import argparse
 import json
 import subprocess
 import sys
+import zipfile
+import zlib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -32,6 +34,7 @@ from . import denoise
 from .allotment import (
     FIRST,
     LARGEST_AIM,
+    STEP,
     aim,
     grown,
     samples_of,
@@ -45,7 +48,7 @@ from .noise import LEAST_SAMPLES, PERCENT, relative_error, summary
 from .program import program
 from .twins import noise_told_by_others
 
-LEAST_TWINS = 2
+LEAST_TWINS, USUAL_TWINS = 2, 4
 # Share of the time that goes where single renders are noisy, before anything is denoised.
 BEFORE = 0.5
 # Errors of blocks are known from few twins, so that some are larger than they seem: what is aimed
@@ -95,10 +98,32 @@ def memory_of(options: argparse.Namespace) -> Path:
     return file
 
 
+def errors_of(options: argparse.Namespace) -> Path:
+    """The file with how blocks of the mean err, for each twin."""
+    file: Path = options.out / f"{name_of(options.scene)}.errors.npz"
+    return file
+
+
 def remember(options: argparse.Namespace, twins: Sequence[Twin]) -> None:
     """Writes what twins took."""
     told = [asdict(twin) | {"picture": twin.picture.name} for twin in twins]
     memory_of(options).write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+
+
+def remembered_mean(options: argparse.Namespace, twins: Sequence[Twin]) -> Shown | None:
+    """The mean of an earlier print, unless one of its twins has gone on since."""
+    file, picture = errors_of(options), options.out / f"{name_of(options.scene)}.exr"
+    try:
+        at = file.stat().st_mtime_ns
+        if not picture.exists() or any(twin.picture.stat().st_mtime_ns > at for twin in twins):
+            return None
+        with np.load(file) as told:
+            errors = [told[name] for name in told.files]
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+        return None
+    if len(errors) != len(twins):
+        return None
+    return Shown(picture, errors)
 
 
 def remembered(options: argparse.Namespace) -> list[Twin]:
@@ -229,6 +254,31 @@ def improved(
     return made
 
 
+def added(options: argparse.Namespace, twins: Sequence[Twin]) -> list[Twin]:
+    """More twins, with their samples where the others have theirs; each has its seconds."""
+    samples = np.mean([samples_of(twin.picture) for twin in twins], axis=0)
+    left = options.seconds - max(twin.building for twin in twins)
+    affordable = max(left, 0.0) * np.mean([twin.samples / twin.tracing for twin in twins])
+    share = min(1.0, float(affordable / samples.mean()))
+    wanted = np.maximum(STEP * np.round(share * samples / STEP), STEP)
+    image = oiio.ImageInput.open(str(twins[0].picture))
+    shape = image.spec().height, image.spec().width
+    image.close()
+    file = options.out / f"{name_of(options.scene)}.map.exr"
+    write_map(file, wanted, shape)
+    words = ("--spp", options.spp, "--samples-map", file)
+    first = 1 + max(twin.seed for twin in twins)
+    seeds = range(first, first + options.twins - len(twins))
+    made: list[Twin] = []
+    try:
+        for seed in seeds:
+            made.append(trace(options, seed, options.seconds, *words))
+            remember(options, [*twins, *made])
+    finally:
+        file.unlink()
+    return made
+
+
 def noise(picture: Path) -> tuple[float, float]:
     """Percent of pixels within 1 %, and the error in percent that 95 % do not exceed."""
     within, _, most = summary(relative_error(str(picture))[0])
@@ -277,9 +327,9 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--twins",
         type=int,
-        default=4,
         metavar="N",
-        help="number of renders (default: 4); of two the error is told too small",
+        help=f"number of renders (default: {USUAL_TWINS}); of two the error is told too small; "
+        "more than there are with --resume: those that lack are rendered, the others stay",
     )
     parser.add_argument(
         "--seconds", type=float, default=300.0, help="time for each of them (default: 300)"
@@ -320,7 +370,7 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
         help="override a value of the scene, as `lamina render` does",
     )
     options = parser.parse_args(words)
-    if options.twins < LEAST_TWINS:
+    if options.twins is not None and options.twins < LEAST_TWINS:
         parser.error(f"--twins {options.twins}: one picture does not tell its noise; 2 or more")
     if not 0 <= options.noise <= LARGEST_AIM:
         parser.error(f"--noise {options.noise}: from 0 to 1")
@@ -360,6 +410,7 @@ def run(options: argparse.Namespace) -> None:
         shown = mean_of(options, twins)
     if options.keep or options.resume:
         remember(options, twins)
+        np.savez_compressed(errors_of(options), *shown.errors)
     else:
         for twin in twins:
             twin.checkpoint.unlink(missing_ok=True)
@@ -370,8 +421,16 @@ def remembered_or_first(options: argparse.Namespace) -> tuple[list[Twin], Shown,
     """Twins as they are before what is shown tells more; their mean; seconds left for each."""
     if options.resume:
         twins = remembered(options)
-        return twins, mean_of(options, twins), options.seconds
-    seeds = range(1, options.twins + 1)
+        if options.twins is not None and options.twins < len(twins):
+            raise denoise.Refused(
+                f"--twins {options.twins}: there are {len(twins)}, and none is taken away"
+            )
+        if options.twins is not None and options.twins > len(twins):
+            twins += added(options, twins)
+            return twins, mean_of(options, twins), 0.0
+        shown = remembered_mean(options, twins) or mean_of(options, twins)
+        return twins, shown, options.seconds
+    seeds = range(1, (options.twins or USUAL_TWINS) + 1)
     if options.noise == 0 or options.spp <= FIRST:
         alike = ("--spp", options.spp, "--noise", 0)
         twins = [trace(options, seed, options.seconds, *alike) for seed in seeds]
